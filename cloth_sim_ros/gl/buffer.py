@@ -1,0 +1,79 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""A buffer on the device, read by shaders as storage or through a texture."""
+
+import ctypes
+
+import numpy as np
+from OpenGL import GL
+
+
+class Buffer:
+    """
+    Memory on the device.
+
+    :param data: what it holds at first, or the number of bytes
+    """
+
+    def __init__(self, data: np.ndarray | int) -> None:
+        """Allocate the memory and fill it."""
+        self.bytes = data if isinstance(data, int) else data.nbytes
+        content = None if isinstance(data, int) else np.ascontiguousarray(data)
+        self._buffer = int(GL.glGenBuffers(1))
+        self._texture: int | None = None
+        GL.glBindBuffer(GL.GL_SHADER_STORAGE_BUFFER, self._buffer)
+        GL.glBufferData(
+            GL.GL_SHADER_STORAGE_BUFFER, self.bytes, content, GL.GL_DYNAMIC_COPY)
+
+    def bind_storage(self, binding: int) -> None:
+        """Let shaders reach it as the storage block ``binding``."""
+        GL.glBindBufferBase(GL.GL_SHADER_STORAGE_BUFFER, binding, self._buffer)
+
+    def bind_texture(self, unit: int) -> None:
+        """Let shaders read it, four floats a texel, as the samplerBuffer of ``unit``."""
+        GL.glActiveTexture(GL.GL_TEXTURE0 + unit)
+        if self._texture is None:
+            self._texture = int(GL.glGenTextures(1))
+            GL.glBindTexture(GL.GL_TEXTURE_BUFFER, self._texture)
+            GL.glTexBuffer(GL.GL_TEXTURE_BUFFER, GL.GL_RGBA32F, self._buffer)
+        else:
+            GL.glBindTexture(GL.GL_TEXTURE_BUFFER, self._texture)
+
+    def write(self, data: np.ndarray, offset: int = 0) -> None:
+        """Overwrite the bytes from ``offset`` on with ``data``."""
+        content = np.ascontiguousarray(data)
+        GL.glBindBuffer(GL.GL_SHADER_STORAGE_BUFFER, self._buffer)
+        GL.glBufferSubData(
+            GL.GL_SHADER_STORAGE_BUFFER, offset, content.nbytes, content)
+
+    def read_into(self, target: np.ndarray, offset: int = 0) -> None:
+        """Fill ``target`` (contiguous) with the bytes from ``offset`` on."""
+        GL.glMemoryBarrier(GL.GL_BUFFER_UPDATE_BARRIER_BIT)
+        GL.glBindBuffer(GL.GL_SHADER_STORAGE_BUFFER, self._buffer)
+        GL.glGetBufferSubData(
+            GL.GL_SHADER_STORAGE_BUFFER, offset, target.nbytes,
+            target.ctypes.data_as(ctypes.c_void_p))
+
+    def delete(self) -> None:
+        """Give the memory back."""
+        if self._texture is not None:
+            GL.glDeleteTextures(1, [self._texture])
+        GL.glDeleteBuffers(1, [self._buffer])
+
+
+def shader_writes_visible() -> None:
+    """Order all reads by later dispatches after the writes of earlier ones."""
+    GL.glMemoryBarrier(
+        GL.GL_SHADER_STORAGE_BARRIER_BIT | GL.GL_TEXTURE_FETCH_BARRIER_BIT)

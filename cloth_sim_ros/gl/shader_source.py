@@ -1,0 +1,77 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Put a shader together: its file, what it includes, and the choices made at compile time."""
+
+from collections.abc import Mapping
+from pathlib import Path
+import re
+
+from cloth_sim_ros.gl.errors import ShaderError
+from cloth_sim_ros.gl.shader_directory import shader_directory
+
+VERSION_LINE = '#version 430 core'
+_INCLUDE = re.compile(r'\s*#include\s+"([^"]+)"\s*$')
+
+
+class ShaderSource:
+    """
+    The text of a shader, ready for the compiler, that remembers where each line is from.
+
+    :param name: file in the shader folder
+    :param defines: what to #define, names and values
+    """
+
+    def __init__(self, name: str, defines: Mapping[str, object] | None = None) -> None:
+        """Read the file and everything it includes, each once."""
+        self.name = name
+        self._lines: list[str] = [VERSION_LINE]
+        self._origins: list[str] = ['version']
+        for key, value in (defines or {}).items():
+            self._append(f'#define {key} {value}', 'define')
+        self._read(name, set())
+
+    @property
+    def text(self) -> str:
+        """The whole shader."""
+        return '\n'.join(self._lines) + '\n'
+
+    def origin(self, line: int) -> str:
+        """Return 'file:line' and the text of line ``line`` (from 1) of the whole."""
+        if not 1 <= line <= len(self._lines):
+            return f'line {line}'
+        return f'{self._origins[line - 1]}: {self._lines[line - 1].strip()}'
+
+    def _read(self, name: str, seen: set[str]) -> None:
+        seen.add(name)
+        path = _locate(name)
+        for number, line in enumerate(path.read_text(encoding='utf-8').splitlines(), 1):
+            include = _INCLUDE.match(line)
+            if include and include[1] not in seen:
+                self._read(include[1], seen)
+            # The version stands once, on top; a file keeps its own for tools that read it alone.
+            elif not include and not line.startswith('#version'):
+                self._append(line, f'{name}:{number}')
+
+    def _append(self, line: str, origin: str) -> None:
+        self._lines.append(line)
+        self._origins.append(origin)
+
+
+def _locate(name: str) -> Path:
+    root = shader_directory()
+    for path in (root / name, root / 'include' / name):
+        if path.is_file():
+            return path
+    raise ShaderError(f'there is no shader {name} in {root}')
