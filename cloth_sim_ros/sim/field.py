@@ -1,0 +1,89 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""One configurable value: its name, unit, range, default and text, said once."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+import math
+from typing import Any
+
+from cloth_sim_ros.sim.errors import ClothSimError
+
+_NAMES = {
+    bool: 'true or false', int: 'a whole number', float: 'a number', str: 'a word',
+}
+
+
+@dataclass(frozen=True)
+class Field:
+    """
+    A parameter of the scene or of the node.
+
+    :param name: ROS parameter name, dots group
+    :param kind: bool, int, float or str; of the elements when ``is_array``
+    :param default: used when nothing is given; a tuple when ``is_array``
+    :param text: one line for people
+    :param unit: SI unit, empty when there is none
+    :param low: smallest value allowed
+    :param high: largest value allowed
+    :param choices: the values allowed, for words
+    :param is_array: True for a list of ``kind``
+    :param live: True when a running node accepts a new value
+    """
+
+    name: str
+    kind: type
+    default: Any
+    text: str
+    unit: str = ''
+    low: float | None = None
+    high: float | None = None
+    choices: tuple[str, ...] = ()
+    is_array: bool = False
+    live: bool = False
+
+    def check(self, value: Any) -> Any:
+        """Return ``value`` in this field's type; ClothSimError says what is wrong with it."""
+        if not self.is_array:
+            return self._check_one(value)
+        if isinstance(value, str) or not isinstance(value, Sequence):
+            raise ClothSimError(
+                f'{self.name} must be a list, got {value!r}: write [..., ...]')
+        return tuple(self._check_one(element) for element in value)
+
+    def _check_one(self, value: Any) -> Any:
+        is_number = isinstance(value, (int, float)) and not isinstance(value, bool)
+        if self.kind is float and is_number:
+            value = float(value)
+        if type(value) is not self.kind:
+            raise ClothSimError(
+                f'{self.name} must be {_NAMES[self.kind]}, got {value!r}{self._way_out()}')
+        if self.kind is float and not math.isfinite(value):
+            raise ClothSimError(f'{self.name} must be finite, got {value}{self._way_out()}')
+        if self.choices and value not in self.choices:
+            raise ClothSimError(
+                f'{self.name} must be one of {", ".join(self.choices)}, got {value!r}')
+        too_low = self.low is not None and value < self.low
+        too_high = self.high is not None and value > self.high
+        if too_low or too_high:
+            raise ClothSimError(
+                f'{self.name} {value} is outside its range{self._way_out()}')
+        return value
+
+    def _way_out(self) -> str:
+        unit = f' {self.unit}' if self.unit else ''
+        if self.low is not None and self.high is not None:
+            return f': give a value from {self.low:g} to {self.high:g}{unit}'
+        return f': give a value in {self.unit}' if self.unit else ''

@@ -1,0 +1,39 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Where the nodes of the lattice lie at rest."""
+
+import numpy as np
+
+
+def spacing(rows: int, cols: int, width: float, height: float) -> tuple[float, float]:
+    """Return the rest distance along a row and along a column [m]."""
+    return width / max(cols - 1, 1), height / max(rows - 1, 1)
+
+
+def rest_positions(
+        rows: int, cols: int, distances: tuple[float, float], pose: str, z: float) -> np.ndarray:
+    """
+    Return the flat lattice, its centre above the origin at height ``z`` [m].
+
+    :param pose: horizontal (row 0 at the largest y) or hanging (row 0 on top)
+    :return: (rows, cols, 3) float64
+    """
+    across = (np.arange(cols) - (cols - 1) / 2) * distances[0]
+    down = ((rows - 1) / 2 - np.arange(rows)) * distances[1]
+    positions = np.zeros((rows, cols, 3))
+    positions[..., 0] = across
+    positions[..., 2] = z
+    positions[..., 2 if pose == 'hanging' else 1] += down[:, None]
+    return positions

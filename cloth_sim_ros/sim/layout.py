@@ -1,0 +1,123 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""How the lattice lies in memory, and the compile-time choices that suit a device."""
+
+from dataclasses import dataclass
+
+from cloth_sim_ros.gl.context import Context
+from cloth_sim_ros.gl.errors import DeviceError
+from cloth_sim_ros.sim.bindings import DEFINES
+from cloth_sim_ros.sim.errors import ClothSimError
+from cloth_sim_ros.sim.scene import Scene
+import numpy as np
+
+HALO = 2
+# Measured on llvmpipe, docs/performance.md; a GPU hides latency with many small invocations.
+_SOFTWARE_BLOCK = 4
+_GPU_BLOCK = 1
+_BYTES_PER_NODE = 16
+
+
+@dataclass(frozen=True)
+class Layout:
+    """
+    The stored lattice: nodes, two ghosts on each side, and filling up to whole blocks.
+
+    :param kind: fused or paper
+    :param texture_loads: True when shaders read the state through textures
+    :param block: nodes along each side of an invocation
+    :param local: invocations of a workgroup, x and y
+    """
+
+    rows: int
+    cols: int
+    kind: str
+    texture_loads: bool
+    block: int
+    local: tuple[int, int]
+
+    @property
+    def pitch(self) -> int:
+        """Entries of a stored row."""
+        return _round_up(self.cols, self.block) + 2 * HALO
+
+    @property
+    def stored(self) -> int:
+        """Entries of a buffer."""
+        return self.pitch * (_round_up(self.rows, self.block) + 2 * HALO)
+
+    @property
+    def groups(self) -> tuple[int, int]:
+        """Workgroups that cover the cloth, x and y."""
+        return tuple(
+            -(-nodes // (self.block * local))
+            for nodes, local in zip((self.cols, self.rows), self.local))
+
+    def index(self, row: int, col: int) -> int:
+        """Return where the node (row, col) is stored."""
+        return (row + HALO) * self.pitch + col + HALO
+
+    def store(self, values: np.ndarray) -> np.ndarray:
+        """Return (rows, cols, ...) ``values`` as stored, zero where there is no node."""
+        stored = np.zeros((self.stored // self.pitch, self.pitch, *values.shape[2:]), values.dtype)
+        stored[HALO:HALO + self.rows, HALO:HALO + self.cols] = values
+        return stored
+
+    def defines(self) -> dict[str, object]:
+        """Return what every shader on this lattice needs to know."""
+        return {
+            **DEFINES, 'ROWS': self.rows, 'COLS': self.cols, 'PITCH': self.pitch,
+            'LOADS_TEXTURE': int(self.texture_loads), 'BLOCK': self.block,
+            'LOCAL_X': self.local[0], 'LOCAL_Y': self.local[1],
+        }
+
+
+def choose_layout(scene: Scene, context: Context) -> Layout:
+    """
+    Return the layout ``scene`` asks for, with what suits the device where it leaves it open.
+
+    :raises DeviceError: when the cloth does not fit into the device's buffers
+    :raises ClothSimError: when the scene asks for what its layout can't do
+    """
+    kind, loads, block = scene['layout'], scene['loads'], scene['block']
+    if kind == 'paper':
+        if loads == 'texture' or block > 1:
+            raise ClothSimError(
+                f'layout paper reads storage, one node an invocation, got loads {loads} and '
+                f'block {block}: set loads: storage and block: 1, or layout: fused')
+        loads, block, local = 'storage', 1, (16, 16)
+    else:
+        block = block or (_SOFTWARE_BLOCK if context.is_software else _GPU_BLOCK)
+        local = (8, 4) if context.is_software else (16, 8)
+    if loads == 'auto':
+        loads = 'texture' if context.is_software else 'storage'
+    layout = Layout(scene.rows, scene.cols, kind, loads == 'texture', block, local)
+    _refuse_too_large(layout, context)
+    return layout
+
+
+def _refuse_too_large(layout: Layout, context: Context) -> None:
+    limit = context.max_buffer_bytes // _BYTES_PER_NODE
+    if layout.texture_loads:
+        limit = min(limit, context.max_texture_texels)
+    if layout.stored > limit:
+        side = int(limit**0.5) - 2 * HALO - layout.block
+        raise DeviceError(
+            f'rows {layout.rows} x cols {layout.cols} need {layout.stored} stored nodes, the '
+            f'buffers of {context.device} hold {limit}: use up to about {side} x {side}')
+
+
+def _round_up(value: int, multiple: int) -> int:
+    return -(-value // multiple) * multiple

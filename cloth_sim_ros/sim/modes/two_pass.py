@@ -1,0 +1,63 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""The paper's two passes of the mass-spring mode, kept as a baseline for benchmarks."""
+
+from cloth_sim_ros.gl.buffer import Buffer
+from cloth_sim_ros.gl.buffer import shader_writes_visible
+from cloth_sim_ros.sim import bindings
+from cloth_sim_ros.sim.forcing import Forcing
+from cloth_sim_ros.sim.layout import Layout
+from cloth_sim_ros.sim.scene import Scene
+from cloth_sim_ros.sim.scene_program import SceneProgram
+from cloth_sim_ros.sim.state import State
+import numpy as np
+
+_UPDATE_LOCAL = 1024
+_FORCE_BYTES = 16
+
+
+class TwoPass:
+    """Forces into a buffer (paper, Tab. 1), then the update (Tab. 2)."""
+
+    def __init__(self, scene: Scene, layout: Layout) -> None:
+        """Compile both passes and allocate the force and mass buffers."""
+        self._force = SceneProgram('paper_force.comp', scene, layout)
+        self._update = SceneProgram(
+            'paper_update.comp', scene, layout, {'UPDATE_LOCAL': _UPDATE_LOCAL})
+        self._forces = Buffer(layout.stored * _FORCE_BYTES)
+        self._masses = Buffer(np.full(layout.stored, scene.node_mass, dtype=np.float32))
+        self._force_groups = layout.groups
+        self._update_groups = -(-scene.node_count // _UPDATE_LOCAL)
+        self._force.use()
+        self._update.use()
+
+    def substep(self, state: State, forcing: Forcing, length: float) -> None:
+        """Step ``state`` on by ``length`` [s], in place."""
+        state.bind_in()
+        self._forces.bind_storage(bindings.FORCE)
+        self._masses.bind_storage(bindings.MASS)
+        force = self._force.use()
+        force.dispatch(*self._force_groups)
+        shader_writes_visible()
+        update = self._update.use(forcing.has_regions)
+        update.set_float('substep', length)
+        forcing.apply(update)
+        update.dispatch(self._update_groups)
+        shader_writes_visible()
+
+    def delete(self) -> None:
+        """Give the force and mass buffers back."""
+        self._forces.delete()
+        self._masses.delete()

@@ -1,0 +1,100 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Look at the state: records of all nodes, or only the energies and the largest strain."""
+
+from cloth_sim_ros.gl.buffer import Buffer
+from cloth_sim_ros.gl.buffer import shader_writes_visible
+from cloth_sim_ros.sim import bindings
+from cloth_sim_ros.sim.forcing import Forcing
+from cloth_sim_ros.sim.layout import Layout
+from cloth_sim_ros.sim.scene import Scene
+from cloth_sim_ros.sim.scene_program import SceneProgram
+from cloth_sim_ros.sim.snapshot import Measures
+from cloth_sim_ros.sim.snapshot import POINT_DTYPE
+from cloth_sim_ros.sim.state import State
+import numpy as np
+
+_LOCAL = (16, 8)
+_SUMS = 5
+# Rows are looked at in slabs, since the records of a large cloth outgrow a storage block.
+_SLAB_BYTES = 32 * 2**20
+
+
+class Observer:
+    """Runs observe.comp; compiles and allocates for records only when they are asked for."""
+
+    def __init__(self, scene: Scene, layout: Layout) -> None:
+        """Prepare for ``scene``; nothing is compiled yet."""
+        self._scene = scene
+        self._slab_rows = max(
+            _LOCAL[1], min(scene.rows, _SLAB_BYTES // (POINT_DTYPE.itemsize * scene.cols)))
+        local = {'LOCAL_X': _LOCAL[0], 'LOCAL_Y': _LOCAL[1]}
+        self._programs = {
+            wanted: SceneProgram(
+                'observe.comp', scene, layout, {**local, 'RECORDS_WANTED': int(wanted)})
+            for wanted in (False, True)}
+        self._groups_x = -(-scene.cols // _LOCAL[0])
+        groups = self._groups_x * -(-self._slab_rows // _LOCAL[1])
+        self._partial_sums = np.empty((groups, _SUMS), dtype=np.float32)
+        self._sums_buffer = Buffer(self._partial_sums.nbytes)
+        self._records_buffer: Buffer | None = None
+
+    def measure(self, state: State, forcing: Forcing) -> Measures:
+        """Return energies, largest strain and finiteness of ``state``."""
+        return self._observe(state, forcing, None)
+
+    def record(self, state: State, forcing: Forcing) -> tuple[Measures, np.ndarray]:
+        """Return the measures and the (rows, cols) records of ``state``."""
+        if self._records_buffer is None:
+            self._records_buffer = Buffer(
+                self._slab_rows * self._scene.cols * POINT_DTYPE.itemsize)
+        records = np.empty((self._scene.rows, self._scene.cols), dtype=POINT_DTYPE)
+        return self._observe(state, forcing, records), records
+
+    def delete(self) -> None:
+        """Give the buffers back."""
+        self._sums_buffer.delete()
+        if self._records_buffer is not None:
+            self._records_buffer.delete()
+
+    def _observe(
+            self, state: State, forcing: Forcing, records: np.ndarray | None) -> Measures:
+        program = self._programs[records is not None].use(forcing.has_regions)
+        forcing.apply(program)
+        program.set_int('pushed_everywhere', int(forcing.pushed_everywhere))
+        state.bind_in()
+        self._sums_buffer.bind_storage(bindings.PARTIAL_SUMS)
+        if records is not None:
+            self._records_buffer.bind_storage(bindings.RECORDS)
+        totals = np.zeros(_SUMS)
+        for first in range(0, self._scene.rows, self._slab_rows):
+            rows = min(self._slab_rows, self._scene.rows - first)
+            program.set_int('first_row', first)
+            program.set_int('slab_rows', rows)
+            groups_y = -(-rows // _LOCAL[1])
+            program.dispatch(self._groups_x, groups_y)
+            shader_writes_visible()
+            sums = self._partial_sums[:self._groups_x * groups_y]
+            self._sums_buffer.read_into(sums)
+            largest = max(totals[3], float(sums[:, 3].max()))
+            totals += sums.sum(axis=0, dtype=np.float64)
+            totals[3] = largest
+            if records is not None:
+                self._records_buffer.read_into(records[first:first + rows])
+        mass = self._scene.node_mass
+        return Measures(
+            kinetic_energy=float(mass * totals[0]), elastic_energy=float(totals[1]),
+            gravitational_energy=float(mass * totals[2]), max_strain=float(totals[3]),
+            finite=bool(totals[4] == 0))

@@ -1,0 +1,62 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Which nodes a list of pin names holds."""
+
+from collections.abc import Sequence
+import re
+
+from cloth_sim_ros.sim.errors import ClothSimError
+import numpy as np
+
+_REGIONS = {
+    'none': None,
+    'all': np.s_[:, :],
+    'top_left': np.s_[0, 0],
+    'top_right': np.s_[0, -1],
+    'bottom_left': np.s_[-1, 0],
+    'bottom_right': np.s_[-1, -1],
+    'top_edge': np.s_[0, :],
+    'bottom_edge': np.s_[-1, :],
+}
+
+
+def pinned_nodes(names: Sequence[str], rows: int, cols: int) -> np.ndarray:
+    """
+    Return which nodes ``names`` hold, (rows, cols) bool.
+
+    :param names: corners, edges, all, none, or 'row,col'
+    :raises ClothSimError: for a name that is none of these or a node outside the cloth
+    """
+    pinned = np.zeros((rows, cols), dtype=bool)
+    for name in names:
+        node = re.fullmatch(r'\s*(\d+)\s*,\s*(\d+)\s*', name)
+        if node:
+            row, col = int(node[1]), int(node[2])
+            check_node(row, col, rows, cols)
+            pinned[row, col] = True
+        elif name not in _REGIONS:
+            raise ClothSimError(
+                f'pins has {name!r}: give {", ".join(_REGIONS)}, or a node as "row,col"')
+        elif name != 'none':
+            pinned[_REGIONS[name]] = True
+    return pinned
+
+
+def check_node(row: int, col: int, rows: int, cols: int) -> None:
+    """Raise ClothSimError when the cloth has no node (row, col)."""
+    if not (0 <= row < rows and 0 <= col < cols):
+        raise ClothSimError(
+            f'there is no node ({row}, {col}) in a cloth of {rows} x {cols} nodes: '
+            f'give a row from 0 to {rows - 1} and a col from 0 to {cols - 1}')

@@ -1,0 +1,91 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""A force on the cloth for a stretch of simulated time."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+import math
+
+from cloth_sim_ros.sim.errors import ClothSimError
+
+REGIONS = ('all', 'sphere')
+
+
+@dataclass(frozen=True)
+class Push:
+    """
+    A total force spread by mass over the free nodes of a region.
+
+    :param force: x y z [N], of all nodes together
+    :param start: simulated time at which it begins [s]
+    :param duration: [s]
+    :param region: all or sphere
+    :param center: of the sphere [m]
+    :param radius: of the sphere [m]
+    """
+
+    force: tuple[float, float, float]
+    start: float
+    duration: float
+    region: str = 'all'
+    center: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    radius: float = 0.0
+
+    @classmethod
+    def checked(
+            cls, *, force: Sequence[float], start: float, duration: float, region: str = 'all',
+            center: Sequence[float] = (0.0, 0.0, 0.0), radius: float = 0.0) -> 'Push':
+        """Return a Push, or raise ClothSimError saying which value is wrong."""
+        if region not in REGIONS:
+            raise ClothSimError(
+                f'a push needs the region {" or ".join(REGIONS)}, got {region!r}')
+        vectors = {'force': force, 'center': center}
+        for name, vector in vectors.items():
+            if len(vector) != 3 or not all(math.isfinite(part) for part in vector):
+                raise ClothSimError(
+                    f'the {name} of a push must be 3 finite numbers, '
+                    f'got {[float(part) for part in vector]}')
+        if not math.isfinite(start) or start < 0.0:
+            raise ClothSimError(
+                f'the start of a push must be a finite time, got {start} s: give 0 or more')
+        if not math.isfinite(duration) or duration <= 0.0:
+            raise ClothSimError(
+                'the duration of a push must be finite and above 0, '
+                f'got {duration} s: give it in simulated seconds')
+        if not math.isfinite(radius) or radius < 0.0:
+            raise ClothSimError(
+                f'the radius of a push must be finite and not negative, got {radius} m')
+        if region == 'sphere' and radius == 0.0:
+            raise ClothSimError(
+                'a push on a sphere needs a radius above 0, got 0 m: '
+                'give one, or the region all')
+        return cls(
+            tuple(float(part) for part in force), float(start), float(duration), region,
+            tuple(float(part) for part in center), float(radius))
+
+    @property
+    def end(self) -> float:
+        """Simulated time at which it ends [s]."""
+        return self.start + self.duration
+
+    @property
+    def impulse(self) -> tuple[float, float, float]:
+        """Total impulse [N s]."""
+        return tuple(part * self.duration for part in self.force)
+
+    def overlap(self, begin: float, end: float) -> float:
+        """Return the share of the step from ``begin`` to ``end`` [s] the push acts in, 0 to 1."""
+        shared = min(end, self.end) - max(begin, self.start)
+        return max(shared, 0.0) / (end - begin)

@@ -1,0 +1,147 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""What is modelled: the static description of a cloth, read from parameters."""
+
+from collections.abc import Mapping
+import difflib
+from typing import Any
+
+from cloth_sim_ros.sim import grid
+from cloth_sim_ros.sim.errors import ClothSimError
+from cloth_sim_ros.sim.field import Field
+from cloth_sim_ros.sim.pins import pinned_nodes
+from cloth_sim_ros.sim.push import Push
+from cloth_sim_ros.sim.scene_fields import SCENE_FIELDS
+import numpy as np
+
+FAMILIES = ('structural', 'shear', 'bend')
+
+
+class Scene:
+    """
+    A checked, unchanging set of scene parameters.
+
+    :param values: dotted parameter names and values; what is not given takes its default
+    :raises ClothSimError: for an unknown name, a wrong type or a value outside its range
+    """
+
+    def __init__(self, values: Mapping[str, Any] | None = None) -> None:
+        """Check ``values`` against the field table."""
+        given = dict(values or {})
+        refuse_unknown(given, SCENE_FIELDS)
+        self.values = {
+            field.name: field.check(given.get(field.name, field.default))
+            for field in SCENE_FIELDS}
+        if self.rows * self.cols < 2:
+            raise ClothSimError(
+                f'a cloth needs 2 nodes or more, got rows {self.rows} x cols {self.cols}: '
+                'raise one of them')
+        if len(self['gravity']) != 3:
+            raise ClothSimError(
+                f'gravity needs 3 components, got {len(self["gravity"])}: write [x, y, z]')
+        pinned_nodes(self['pins'], self.rows, self.cols)
+        self.timed_pushes()
+
+    def __getitem__(self, name: str) -> Any:
+        """Return the value of the parameter ``name``."""
+        return self.values[name]
+
+    @property
+    def rows(self) -> int:
+        """Nodes along the height."""
+        return self['rows']
+
+    @property
+    def cols(self) -> int:
+        """Nodes along the width."""
+        return self['cols']
+
+    @property
+    def node_count(self) -> int:
+        """Nodes in all."""
+        return self.rows * self.cols
+
+    @property
+    def spacing(self) -> tuple[float, float]:
+        """Rest distance of neighbours along a row and along a column [m]."""
+        return grid.spacing(self.rows, self.cols, self['width'], self['height'])
+
+    @property
+    def node_mass(self) -> float:
+        """Mass of each node [kg]; a chain's areal mass counts the whole width x height."""
+        if self['node_mass'] > 0.0:
+            return self['node_mass']
+        return self['areal_density'] * self['width'] * self['height'] / self.node_count
+
+    def stiffness(self, family: str) -> float:
+        """Stiffness of ``family`` [N/m]: structural, shear or bend."""
+        return self[f'stiffness.{family}']
+
+    def damping(self, family: str) -> float:
+        """Damping of ``family`` [N s/m]."""
+        return self[f'damping.{family}']
+
+    def models(self, family: str) -> bool:
+        """Tell whether springs of ``family`` do anything in this scene."""
+        return self.stiffness(family) > 0.0 or self.damping(family) > 0.0
+
+    def rest_positions(self) -> np.ndarray:
+        """Return the undisturbed start pose [m], (rows, cols, 3) float64."""
+        return grid.rest_positions(
+            self.rows, self.cols, self.spacing, self['start.pose'], self['start.z'])
+
+    def start_positions(self) -> np.ndarray:
+        """Return the start pose with the random offsets of free nodes [m], (rows, cols, 3)."""
+        positions = self.rest_positions()
+        if self['start.jitter'] > 0.0:
+            random = np.random.default_rng(self['start.seed'])
+            reach = self['start.jitter'] * min(self.spacing)
+            offsets = random.uniform(-reach, reach, positions.shape)
+            positions += np.where(self.pinned_nodes()[..., None], 0.0, offsets)
+        return positions
+
+    def pinned_nodes(self) -> np.ndarray:
+        """Return which nodes are held at the start, (rows, cols) bool."""
+        return pinned_nodes(self['pins'], self.rows, self.cols)
+
+    def timed_pushes(self) -> tuple[Push, ...]:
+        """Return the pushes that are part of the scene, in the order given."""
+        count = len(self['pushes.start'])
+        vectors = {}
+        for name, width in (('duration', 1), ('force', 3), ('center', 3), ('radius', 1)):
+            flat = self[f'pushes.{name}']
+            optional = name in ('center', 'radius') and not flat
+            if len(flat) != count * width and not optional:
+                raise ClothSimError(
+                    f'pushes.{name} needs {width} per push, {count * width} for the {count} in '
+                    f'pushes.start, got {len(flat)}: give one entry for each push')
+            filled = flat if flat else (0.0,) * (count * width)
+            vectors[name] = np.reshape(np.array(filled, dtype=float), (count, width))
+        return tuple(
+            Push.checked(
+                force=vectors['force'][i], start=start, duration=vectors['duration'][i, 0],
+                region='sphere' if vectors['radius'][i, 0] > 0.0 else 'all',
+                center=vectors['center'][i], radius=vectors['radius'][i, 0])
+            for i, start in enumerate(self['pushes.start']))
+
+
+def refuse_unknown(given: Mapping[str, Any], fields: tuple[Field, ...]) -> None:
+    """Raise ClothSimError when ``given`` has a name that ``fields`` lacks."""
+    known = [field.name for field in fields]
+    for name in given:
+        if name not in known:
+            close = difflib.get_close_matches(name, known, n=1)
+            hint = f'did you mean {close[0]}?' if close else 'see the parameter table in README.md'
+            raise ClothSimError(f'there is no parameter {name}: {hint}')

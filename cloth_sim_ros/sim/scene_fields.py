@@ -1,0 +1,74 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Every parameter of a scene: what Scene reads is what the node declares."""
+
+from cloth_sim_ros.sim.field import Field
+
+MODES = ('mass_spring', 'constraint', 'adaptive')
+
+SCENE_FIELDS = (
+    Field('mode', str, 'mass_spring', 'simulation mode at the start', choices=MODES, live=True),
+    Field('rows', int, 32, 'nodes along the height', low=1, high=8192),
+    Field('cols', int, 32, 'nodes along the width', low=1, high=8192),
+    Field('width', float, 1.0, 'side along a row', 'm', low=1e-4, high=1e5),
+    Field('height', float, 1.0, 'side along a column', 'm', low=1e-4, high=1e5),
+    Field('areal_density', float, 0.2, 'mass of the cloth per area, shared evenly by the nodes',
+          'kg/m2', low=1e-6, high=1e6),
+    Field('node_mass', float, 0.0, 'mass of each node; 0 takes it from areal_density',
+          'kg', low=0.0, high=1e6),
+    Field('stiffness.structural', float, 100.0, 'of the springs to the 4 nearest nodes',
+          'N/m', low=0.0, high=1e9),
+    Field('stiffness.shear', float, 100.0, 'of the springs to the 4 diagonal nodes',
+          'N/m', low=0.0, high=1e9),
+    Field('stiffness.bend', float, 10.0, 'of the springs to the 4 nodes two places away',
+          'N/m', low=0.0, high=1e9),
+    Field('damping.structural', float, 0.01, 'of the structural springs', 'N s/m',
+          low=0.0, high=1e6),
+    Field('damping.shear', float, 0.01, 'of the shear springs', 'N s/m', low=0.0, high=1e6),
+    Field('damping.bend', float, 0.001, 'of the bend springs', 'N s/m', low=0.0, high=1e6),
+    Field('gravity', float, (0.0, 0.0, -9.81), 'acceleration on every free node, x y z', 'm/s2',
+          low=-1e4, high=1e4, is_array=True),
+    Field('pins', str, ('top_left', 'top_right'),
+          'nodes held in place: none, all, top_left, top_right, bottom_left, bottom_right, '
+          'top_edge, bottom_edge, or "row,col"', is_array=True),
+    Field('start.pose', str, 'horizontal', 'horizontal: flat at start.z; hanging: upright, '
+          'row 0 on top', choices=('horizontal', 'hanging')),
+    Field('start.z', float, 1.0, 'height of the cloth centre at the start', 'm',
+          low=-1e5, high=1e5),
+    Field('start.jitter', float, 0.0, 'random offset of each free node at the start, over the '
+          'node spacing', low=0.0, high=0.5),
+    Field('start.seed', int, 0, 'of the random offsets', low=0, high=2**31 - 1),
+    Field('dt', float, 0.005, 'time step', 's', low=1e-7, high=1.0),
+    Field('auto_substeps', bool, True, 'split dt so that each substep keeps to 0.85 of the '
+          'stability limit'),
+    Field('substeps', int, 1, 'substeps in each dt when auto_substeps is false',
+          low=1, high=100000),
+    Field('pushes.start', float, (), 'start of each timed push', 's', low=0.0, high=1e9,
+          is_array=True),
+    Field('pushes.duration', float, (), 'length of each timed push', 's', low=0.0, high=1e9,
+          is_array=True),
+    Field('pushes.force', float, (), 'total force of each timed push, x y z one after the other',
+          'N', low=-1e9, high=1e9, is_array=True),
+    Field('pushes.center', float, (), 'centre of each timed push, x y z one after the other; '
+          'used where the radius is above 0', 'm', low=-1e6, high=1e6, is_array=True),
+    Field('pushes.radius', float, (), 'radius of each timed push; 0 pushes the whole cloth',
+          'm', low=0.0, high=1e6, is_array=True),
+    Field('layout', str, 'fused', 'fused: force and update in one pass; paper: the two passes '
+          'of the paper, a baseline for benchmarks', choices=('fused', 'paper')),
+    Field('loads', str, 'auto', 'how shaders read the state: texture, storage, or the faster '
+          'one for the device', choices=('auto', 'texture', 'storage')),
+    Field('block', int, 0, 'nodes along each side of one shader invocation; 0 takes the best '
+          'for the device', low=0, high=4),
+)

@@ -1,0 +1,77 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Compile the shaders of a scene: only what it uses, with its springs set."""
+
+from cloth_sim_ros.gl.program import Program
+from cloth_sim_ros.gl.shader_source import ShaderSource
+from cloth_sim_ros.sim.layout import Layout
+from cloth_sim_ros.sim.push_field import MOST_REGION_PUSHES
+from cloth_sim_ros.sim.scene import FAMILIES
+from cloth_sim_ros.sim.scene import Scene
+import numpy as np
+
+
+class SceneProgram:
+    """
+    A shader in two forms, with and without pushes on regions, each compiled when first used.
+
+    :param name: file in shaders/
+    :param defines: choices of this shader besides those of scene and layout
+    """
+
+    def __init__(
+            self, name: str, scene: Scene, layout: Layout,
+            defines: dict[str, object] | None = None) -> None:
+        """Remember what to compile."""
+        self._name = name
+        self._scene = scene
+        self._defines = {**layout.defines(), **scene_defines(scene), **(defines or {})}
+        self._forms: dict[bool, Program] = {}
+
+    def use(self, has_region_pushes: bool = False) -> Program:
+        """Return the form asked for, in use."""
+        if has_region_pushes not in self._forms:
+            defines = {**self._defines, 'HAS_REGION_PUSHES': int(has_region_pushes)}
+            program = Program(ShaderSource(self._name, defines))
+            program.use()
+            _set_springs(program, self._scene)
+            self._forms[has_region_pushes] = program
+        program = self._forms[has_region_pushes]
+        program.use()
+        return program
+
+
+def scene_defines(scene: Scene) -> dict[str, object]:
+    """Return what the scene's shaders compile in."""
+    has_damping = any(scene.damping(family) > 0.0 for family in FAMILIES)
+    return {
+        'MOST_REGION_PUSHES': MOST_REGION_PUSHES,
+        'HAS_DAMPING': int(has_damping),
+        **{f'HAS_{family.upper()}': int(scene.models(family)) for family in FAMILIES},
+    }
+
+
+def rest_lengths(scene: Scene) -> tuple[float, float, float, float, float]:
+    """Return the rest lengths [m] along a row, a column, the diagonal, and two along each."""
+    dx, dy = scene.spacing
+    return dx, dy, float(np.hypot(dx, dy)), 2.0 * dx, 2.0 * dy
+
+
+def _set_springs(program: Program, scene: Scene) -> None:
+    program.set_floats('stiffness', [scene.stiffness(family) for family in FAMILIES])
+    program.set_floats('damping', [scene.damping(family) for family in FAMILIES])
+    program.set_floats('rest_length', rest_lengths(scene))
+    program.set_float('inverse_mass', 1.0 / scene.node_mass)
+    program.set_vectors('gravity', scene['gravity'])

@@ -1,0 +1,280 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""A running cloth: owns the state on the device and steps it."""
+
+from collections.abc import Sequence
+import math
+
+from cloth_sim_ros.gl.context import Context
+from cloth_sim_ros.sim import modes
+from cloth_sim_ros.sim.errors import ClothSimError
+from cloth_sim_ros.sim.forcing import Forcing
+from cloth_sim_ros.sim.layout import choose_layout
+from cloth_sim_ros.sim.observer import Observer
+from cloth_sim_ros.sim.pins import check_node
+from cloth_sim_ros.sim.push import Push
+from cloth_sim_ros.sim.push_field import AppliedPush
+from cloth_sim_ros.sim.push_field import PushField
+from cloth_sim_ros.sim.scene import Scene
+from cloth_sim_ros.sim.scene_fields import MODES
+from cloth_sim_ros.sim.snapshot import Measures
+from cloth_sim_ros.sim.snapshot import Snapshot
+from cloth_sim_ros.sim.stability import choose_substeps
+from cloth_sim_ros.sim.stability import SAFETY
+from cloth_sim_ros.sim.stability import stability_limit
+from cloth_sim_ros.sim.state import State
+import numpy as np
+
+# Below this many nodes llvmpipe is faster without its worker threads (docs/performance.md).
+_SINGLE_THREAD_NODES = 128 * 128
+
+
+class Simulation:
+    """
+    A cloth that moves. To be used on one thread, the one it was made on.
+
+    :param scene: what to model
+    :param context: GL context to use; by default one of its own
+    :param check_stability: False lets dt pass the stability limit, to study what happens
+    :raises ClothSimError: when the scene can't be run as it asks
+    :raises DeviceError: when there is no device for it
+    """
+
+    def __init__(
+            self, scene: Scene, *, context: Context | None = None,
+            check_stability: bool = True) -> None:
+        """Compile, allocate and take up the start pose."""
+        self.scene = scene
+        self.dt: float = scene['dt']
+        self.stability_limit = stability_limit(scene)
+        self.substeps = choose_substeps(scene) if scene['auto_substeps'] else scene['substeps']
+        _check_mode(scene['mode'])
+        if check_stability:
+            self._check_stability()
+        self._owns_context = context is None
+        self._context = context or Context(
+            single_thread=scene.node_count < _SINGLE_THREAD_NODES)
+        self._context.make_current()
+        self.device = self._context.device
+        self.layout = choose_layout(scene, self._context)
+        self._state = State(self.layout, scene.start_positions(), scene.pinned_nodes())
+        self._observer = Observer(scene, self.layout)
+        self._modes: dict[str, modes.Mode] = {}
+        self._mode = self._get_mode(scene['mode'])
+        self._pushes: PushField | None = None
+        self._begin_run()
+
+    @property
+    def mode(self) -> str:
+        """Name of the mode that steps now."""
+        return self._mode.name
+
+    @property
+    def available_modes(self) -> tuple[str, ...]:
+        """Modes ``set_mode`` takes."""
+        return tuple(modes.AVAILABLE)
+
+    @property
+    def time(self) -> float:
+        """Simulated time since the start or the last reset [s]."""
+        return self.steps * self.dt
+
+    @property
+    def stability_margin(self) -> float:
+        """Substep over the stability limit: 1 and above blows up."""
+        return self.dt / self.substeps / self.stability_limit
+
+    @property
+    def pushes(self) -> tuple[AppliedPush, ...]:
+        """The pushes that act or will act."""
+        return self._pushes.applied
+
+    def advance(self, seconds: float) -> int:
+        """
+        Simulate ``seconds`` more; what is no whole dt is carried over to the next call.
+
+        :return: steps of dt made
+        """
+        if not math.isfinite(seconds) or seconds < 0.0:
+            raise ClothSimError(f'cannot advance by {seconds} s: give a time of 0 s or more')
+        self._target += seconds
+        # The small share keeps a sum of frame times from falling just short of a step.
+        due = math.floor(self._target / self.dt + 1e-6) - self.steps
+        return self._make_steps(due)
+
+    def step(self, count: int = 1) -> None:
+        """Make ``count`` steps of dt."""
+        if count < 0:
+            raise ClothSimError(f'cannot make {count} steps: give 0 or more')
+        self._make_steps(count)
+        self._target = self.time
+
+    def push(
+            self, force: Sequence[float], *, duration: float, region: str = 'all',
+            center: Sequence[float] = (0.0, 0.0, 0.0), radius: float = 0.0,
+            start: float | None = None) -> AppliedPush:
+        """
+        Push the cloth with a total ``force`` [N] for ``duration`` [s] of simulated time.
+
+        :param region: all, or sphere: the free nodes within ``radius`` of ``center`` [m]
+            when the push begins
+        :param start: simulated time at which it begins [s]; now by default
+        :raises ClothSimError: when a value is wrong or no free node is in the region
+        """
+        begin = self.time if start is None else start
+        push = Push.checked(
+            force=force, start=begin, duration=duration, region=region, center=center,
+            radius=radius)
+        if push.end <= self.time:
+            raise ClothSimError(
+                f'a push from {begin} s to {push.end} s lies in the past, it is {self.time} s: '
+                'give a later start')
+        self._context.make_current()
+        return self._pushes.add(push, self.time)
+
+    def clear_pushes(self) -> int:
+        """End all pushes and drop those to come; return how many."""
+        return self._pushes.clear()
+
+    def pin(self, row: int, col: int) -> None:
+        """Hold the node (row, col) where it is."""
+        self._set_pinned(row, col, True)
+
+    def release(self, row: int, col: int) -> None:
+        """Let the node (row, col) move."""
+        self._set_pinned(row, col, False)
+
+    def pinned_nodes(self) -> np.ndarray:
+        """Return which nodes are held now, (rows, cols) bool."""
+        return self._state.pinned.copy()
+
+    def nearest_node(self, point: Sequence[float]) -> tuple[int, int]:
+        """Return row and col of the node nearest to ``point`` [m]."""
+        if len(point) != 3 or not all(math.isfinite(part) for part in point):
+            raise ClothSimError(f'a point needs 3 finite numbers [m], got {tuple(point)}')
+        away = self.snapshot().positions - np.array(point, dtype=np.float32)
+        nearest = int(np.argmin(np.einsum('rci,rci->rc', away, away)))
+        row, col = np.unravel_index(nearest, away.shape[:2])
+        return int(row), int(col)
+
+    def set_mode(self, name: str) -> str:
+        """Step with the mode ``name`` from now on, keeping the state; return the one before."""
+        _check_mode(name)
+        previous = self._mode.name
+        self._context.make_current()
+        self._mode = self._get_mode(name)
+        return previous
+
+    def set_state(self, positions: np.ndarray, velocities: np.ndarray) -> None:
+        """Replace positions [m] and velocities [m/s], both (rows, cols, 3); pins stay still."""
+        shape = (self.scene.rows, self.scene.cols, 3)
+        for name, values in (('positions', positions), ('velocities', velocities)):
+            if np.shape(values) != shape or not np.all(np.isfinite(values)):
+                raise ClothSimError(
+                    f'{name} must be {shape} finite numbers, got {np.shape(values)}')
+        self._context.make_current()
+        self._state.write(np.asarray(positions), np.asarray(velocities))
+
+    def reset(self) -> None:
+        """Go back to the start: pose, pins, time and the scene's pushes. The mode stays."""
+        self._context.make_current()
+        self._state.pinned[:] = self.scene.pinned_nodes()
+        start = self.scene.start_positions()
+        self._state.write(start, np.zeros_like(start))
+        self._begin_run()
+
+    def measure(self) -> Measures:
+        """Return energies and largest strain, which is cheaper than a snapshot."""
+        self._context.make_current()
+        return self._observer.measure(self._state, self._forcing_now())
+
+    def snapshot(self) -> Snapshot:
+        """Return everything there is to know of this instant."""
+        self._context.make_current()
+        measures, records = self._observer.record(self._state, self._forcing_now())
+        return Snapshot(
+            **vars(measures), records=records, mode=self.mode, time=self.time, steps=self.steps,
+            dt=self.dt, substeps=self.substeps, stability_margin=self.stability_margin)
+
+    def finish(self) -> None:
+        """Wait until the device has done everything asked of it; for timing."""
+        self._context.finish()
+
+    def close(self) -> None:
+        """Give everything on the device back."""
+        self._context.make_current()
+        for part in (self._state, self._observer, self._pushes, *self._modes.values()):
+            part.delete()
+        if self._owns_context:
+            self._context.close()
+
+    def _begin_run(self) -> None:
+        self.steps = 0
+        self._target = 0.0
+        if self._pushes is not None:
+            self._pushes.delete()
+        self._pushes = PushField(
+            self.layout, self.scene.node_mass, self.scene['gravity'],
+            self._read_positions,
+            self._state.pinned)
+        for push in self.scene.timed_pushes():
+            self._pushes.plan(push)
+
+    def _make_steps(self, count: int) -> int:
+        self._context.make_current()
+        length = self.dt / self.substeps
+        for _ in range(count):
+            for substep in range(self.substeps):
+                begin = self.time + substep * length
+                self._mode.substep(
+                    self._state, self._pushes.forcing(begin, begin + length), length)
+            self.steps += 1
+        return count
+
+    def _read_positions(self) -> np.ndarray:
+        records = self._observer.record(self._state, self._pushes.still)[1]
+        return np.stack([records[axis] for axis in 'xyz'], axis=-1)
+
+    def _forcing_now(self) -> Forcing:
+        return self._pushes.forcing(self.time, self.time + self.dt / self.substeps)
+
+    def _get_mode(self, name: str) -> modes.Mode:
+        if name not in self._modes:
+            self._modes[name] = modes.AVAILABLE[name](self.scene, self.layout)
+        return self._modes[name]
+
+    def _set_pinned(self, row: int, col: int, pinned: bool) -> None:
+        check_node(row, col, self.scene.rows, self.scene.cols)
+        self._context.make_current()
+        self._state.set_pinned(row, col, pinned)
+
+    def _check_stability(self) -> None:
+        length = self.dt / self.substeps
+        if length > self.stability_limit:
+            most = SAFETY * self.stability_limit * self.substeps
+            raise ClothSimError(
+                f'dt {self.dt:g} s in {self.substeps} substeps is above the stability limit '
+                f'{self.stability_limit:.3g} s of a substep in mode {self.scene["mode"]} '
+                f'(node mass {self.scene.node_mass:.3g} kg): '
+                f'set dt <= {most:.3g}, or auto_substeps: true')
+
+
+def _check_mode(name: str) -> None:
+    if name not in MODES:
+        raise ClothSimError(f'there is no mode {name!r}: choose one of {", ".join(MODES)}')
+    if name not in modes.AVAILABLE:
+        raise ClothSimError(
+            f'mode {name} is not in this version yet: choose one of '
+            f'{", ".join(modes.AVAILABLE)}')

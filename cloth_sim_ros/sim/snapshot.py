@@ -1,0 +1,122 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""A look at the simulation at one instant: plain arrays and numbers, no GL."""
+
+from dataclasses import dataclass
+import hashlib
+
+import numpy as np
+
+# One node as the shader packs it: the body of a sensor_msgs/PointCloud2.
+POINT_DTYPE = np.dtype([
+    (name, np.float32) for name in (
+        'x', 'y', 'z', 'vx', 'vy', 'vz', 'normal_x', 'normal_y', 'normal_z', 'strain')
+] + [('flags', np.uint32)])
+
+FLAG_PINNED = 1
+FLAG_AT_LIMIT = 2
+FLAG_PUSHED = 4
+
+
+@dataclass(frozen=True)
+class Measures:
+    """
+    The state in a few numbers.
+
+    :param kinetic_energy: [J]
+    :param elastic_energy: [J]
+    :param gravitational_energy: [J], zero at the origin
+    :param max_strain: largest abs(l / L0 - 1) of structural and shear springs
+    :param finite: False when a position or velocity is not a finite number
+    """
+
+    kinetic_energy: float
+    elastic_energy: float
+    gravitational_energy: float
+    max_strain: float
+    finite: bool
+
+    @property
+    def total_energy(self) -> float:
+        """Kinetic, elastic and gravitational energy [J]."""
+        return self.kinetic_energy + self.elastic_energy + self.gravitational_energy
+
+
+@dataclass(frozen=True, kw_only=True)
+class Snapshot(Measures):
+    """
+    Everything there is to know of one instant.
+
+    :param records: (rows, cols) of POINT_DTYPE
+    :param time: simulated [s]
+    :param steps: of dt since the start or the last reset
+    :param dt: [s]
+    :param substeps: in each dt
+    :param stability_margin: substep over the stability limit
+    :param solver_iterations: of the last substep, 0 in a mode without a solver
+    :param solver_residual: relative, where the solver stopped
+    :param active_constraints: springs at their limit
+    :param active_fraction: of all springs
+    :param constraint_switches: activations and deactivations in the last step
+    """
+
+    records: np.ndarray
+    mode: str
+    time: float
+    steps: int
+    dt: float
+    substeps: int
+    stability_margin: float
+    solver_iterations: int = 0
+    solver_residual: float = 0.0
+    active_constraints: int = 0
+    active_fraction: float = 0.0
+    constraint_switches: int = 0
+
+    @property
+    def positions(self) -> np.ndarray:
+        """Positions [m], (rows, cols, 3) float32."""
+        return self._vectors(0)
+
+    @property
+    def velocities(self) -> np.ndarray:
+        """Velocities [m/s], (rows, cols, 3) float32."""
+        return self._vectors(3)
+
+    @property
+    def normals(self) -> np.ndarray:
+        """Unit normals, up for a cloth that lies flat, (rows, cols, 3) float32."""
+        return self._vectors(6)
+
+    @property
+    def strain(self) -> np.ndarray:
+        """Largest abs(l / L0 - 1) at each node, (rows, cols) float32."""
+        return self.records['strain']
+
+    @property
+    def flags(self) -> np.ndarray:
+        """FLAG_PINNED, FLAG_AT_LIMIT, FLAG_PUSHED of each node, (rows, cols) uint32."""
+        return self.records['flags']
+
+    @property
+    def state_sha256(self) -> str:
+        """Fingerprint of positions and velocities, equal for equal bits."""
+        digest = hashlib.sha256(np.ascontiguousarray(self.positions).tobytes())
+        digest.update(np.ascontiguousarray(self.velocities).tobytes())
+        return digest.hexdigest()
+
+    def _vectors(self, first: int) -> np.ndarray:
+        words = self.records.view(np.float32).reshape(*self.records.shape, -1)
+        return words[..., first:first + 3]

@@ -1,0 +1,80 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""The longest stable time step of symplectic Euler on the flat lattice."""
+
+import math
+
+from cloth_sim_ros.sim.scene import FAMILIES
+from cloth_sim_ros.sim.scene import Scene
+import numpy as np
+
+# Of the limit, kept by automatic substeps: what a stretched cloth may take away from it.
+SAFETY = 0.85
+_SAMPLES = 129
+
+OFFSETS = {
+    'structural': ((0, 1), (1, 0)),
+    'shear': ((1, 1), (1, -1)),
+    'bend': ((0, 2), (2, 0)),
+}
+
+
+def stability_limit(scene: Scene) -> float:
+    """
+    Return the longest stable substep [s]; infinite for a scene without springs.
+
+    A plane wave with wave numbers (p, q) on the lattice feels the stiffness
+    K(p, q) = sum over springs of 2 k n n^T (1 - cos(p dcol + q drow)), n the spring's
+    direction, and a damping C of the same form. One wave with eigenvalues kappa and gamma of
+    these is stable while h^2 kappa + 2 h gamma < 4 m. The limit is the least such h over all
+    waves. For a square lattice this is the closed form of docs/numerics.md.
+    """
+    kappa, gamma = _wave_eigenvalues(scene)
+    present = (kappa > 0.0) | (gamma > 0.0)
+    if not present.any():
+        return math.inf
+    kappa, gamma = kappa[present], gamma[present]
+    # The root in the form that keeps its digits when gamma^2 is far above m kappa.
+    root = np.sqrt(gamma**2 + 4.0 * scene.node_mass * kappa)
+    return float(np.min(4.0 * scene.node_mass / (gamma + root)))
+
+
+def choose_substeps(scene: Scene) -> int:
+    """Return how many substeps of dt keep to 0.85 of the limit; at least 1."""
+    return max(1, math.ceil(scene['dt'] / (SAFETY * stability_limit(scene)) - 1e-9))
+
+
+def _wave_eigenvalues(scene: Scene) -> tuple[np.ndarray, np.ndarray]:
+    # A lattice one node wide carries no waves across.
+    p = np.linspace(0.0, np.pi, _SAMPLES if scene.cols > 1 else 1)[:, None]
+    q = np.linspace(0.0, np.pi, _SAMPLES if scene.rows > 1 else 1)[None, :]
+    dx, dy = scene.spacing
+    totals = [np.zeros((3, p.size, q.size)) for _ in range(2)]
+    for family in FAMILIES:
+        for drow, dcol in OFFSETS[family]:
+            if abs(drow) >= scene.rows or abs(dcol) >= scene.cols:
+                continue
+            direction = np.array([dcol * dx, drow * dy])
+            nx, ny = direction / np.linalg.norm(direction)
+            bend = 2.0 * (1.0 - np.cos(p * dcol + q * drow))
+            outer = np.array([nx * nx, nx * ny, ny * ny])[:, None, None]
+            totals[0] += scene.stiffness(family) * outer * bend
+            totals[1] += scene.damping(family) * outer * bend
+    return tuple(_largest_eigenvalue(total) for total in totals)
+
+
+def _largest_eigenvalue(matrix: np.ndarray) -> np.ndarray:
+    xx, xy, yy = matrix
+    return (xx + yy) / 2.0 + np.sqrt(((xx - yy) / 2.0)**2 + xy**2)

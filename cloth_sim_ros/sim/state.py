@@ -1,0 +1,86 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""The moving state on the device: two pairs of buffers, read from one and written to the other."""
+
+from cloth_sim_ros.gl.buffer import Buffer
+from cloth_sim_ros.sim import bindings
+from cloth_sim_ros.sim.layout import Layout
+import numpy as np
+
+
+class State:
+    """Positions and velocities of all nodes on the device, and which nodes are pinned."""
+
+    def __init__(self, layout: Layout, positions: np.ndarray, pinned: np.ndarray) -> None:
+        """Upload ``positions`` (rows, cols, 3) [m] at rest; ``pinned`` is (rows, cols) bool."""
+        self._layout = layout
+        self.pinned = pinned.copy()
+        size = layout.stored * 4 * np.dtype(np.float32).itemsize
+        self._positions = [Buffer(size), Buffer(size)]
+        self._velocities = [Buffer(size), Buffer(size)]
+        self._now = 0
+        self.write(positions, np.zeros_like(positions))
+
+    @property
+    def free_count(self) -> int:
+        """Nodes that are not pinned."""
+        return int(self.pinned.size - np.count_nonzero(self.pinned))
+
+    def write(self, positions: np.ndarray, velocities: np.ndarray) -> None:
+        """Replace all positions [m] and velocities [m/s], both (rows, cols, 3)."""
+        free = ~self.pinned
+        still = np.where(free[..., None], velocities, 0.0)
+        position = self._layout.store(_with_fourth(positions, np.ones_like(free)))
+        velocity = self._layout.store(_with_fourth(still, free))
+        # Ghosts are never written by a step, so both pairs need theirs.
+        for buffer in self._positions:
+            buffer.write(position)
+        for buffer in self._velocities:
+            buffer.write(velocity)
+
+    def set_pinned(self, row: int, col: int, pinned: bool) -> None:
+        """Hold one node where it is, or let it go from rest."""
+        if self.pinned[row, col] == pinned:
+            return
+        self.pinned[row, col] = pinned
+        entry = np.array([0.0, 0.0, 0.0, 0.0 if pinned else 1.0], dtype=np.float32)
+        self._velocities[self._now].write(entry, self._layout.index(row, col) * entry.nbytes)
+
+    def bind_in(self) -> None:
+        """Let the next dispatch read the present state."""
+        for binding, buffers in (
+                (bindings.POSITION_IN, self._positions), (bindings.VELOCITY_IN, self._velocities)):
+            if self._layout.texture_loads:
+                buffers[self._now].bind_texture(binding)
+            else:
+                buffers[self._now].bind_storage(binding)
+
+    def bind_out(self) -> None:
+        """Let the next dispatch write the state to come."""
+        self._positions[1 - self._now].bind_storage(bindings.POSITION_OUT)
+        self._velocities[1 - self._now].bind_storage(bindings.VELOCITY_OUT)
+
+    def swap(self) -> None:
+        """Make what was written the present state."""
+        self._now = 1 - self._now
+
+    def delete(self) -> None:
+        """Give the buffers back."""
+        for buffer in self._positions + self._velocities:
+            buffer.delete()
+
+
+def _with_fourth(vectors: np.ndarray, fourth: np.ndarray) -> np.ndarray:
+    return np.concatenate([vectors, fourth[..., None]], axis=-1).astype(np.float32)

@@ -1,0 +1,47 @@
+// Copyright 2026 the cloth_sim_ros authors
+//
+// Licensed under the Apache License, Version 2.0 (the "License");
+// you may not use this file except in compliance with the License.
+// You may obtain a copy of the License at
+//
+//     http://www.apache.org/licenses/LICENSE-2.0
+//
+// Unless required by applicable law or agreed to in writing, software
+// distributed under the License is distributed on an "AS IS" BASIS,
+// WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+// See the License for the specific language governing permissions and
+// limitations under the License.
+
+// The three spring families and Hooke's law with damping along the spring (paper, Eq. 1).
+// HAS_STRUCTURAL, HAS_SHEAR, HAS_BEND, HAS_DAMPING: what the scene uses; the rest is not compiled.
+
+uniform float stiffness[3];    // [N/m] structural, shear, bend
+uniform float damping[3];      // [N s/m]
+uniform float rest_length[5];  // [m] along a row, along a column, diagonal, two along each
+
+#define STRUCTURAL 0
+#define SHEAR 1
+#define BEND 2
+#define REST_ROW 0
+#define REST_COLUMN 1
+#define REST_DIAGONAL 2
+#define REST_TWO_ROW 3
+#define REST_TWO_COLUMN 4
+
+// Length of d and its inverse, finite for two nodes in one place.
+vec2 length_and_inverse(vec3 d) {
+    float square = max(dot(d, d), 1e-20);
+    float inverse_length = inversesqrt(square);
+    return vec2(square * inverse_length, inverse_length);
+}
+
+// Force on the node at the tail of d = x_j - x_i from the spring to j [N]; dv = v_j - v_i.
+// present is 1, or 0 when one of the ends is a ghost.
+vec3 spring_force(vec3 d, vec3 dv, float present, int family, int rest) {
+    vec2 l = length_and_inverse(d);
+    float pull = stiffness[family] * (l.x - rest_length[rest]);
+#if HAS_DAMPING
+    pull += damping[family] * dot(dv, d) * l.y;
+#endif
+    return (present * pull * l.y) * d;
+}

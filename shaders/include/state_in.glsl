@@ -1,0 +1,31 @@
+// Copyright 2026 the cloth_sim_ros authors
+//
+// Licensed under the Apache License, Version 2.0 (the "License");
+// you may not use this file except in compliance with the License.
+// You may obtain a copy of the License at
+//
+//     http://www.apache.org/licenses/LICENSE-2.0
+//
+// Unless required by applicable law or agreed to in writing, software
+// distributed under the License is distributed on an "AS IS" BASIS,
+// WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+// See the License for the specific language governing permissions and
+// limitations under the License.
+
+// The state that is read. position.w is 1 for a node and 0 for a ghost; velocity.w is 1 for a
+// free node and 0 for a pinned one or a ghost. LOADS_TEXTURE: read through texture units, which
+// software devices do several times faster than storage blocks.
+
+#if LOADS_TEXTURE
+layout(binding = POSITION_IN) uniform samplerBuffer position_in;
+layout(binding = VELOCITY_IN) uniform samplerBuffer velocity_in;
+
+vec4 load_position(int index) { return texelFetch(position_in, index); }
+vec4 load_velocity(int index) { return texelFetch(velocity_in, index); }
+#else
+layout(std430, binding = POSITION_IN) readonly buffer PositionIn { vec4 position_in[]; };
+layout(std430, binding = VELOCITY_IN) readonly buffer VelocityIn { vec4 velocity_in[]; };
+
+vec4 load_position(int index) { return position_in[index]; }
+vec4 load_velocity(int index) { return velocity_in[index]; }
+#endif

@@ -1,0 +1,99 @@
+// Copyright 2026 the cloth_sim_ros authors
+//
+// Licensed under the Apache License, Version 2.0 (the "License");
+// you may not use this file except in compliance with the License.
+// You may obtain a copy of the License at
+//
+//     http://www.apache.org/licenses/LICENSE-2.0
+//
+// Unless required by applicable law or agreed to in writing, software
+// distributed under the License is distributed on an "AS IS" BASIS,
+// WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+// See the License for the specific language governing permissions and
+// limitations under the License.
+
+#version 430 core
+// One substep of the mass-spring mode: forces and update in one pass, BLOCK x BLOCK nodes an
+// invocation. A spring inside the block is evaluated once for both its ends.
+
+#include "lattice.glsl"
+#include "state_in.glsl"
+#include "state_out.glsl"
+#include "spring_law.glsl"
+#include "applied_acceleration.glsl"
+#include "symplectic_euler.glsl"
+
+layout(local_size_x = LOCAL_X, local_size_y = LOCAL_Y) in;
+
+#define TILE (BLOCK + 2 * HALO)
+
+vec4 position[TILE][TILE];
+#if HAS_DAMPING
+vec3 velocity[TILE][TILE];
+#endif
+vec3 force[TILE][TILE];
+
+void add_spring(int row, int col, int drow, int dcol, int family, int rest) {
+    vec4 from = position[row][col];
+    vec4 to = position[row + drow][col + dcol];
+#if HAS_DAMPING
+    vec3 dv = velocity[row + drow][col + dcol] - velocity[row][col];
+#else
+    vec3 dv = vec3(0.0);
+#endif
+    vec3 f = spring_force(to.xyz - from.xyz, dv, from.w * to.w, family, rest);
+    force[row][col] += f;
+    force[row + drow][col + dcol] -= f;
+}
+
+// Every spring of one direction with an end in the block.
+#define ADD_SPRINGS(DROW, DCOL, FAMILY, REST) \
+    for (int row = 0; row < TILE; ++row) { \
+        for (int col = 0; col < TILE; ++col) { \
+            bool starts = row >= HALO && row < HALO + BLOCK && col >= HALO && col < HALO + BLOCK; \
+            bool ends = row + DROW >= HALO && row + DROW < HALO + BLOCK \
+                && col + DCOL >= HALO && col + DCOL < HALO + BLOCK; \
+            if (starts || ends) { \
+                add_spring(row, col, DROW, DCOL, FAMILY, REST); \
+            } \
+        } \
+    }
+
+void main() {
+    ivec2 first = ivec2(gl_GlobalInvocationID.xy) * BLOCK;
+    if (first.x >= COLS || first.y >= ROWS) {
+        return;
+    }
+    for (int row = 0; row < TILE; ++row) {
+        for (int col = 0; col < TILE; ++col) {
+            int index = node_index(first.y + row - HALO, first.x + col - HALO);
+            position[row][col] = load_position(index);
+#if HAS_DAMPING
+            velocity[row][col] = load_velocity(index).xyz;
+#endif
+            force[row][col] = vec3(0.0);
+        }
+    }
+#if HAS_STRUCTURAL
+    ADD_SPRINGS(0, 1, STRUCTURAL, REST_ROW)
+    ADD_SPRINGS(1, 0, STRUCTURAL, REST_COLUMN)
+#endif
+#if HAS_SHEAR
+    ADD_SPRINGS(1, 1, SHEAR, REST_DIAGONAL)
+    ADD_SPRINGS(1, -1, SHEAR, REST_DIAGONAL)
+#endif
+#if HAS_BEND
+    ADD_SPRINGS(0, 2, BEND, REST_TWO_ROW)
+    ADD_SPRINGS(2, 0, BEND, REST_TWO_COLUMN)
+#endif
+    for (int row = HALO; row < HALO + BLOCK; ++row) {
+        for (int col = HALO; col < HALO + BLOCK; ++col) {
+            int index = node_index(first.y + row - HALO, first.x + col - HALO);
+            vec4 v = load_velocity(index);
+            v.xyz = next_velocity(v, force[row][col], applied_acceleration(index));
+            velocity_out[index] = v;
+            position_out[index] =
+                vec4(next_position(position[row][col].xyz, v.xyz), position[row][col].w);
+        }
+    }
+}

@@ -1,0 +1,165 @@
+// Copyright 2026 the cloth_sim_ros authors
+//
+// Licensed under the Apache License, Version 2.0 (the "License");
+// you may not use this file except in compliance with the License.
+// You may obtain a copy of the License at
+//
+//     http://www.apache.org/licenses/LICENSE-2.0
+//
+// Unless required by applicable law or agreed to in writing, software
+// distributed under the License is distributed on an "AS IS" BASIS,
+// WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+// See the License for the specific language governing permissions and
+// limitations under the License.
+
+#version 430 core
+// Look at the state: one point record a node, and sums of energies for each workgroup.
+// RECORDS_WANTED: 0 leaves the records out.
+
+#include "lattice.glsl"
+#include "state_in.glsl"
+#include "spring_law.glsl"
+#include "applied_acceleration.glsl"
+
+layout(local_size_x = LOCAL_X, local_size_y = LOCAL_Y) in;
+#define LOCAL_SIZE (LOCAL_X * LOCAL_Y)
+
+uniform int first_row;         // of the slab of rows this dispatch looks at
+uniform int slab_rows;
+uniform int pushed_everywhere; // 1 while a push on the whole cloth acts
+uniform vec3 gravity;          // [m/s2]
+
+// The body of sensor_msgs/PointCloud2: x y z vx vy vz normal_x normal_y normal_z strain flags.
+#define RECORD_WORDS 11
+#define FLAG_PINNED 1u
+#define FLAG_PUSHED 4u
+#if RECORDS_WANTED
+layout(std430, binding = RECORDS) writeonly buffer Records { uint records[]; };
+#endif
+
+// A workgroup's kinetic, elastic and gravitational energy over the node mass or as is, the
+// largest strain, and how many of its nodes are not finite.
+#define SUMS 5
+layout(std430, binding = PARTIAL_SUMS) writeonly buffer PartialSums { float partial_sums[]; };
+shared float sums[SUMS][LOCAL_SIZE];
+
+struct Springs {
+    float energy;  // [J] half of each spring's, the other half is the other end's
+    float strain;  // largest |l / L0 - 1| of structural and shear springs
+};
+
+void look_at_spring(
+        inout Springs springs, vec4 from, int row, int col, int drow, int dcol,
+        int family, int rest) {
+    vec4 to = load_position(node_index(row + drow, col + dcol));
+    float stretch = to.w * (length_and_inverse(to.xyz - from.xyz).x - rest_length[rest]);
+    springs.energy += 0.25 * stiffness[family] * stretch * stretch;
+    if (family != BEND) {
+        springs.strain = max(springs.strain, abs(stretch) / rest_length[rest]);
+    }
+}
+
+void look_both_ways(
+        inout Springs springs, vec4 from, int row, int col, int drow, int dcol,
+        int family, int rest) {
+    look_at_spring(springs, from, row, col, drow, dcol, family, rest);
+    look_at_spring(springs, from, row, col, -drow, -dcol, family, rest);
+}
+
+Springs look_at_springs(vec4 from, int row, int col) {
+    Springs springs = Springs(0.0, 0.0);
+#if HAS_STRUCTURAL
+    look_both_ways(springs, from, row, col, 0, 1, STRUCTURAL, REST_ROW);
+    look_both_ways(springs, from, row, col, 1, 0, STRUCTURAL, REST_COLUMN);
+#endif
+#if HAS_SHEAR
+    look_both_ways(springs, from, row, col, 1, 1, SHEAR, REST_DIAGONAL);
+    look_both_ways(springs, from, row, col, 1, -1, SHEAR, REST_DIAGONAL);
+#endif
+#if HAS_BEND
+    look_both_ways(springs, from, row, col, 0, 2, BEND, REST_TWO_ROW);
+    look_both_ways(springs, from, row, col, 2, 0, BEND, REST_TWO_COLUMN);
+#endif
+    return springs;
+}
+
+// Central difference along one direction; one-sided at a border, zero where there is no neighbour.
+vec3 tangent(vec4 here, int row, int col, int drow, int dcol) {
+    vec4 ahead = load_position(node_index(row + drow, col + dcol));
+    vec4 behind = load_position(node_index(row - drow, col - dcol));
+    return mix(here.xyz, ahead.xyz, ahead.w) - mix(here.xyz, behind.xyz, behind.w);
+}
+
+// The side that faces up when the cloth lies flat; up for a chain, which has no sides.
+vec3 surface_normal(vec4 here, int row, int col) {
+    vec3 normal = cross(tangent(here, row, col, 1, 0), tangent(here, row, col, 0, 1));
+    float square = dot(normal, normal);
+    return square > 1e-30 ? normal * inversesqrt(square) : vec3(0.0, 0.0, 1.0);
+}
+
+bool is_finite(vec3 v) { return !(any(isnan(v)) || any(isinf(v))); }
+
+#if RECORDS_WANTED
+void write_vector(int word, vec3 v) {
+    records[word] = floatBitsToUint(v.x);
+    records[word + 1] = floatBitsToUint(v.y);
+    records[word + 2] = floatBitsToUint(v.z);
+}
+
+void write_record(int row, int col, vec4 x, vec4 v, float strain) {
+    int word = ((row - first_row) * COLS + col) * RECORD_WORDS;
+    uint flags = v.w == 0.0 ? FLAG_PINNED : 0u;
+    bool pushed = pushed_everywhere == 1;
+#if HAS_REGION_PUSHES
+    pushed = pushed || (push_mask[node_index(row, col)] & pushes_acting) != 0u;
+#endif
+    if (pushed && v.w != 0.0) {
+        flags |= FLAG_PUSHED;
+    }
+    write_vector(word, x.xyz);
+    write_vector(word + 3, v.xyz);
+    write_vector(word + 6, surface_normal(x, row, col));
+    records[word + 9] = floatBitsToUint(strain);
+    records[word + 10] = flags;
+}
+#endif
+
+void main() {
+    int lane = int(gl_LocalInvocationIndex);
+    int row = int(gl_GlobalInvocationID.y) + first_row;
+    int col = int(gl_GlobalInvocationID.x);
+    for (int s = 0; s < SUMS; ++s) {
+        sums[s][lane] = 0.0;
+    }
+    if (row < first_row + slab_rows && col < COLS) {
+        int index = node_index(row, col);
+        vec4 x = load_position(index);
+        vec4 v = load_velocity(index);
+        Springs springs = look_at_springs(x, row, col);
+        sums[0][lane] = 0.5 * dot(v.xyz, v.xyz);
+        sums[1][lane] = springs.energy;
+        sums[2][lane] = -dot(gravity, x.xyz);
+        sums[3][lane] = springs.strain;
+        sums[4][lane] = is_finite(x.xyz) && is_finite(v.xyz) ? 0.0 : 1.0;
+#if RECORDS_WANTED
+        write_record(row, col, x, v, springs.strain);
+#endif
+    }
+    barrier();
+    // A fixed tree: the same order on every run.
+    for (int half_size = LOCAL_SIZE / 2; half_size > 0; half_size /= 2) {
+        if (lane < half_size) {
+            for (int s = 0; s < SUMS; ++s) {
+                float other = sums[s][lane + half_size];
+                sums[s][lane] = s == 3 ? max(sums[s][lane], other) : sums[s][lane] + other;
+            }
+        }
+        barrier();
+    }
+    if (lane == 0) {
+        int slab_group = int(gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x);
+        for (int s = 0; s < SUMS; ++s) {
+            partial_sums[slab_group * SUMS + s] = sums[s][0];
+        }
+    }
+}

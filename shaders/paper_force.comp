@@ -1,0 +1,65 @@
+// Copyright 2026 the cloth_sim_ros authors
+//
+// Licensed under the Apache License, Version 2.0 (the "License");
+// you may not use this file except in compliance with the License.
+// You may obtain a copy of the License at
+//
+//     http://www.apache.org/licenses/LICENSE-2.0
+//
+// Unless required by applicable law or agreed to in writing, software
+// distributed under the License is distributed on an "AS IS" BASIS,
+// WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+// See the License for the specific language governing permissions and
+// limitations under the License.
+
+#version 430 core
+// The paper's first pass (Tab. 1): the spring forces on each node, kept in a buffer of their own.
+// A baseline for benchmarks, as the paper has it: 12 neighbours, each checked against the border,
+// read from storage blocks. mass_spring_step.comp is the layout that is used.
+
+#include "lattice.glsl"
+#include "state_in.glsl"
+#include "spring_law.glsl"
+
+layout(local_size_x = LOCAL_X, local_size_y = LOCAL_Y) in;
+
+layout(std430, binding = FORCE) writeonly buffer Force { vec4 force_out[]; };
+
+vec3 compute_force(int row, int col, int drow, int dcol, int family, int rest) {
+    ivec2 there = ivec2(row + drow, col + dcol);
+    if (there.x < 0 || there.x >= ROWS || there.y < 0 || there.y >= COLS) {
+        return vec3(0.0);
+    }
+    int i = node_index(row, col);
+    int j = node_index(there.x, there.y);
+    return spring_force(
+        load_position(j).xyz - load_position(i).xyz, load_velocity(j).xyz - load_velocity(i).xyz,
+        1.0, family, rest);
+}
+
+vec3 both_ways(int row, int col, int drow, int dcol, int family, int rest) {
+    return compute_force(row, col, drow, dcol, family, rest)
+        + compute_force(row, col, -drow, -dcol, family, rest);
+}
+
+void main() {
+    int row = int(gl_GlobalInvocationID.y);
+    int col = int(gl_GlobalInvocationID.x);
+    if (row >= ROWS || col >= COLS) {
+        return;
+    }
+    vec3 force = vec3(0.0);
+#if HAS_STRUCTURAL
+    force += both_ways(row, col, 0, 1, STRUCTURAL, REST_ROW);
+    force += both_ways(row, col, 1, 0, STRUCTURAL, REST_COLUMN);
+#endif
+#if HAS_SHEAR
+    force += both_ways(row, col, 1, 1, SHEAR, REST_DIAGONAL);
+    force += both_ways(row, col, 1, -1, SHEAR, REST_DIAGONAL);
+#endif
+#if HAS_BEND
+    force += both_ways(row, col, 0, 2, BEND, REST_TWO_ROW);
+    force += both_ways(row, col, 2, 0, BEND, REST_TWO_COLUMN);
+#endif
+    force_out[node_index(row, col)] = vec4(force, 0.0);
+}

@@ -1,0 +1,81 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Every shader, in every form a scene can ask for, is portable GLSL."""
+
+from itertools import product
+from pathlib import Path
+import re
+import subprocess
+
+from cloth_sim_ros.gl.shader_directory import shader_directory
+from cloth_sim_ros.gl.shader_source import ShaderSource
+from cloth_sim_ros.sim.layout import Layout
+from cloth_sim_ros.sim.scene import Scene
+from cloth_sim_ros.sim.scene_program import scene_defines
+import pytest
+
+_SCENES = {
+    'all': {},
+    'no_bend': {'stiffness.bend': 0.0, 'damping.bend': 0.0},
+    'structural_undamped': {
+        'stiffness.shear': 0.0, 'stiffness.bend': 0.0, 'damping.structural': 0.0,
+        'damping.shear': 0.0, 'damping.bend': 0.0},
+}
+_FORMS = {
+    'mass_spring_step.comp': {},
+    'observe.comp': {'RECORDS_WANTED': 1},
+    'paper_force.comp': {},
+    'paper_update.comp': {'UPDATE_LOCAL': 1024},
+}
+
+
+def shader_names() -> list[str]:
+    """Return the shaders that are dispatched."""
+    return sorted(path.name for path in shader_directory().glob('*.comp'))
+
+
+def variants() -> list[tuple[str, str, bool, bool, int]]:
+    """Return name, scene, texture loads, region pushes and block of each form."""
+    return list(product(shader_names(), _SCENES, (True, False), (True, False), (1, 4)))
+
+
+@pytest.mark.parametrize(('name', 'scene', 'texture', 'regions', 'block'), variants())
+def test_glslang_accepts_the_shader(
+        tmp_path: Path, name: str, scene: str, texture: bool, regions: bool, block: int):
+    """The shader would compile on one driver's leniency only."""
+    layout = Layout(7, 9, 'fused', texture, block, (8, 4))
+    defines = {
+        **layout.defines(), **scene_defines(Scene(_SCENES[scene])), **_FORMS[name],
+        'HAS_REGION_PUSHES': int(regions)}
+    path = tmp_path / name
+    path.write_text(ShaderSource(name, defines).text)
+    done = subprocess.run(
+        ['glslangValidator', '-S', 'comp', str(path)], capture_output=True, text=True)
+    assert done.returncode == 0, done.stdout
+
+
+@pytest.mark.parametrize('path', sorted(shader_directory().rglob('*.*')), ids=lambda p: p.name)
+def test_no_vendor_extension_and_no_float_atomics(path: Path):
+    """Other GPUs could not run it, or two runs would differ."""
+    text = path.read_text()
+    assert not re.search(r'#extension|_NV\b|_AMD\b|_INTEL\b', text)
+    assert not re.search(r'\batomic\w+\(', text)
+
+
+@pytest.mark.parametrize('name', shader_names())
+def test_version_is_430_core(name: str):
+    """A device with OpenGL 4.3 could not run it."""
+    assert '#version 430 core' in (shader_directory() / name).read_text().splitlines()
+    assert ShaderSource(name).text.startswith('#version 430 core\n')

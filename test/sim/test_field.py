@@ -1,0 +1,68 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""A field takes what it says and refuses the rest with rule, value and way out."""
+
+from cloth_sim_ros.sim.errors import ClothSimError
+from cloth_sim_ros.sim.field import Field
+from cloth_sim_ros.sim.scene_fields import SCENE_FIELDS
+import pytest
+
+_MASS = Field('mass', float, 1.0, 'a mass', 'kg', low=0.5, high=2.0)
+
+
+@pytest.mark.parametrize(('value', 'message'), [
+    (float('nan'), 'mass must be finite, got nan: give a value from 0.5 to 2 kg'),
+    (float('inf'), 'mass must be finite'),
+    (3.0, 'mass 3.0 is outside its range: give a value from 0.5 to 2 kg'),
+    (0.4, 'mass 0.4 is outside its range'),
+    ('heavy', "mass must be a number, got 'heavy'"),
+    (True, 'mass must be a number, got True'),
+    (None, 'mass must be a number, got None'),
+    ([1.0], 'mass must be a number'),
+])
+def test_bad_values_are_refused(value: object, message: str):
+    """A wrong value would reach the simulation or be refused without a reason."""
+    with pytest.raises(ClothSimError) as caught:
+        _MASS.check(value)
+    assert message in str(caught.value)
+
+
+def test_whole_numbers_pass_as_floats():
+    """A user who writes 1 for 1.0 in YAML would be turned away."""
+    assert _MASS.check(1) == 1.0
+    assert isinstance(_MASS.check(1), float)
+
+
+def test_a_float_is_no_whole_number():
+    """Rows of 3.5 would be cut to 3 silently."""
+    with pytest.raises(ClothSimError, match='rows must be a whole number, got 3.5'):
+        Field('rows', int, 3, '').check(3.5)
+
+
+def test_lists_are_checked_element_by_element():
+    """A NaN inside a gravity vector would pass."""
+    gravity = Field('gravity', float, (0.0,), '', is_array=True)
+    assert gravity.check([0, 0.0, -1]) == (0.0, 0.0, -1.0)
+    with pytest.raises(ClothSimError, match='gravity must be finite'):
+        gravity.check([0.0, float('nan'), 0.0])
+    with pytest.raises(ClothSimError, match='gravity must be a list'):
+        gravity.check('down')
+
+
+@pytest.mark.parametrize('field', SCENE_FIELDS, ids=lambda field: field.name)
+def test_defaults_pass_their_own_check(field: Field):
+    """A scene without parameters would be refused."""
+    assert field.check(field.default) == field.default
+    assert field.text

@@ -1,0 +1,86 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Layouts cover every node once, suit the device, and refuse what does not fit."""
+
+from types import SimpleNamespace
+
+from cloth_sim_ros.gl.errors import DeviceError
+from cloth_sim_ros.sim.errors import ClothSimError
+from cloth_sim_ros.sim.layout import choose_layout
+from cloth_sim_ros.sim.layout import Layout
+from cloth_sim_ros.sim.scene import Scene
+import numpy as np
+import pytest
+
+
+def device(**changed: object) -> SimpleNamespace:
+    """Return what a layout needs to know of a device."""
+    return SimpleNamespace(**{
+        'device': 'some GPU', 'is_software': False, 'max_buffer_bytes': 2**27,
+        'max_texture_texels': 2**27, **changed})
+
+
+@pytest.mark.parametrize('block', [1, 2, 4])
+def test_nodes_are_stored_with_two_ghosts_around(block: int):
+    """A neighbour two places away would be read from another row."""
+    layout = Layout(5, 7, 'fused', True, block, (8, 4))
+    stored = layout.store(np.arange(1, 36, dtype=np.int64).reshape(5, 7))
+    assert stored.size == layout.stored
+    assert stored.ravel()[layout.index(4, 6)] == 35
+    assert np.count_nonzero(stored) == 35
+    for border in (stored[:2], stored[7:], stored[:, :2], stored[:, 9:]):
+        assert not border.any()
+
+
+@pytest.mark.parametrize(('rows', 'cols', 'block'), [(1, 2, 4), (33, 65, 2), (64, 64, 4)])
+def test_workgroups_reach_every_node(rows: int, cols: int, block: int):
+    """The last rows or columns of the cloth would stand still."""
+    layout = Layout(rows, cols, 'fused', True, block, (8, 4))
+    across, down = layout.groups
+    assert across * 8 * block >= cols
+    assert down * 4 * block >= rows
+
+
+def test_software_devices_read_textures():
+    """llvmpipe would run at a fraction of its speed."""
+    scene = Scene()
+    assert choose_layout(scene, device(is_software=True)).texture_loads
+    assert not choose_layout(scene, device()).texture_loads
+    assert choose_layout(Scene({'loads': 'texture'}), device()).texture_loads
+
+
+def test_a_cloth_beyond_the_buffers_is_refused_with_the_limit():
+    """The device would cut the cloth off, or crash."""
+    with pytest.raises(DeviceError) as caught:
+        choose_layout(Scene({'rows': 4000, 'cols': 4000}), device(device='tiny'))
+    message = str(caught.value)
+    assert 'rows 4000 x cols 4000 need' in message
+    assert 'the buffers of tiny hold 8388608: use up to about 2891 x 2891' in message
+
+
+def test_small_texture_limits_count_only_for_texture_loads():
+    """A device with small textures would refuse cloth that its storage blocks can hold."""
+    small = device(max_texture_texels=2**16)
+    values = {'rows': 1000, 'cols': 1000}
+    choose_layout(Scene({**values, 'loads': 'storage'}), small)
+    with pytest.raises(DeviceError):
+        choose_layout(Scene({**values, 'loads': 'texture'}), small)
+
+
+@pytest.mark.parametrize('choice', [{'loads': 'texture'}, {'block': 4}])
+def test_the_papers_layout_stays_the_papers(choice: dict):
+    """A benchmark would compare with something the paper does not do."""
+    with pytest.raises(ClothSimError, match='layout paper reads storage'):
+        choose_layout(Scene({'layout': 'paper', **choice}), device())

@@ -1,0 +1,59 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""A push is checked when it is made, and acts for exactly its duration."""
+
+from cloth_sim_ros.sim.errors import ClothSimError
+from cloth_sim_ros.sim.push import Push
+from hypothesis import given
+from hypothesis import strategies
+import numpy as np
+import pytest
+
+_GOOD = {'force': (0.0, 0.0, 1.0), 'start': 0.0, 'duration': 0.1}
+_NAN, _INF = float('nan'), float('inf')
+
+
+@pytest.mark.parametrize(('changed', 'message'), [
+    ({'force': (_NAN, 0.0, 0.0)}, 'the force of a push must be 3 finite numbers, got [nan'),
+    ({'force': (0.0, _INF, 0.0)}, 'the force of a push must be 3 finite numbers'),
+    ({'force': (1.0, 2.0)}, 'the force of a push must be 3 finite numbers, got [1.0, 2.0]'),
+    ({'duration': _NAN}, 'the duration of a push must be finite and above 0, got nan s'),
+    ({'duration': -1.0}, 'the duration of a push must be finite and above 0, got -1.0 s'),
+    ({'duration': _INF}, 'the duration of a push must be finite and above 0, got inf s'),
+    ({'start': _NAN}, 'the start of a push must be a finite time, got nan s'),
+    ({'region': 'sphere', 'radius': -0.1}, 'the radius of a push must be finite and not neg'),
+    ({'region': 'sphere', 'radius': _NAN}, 'the radius of a push must be finite'),
+    ({'region': 'sphere'}, 'a push on a sphere needs a radius above 0'),
+    ({'region': 'sphere', 'radius': 1.0, 'center': (0.0, 0.0, _INF)}, 'the center of a push'),
+    ({'region': 'cube'}, "a push needs the region all or sphere, got 'cube'"),
+])
+def test_bad_values_are_refused(changed: dict, message: str):
+    """A NaN force would turn the whole cloth into NaN."""
+    with pytest.raises(ClothSimError) as caught:
+        Push.checked(**{**_GOOD, **changed})
+    assert message in str(caught.value)
+
+
+@given(
+    start=strategies.floats(0.0, 2.0), duration=strategies.floats(1e-3, 2.0),
+    dt=strategies.floats(1e-3, 0.5))
+def test_overlaps_add_up_to_the_duration(start: float, duration: float, dt: float):
+    """The impulse of a push would depend on dt."""
+    push = Push.checked(force=(0.0, 0.0, 1.0), start=start, duration=duration)
+    times = np.arange(0, int(np.ceil(push.end / dt)) + 2) * dt
+    shares = [push.overlap(begin, end) for begin, end in zip(times[:-1], times[1:])]
+    assert sum(shares) * dt == pytest.approx(duration, rel=1e-9)
+    assert min(shares) >= 0.0
+    assert max(shares) <= 1.0 + 1e-12

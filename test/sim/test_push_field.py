@@ -1,0 +1,154 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Pushes act on the nodes of their region, for their time, and add up."""
+
+from cloth_sim_ros.sim.errors import ClothSimError
+from cloth_sim_ros.sim.push_field import MOST_REGION_PUSHES
+from cloth_sim_ros.sim.scene import Scene
+from cloth_sim_ros.sim.simulation import Simulation
+import numpy as np
+import pytest
+
+# Free nodes without springs or gravity: what moves was pushed.
+_FREE = {
+    'rows': 6, 'cols': 5, 'gravity': [0.0, 0.0, 0.0], 'pins': ['0,0'], 'dt': 0.01,
+    **{f'{law}.{family}': 0.0 for law in ('stiffness', 'damping')
+       for family in ('structural', 'shear', 'bend')}}
+_CORNER = {'region': 'sphere', 'center': (0.5, -0.5, 1.0), 'radius': 0.3}
+
+
+def velocities_after(simulation: Simulation, seconds: float) -> np.ndarray:
+    """Return the vertical velocities after ``seconds`` more."""
+    simulation.advance(seconds)
+    return simulation.snapshot().velocities[..., 2]
+
+
+def test_a_push_on_all_spreads_over_the_free_nodes():
+    """The cloth would be pushed with more or less than the force asked for."""
+    simulation = Simulation(Scene(_FREE))
+    applied = simulation.push((0.0, 0.0, 2.9), duration=0.02)
+    assert applied.nodes == 29
+    assert applied.impulse == pytest.approx((0.0, 0.0, 0.058))
+    v = velocities_after(simulation, 0.1)
+    assert v[0, 0] == 0.0
+    assert simulation.scene.node_mass * v.sum() == pytest.approx(0.058, rel=1e-6)
+    assert simulation.pushes == ()
+
+
+def test_a_push_on_a_sphere_moves_only_what_is_inside():
+    """Nodes far away would move."""
+    simulation = Simulation(Scene(_FREE))
+    inside = np.linalg.norm(
+        simulation.scene.rest_positions() - _CORNER['center'], axis=-1) <= _CORNER['radius']
+    applied = simulation.push((0.0, 0.0, 1.0), duration=0.02, **_CORNER)
+    assert applied.nodes == inside.sum() > 1
+    assert np.array_equal(simulation.snapshot().flags == 4, inside)
+    v = velocities_after(simulation, 0.1)
+    assert np.array_equal(v > 0.0, inside)
+    assert simulation.scene.node_mass * v.sum() == pytest.approx(0.02, rel=1e-6)
+    assert not np.any(simulation.snapshot().flags == 4)
+
+
+def test_overlapping_pushes_add_up():
+    """The later push would replace the earlier one, or a slot be used twice."""
+    simulation = Simulation(Scene(_FREE))
+    simulation.push((0.0, 0.0, 1.0), duration=0.1)
+    for _ in range(3):
+        simulation.push((0.0, 0.0, 1.0), duration=0.05, **_CORNER)
+    v = velocities_after(simulation, 0.2)
+    assert simulation.scene.node_mass * v.sum() == pytest.approx(0.25, rel=1e-5)
+
+
+def test_slots_are_used_again():
+    """A node would carry on the mark of a push that has ended."""
+    simulation = Simulation(Scene(_FREE))
+    elsewhere = {**_CORNER, 'center': (-0.5, -0.5, 1.0)}
+    simulation.push((0.0, 0.0, 1.0), duration=0.02, **_CORNER)
+    before = velocities_after(simulation, 0.05).copy()
+    simulation.push((0.0, 0.0, 1.0), duration=0.02, **elsewhere)
+    change = velocities_after(simulation, 0.05) - before
+    assert change[5, 4] == 0.0
+    assert change[5, 0] > 0.0
+
+
+def test_a_push_to_come_waits():
+    """A timed push would act at once."""
+    simulation = Simulation(Scene(_FREE))
+    simulation.push((0.0, 0.0, 1.0), duration=0.02, start=0.1, **_CORNER)
+    assert not velocities_after(simulation, 0.1).any()
+    assert velocities_after(simulation, 0.1).any()
+
+
+def test_the_scenes_pushes_come_again_after_a_reset():
+    """A second run of the same scene would go without its pushes."""
+    simulation = Simulation(Scene({
+        **_FREE, 'pushes.start': [0.05], 'pushes.duration': [0.02],
+        'pushes.force': [0.0, 0.0, 1.0]}))
+    first = velocities_after(simulation, 0.1).copy()
+    simulation.reset()
+    assert np.array_equal(velocities_after(simulation, 0.1), first)
+    assert first.any()
+
+
+def test_cleared_pushes_do_no_more():
+    """The cloth would go on rising after the user took the push back."""
+    simulation = Simulation(Scene(_FREE))
+    simulation.push((0.0, 0.0, 1.0), duration=1.0)
+    simulation.push((0.0, 0.0, 1.0), duration=1.0, start=0.5)
+    v = velocities_after(simulation, 0.1).copy()
+    assert simulation.clear_pushes() == 2
+    assert np.array_equal(velocities_after(simulation, 1.0), v)
+
+
+@pytest.mark.parametrize(('changed', 'message'), [
+    ({'region': 'sphere', 'center': (9.0, 0.0, 0.0), 'radius': 0.1},
+     r'no free node lies in the region of the push \(a sphere of 0.1 m around \(9, 0, 0\)\)'),
+    ({'duration': -1.0}, 'the duration of a push'),
+    ({'force': (float('nan'), 0.0, 0.0)}, 'the force of a push'),
+    ({'start': -1.0}, 'the start of a push'),
+])
+def test_a_refused_push_leaves_nothing_behind(changed: dict, message: str):
+    """Half a push would act on."""
+    simulation = Simulation(Scene(_FREE))
+    with pytest.raises(ClothSimError, match=message):
+        simulation.push(**{'force': (0.0, 0.0, 1.0), 'duration': 0.1, **changed})
+    assert simulation.pushes == ()
+    assert not velocities_after(simulation, 0.1).any()
+
+
+def test_a_push_in_the_past_is_refused():
+    """It would be accepted and do nothing."""
+    simulation = Simulation(Scene(_FREE))
+    simulation.advance(1.0)
+    with pytest.raises(ClothSimError, match='lies in the past, it is 1'):
+        simulation.push((0.0, 0.0, 1.0), duration=0.1, start=0.5)
+
+
+def test_there_is_an_end_to_pushes_on_spheres():
+    """One push too many would overwrite another's nodes."""
+    simulation = Simulation(Scene(_FREE))
+    for _ in range(MOST_REGION_PUSHES):
+        simulation.push((0.0, 0.0, 0.1), duration=0.1, **_CORNER)
+    with pytest.raises(ClothSimError, match='32 pushes on spheres act already'):
+        simulation.push((0.0, 0.0, 0.1), duration=0.1, **_CORNER)
+    v = velocities_after(simulation, 0.2)
+    assert simulation.scene.node_mass * v.sum() == pytest.approx(0.32, rel=1e-5)
+
+
+def test_a_pinned_cloth_has_nothing_to_push():
+    """The force would be divided by no nodes at all."""
+    simulation = Simulation(Scene({**_FREE, 'pins': ['all']}))
+    with pytest.raises(ClothSimError, match=r'no free node .*\(the whole cloth\)'):
+        simulation.push((0.0, 0.0, 1.0), duration=0.1)

@@ -1,0 +1,92 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""A scene is what its parameters say, or is refused whole."""
+
+from cloth_sim_ros.sim.errors import ClothSimError
+from cloth_sim_ros.sim.scene import Scene
+import numpy as np
+import pytest
+
+
+def test_mass_is_shared_evenly():
+    """The cloth would weigh something else than its areal density says."""
+    scene = Scene({'rows': 4, 'cols': 5, 'width': 2.0, 'height': 3.0, 'areal_density': 0.5})
+    assert scene.node_mass * scene.node_count == pytest.approx(0.5 * 6.0)
+    assert Scene({'node_mass': 0.7}).node_mass == 0.7
+
+
+def test_the_lattice_has_the_size_asked_for():
+    """Rest lengths would not fit width and height."""
+    scene = Scene({'rows': 4, 'cols': 5, 'width': 2.0, 'height': 3.0, 'start.z': 1.5})
+    positions = scene.rest_positions()
+    assert positions.shape == (4, 5, 3)
+    np.testing.assert_allclose(positions[0, 0], [-1.0, 1.5, 1.5])
+    np.testing.assert_allclose(positions[3, 4], [1.0, -1.5, 1.5])
+    np.testing.assert_allclose(scene.spacing, (0.5, 1.0))
+
+
+def test_a_hanging_cloth_has_row_0_on_top():
+    """Pins of the top edge would hold the bottom."""
+    positions = Scene({'start.pose': 'hanging', 'start.z': 1.0}).rest_positions()
+    assert np.all(np.diff(positions[:, 0, 2]) < 0.0)
+    assert np.all(positions[..., 1] == 0.0)
+    assert positions[..., 2].mean() == pytest.approx(1.0)
+
+
+def test_jitter_moves_free_nodes_only_and_repeats():
+    """A pinned corner would start elsewhere, or the same scene differ from run to run."""
+    values = {'start.jitter': 0.1, 'start.seed': 5, 'rows': 6, 'cols': 7}
+    first, second = Scene(values), Scene(values)
+    offsets = first.start_positions() - first.rest_positions()
+    assert np.array_equal(first.start_positions(), second.start_positions())
+    assert np.all(offsets[first.pinned_nodes()] == 0.0)
+    assert 0.0 < np.abs(offsets).max() <= 0.1 * min(first.spacing)
+
+
+def test_an_unknown_name_is_refused_with_the_nearest():
+    """A misspelt parameter would be ignored, and the user wonder why nothing changes."""
+    with pytest.raises(ClothSimError, match=r'no parameter stiffnes\.shear: did you mean '
+                                            r'stiffness\.shear\?'):
+        Scene({'stiffnes.shear': 1.0})
+
+
+@pytest.mark.parametrize(('values', 'message'), [
+    ({'rows': 1, 'cols': 1}, 'a cloth needs 2 nodes or more'),
+    ({'gravity': [0.0, -9.81]}, 'gravity needs 3 components, got 2'),
+    ({'pins': ['left']}, "pins has 'left': give none, all"),
+    ({'pins': ['40,0']}, r'there is no node (40, 0) in a cloth of 32 x 32 nodes'),
+    ({'mode': 'rigid'}, "mode must be one of mass_spring, constraint, adaptive, got 'rigid'"),
+    ({'pushes.start': [1.0]}, 'pushes.duration needs 1 per push, 1 for the 1 in pushes.start'),
+    ({'pushes.start': [1.0], 'pushes.duration': [0.1], 'pushes.force': [1.0, 2.0]},
+     'pushes.force needs 3 per push, 3 for the 1'),
+    ({'pushes.start': [1.0], 'pushes.duration': [0.0], 'pushes.force': [1.0, 2.0, 3.0]},
+     'the duration of a push must be finite and above 0'),
+])
+def test_what_does_not_fit_together_is_refused(values: dict, message: str):
+    """A scene that can't be meant would start and do something else."""
+    with pytest.raises(ClothSimError) as caught:
+        Scene(values)
+    assert message in str(caught.value)
+
+
+def test_timed_pushes_are_read_one_by_one():
+    """Forces of several pushes would be mixed up."""
+    scene = Scene({
+        'pushes.start': [1.0, 2.0], 'pushes.duration': [0.1, 0.2],
+        'pushes.force': [1.0, 2.0, 3.0, 4.0, 5.0, 6.0], 'pushes.radius': [0.0, 0.3],
+        'pushes.center': [0.0, 0.0, 0.0, 7.0, 8.0, 9.0]})
+    first, second = scene.timed_pushes()
+    assert (first.region, first.force, first.end) == ('all', (1.0, 2.0, 3.0), 1.1)
+    assert (second.region, second.center, second.radius) == ('sphere', (7.0, 8.0, 9.0), 0.3)

@@ -1,0 +1,52 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Parameter files are read as ROS reads them."""
+
+from pathlib import Path
+
+from cloth_sim_ros.sim.errors import ClothSimError
+from cloth_sim_ros.sim.scene_file import load_parameters
+import pytest
+
+
+def test_nested_and_dotted_names_are_one(tmp_path: Path):
+    """The same file would mean something else to the node and to `cloth_sim run`."""
+    path = tmp_path / 'scene.yaml'
+    path.write_text(
+        '/**:\n  ros__parameters:\n    stiffness:\n      shear: 2.0\n'
+        '    stiffness.bend: 3.0\n    pins: [top_edge]\n'
+        'cloth_sim:\n  ros__parameters:\n    dt: 0.01\n')
+    assert load_parameters(path) == {
+        'stiffness.shear': 2.0, 'stiffness.bend': 3.0, 'pins': ['top_edge'], 'dt': 0.01}
+
+
+@pytest.mark.parametrize(('text', 'message'), [
+    ('rows: 3\n', 'has a section without ros__parameters'),
+    ('', 'holds no parameters'),
+    ('a: [1, 2\n', 'is not valid YAML'),
+    ('- 1\n', 'holds no parameters'),
+])
+def test_files_that_are_no_parameter_files(tmp_path: Path, text: str, message: str):
+    """The user would get a traceback, or a scene of defaults."""
+    path = tmp_path / 'scene.yaml'
+    path.write_text(text)
+    with pytest.raises(ClothSimError, match=message):
+        load_parameters(path)
+
+
+def test_a_missing_file_is_named(tmp_path: Path):
+    """The user would get a traceback for a misspelt path."""
+    with pytest.raises(ClothSimError, match=r'nothing\.yaml cannot be read'):
+        load_parameters(tmp_path / 'nothing.yaml')

@@ -1,0 +1,194 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""A simulation keeps its time, its state and its promises."""
+
+from collections.abc import Iterator
+
+from cloth_sim_ros.sim.errors import ClothSimError
+from cloth_sim_ros.sim.scene import Scene
+from cloth_sim_ros.sim.simulation import Simulation
+import numpy as np
+import pytest
+
+_SMALL = {'rows': 5, 'cols': 7, 'dt': 0.004}
+
+
+@pytest.fixture
+def simulation() -> Iterator[Simulation]:
+    """Give a small cloth at its start."""
+    simulation = Simulation(Scene(_SMALL))
+    yield simulation
+    simulation.close()
+
+
+def test_time_is_steps_of_dt(simulation: Simulation):
+    """The simulated clock would drift from the steps made."""
+    simulation.step(3)
+    assert simulation.steps == 3
+    assert simulation.time == 3 * 0.004
+    assert simulation.snapshot().time == simulation.time
+
+
+def test_advance_carries_over_what_is_no_whole_step(simulation: Simulation):
+    """With frames that are no multiple of dt the clock would fall behind."""
+    made = [simulation.advance(0.01) for _ in range(200)]
+    assert set(made) == {2, 3}
+    assert sum(made) == 500
+    assert simulation.time == pytest.approx(2.0)
+
+
+@pytest.mark.parametrize('seconds', [-1.0, float('nan'), float('inf')])
+def test_time_does_not_go_back(simulation: Simulation, seconds: float):
+    """A bad duration would hang the node or corrupt its clock."""
+    with pytest.raises(ClothSimError, match='cannot advance by'):
+        simulation.advance(seconds)
+    assert simulation.steps == 0
+
+
+def test_reset_is_the_start_again(simulation: Simulation):
+    """A second run would differ from the first."""
+    start = simulation.snapshot()
+    simulation.push((0.0, 0.0, 1.0), duration=1.0)
+    simulation.pin(4, 4)
+    simulation.step(20)
+    first_run_moved = simulation.snapshot()
+    assert first_run_moved.state_sha256 != start.state_sha256
+    simulation.reset()
+    again = simulation.snapshot()
+    assert again.state_sha256 == start.state_sha256
+    assert (again.time, again.steps, simulation.pushes) == (0.0, 0, ())
+    assert np.array_equal(simulation.pinned_nodes(), simulation.scene.pinned_nodes())
+
+
+def test_pins_hold_and_let_go(simulation: Simulation):
+    """A held node would creep, or a released one hang in the air."""
+    simulation.step(10)
+    held_at = simulation.snapshot().positions[4, 3].copy()
+    simulation.pin(4, 3)
+    simulation.step(10)
+    after = simulation.snapshot()
+    assert np.array_equal(after.positions[4, 3], held_at)
+    assert np.array_equal(after.velocities[4, 3], (0.0, 0.0, 0.0))
+    assert after.flags[4, 3] == 1
+    simulation.release(4, 3)
+    simulation.step(10)
+    assert simulation.snapshot().positions[4, 3, 2] < held_at[2]
+
+
+@pytest.mark.parametrize('node', [(5, 0), (0, 7), (-1, 0)])
+def test_a_pin_outside_is_refused(simulation: Simulation, node: tuple[int, int]):
+    """A node of another row, or no node at all, would be pinned."""
+    with pytest.raises(ClothSimError, match=r'there is no node .* in a cloth of 5 x 7 nodes'):
+        simulation.pin(*node)
+    assert simulation.pinned_nodes().sum() == 2
+
+
+def test_the_nearest_node_is_found(simulation: Simulation):
+    """A click would grab the wrong node."""
+    x, y, z = simulation.snapshot().positions[3, 2].tolist()
+    assert simulation.nearest_node((x + 0.01, y - 0.01, z + 0.3)) == (3, 2)
+    with pytest.raises(ClothSimError, match='3 finite numbers'):
+        simulation.nearest_node((x, y, float('nan')))
+
+
+def test_only_modes_that_exist_are_taken(simulation: Simulation):
+    """The cloth would go on in another mode than was asked for."""
+    assert simulation.set_mode('mass_spring') == 'mass_spring'
+    with pytest.raises(ClothSimError, match="there is no mode 'rigid': choose one of"):
+        simulation.set_mode('rigid')
+    missing = set(('constraint', 'adaptive')) - set(simulation.available_modes)
+    for name in missing:
+        with pytest.raises(ClothSimError, match=f'mode {name} is not in this version yet'):
+            simulation.set_mode(name)
+    assert simulation.mode == 'mass_spring'
+
+
+def test_a_mode_that_is_missing_is_refused_at_the_start():
+    """A scene would run in another mode than it says."""
+    missing = set(('constraint', 'adaptive')) - set(Simulation(Scene(_SMALL)).available_modes)
+    for name in missing:
+        with pytest.raises(ClothSimError, match=f'mode {name} is not in this version yet'):
+            Simulation(Scene({**_SMALL, 'mode': name}))
+
+
+def test_a_dt_above_the_limit_is_refused_with_the_way_out():
+    """The cloth would blow up, and the user not know why."""
+    values = {**_SMALL, 'dt': 0.05, 'auto_substeps': False}
+    with pytest.raises(ClothSimError) as caught:
+        Simulation(Scene(values))
+    message = str(caught.value)
+    assert 'dt 0.05 s in 1 substeps is above the stability limit' in message
+    offered = float(message.split('set dt <= ')[1].split(',')[0])
+    Simulation(Scene({**values, 'dt': offered})).close()
+    Simulation(Scene({**values, 'auto_substeps': True})).close()
+
+
+def test_a_state_that_is_not_finite_is_seen():
+    """NaN would be published as if it were cloth."""
+    simulation = Simulation(
+        Scene({**_SMALL, 'dt': 0.05, 'auto_substeps': False, 'start.jitter': 0.1}),
+        check_stability=False)
+    assert simulation.measure().finite
+    simulation.step(400)
+    assert not simulation.measure().finite
+    assert not simulation.snapshot().finite
+
+
+def test_measure_and_snapshot_agree(simulation: Simulation):
+    """Stats without a cloud would differ from stats with one."""
+    simulation.step(25)
+    measures, snapshot = simulation.measure(), simulation.snapshot()
+    for name, value in vars(measures).items():
+        assert getattr(snapshot, name) == value, name
+
+
+@pytest.mark.parametrize('bad', [np.zeros((7, 5, 3)), np.full((5, 7, 3), np.nan)])
+def test_a_bad_state_is_refused(simulation: Simulation, bad: np.ndarray):
+    """A wrong array would end up on the device."""
+    before = simulation.snapshot().state_sha256
+    with pytest.raises(ClothSimError, match='positions must be'):
+        simulation.set_state(bad, np.zeros((5, 7, 3)))
+    assert simulation.snapshot().state_sha256 == before
+
+
+@pytest.mark.parametrize('values', [
+    {'layout': 'paper'}, {'loads': 'storage', 'block': 1}, {'loads': 'texture', 'block': 2},
+    {'loads': 'storage', 'block': 4}])
+def test_layouts_are_one_scheme(values: dict):
+    """A benchmark would compare different physics."""
+    start = {**_SMALL, 'rows': 9, 'start.jitter': 0.05}
+    usual, other = Simulation(Scene(start)), Simulation(Scene({**start, **values}))
+    usual.step(25)
+    other.step(25)
+    np.testing.assert_allclose(
+        other.snapshot().positions, usual.snapshot().positions, atol=2e-6)
+
+
+def test_a_cloth_of_2048_x_2048_runs():
+    """Large cloth would be cut off where one buffer or one dispatch ends."""
+    scene = Scene({'rows': 2048, 'cols': 2048, 'dt': 1e-6, 'damping.structural': 0.0,
+                   'damping.shear': 0.0, 'damping.bend': 0.0})
+    simulation = Simulation(scene)
+    simulation.step(3)
+    snapshot = simulation.snapshot()
+    fallen = scene['gravity'][2] * 1e-6 * 3 * np.ones((2048, 2048))
+    fallen[scene.pinned_nodes()] = 0.0
+    np.testing.assert_allclose(snapshot.velocities[..., 2], fallen, atol=2e-9)
+    np.testing.assert_allclose(
+        snapshot.positions[..., :2], scene.rest_positions()[..., :2], atol=1e-7)
+    speeds = snapshot.velocities.astype(np.float64)
+    assert snapshot.kinetic_energy == pytest.approx(
+        0.5 * scene.node_mass * np.sum(speeds**2), rel=1e-5)
+    simulation.close()

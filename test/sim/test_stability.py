@@ -1,0 +1,90 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""The stability limit is the one of the closed forms, and substeps keep to it."""
+
+import math
+
+from cloth_sim_ros.sim.scene import Scene
+from cloth_sim_ros.sim.stability import choose_substeps
+from cloth_sim_ros.sim.stability import stability_limit
+import pytest
+
+_NODE_MASS = 0.01
+
+
+def scene(stiffness: tuple[float, float, float], damping: float = 0.0, **more: object) -> Scene:
+    """Return a square cloth with these stiffnesses (structural, shear, bend)."""
+    values = {'node_mass': _NODE_MASS}
+    for family, k in zip(('structural', 'shear', 'bend'), stiffness):
+        values[f'stiffness.{family}'] = k
+        values[f'damping.{family}'] = damping if k > 0.0 else 0.0
+    return Scene({**values, **more})
+
+
+@pytest.mark.parametrize(('stiffness', 'mu'), [
+    ((100.0, 0.0, 0.0), 4.0), ((100.0, 100.0, 0.0), 8.0), ((100.0, 100.0, 100.0), 10.125)])
+@pytest.mark.parametrize('damping', [0.0, 0.05, 2.0])
+def test_equal_springs(stiffness: tuple, mu: float, damping: float):
+    """The predicted limit would not be that of the closed form for one k_s and k_d."""
+    k = 100.0
+    closed = (-damping + math.sqrt(damping**2 + 4.0 * _NODE_MASS * k / mu)) / k
+    assert stability_limit(scene(stiffness, damping)) == pytest.approx(closed, rel=1e-4)
+
+
+@pytest.mark.parametrize(('ks', 'ksh', 'kb'), [
+    (100.0, 50.0, 10.0), (100.0, 10.0, 1.0), (100.0, 0.0, 20.0), (100.0, 100.0, 400.0),
+    (10.0, 200.0, 80.0)])
+def test_different_springs(ks: float, ksh: float, kb: float):
+    """The limit would be wrong where the families differ, the usual case."""
+    axial_c = max(-1.0, min(0.0, -(ks + ksh) / (4 * kb)))
+    axial = 2 * (ks + ksh) * (1 - axial_c) + 4 * kb * (1 - axial_c**2)
+    diagonal_c = max(-1.0, min(0.0, -ks / (4 * (kb + ksh))))
+    diagonal = 2 * ks * (1 - diagonal_c) + 4 * (kb + ksh) * (1 - diagonal_c**2)
+    closed = 2.0 * math.sqrt(_NODE_MASS / max(axial, diagonal))
+    assert stability_limit(scene((ks, ksh, kb))) == pytest.approx(closed, rel=1e-3)
+
+
+def test_a_chain_has_only_its_own_springs():
+    """A chain would be stepped as finely as a sheet with shear and springs across."""
+    chain = scene((100.0, 100.0, 0.0), rows=50, cols=1)
+    assert stability_limit(chain) == pytest.approx(2.0 * math.sqrt(_NODE_MASS / 400.0), rel=1e-6)
+
+
+def test_damping_lowers_the_limit():
+    """Damping would be trusted to stabilise an explicit scheme, which it does not."""
+    limits = [stability_limit(scene((100.0,) * 3, damping)) for damping in (0.0, 0.1, 1.0)]
+    assert limits == sorted(limits, reverse=True)
+
+
+def test_strong_damping_keeps_its_digits():
+    """With much damping and little stiffness the limit would be lost in rounding."""
+    soft = scene((1e-6, 0.0, 0.0), 100.0)
+    assert stability_limit(soft) == pytest.approx(2.0 * _NODE_MASS / (4.0 * 100.0), rel=1e-6)
+
+
+def test_no_springs_no_limit():
+    """A cloud of free nodes would be refused every dt."""
+    free = scene((0.0, 0.0, 0.0))
+    assert stability_limit(free) == math.inf
+    assert choose_substeps(free) == 1
+
+
+def test_substeps_keep_to_the_share():
+    """The automatic choice would come too near to the limit, or be wasteful."""
+    cloth = scene((1000.0,) * 3, dt=0.02)
+    substeps = choose_substeps(cloth)
+    limit = stability_limit(cloth)
+    assert 0.02 / substeps <= 0.85 * limit
+    assert 0.02 / (substeps - 1) > 0.85 * limit
