@@ -15,6 +15,7 @@
 """The EGL displays of this machine that need no window, best first."""
 
 from collections.abc import Iterator
+
 from OpenGL import EGL
 from OpenGL import error
 from OpenGL.EGL.EXT.device_base import EGLDeviceEXT

@@ -44,7 +44,7 @@ class ShaderSource:
 
     @property
     def text(self) -> str:
-        """The whole shader."""
+        """Return the whole shader."""
         return '\n'.join(self._lines) + '\n'
 
     def origin(self, line: int) -> str:

@@ -53,4 +53,8 @@ class Forcing:
                 accelerations[slot] = acceleration
             program.set_vectors('region_acceleration', accelerations)
             program.set_bits('pushes_acting', sum(1 << slot for slot in self.regions))
+
+    def bind(self) -> None:
+        """Bind the masks for the next dispatch, if there are any."""
+        if self.mask is not None:
             self.mask.bind_storage(bindings.PUSH_MASK)

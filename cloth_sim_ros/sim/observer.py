@@ -73,6 +73,7 @@ class Observer:
             self, state: State, forcing: Forcing, records: np.ndarray | None) -> Measures:
         program = self._programs[records is not None].use(forcing.has_regions)
         forcing.apply(program)
+        forcing.bind()
         program.set_int('pushed_everywhere', int(forcing.pushed_everywhere))
         state.bind_in()
         self._sums_buffer.bind_storage(bindings.PARTIAL_SUMS)

@@ -77,12 +77,12 @@ class Push:
 
     @property
     def end(self) -> float:
-        """Simulated time at which it ends [s]."""
+        """Return the simulated time at which it ends [s]."""
         return self.start + self.duration
 
     @property
     def impulse(self) -> tuple[float, float, float]:
-        """Total impulse [N s]."""
+        """Return the total impulse [N s]."""
         return tuple(part * self.duration for part in self.force)
 
     def overlap(self, begin: float, end: float) -> float:

@@ -41,7 +41,7 @@ class AppliedPush:
 
     @property
     def impulse(self) -> tuple[float, float, float]:
-        """Total impulse [N s]."""
+        """Return the total impulse [N s]."""
         return self.push.impulse
 
 
@@ -78,7 +78,7 @@ class PushField:
 
     @property
     def applied(self) -> tuple[AppliedPush, ...]:
-        """The pushes that act or will act."""
+        """Return the pushes that act or will act."""
         return tuple(AppliedPush(entry.push, entry.nodes) for entry in self._entries)
 
     def add(self, push: Push, now: float) -> AppliedPush:

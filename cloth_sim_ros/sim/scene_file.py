@@ -16,10 +16,25 @@
 
 from collections.abc import Mapping
 from pathlib import Path
+import re
 from typing import Any
 
 from cloth_sim_ros.sim.errors import ClothSimError
 import yaml
+
+
+class _RosLoader(yaml.SafeLoader):
+    """Reads numbers as ROS does: 1e6 is one, which YAML 1.1 takes for a word."""
+
+
+_RosLoader.add_implicit_resolver(
+    'tag:yaml.org,2002:float',
+    re.compile(r'^[-+]?(\d+\.?\d*|\.\d+)[eE][-+]?\d+$'), list('-+.0123456789'))
+
+
+def parse_value(text: str) -> Any:
+    """Return the value ``text`` has in a parameter file; yaml.YAMLError when it has none."""
+    return yaml.load(text, Loader=_RosLoader)
 
 
 def load_parameters(path: str | Path) -> dict[str, Any]:
@@ -31,7 +46,7 @@ def load_parameters(path: str | Path) -> dict[str, Any]:
     :raises ClothSimError: when the file can't be read or is no parameter file
     """
     try:
-        document = yaml.safe_load(Path(path).read_text(encoding='utf-8'))
+        document = parse_value(Path(path).read_text(encoding='utf-8'))
     except (OSError, UnicodeDecodeError) as error:
         raise ClothSimError(f'{path} cannot be read: {error}') from error
     except yaml.YAMLError as error:

@@ -16,6 +16,7 @@
 
 from cloth_sim_ros.gl.program import Program
 from cloth_sim_ros.gl.shader_source import ShaderSource
+from cloth_sim_ros.sim.forcing import Forcing
 from cloth_sim_ros.sim.layout import Layout
 from cloth_sim_ros.sim.push_field import MOST_REGION_PUSHES
 from cloth_sim_ros.sim.scene import FAMILIES
@@ -39,6 +40,18 @@ class SceneProgram:
         self._scene = scene
         self._defines = {**layout.defines(), **scene_defines(scene), **(defines or {})}
         self._forms: dict[bool, Program] = {}
+        self._set: dict[bool, tuple[Forcing, float]] = {}
+
+    def use_for_step(self, forcing: Forcing, length: float) -> Program:
+        """Return the form ``forcing`` needs, in use and set to a substep of ``length`` [s]."""
+        program = self.use(forcing.has_regions)
+        forcing.bind()
+        # Most steps are like the one before, and a uniform costs as much as a small dispatch.
+        if self._set.get(forcing.has_regions) != (forcing, length):
+            program.set_float('substep', length)
+            forcing.apply(program)
+            self._set[forcing.has_regions] = (forcing, length)
+        return program
 
     def use(self, has_region_pushes: bool = False) -> Program:
         """Return the form asked for, in use."""

@@ -78,27 +78,27 @@ class Simulation:
 
     @property
     def mode(self) -> str:
-        """Name of the mode that steps now."""
+        """Return the name of the mode that steps now."""
         return self._mode.name
 
     @property
     def available_modes(self) -> tuple[str, ...]:
-        """Modes ``set_mode`` takes."""
+        """Return the modes ``set_mode`` takes."""
         return tuple(modes.AVAILABLE)
 
     @property
     def time(self) -> float:
-        """Simulated time since the start or the last reset [s]."""
+        """Return the simulated time since the start or the last reset [s]."""
         return self.steps * self.dt
 
     @property
     def stability_margin(self) -> float:
-        """Substep over the stability limit: 1 and above blows up."""
+        """Return the substep over the stability limit: 1 and above blows up."""
         return self.dt / self.substeps / self.stability_limit
 
     @property
     def pushes(self) -> tuple[AppliedPush, ...]:
-        """The pushes that act or will act."""
+        """Return the pushes that act or will act."""
         return self._pushes.applied
 
     def advance(self, seconds: float) -> int:

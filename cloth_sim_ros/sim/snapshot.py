@@ -50,7 +50,7 @@ class Measures:
 
     @property
     def total_energy(self) -> float:
-        """Kinetic, elastic and gravitational energy [J]."""
+        """Return the kinetic, elastic and gravitational energy [J]."""
         return self.kinetic_energy + self.elastic_energy + self.gravitational_energy
 
 
@@ -87,32 +87,32 @@ class Snapshot(Measures):
 
     @property
     def positions(self) -> np.ndarray:
-        """Positions [m], (rows, cols, 3) float32."""
+        """Return positions [m], (rows, cols, 3) float32."""
         return self._vectors(0)
 
     @property
     def velocities(self) -> np.ndarray:
-        """Velocities [m/s], (rows, cols, 3) float32."""
+        """Return velocities [m/s], (rows, cols, 3) float32."""
         return self._vectors(3)
 
     @property
     def normals(self) -> np.ndarray:
-        """Unit normals, up for a cloth that lies flat, (rows, cols, 3) float32."""
+        """Return unit normals, up for a cloth that lies flat, (rows, cols, 3) float32."""
         return self._vectors(6)
 
     @property
     def strain(self) -> np.ndarray:
-        """Largest abs(l / L0 - 1) at each node, (rows, cols) float32."""
+        """Return the largest abs(l / L0 - 1) at each node, (rows, cols) float32."""
         return self.records['strain']
 
     @property
     def flags(self) -> np.ndarray:
-        """FLAG_PINNED, FLAG_AT_LIMIT, FLAG_PUSHED of each node, (rows, cols) uint32."""
+        """Return FLAG_PINNED, FLAG_AT_LIMIT, FLAG_PUSHED of each node, (rows, cols) uint32."""
         return self.records['flags']
 
     @property
     def state_sha256(self) -> str:
-        """Fingerprint of positions and velocities, equal for equal bits."""
+        """Return a fingerprint of positions and velocities, equal for equal bits."""
         digest = hashlib.sha256(np.ascontiguousarray(self.positions).tobytes())
         digest.update(np.ascontiguousarray(self.velocities).tobytes())
         return digest.hexdigest()

@@ -54,7 +54,7 @@ def test_workgroups_reach_every_node(rows: int, cols: int, block: int):
 
 
 def test_software_devices_read_textures():
-    """llvmpipe would run at a fraction of its speed."""
+    """A software device would run at a fraction of its speed."""
     scene = Scene()
     assert choose_layout(scene, device(is_software=True)).texture_loads
     assert not choose_layout(scene, device()).texture_loads

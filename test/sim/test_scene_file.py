@@ -18,6 +18,7 @@ from pathlib import Path
 
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.scene_file import load_parameters
+from cloth_sim_ros.sim.scene_file import parse_value
 import pytest
 
 
@@ -50,3 +51,12 @@ def test_a_missing_file_is_named(tmp_path: Path):
     """The user would get a traceback for a misspelt path."""
     with pytest.raises(ClothSimError, match=r'nothing\.yaml cannot be read'):
         load_parameters(tmp_path / 'nothing.yaml')
+
+
+@pytest.mark.parametrize(('text', 'value'), [
+    ('1e6', 1e6), ('1.0e6', 1e6), ('-2.5E-3', -2.5e-3), ('3', 3), ('0.5', 0.5), ('true', True),
+    ('[1e2, 2.0]', [100.0, 2.0]), ('top_edge', 'top_edge'), ("'1e6'", '1e6')])
+def test_numbers_are_read_as_ros_reads_them(text: str, value: object):
+    """A stiffness of 1e6 would be a number to the node and a word to `cloth_sim run`."""
+    assert parse_value(text) == value
+    assert type(parse_value(text)) is type(value)

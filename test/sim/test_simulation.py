@@ -108,7 +108,7 @@ def test_only_modes_that_exist_are_taken(simulation: Simulation):
     assert simulation.set_mode('mass_spring') == 'mass_spring'
     with pytest.raises(ClothSimError, match="there is no mode 'rigid': choose one of"):
         simulation.set_mode('rigid')
-    missing = set(('constraint', 'adaptive')) - set(simulation.available_modes)
+    missing = {'constraint', 'adaptive'} - set(simulation.available_modes)
     for name in missing:
         with pytest.raises(ClothSimError, match=f'mode {name} is not in this version yet'):
             simulation.set_mode(name)
@@ -117,7 +117,7 @@ def test_only_modes_that_exist_are_taken(simulation: Simulation):
 
 def test_a_mode_that_is_missing_is_refused_at_the_start():
     """A scene would run in another mode than it says."""
-    missing = set(('constraint', 'adaptive')) - set(Simulation(Scene(_SMALL)).available_modes)
+    missing = {'constraint', 'adaptive'} - set(Simulation(Scene(_SMALL)).available_modes)
     for name in missing:
         with pytest.raises(ClothSimError, match=f'mode {name} is not in this version yet'):
             Simulation(Scene({**_SMALL, 'mode': name}))
@@ -136,7 +136,7 @@ def test_a_dt_above_the_limit_is_refused_with_the_way_out():
 
 
 def test_a_state_that_is_not_finite_is_seen():
-    """NaN would be published as if it were cloth."""
+    """Cloth of NaN would be published as if it were real."""
     simulation = Simulation(
         Scene({**_SMALL, 'dt': 0.05, 'auto_substeps': False, 'start.jitter': 0.1}),
         check_stability=False)

@@ -35,9 +35,7 @@ class OnePass:
         """Step ``state`` on by ``length`` [s]."""
         state.bind_in()
         state.bind_out()
-        step = self._step.use(forcing.has_regions)
-        step.set_float('substep', length)
-        forcing.apply(step)
+        step = self._step.use_for_step(forcing, length)
         step.dispatch(*self._groups)
         shader_writes_visible()
         state.swap()

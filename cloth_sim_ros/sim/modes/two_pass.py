@@ -51,9 +51,7 @@ class TwoPass:
         force = self._force.use()
         force.dispatch(*self._force_groups)
         shader_writes_visible()
-        update = self._update.use(forcing.has_regions)
-        update.set_float('substep', length)
-        forcing.apply(update)
+        update = self._update.use_for_step(forcing, length)
         update.dispatch(self._update_groups)
         shader_writes_visible()
 

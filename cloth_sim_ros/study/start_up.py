@@ -1,0 +1,58 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""How long a new node takes to its first published cloud."""
+
+import subprocess
+import sys
+import time
+
+from cloth_sim_ros.sim.errors import ClothSimError
+import rclpy
+from rclpy.qos import qos_profile_sensor_data
+from sensor_msgs.msg import PointCloud2
+
+_NODE_NAME = 'cloth_sim_start_up'
+
+
+def time_to_first_cloud(parameter_file: str, timeout: float) -> float:
+    """
+    Start a node in a process of its own and return the wall time [s] to its first cloud here.
+
+    :raises ClothSimError: when no cloud comes within ``timeout`` [s]
+    """
+    rclpy.init()
+    listener = rclpy.create_node(f'{_NODE_NAME}_listener')
+    seen: list[float] = []
+    listener.create_subscription(
+        PointCloud2, f'/{_NODE_NAME}/points', lambda _: seen.append(time.perf_counter()),
+        qos_profile_sensor_data)
+    begin = time.perf_counter()
+    process = subprocess.Popen(
+        [sys.executable, '-m', 'cloth_sim_ros.node', '--ros-args',
+         '-r', f'__node:={_NODE_NAME}', '--params-file', parameter_file],
+        stdout=subprocess.DEVNULL)
+    try:
+        while not seen and time.perf_counter() - begin < timeout and process.poll() is None:
+            rclpy.spin_once(listener, timeout_sec=0.05)
+    finally:
+        process.terminate()
+        process.wait()
+        listener.destroy_node()
+        rclpy.try_shutdown()
+    if not seen:
+        raise ClothSimError(
+            f'no cloud came from a node with {parameter_file} within {timeout:g} s: '
+            'start it with cloth_sim_node to see why')
+    return seen[0] - begin

@@ -1,0 +1,64 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Write a run that has no node into a recording, as the node would have recorded it."""
+
+from typing import Any
+
+from cloth_sim_ros.messages.points import PointsMessage
+from cloth_sim_ros.messages.stats import stats_message
+from cloth_sim_ros.node.opening import write_opening
+from cloth_sim_ros.node.recording_session import RecordingSession
+from cloth_sim_ros.sim.simulation import Simulation
+from rclpy.serialization import serialize_message
+
+_NODE_NAME = 'cloth_sim'
+
+
+class BatchRecording:
+    """
+    A recording of points, stats and inputs.
+
+    :param directory: folder that the recording's own folder is made in
+    """
+
+    def __init__(
+            self, simulation: Simulation, node_values: dict[str, Any], directory: str) -> None:
+        """Open the recording and write what it begins with, the start pose too."""
+        self._simulation = simulation
+        self._frame_id = node_values['frame_id']
+        self._points = PointsMessage(
+            simulation.scene.rows, simulation.scene.cols, self._frame_id)
+        self._session = RecordingSession(directory, _NODE_NAME, self._say_lost)
+        self.path = self._session.start(node_values['recording.name'])
+        values = {**simulation.scene.values, **node_values}
+        write_opening(self._session, simulation, values, f'/{_NODE_NAME}')
+        self.write(0.0, 0.0)
+
+    def write(self, step_wall_time: float, real_time_factor: float) -> None:
+        """Write the present instant."""
+        snapshot = self._simulation.snapshot()
+        stats = stats_message(
+            snapshot, self._frame_id, step_wall_time=step_wall_time,
+            real_time_factor=real_time_factor)
+        self._session.write('points', self._points.serialise(snapshot), snapshot.time)
+        self._session.write('stats', serialize_message(stats), snapshot.time)
+
+    def close(self) -> None:
+        """Finish the recording."""
+        self._session.close()
+
+    @staticmethod
+    def _say_lost(reason: str) -> None:
+        print(f'cloth_sim run: {reason}')

@@ -1,0 +1,92 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Run a simulation to an end as fast as it goes, with a progress bar and a recording."""
+
+import math
+import time
+from typing import Any
+
+from cloth_sim_ros.sim.errors import ClothSimError
+from cloth_sim_ros.sim.simulation import Simulation
+from tqdm import tqdm
+
+_BAR = '{percentage:3.0f}% |{bar}| {n:.2f}/{total:.2f} s simulated{postfix}'
+
+
+class BatchRun:
+    """
+    Steps a simulation frame by frame and keeps what a result needs.
+
+    :param node_values: the node's parameters by name; publish.rate makes the frames
+    :param record_directory: folder for a recording; None records nothing
+    """
+
+    def __init__(
+            self, simulation: Simulation, node_values: dict[str, Any],
+            record_directory: str | None = None) -> None:
+        """Open the recording, if there is to be one."""
+        self._simulation = simulation
+        self._frame_seconds = max(1.0 / node_values['publish.rate'], simulation.dt)
+        self._recording = None
+        if record_directory is not None:
+            # The ROS packages are needed for a recording alone.
+            from cloth_sim_ros.verb.batch_recording import BatchRecording
+            self._recording = BatchRecording(simulation, node_values, record_directory)
+        self.steps = 0
+        self.wall_seconds = 0.0
+        self.peak_strain = 0.0
+        self.lost_at = math.nan
+
+    @property
+    def recording_path(self) -> str:
+        """Folder of the recording; empty when there is none."""
+        return self._recording.path if self._recording else ''
+
+    def advance(self, seconds: float) -> None:
+        """Simulate ``seconds``; stop early when the state is not finite any more."""
+        if not math.isfinite(seconds) or seconds < 0.0:
+            raise ClothSimError(f'--seconds must be a finite time, got {seconds}: give 0 or more')
+        frames = math.ceil(seconds / self._frame_seconds - 1e-9)
+        try:
+            with tqdm(total=seconds, bar_format=_BAR, mininterval=0.2) as bar:
+                for frame in range(frames):
+                    done = frame * self._frame_seconds
+                    span = min(self._frame_seconds, seconds - done)
+                    if not self._make_frame(span):
+                        break
+                    rate = (done + span) / self.wall_seconds if self.wall_seconds else 0.0
+                    bar.set_postfix_str(f'{rate:.3g} x real time', refresh=False)
+                    bar.update(min(span, bar.total - bar.n))
+        finally:
+            if self._recording is not None:
+                self._recording.close()
+
+    def _make_frame(self, seconds: float) -> bool:
+        simulation = self._simulation
+        begin = time.perf_counter()
+        steps = simulation.advance(seconds)
+        # Reading the strain waits for the device, so the wall time holds all of the work.
+        measures = simulation.measure()
+        wall = time.perf_counter() - begin
+        self.steps += steps
+        self.wall_seconds += wall
+        if not measures.finite:
+            self.lost_at = simulation.time
+            self.peak_strain = math.inf
+            return False
+        self.peak_strain = max(self.peak_strain, measures.max_strain)
+        if self._recording is not None and steps:
+            self._recording.write(wall / steps, seconds / wall)
+        return True

@@ -1,0 +1,82 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+r"""
+Measure the speed of this device.
+
+Variants are measured in turn, so that their ratio holds on a machine whose speed drifts; each
+is compared with the last one, by default the paper's layout. LP_NUM_THREADS sets the worker
+threads of llvmpipe.
+
+For example:
+  cloth_sim bench
+  cloth_sim bench --sizes 512 1024 --rounds 9 --json
+  cloth_sim bench --variants block=4 block=2 block=1,loads=storage
+  cloth_sim bench --start-up config/drape.yaml
+"""
+
+from argparse import ArgumentParser
+from argparse import Namespace
+import json
+import statistics
+
+from cloth_sim_ros.study.speed import compare_variants
+from cloth_sim_ros.study.speed import Comparison
+from cloth_sim_ros.verb.scene_arguments import parse_change
+
+_START_UP_TIMEOUT = 60.0
+
+
+def add_arguments(parser: ArgumentParser) -> None:
+    """Add the arguments of this verb."""
+    parser.add_argument('--sizes', type=int, nargs='+', default=[128, 512, 1024], metavar='N',
+                        help='nodes along each side (default: 128 512 1024)')
+    parser.add_argument('--variants', nargs='+', metavar='name=value,...',
+                        default=['layout=fused', 'layout=paper'],
+                        help='scene parameters of each variant (default: %(default)s)')
+    parser.add_argument('--rounds', type=int, default=7, metavar='N',
+                        help='rounds of each layout (default: %(default)s)')
+    parser.add_argument('--round-seconds', type=float, default=0.4, metavar='T',
+                        help='wall time of a round (default: %(default)s)')
+    parser.add_argument('--start-up', metavar='SCENE.yaml',
+                        help='measure the time of a node to its first cloud instead; needs ROS')
+    parser.add_argument('--json', action='store_true', help='print JSON, a line for each size')
+
+
+def main(args: Namespace) -> int:
+    """Measure and print."""
+    if args.start_up:
+        # ROS is needed for this figure alone.
+        from cloth_sim_ros.study.start_up import time_to_first_cloud
+        times = [
+            time_to_first_cloud(args.start_up, _START_UP_TIMEOUT) for _ in range(args.rounds)]
+        print(json.dumps({'scene': args.start_up, 'seconds_to_first_cloud': times})
+              if args.json else f'first cloud after {statistics.median(times):.2f} s '
+              f'(median of {len(times)}, {min(times):.2f} to {max(times):.2f})')
+        return 0
+    variants = {text: dict(map(parse_change, text.split(','))) for text in args.variants}
+    for comparison in compare_variants(variants, args.sizes, args.rounds, args.round_seconds):
+        print(json.dumps(comparison.as_dict()) if args.json else _in_words(comparison),
+              flush=True)
+    return 0
+
+
+def _in_words(comparison: Comparison) -> str:
+    lines = [f'{comparison.rows} x {comparison.cols} on {comparison.device}']
+    for speed in comparison.speeds:
+        lines.append(
+            f'  {speed.variant:24}{speed.median / 1e6:7.1f} million node steps/s, '
+            f'{speed.ratio:5.2f} x ({min(speed.ratio_rounds):.2f} to '
+            f'{max(speed.ratio_rounds):.2f}; {speed.loads} loads, block {speed.block})')
+    return '\n'.join(lines)

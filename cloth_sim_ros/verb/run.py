@@ -1,0 +1,109 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+r"""
+Simulate a scene file, without a node and without ROS.
+
+A scene file is a ROS parameter file; what only the node needs is passed over. With --record the
+run is written as a recording, which needs the ROS packages.
+
+For example:
+  cloth_sim run config/drape.yaml --seconds 2
+  cloth_sim run config/drape.yaml --set rows=128 --set cols=128 --json
+  cloth_sim run config/drape.yaml --set 'pins=[top_edge]' --record bags --out state.npz
+"""
+
+from argparse import ArgumentParser
+from argparse import Namespace
+import json
+import sys
+
+from cloth_sim_ros.sim.errors import ClothSimError
+from cloth_sim_ros.sim.simulation import Simulation
+from cloth_sim_ros.sim.snapshot import Snapshot
+from cloth_sim_ros.verb.batch_run import BatchRun
+from cloth_sim_ros.verb.scene_arguments import add_scene_arguments
+from cloth_sim_ros.verb.scene_arguments import read_scene
+import numpy as np
+
+
+def add_arguments(parser: ArgumentParser) -> None:
+    """Add the arguments of this verb."""
+    add_scene_arguments(parser)
+    parser.add_argument('--seconds', type=float, default=1.0, metavar='T',
+                        help='simulated time (default: %(default)s)')
+    parser.add_argument('--record', metavar='DIR', help='write a recording into this folder')
+    parser.add_argument('--out', metavar='STATE.npz',
+                        help='write the last positions, velocities and the time')
+    parser.add_argument('--json', action='store_true',
+                        help='end with one line that holds the result as JSON')
+
+
+def main(args: Namespace) -> int:
+    """Run the scene and tell what came out."""
+    scene, node_values = read_scene(args)
+    simulation = Simulation(scene)
+    run = BatchRun(simulation, node_values, args.record)
+    run.advance(args.seconds)
+    last = simulation.snapshot()
+    if args.out:
+        write_state(args.out, last)
+    result = summary(simulation, run, last)
+    print(json.dumps(result) if args.json else in_words(result, run.recording_path))
+    if not last.finite:
+        print(f'cloth_sim run: the state is not finite any more, seen at {run.lost_at:g} s: '
+              'use a smaller dt or auto_substeps: true', file=sys.stderr)
+        return 1
+    return 0
+
+
+def write_state(path: str, last: Snapshot) -> None:
+    """Write positions, velocities and time of ``last`` to an npz file."""
+    try:
+        with open(path, 'wb') as file:
+            np.savez(file, positions=last.positions, velocities=last.velocities, time=last.time)
+    except OSError as error:
+        raise ClothSimError(f'{path} cannot be written: {error}') from error
+
+
+def summary(simulation: Simulation, run: BatchRun, last: Snapshot) -> dict[str, object]:
+    """Return the result of a run as plain values."""
+    scene = simulation.scene
+    node_steps = scene.node_count * run.steps * simulation.substeps
+    return {
+        'mode': simulation.mode, 'rows': scene.rows, 'cols': scene.cols,
+        'dt': simulation.dt, 'substeps': simulation.substeps,
+        'sim_seconds': simulation.time, 'wall_seconds': run.wall_seconds,
+        'steps': run.steps,
+        'node_steps_per_s': node_steps / run.wall_seconds if run.wall_seconds else 0.0,
+        'peak_strain': finite_or_none(run.peak_strain),
+        'max_strain': finite_or_none(last.max_strain),
+        'kinetic_energy': finite_or_none(last.kinetic_energy),
+        'total_energy': finite_or_none(last.total_energy),
+        'finite': last.finite, 'state_sha256': last.state_sha256, 'device': simulation.device,
+    }
+
+
+def finite_or_none(value: float) -> float | None:
+    """Return ``value``, or None where JSON has no number for it."""
+    return value if np.isfinite(value) else None
+
+
+def in_words(result: dict[str, object], recording_path: str) -> str:
+    """Return the result as a short table."""
+    lines = [f'{name:18}{value:.6g}' if isinstance(value, float) else f'{name:18}{value}'
+             for name, value in result.items()]
+    if recording_path:
+        lines.append(f'{"recording":18}{recording_path}')
+    return '\n'.join(lines)

@@ -1,0 +1,60 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""The arguments of every verb that takes a scene file, and what they say."""
+
+from argparse import ArgumentParser
+from argparse import Namespace
+from typing import Any
+
+from cloth_sim_ros.node.node_fields import NODE_FIELDS
+from cloth_sim_ros.sim.errors import ClothSimError
+from cloth_sim_ros.sim.scene import refuse_unknown
+from cloth_sim_ros.sim.scene import Scene
+from cloth_sim_ros.sim.scene_fields import SCENE_FIELDS
+from cloth_sim_ros.sim.scene_file import load_parameters
+from cloth_sim_ros.sim.scene_file import parse_value
+import yaml
+
+
+def add_scene_arguments(parser: ArgumentParser) -> None:
+    """Add the scene file and --set."""
+    parser.add_argument('scene', metavar='SCENE.yaml', help='ROS parameter file of the scene')
+    parser.add_argument('--set', action='append', default=[], metavar='name=value', dest='changes',
+                        help='change a parameter; can be given several times')
+
+
+def read_scene(args: Namespace) -> tuple[Scene, dict[str, Any]]:
+    """
+    Return the scene and the node's parameters that the arguments describe.
+
+    :raises ClothSimError: when the file or a --set is not right
+    """
+    given = load_parameters(args.scene)
+    given.update(parse_change(change) for change in args.changes)
+    refuse_unknown(given, SCENE_FIELDS + NODE_FIELDS)
+    node_values = {
+        field.name: field.check(given.pop(field.name, field.default)) for field in NODE_FIELDS}
+    return Scene(given), node_values
+
+
+def parse_change(change: str) -> tuple[str, Any]:
+    """Return name and value of ``name=value``; ClothSimError when it is none."""
+    name, separator, text = change.partition('=')
+    if not separator or not name:
+        raise ClothSimError(f'a change needs name=value, got {change!r}')
+    try:
+        return name.strip(), parse_value(text)
+    except yaml.YAMLError as error:
+        raise ClothSimError(f'{name} has a value that is not YAML: {text!r}') from error

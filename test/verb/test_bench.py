@@ -1,0 +1,50 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""`cloth_sim bench` measures the layouts side by side and names the device."""
+
+import json
+import subprocess
+import sys
+
+import pytest
+
+
+def test_the_figures_name_layout_and_device():
+    """A figure without its device would be compared with another machine's."""
+    done = subprocess.run(
+        [sys.executable, '-m', 'cloth_sim_ros.verb', 'bench', '--json', '--rounds', '3',
+         '--round-seconds', '0.02', '--sizes', '16', '48'],
+        capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    small, large = map(json.loads, done.stdout.splitlines())
+    assert (small['rows'], large['rows']) == (16, 48)
+    assert large['device']
+    fused, paper = large['speeds']
+    assert (fused['layout'], paper['layout']) == ('fused', 'paper')
+    assert fused['ratio_rounds'] == pytest.approx(
+        [a / b for a, b in zip(fused['rounds'], paper['rounds'])])
+
+
+def test_variants_are_scene_parameters():
+    """Only the shipped comparison could be measured."""
+    done = subprocess.run(
+        [sys.executable, '-m', 'cloth_sim_ros.verb', 'bench', '--json', '--rounds', '1',
+         '--round-seconds', '0.01', '--sizes', '16', '--variants', 'block=2,loads=storage',
+         'stiffness.bend=0.0,damping.bend=0.0'],
+        capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    first, second = json.loads(done.stdout)['speeds']
+    assert (first['block'], first['loads']) == (2, 'storage')
+    assert second['ratio'] == 1.0

@@ -1,0 +1,149 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""`cloth_sim run` simulates a file, says what came out, and repeats itself bit for bit."""
+
+import json
+from pathlib import Path
+import subprocess
+import sys
+
+from mcap.reader import make_reader
+import numpy as np
+import pytest
+
+_SCENE = """/**:
+  ros__parameters:
+    rows: 9
+    cols: 13
+    start.jitter: 0.05
+    dt: 0.004
+    pushes:
+      start: [0.1]
+      duration: [0.05]
+      force: [0.1, 0.0, 2.0]
+    real_time_factor: 2.0
+"""
+_KEYS = [
+    'mode', 'rows', 'cols', 'dt', 'substeps', 'sim_seconds', 'wall_seconds', 'steps',
+    'node_steps_per_s', 'peak_strain', 'max_strain', 'kinetic_energy', 'total_energy', 'finite',
+    'state_sha256', 'device']
+
+
+@pytest.fixture
+def scene(tmp_path: Path) -> Path:
+    """Give a scene file with a push and a parameter of the node."""
+    path = tmp_path / 'scene.yaml'
+    path.write_text(_SCENE)
+    return path
+
+
+def run(*arguments: object) -> subprocess.CompletedProcess:
+    """Call `cloth_sim run` in a process of its own."""
+    return subprocess.run(
+        [sys.executable, '-m', 'cloth_sim_ros.verb', 'run', *map(str, arguments)],
+        capture_output=True, text=True)
+
+
+def result_of(done: subprocess.CompletedProcess) -> dict:
+    """Return the JSON object of the last line."""
+    assert done.returncode == 0, done.stderr
+    return json.loads(done.stdout.splitlines()[-1])
+
+
+def test_the_last_line_is_the_result(scene: Path):
+    """A script that reads the result would break."""
+    result = result_of(run(scene, '--seconds', 0.4, '--json'))
+    assert list(result) == _KEYS
+    assert (result['rows'], result['cols'], result['steps']) == (9, 13, 100)
+    assert result['sim_seconds'] == pytest.approx(0.4)
+    assert result['finite'] is True
+    assert result['peak_strain'] >= result['max_strain'] > 0.0
+    assert result['node_steps_per_s'] * result['wall_seconds'] == pytest.approx(
+        9 * 13 * 100 * result['substeps'])
+
+
+def test_two_processes_end_in_the_same_bits(scene: Path):
+    """A result could not be reproduced, not even on the same machine."""
+    first, second = (
+        result_of(run(scene, '--seconds', 1.0, '--json')) for _ in range(2))
+    assert first['state_sha256'] == second['state_sha256']
+
+
+def test_the_state_is_written(scene: Path, tmp_path: Path):
+    """The end of a run could not be looked at."""
+    out = tmp_path / 'state.npz'
+    result_of(run(scene, '--seconds', 0.2, '--json', '--out', out))
+    with np.load(out) as state:
+        assert set(state) == {'positions', 'velocities', 'time'}
+        assert state['positions'].shape == state['velocities'].shape == (9, 13, 3)
+        assert state['time'] == pytest.approx(0.2)
+
+
+def test_set_changes_a_parameter(scene: Path):
+    """A variation would need a file of its own."""
+    result = result_of(run(
+        scene, '--set', 'rows=5', '--set', 'pins=[top_edge]', '--seconds', 0.1, '--json'))
+    assert result['rows'] == 5
+
+
+def test_a_run_is_recorded(scene: Path, tmp_path: Path):
+    """The recording would lack frames or inputs."""
+    done = run(scene, '--seconds', 0.2, '--record', tmp_path / 'bags',
+               '--set', 'recording.name=fall')
+    assert done.returncode == 0, done.stderr
+    folder = tmp_path / 'bags' / 'fall'
+    assert str(folder) in done.stdout
+    with open(folder / 'fall_0.mcap', 'rb') as file:
+        messages = [
+            (channel.topic, message.log_time * 1e-9)
+            for _, channel, message in make_reader(file).iter_messages()]
+    times = [time for topic, time in messages if topic == '/cloth_sim/points']
+    assert times == pytest.approx([frame * 0.02 for frame in range(11)])
+    assert {topic for topic, _ in messages} >= {
+        '/cloth_sim/stats', '/cloth_sim/topology', '/cloth_sim/inputs/parameters',
+        '/cloth_sim/inputs/push'}
+
+
+@pytest.mark.parametrize(('arguments', 'message'), [
+    (['--set', 'rwos=3'], 'there is no parameter rwos: did you mean rows?'),
+    (['--set', 'rows'], "a change needs name=value, got 'rows'"),
+    (['--set', 'dt=0.0'], 'dt 0.0 is outside its range'),
+    (['--set', 'mode=rigid'], 'mode must be one of'),
+    (['--set', 'rows=5000', '--set', 'cols=5000'], 'the buffers of'),
+    (['--seconds', 'nan'], '--seconds must be a finite time'),
+    (['--out', '/proc/nothing/state.npz'], 'cannot be written'),
+    (['--record', '/proc/nothing'], '/proc/nothing'),
+])
+def test_what_is_wrong_is_said_in_one_line(scene: Path, arguments: list[str], message: str):
+    """The user would get a traceback."""
+    done = run(scene, *arguments)
+    assert done.returncode == 1
+    assert message in done.stderr
+    assert 'Traceback' not in done.stderr
+
+
+def test_a_blow_up_is_a_failure_that_says_when(scene: Path, tmp_path: Path):
+    """A run of NaN would look like a result."""
+    violent = tmp_path / 'violent.yaml'
+    # So light and pushed so hard that squared distances leave the range of float32.
+    violent.write_text(
+        _SCENE.replace('force: [0.1, 0.0, 2.0]', 'force: [0.0, 0.0, 1.0e9]')
+        + '    node_mass: 1.0e-16\n    stiffness: {structural: 1e-6, shear: 0.0, bend: 0.0}\n'
+        '    damping: {structural: 0.0, shear: 0.0, bend: 0.0}\n')
+    done = run(violent, '--seconds', 0.3, '--json')
+    assert done.returncode == 1
+    result = json.loads(done.stdout.splitlines()[-1])
+    assert result['finite'] is False
+    assert 'the state is not finite any more, seen at' in done.stderr
