@@ -1,0 +1,62 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Little-endian CDR, for messages too large to go through one Python object per point."""
+
+import struct
+
+import numpy as np
+
+_ENCAPSULATION = b'\x00\x01\x00\x00'
+_SIZES = {'B': 1, '?': 1, 'i': 4, 'I': 4, 'f': 4, 'd': 8}
+
+
+class CdrWriter:
+    """Puts fields one behind the other, each aligned to its own size."""
+
+    def __init__(self) -> None:
+        """Start an empty message."""
+        self._parts = [_ENCAPSULATION]
+        self._size = 0  # alignment counts from behind the encapsulation
+
+    def put(self, code: str, *values: float) -> None:
+        """Put numbers of one struct ``code``."""
+        self._align(_SIZES[code])
+        self._append(struct.pack(f'<{len(values)}{code}', *values))
+
+    def put_string(self, text: str) -> None:
+        """Put a string."""
+        data = text.encode() + b'\x00'
+        self.put('I', len(data))
+        self._append(data)
+
+    def put_sequence(self, array: np.ndarray) -> None:
+        """Put a sequence whose elements are the rows of ``array``, of one little-endian type."""
+        self.put('I', len(array))
+        if len(array):
+            self._align(array.dtype.itemsize)
+            self._append(np.ascontiguousarray(array).data.cast('B'))
+
+    def finish(self) -> bytes:
+        """Return the message."""
+        return b''.join(self._parts)
+
+    def _align(self, size: int) -> None:
+        padding = -self._size % size
+        if padding:
+            self._append(bytes(padding))
+
+    def _append(self, data: bytes | memoryview) -> None:
+        self._parts.append(data)
+        self._size += len(data)

@@ -1,0 +1,118 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""The health of a run, in words."""
+
+from cloth_sim_ros.messages.stamp import stamp
+from cloth_sim_ros.sim.snapshot import Snapshot
+from diagnostic_msgs.msg import DiagnosticArray
+from diagnostic_msgs.msg import DiagnosticStatus
+from diagnostic_msgs.msg import KeyValue
+from std_msgs.msg import Header
+
+SLOW = 0.9          # share of the wanted real-time factor below which a run is slow
+SAFE_MARGIN = 0.85  # what auto_substeps keeps
+LOOSE_RESIDUAL = 1e-2
+
+OK = DiagnosticStatus.OK
+WARN = DiagnosticStatus.WARN
+ERROR = DiagnosticStatus.ERROR
+
+
+def diagnostics_message(
+        snapshot: Snapshot, *, node_name: str, device: str, paused: bool,
+        real_time_factor: float, wanted_factor: float, recording_path: str = '',
+        recording_error: str = '') -> DiagnosticArray:
+    """
+    Return the health of the GL device, the pace, the solver, the stability and the recorder.
+
+    :param device: GL_RENDERER
+    :param real_time_factor: simulated time per wall time, achieved
+    :param wanted_factor: the same as asked for, 0 for as fast as possible
+    :param recording_path: folder being written to, empty when not recording
+    :param recording_error: why the last recording broke off, empty when it did not
+    """
+    findings = {
+        'GL device': (OK, device, {'renderer': device}),
+        'real-time factor': _pace(paused, real_time_factor, wanted_factor),
+        'solver': _solver(snapshot),
+        'stability': _stability(snapshot),
+        'recorder': _recorder(recording_path, recording_error),
+    }
+    return DiagnosticArray(
+        header=Header(stamp=stamp(snapshot.time)),
+        status=[
+            DiagnosticStatus(
+                name=f'{node_name}: {name}', level=level, message=text, hardware_id=device,
+                values=[KeyValue(key=key, value=_text(value)) for key, value in values.items()])
+            for name, (level, text, values) in findings.items()])
+
+
+def _text(value: object) -> str:
+    return f'{value:.6g}' if isinstance(value, float) else str(value)
+
+
+def _pace(paused: bool, achieved: float, wanted: float) -> tuple[bytes, str, dict]:
+    values = {'achieved': float(achieved), 'wanted': float(wanted), 'paused': paused}
+    if paused:
+        return OK, 'paused', values
+    if wanted == 0.0:
+        return OK, f'{achieved:.3g} x real time, as fast as possible', values
+    if achieved < SLOW * wanted:
+        return WARN, (
+            f'{achieved:.3g} x real time is below the {wanted:.3g} asked for: take fewer nodes, '
+            'a longer dt or a lower real_time_factor'), values
+    return OK, f'{achieved:.3g} x real time', values
+
+
+def _solver(snapshot: Snapshot) -> tuple[bytes, str, dict]:
+    values = {
+        'mode': snapshot.mode,
+        'iterations': int(snapshot.solver_iterations),
+        'residual': float(snapshot.solver_residual),
+        'active constraints': int(snapshot.active_constraints),
+    }
+    if snapshot.solver_iterations == 0:
+        return OK, f'{snapshot.mode} has nothing to solve', values
+    text = f'residual {snapshot.solver_residual:.2g} in {snapshot.solver_iterations} iterations'
+    # Written so that a residual that is not a number warns.
+    if not snapshot.solver_residual <= LOOSE_RESIDUAL:
+        return WARN, f'{text} is above {LOOSE_RESIDUAL:g}: take a shorter dt', values
+    return OK, text, values
+
+
+def _stability(snapshot: Snapshot) -> tuple[bytes, str, dict]:
+    margin = float(snapshot.stability_margin)
+    values = {
+        'margin': margin,
+        'dt': float(snapshot.dt),
+        'substeps': int(snapshot.substeps),
+        'max strain': float(snapshot.max_strain),
+        'total energy': float(snapshot.total_energy),
+    }
+    if not snapshot.finite:
+        return ERROR, 'the state is no longer finite: reset, then take a shorter dt', values
+    text = f'a substep is {margin:.3g} of the stability limit'
+    if margin > 1.0:
+        return ERROR, f'{text}: take a shorter dt, or auto_substeps: true', values
+    if margin > SAFE_MARGIN + 1e-3:
+        return WARN, f'{text}, above the safe {SAFE_MARGIN}: take a shorter dt', values
+    return OK, text, values
+
+
+def _recorder(path: str, error: str) -> tuple[bytes, str, dict]:
+    values = {'path': path}
+    if error:
+        return ERROR, error, values
+    return OK, f'recording to {path}' if path else 'not recording', values

@@ -1,0 +1,84 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""What was done to the cloth, as messages: a recording keeps them for running it again."""
+
+from collections.abc import Iterable
+from collections.abc import Mapping
+from typing import Any
+
+from cloth_sim_interfaces.msg import Command
+from cloth_sim_interfaces.msg import ModeChange
+from cloth_sim_interfaces.msg import PinChange
+from cloth_sim_interfaces.msg import Push as PushMessage
+from cloth_sim_ros.messages.parameter_value import parameter_value
+from cloth_sim_ros.messages.stamp import stamp
+from cloth_sim_ros.sim.field import Field
+from cloth_sim_ros.sim.push import Push
+from geometry_msgs.msg import Point
+from geometry_msgs.msg import Vector3
+from rcl_interfaces.msg import Parameter
+from rcl_interfaces.msg import ParameterEvent
+from std_msgs.msg import Header
+
+
+def push_message(push: Push, sim_time: float, frame_id: str) -> PushMessage:
+    """Return ``push``, which was given at ``sim_time`` [s]."""
+    return PushMessage(
+        header=Header(stamp=stamp(sim_time), frame_id=frame_id),
+        force=Vector3(x=push.force[0], y=push.force[1], z=push.force[2]),
+        region=push.region,
+        center=Point(x=push.center[0], y=push.center[1], z=push.center[2]),
+        radius=push.radius,
+        start=push.start,
+        duration=push.duration)
+
+
+def pin_message(row: int, col: int, pinned: bool, sim_time: float, frame_id: str) -> PinChange:
+    """Return the pinning, or the release, of one node at ``sim_time`` [s]."""
+    return PinChange(
+        header=Header(stamp=stamp(sim_time), frame_id=frame_id), row=row, col=col, pinned=pinned)
+
+
+def mode_message(mode: str, previous_mode: str, sim_time: float, frame_id: str) -> ModeChange:
+    """Return the switch of the mode at ``sim_time`` [s]."""
+    return ModeChange(
+        header=Header(stamp=stamp(sim_time), frame_id=frame_id), mode=mode,
+        previous_mode=previous_mode)
+
+
+def command_message(command: str, sim_time: float, frame_id: str) -> Command:
+    """Return Command.RESET or Command.CLEAR_PUSHES, given at ``sim_time`` [s]."""
+    return Command(header=Header(stamp=stamp(sim_time), frame_id=frame_id), command=command)
+
+
+def parameters_message(
+        values: Mapping[str, Any], fields: Iterable[Field], sim_time: float, node_name: str, *,
+        is_change: bool = False) -> ParameterEvent:
+    """
+    Return the parameters in ``values``, typed as ``fields`` has them.
+
+    :param values: by name; names that ``fields`` lacks are left out
+    :param node_name: with its namespace
+    :param is_change: True for a change while running, False for what holds from here on
+    """
+    parameters = [
+        Parameter(name=field.name, value=parameter_value(field, values[field.name]))
+        for field in fields if field.name in values]
+    event = ParameterEvent(stamp=stamp(sim_time), node=f'/{node_name.lstrip("/")}')
+    if is_change:
+        event.changed_parameters = parameters
+    else:
+        event.new_parameters = parameters
+    return event

@@ -1,0 +1,114 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""The cloth as markers, already in the bytes that go out."""
+
+from collections.abc import Iterable
+
+from cloth_sim_ros.messages.cdr_writer import CdrWriter
+from cloth_sim_ros.messages.marker import put_marker
+from cloth_sim_ros.messages.push_arrows import push_arrows
+from cloth_sim_ros.messages.stamp import stamp
+from cloth_sim_ros.messages.strain_colors import strain_colors
+from cloth_sim_ros.messages.surface import Surface
+from cloth_sim_ros.sim.push import Push
+from cloth_sim_ros.sim.snapshot import FLAG_AT_LIMIT
+from cloth_sim_ros.sim.snapshot import FLAG_PINNED
+from cloth_sim_ros.sim.snapshot import Snapshot
+import numpy as np
+from visualization_msgs.msg import Marker
+
+PIN_COLOR = (0.9, 0.1, 0.1, 1.0)
+LIMIT_COLOR = (1.0, 0.45, 0.0, 1.0)
+PUSH_COLOR = (0.1, 0.4, 1.0, 1.0)
+
+
+class MarkersMessage:
+    """
+    MarkerArray of one cloth: the surface coloured by strain, pins, nodes at their limit, pushes.
+
+    Each marker keeps its namespace and number. One that has gone is deleted in every message
+    from then on, so that a viewer which missed a message does not keep it.
+
+    :param frame_id: frame of the positions
+    :param max_side: nodes drawn along each side at most; larger cloths are sampled evenly
+    """
+
+    def __init__(self, rows: int, cols: int, frame_id: str, max_side: int = 256) -> None:
+        """Choose the nodes drawn."""
+        self._frame_id = frame_id
+        self._surface = Surface(rows, cols, max_side)
+        self._cells = max(rows, cols) - 1
+        self._shown: set[tuple[str, int]] = set()
+
+    def serialise(self, snapshot: Snapshot, pushes: Iterable[Push] = ()) -> bytes:
+        """Return the CDR bytes of the MarkerArray of ``snapshot`` and of ``pushes`` that act."""
+        markers = self._markers(snapshot, pushes)
+        shown = {(marker['namespace'], marker['number']) for marker in markers}
+        self._shown |= shown
+        markers += [
+            {'namespace': namespace, 'number': number, 'action': Marker.DELETE}
+            for namespace, number in sorted(self._shown - shown)]
+        writer = CdrWriter()
+        writer.put('I', len(markers))
+        time = stamp(snapshot.time)
+        for marker in markers:
+            put_marker(writer, time=time, frame_id=self._frame_id, **marker)
+        return writer.finish()
+
+    def _markers(self, snapshot: Snapshot, pushes: Iterable[Push]) -> list[dict]:
+        size = _size(snapshot.positions)
+        # Half the distance of nodes, but still to be seen on a fine cloth.
+        node_size = size * max(0.5 / self._cells, 0.01)
+        drawn = self._surface.sample(snapshot.positions)
+        markers = [self._cloth(drawn, snapshot.strain, node_size)]
+        flags = np.ascontiguousarray(snapshot.flags)
+        pins = _nodes(snapshot.positions, flags & FLAG_PINNED)
+        if len(pins):
+            markers.append({
+                'namespace': 'pins', 'number': 0, 'kind': Marker.SPHERE_LIST,
+                'scale': (node_size,) * 3, 'color': PIN_COLOR, 'points': pins})
+        limits = _nodes(snapshot.positions, flags & FLAG_AT_LIMIT)
+        if len(limits):
+            markers.append({
+                'namespace': 'active_constraints', 'number': 0, 'kind': Marker.POINTS,
+                'scale': (node_size, node_size, 0.0), 'color': LIMIT_COLOR, 'points': limits})
+        arrows = push_arrows(pushes, snapshot.time, drawn, 0.3 * size)
+        markers += [
+            {'namespace': 'pushes', 'number': number, 'kind': Marker.ARROW,
+             'scale': (0.02 * size, 0.05 * size, 0.0), 'color': PUSH_COLOR, 'points': arrow}
+            for number, arrow in enumerate(arrows)]
+        return markers
+
+    def _cloth(self, drawn: np.ndarray, strain: np.ndarray, node_size: float) -> dict:
+        is_chain = self._surface.is_chain
+        return {
+            'namespace': 'surface', 'number': 0,
+            'kind': Marker.LINE_STRIP if is_chain else Marker.TRIANGLE_LIST,
+            'scale': (0.5 * node_size, 0.0, 0.0) if is_chain else (1.0, 1.0, 1.0),
+            'color': (1.0, 1.0, 1.0, 1.0),
+            'points': self._surface.points(drawn),
+            'colors': self._surface.colors(strain_colors(self._surface.sample(strain)))}
+
+
+def _size(positions: np.ndarray) -> float:
+    """Return the longer side [m], along the first row or the first column as they hang."""
+    return max(
+        float(np.linalg.norm(np.diff(line.astype(float), axis=0), axis=1).sum())
+        for line in (positions[0], positions[:, 0]))
+
+
+def _nodes(positions: np.ndarray, chosen: np.ndarray) -> np.ndarray:
+    """Return the ``positions`` where ``chosen`` is not 0, (n, 3) float64."""
+    return positions[chosen != 0].astype('<f8')

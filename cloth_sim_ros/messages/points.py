@@ -1,0 +1,76 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""The cloth as an organised point cloud, already in the bytes that go out."""
+
+import struct
+
+from cloth_sim_ros.messages.stamp import stamp
+from cloth_sim_ros.sim.snapshot import POINT_DTYPE
+from cloth_sim_ros.sim.snapshot import Snapshot
+import numpy as np
+from rclpy.serialization import serialize_message
+from sensor_msgs.msg import PointCloud2
+from sensor_msgs.msg import PointField
+from std_msgs.msg import Header
+
+_STAMP = struct.Struct('<iI')
+_STAMP_AT = 4  # behind the encapsulation; the header is the first field
+_LENGTH = struct.Struct('<I')
+_MARK = bytes(range(64, 128))  # stands for the points when looking for their place
+
+_DATATYPES = {'<f4': PointField.FLOAT32, '<u4': PointField.UINT32}
+
+
+class PointsMessage:
+    """
+    PointCloud2 of one cloth: everything but the stamp and the points is serialised once.
+
+    :param frame_id: frame of the positions
+    """
+
+    def __init__(self, rows: int, cols: int, frame_id: str) -> None:
+        """Serialise what stays the same from frame to frame."""
+        self._shape = (rows, cols)
+        template = serialize_message(PointCloud2(
+            header=Header(frame_id=frame_id),
+            height=rows,
+            width=cols,
+            fields=[
+                PointField(
+                    name=name, offset=POINT_DTYPE.fields[name][1], count=1,
+                    datatype=_DATATYPES[POINT_DTYPE.fields[name][0].str])
+                for name in POINT_DTYPE.names],
+            is_bigendian=False,
+            point_step=POINT_DTYPE.itemsize,
+            row_step=POINT_DTYPE.itemsize * cols,
+            data=_MARK,
+            is_dense=True))
+        place = template.index(_MARK)
+        self._head = bytearray(template[:place])
+        _LENGTH.pack_into(
+            self._head, place - _LENGTH.size, rows * cols * POINT_DTYPE.itemsize)
+        self._tail = bytearray(template[place + len(_MARK):])
+
+    def serialise(self, snapshot: Snapshot) -> bytes:
+        """Return the CDR bytes of the PointCloud2 of ``snapshot``."""
+        records = snapshot.records
+        if records.shape != self._shape or records.dtype != POINT_DTYPE:
+            raise ValueError(
+                f'points are {records.shape} {records.dtype}, the message is {self._shape} '
+                f'{POINT_DTYPE}: make a PointsMessage for this cloth')
+        time = stamp(snapshot.time)
+        _STAMP.pack_into(self._head, _STAMP_AT, time.sec, time.nanosec)
+        self._tail[0] = snapshot.finite  # is_dense, the last field
+        return b''.join((self._head, np.ascontiguousarray(records).data, self._tail))

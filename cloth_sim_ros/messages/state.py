@@ -1,0 +1,49 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""What the simulation is doing, for people and tools that come late."""
+
+from collections.abc import Sequence
+
+from cloth_sim_interfaces.msg import ClothState
+from cloth_sim_ros.messages.stamp import stamp
+from std_msgs.msg import Header
+
+
+def state_message(
+        *, frame_id: str, sim_time: float, mode: str, available_modes: Sequence[str],
+        run_state: str, rows: int, cols: int, dt: float, substeps: int, stability_limit: float,
+        device: str, recording_path: str = '') -> ClothState:
+    """
+    Return the state of the node.
+
+    :param run_state: ClothState.RUNNING, PAUSED or STOPPED
+    :param dt: [s]
+    :param stability_limit: longest stable substep of this mode [s]
+    :param device: GL_RENDERER
+    :param recording_path: folder being written to, empty when not recording
+    """
+    return ClothState(
+        header=Header(stamp=stamp(sim_time), frame_id=frame_id),
+        mode=mode,
+        available_modes=list(available_modes),
+        run_state=run_state,
+        rows=rows,
+        cols=cols,
+        dt=dt,
+        substeps=substeps,
+        stability_limit=float(stability_limit),
+        device=device,
+        recording=bool(recording_path),
+        recording_path=recording_path)

@@ -1,0 +1,50 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""One frame in plain numbers."""
+
+from cloth_sim_interfaces.msg import ClothStats
+from cloth_sim_ros.messages.stamp import stamp
+from cloth_sim_ros.sim.snapshot import Snapshot
+from std_msgs.msg import Header
+
+
+def stats_message(
+        snapshot: Snapshot, frame_id: str, *, step_wall_time: float = 0.0,
+        real_time_factor: float = 0.0) -> ClothStats:
+    """
+    Return the plain numbers of ``snapshot``.
+
+    :param step_wall_time: wall time of one dt, mean over this frame [s]
+    :param real_time_factor: simulated time per wall time, achieved
+    """
+    return ClothStats(
+        header=Header(stamp=stamp(snapshot.time), frame_id=frame_id),
+        sim_time=float(snapshot.time),
+        steps=int(snapshot.steps),
+        dt=float(snapshot.dt),
+        substeps=int(snapshot.substeps),
+        stability_margin=float(snapshot.stability_margin),
+        kinetic_energy=float(snapshot.kinetic_energy),
+        elastic_energy=float(snapshot.elastic_energy),
+        gravitational_energy=float(snapshot.gravitational_energy),
+        total_energy=float(snapshot.total_energy),
+        max_strain=float(snapshot.max_strain),
+        solver_iterations=int(snapshot.solver_iterations),
+        solver_residual=float(snapshot.solver_residual),
+        active_constraints=int(snapshot.active_constraints),
+        active_fraction=float(snapshot.active_fraction),
+        constraint_switches=int(snapshot.constraint_switches),
+        step_wall_time=float(step_wall_time),
+        real_time_factor=float(real_time_factor))

@@ -1,0 +1,62 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""The cloth as what RViz and Foxglove can draw: triangles, or a line for a chain."""
+
+from cloth_sim_ros.messages.triangles import triangles
+import numpy as np
+
+
+def _sampled(count: int, limit: int) -> np.ndarray | slice:
+    if count <= limit:
+        return slice(None)
+    return np.linspace(0, count - 1, limit).round().astype(np.intp)
+
+
+class Surface:
+    """
+    Which nodes are drawn, and in which order.
+
+    :param max_side: nodes drawn along each side at most; larger cloths are sampled evenly
+    """
+
+    def __init__(self, rows: int, cols: int, max_side: int) -> None:
+        """Choose the nodes."""
+        self.is_chain = min(rows, cols) == 1
+        limit = max(rows, cols) if self.is_chain else max_side
+        self._rows = _sampled(rows, limit)
+        self._cols = _sampled(cols, limit)
+        corners = triangles(min(rows, limit), min(cols, limit))
+        self._order = np.arange(rows * cols) if self.is_chain else corners.ravel().astype(np.intp)
+        self._points = np.empty((len(self._order), 3))
+        self._colors = np.empty((len(self._order), 4), np.float32)
+
+    def sample(self, values: np.ndarray) -> np.ndarray:
+        """Return ``values``, (rows, cols, ...), at the nodes drawn, one behind the other."""
+        chosen = values[self._rows][:, self._cols]
+        return chosen.reshape(-1, *values.shape[2:])
+
+    def points(self, positions: np.ndarray) -> np.ndarray:
+        """Return the corners to draw, from sampled ``positions``; valid until the next call."""
+        return np.take(
+            positions.astype('<f8', copy=False), self._order, axis=0, out=self._points,
+            mode='clip')
+
+    def colors(self, colors: np.ndarray) -> np.ndarray:
+        """Return the colours of those corners, from sampled ``colors``; valid likewise."""
+        # As one 16-byte item each, which NumPy gathers faster than four floats.
+        np.take(
+            colors.view(np.complex128)[:, 0], self._order,
+            out=self._colors.view(np.complex128)[:, 0], mode='clip')
+        return self._colors

@@ -1,0 +1,54 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""One topic: its name, message type and quality of service."""
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class Topic:
+    """
+    A topic the simulator publishes or records.
+
+    :param key: its name behind the node's, or behind / when ``is_global``
+    :param message: class of its messages
+    :param depth: messages kept for slow subscribers
+    :param reliable: False for best effort
+    :param transient_local: True to keep the last ``depth`` for late subscribers
+    :param is_global: True for a name that does not depend on the node
+    :param recorded: False for what a recording leaves out
+    """
+
+    key: str
+    message: type
+    depth: int
+    reliable: bool = True
+    transient_local: bool = False
+    is_global: bool = False
+    recorded: bool = True
+
+    @property
+    def name(self) -> str:
+        """Name to publish under: private to the node, or global."""
+        return f'/{self.key}' if self.is_global else f'~/{self.key}'
+
+    @property
+    def type_name(self) -> str:
+        """Name of the message type, such as std_msgs/msg/Header."""
+        return f'{self.message.__module__.split(".")[0]}/msg/{self.message.__name__}'
+
+    def full_name(self, node_name: str) -> str:
+        """Return the name in the graph, for the node ``node_name``, namespace included."""
+        return self.name.replace('~', f'/{node_name.lstrip("/")}')

@@ -1,0 +1,46 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Every topic that goes out: what the node publishes is what the recorder writes."""
+
+from cloth_sim_interfaces.msg import ClothState
+from cloth_sim_interfaces.msg import ClothStats
+from cloth_sim_interfaces.msg import Command
+from cloth_sim_interfaces.msg import ModeChange
+from cloth_sim_interfaces.msg import PinChange
+from cloth_sim_interfaces.msg import Push
+from cloth_sim_ros.messages.topic import Topic
+from diagnostic_msgs.msg import DiagnosticArray
+from rcl_interfaces.msg import ParameterEvent
+from rosgraph_msgs.msg import Clock
+from sensor_msgs.msg import PointCloud2
+from shape_msgs.msg import Mesh
+from visualization_msgs.msg import MarkerArray
+
+# Markers are drawn from the points, at many times their size: a recording keeps the points.
+TOPICS = {
+    topic.key: topic for topic in (
+        Topic('points', PointCloud2, depth=10),
+        Topic('markers', MarkerArray, depth=1, recorded=False),
+        Topic('topology', Mesh, depth=1, transient_local=True),
+        Topic('stats', ClothStats, depth=10),
+        Topic('state', ClothState, depth=1, transient_local=True),
+        Topic('clock', Clock, depth=10, is_global=True),
+        Topic('diagnostics', DiagnosticArray, depth=10, is_global=True),
+        Topic('inputs/push', Push, depth=100),
+        Topic('inputs/pin', PinChange, depth=100),
+        Topic('inputs/mode', ModeChange, depth=100),
+        Topic('inputs/command', Command, depth=100),
+        Topic('inputs/parameters', ParameterEvent, depth=100),
+    )}

@@ -1,0 +1,70 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""The health of a run, in words."""
+
+from cloth_sim_ros.messages.diagnostics import diagnostics_message
+from diagnostic_msgs.msg import DiagnosticArray
+from diagnostic_msgs.msg import DiagnosticStatus
+from made_snapshot import make_snapshot
+import pytest
+from rclpy.serialization import deserialize_message
+from rclpy.serialization import serialize_message
+
+HEALTHY = {
+    'node_name': 'cloth_sim', 'device': 'llvmpipe', 'paused': False, 'real_time_factor': 1.0,
+    'wanted_factor': 1.0}
+OK, WARN, ERROR = DiagnosticStatus.OK, DiagnosticStatus.WARN, DiagnosticStatus.ERROR
+
+
+def diagnose(snapshot, **changes):
+    """Return the status of each part by its short name."""
+    message = diagnostics_message(snapshot, **{**HEALTHY, **changes})
+    array = deserialize_message(serialize_message(message), DiagnosticArray)
+    assert (array.header.stamp.sec, array.header.stamp.nanosec) == (1, 250000000)
+    return {status.name.removeprefix('cloth_sim: '): status for status in array.status}
+
+
+def test_a_healthy_run_is_ok_in_all_parts():
+    """A run would raise an alarm for nothing, or a part would be missing."""
+    found = diagnose(make_snapshot(2, 2))
+    assert set(found) == {'GL device', 'real-time factor', 'solver', 'stability', 'recorder'}
+    assert {status.level for status in found.values()} == {OK}
+    assert {status.hardware_id for status in found.values()} == {'llvmpipe'}
+    assert found['GL device'].message == 'llvmpipe'
+    assert found['recorder'].message == 'not recording'
+    values = {value.key: value.value for value in found['stability'].values}
+    assert values['margin'] == '0.5' and values['substeps'] == '3'
+
+
+@pytest.mark.parametrize(('part', 'level', 'text', 'state', 'run'), [
+    ('real-time factor', WARN, 'lower real_time_factor', {}, {'real_time_factor': 0.5}),
+    ('real-time factor', OK, 'paused', {}, {'real_time_factor': 0.0, 'paused': True}),
+    ('real-time factor', OK, 'as fast as possible', {}, {'wanted_factor': 0.0}),
+    ('solver', OK, 'in 7 iterations', {'solver_iterations': 7, 'solver_residual': 1e-4}, {}),
+    ('solver', WARN, 'shorter dt', {'solver_iterations': 7, 'solver_residual': 0.5}, {}),
+    ('solver', WARN, 'shorter dt',
+     {'solver_iterations': 7, 'solver_residual': float('nan')}, {}),
+    ('stability', OK, '0.85 of', {'stability_margin': 0.85000001}, {}),
+    ('stability', WARN, 'above the safe', {'stability_margin': 0.95}, {}),
+    ('stability', ERROR, 'auto_substeps', {'stability_margin': 1.1}, {}),
+    ('stability', ERROR, 'reset', {'finite': False, 'max_strain': float('nan')}, {}),
+    ('recorder', OK, '/bags/a', {}, {'recording_path': '/bags/a'}),
+    ('recorder', ERROR, 'disk is full', {}, {'recording_error': 'the disk is full'}),
+])
+def test_what_is_wrong_is_told(part, level, text, state, run):
+    """A fault would go unnoticed, or be told without a way out."""
+    status = diagnose(make_snapshot(2, 2, **state), **run)[part]
+    assert status.level == level
+    assert text in status.message

@@ -1,0 +1,79 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""What was done to the cloth."""
+
+from cloth_sim_interfaces.msg import Command
+from cloth_sim_interfaces.msg import Push as PushMessage
+from cloth_sim_ros.messages.inputs import command_message
+from cloth_sim_ros.messages.inputs import mode_message
+from cloth_sim_ros.messages.inputs import parameters_message
+from cloth_sim_ros.messages.inputs import pin_message
+from cloth_sim_ros.messages.inputs import push_message
+from cloth_sim_ros.sim.push import Push
+from cloth_sim_ros.sim.scene import Scene
+from cloth_sim_ros.sim.scene_fields import SCENE_FIELDS
+from rclpy.parameter import Parameter
+from rclpy.serialization import deserialize_message
+from rclpy.serialization import serialize_message
+
+
+def test_a_push_is_told_in_full():
+    """A run could not be pushed again as it was."""
+    push = Push.checked(
+        force=(1.0, 2.0, 3.0), start=4.0, duration=5.0, region='sphere',
+        center=(6.0, 7.0, 8.0), radius=9.0)
+    message = deserialize_message(
+        serialize_message(push_message(push, 0.5, 'world')), PushMessage)
+    assert message.header.stamp.nanosec == 500000000 and message.header.frame_id == 'world'
+    assert Push(
+        force=(message.force.x, message.force.y, message.force.z),
+        start=message.start, duration=message.duration, region=message.region,
+        center=(message.center.x, message.center.y, message.center.z),
+        radius=message.radius) == push
+
+
+def test_pin_mode_and_command_are_told_with_their_time():
+    """The order of inputs would be lost."""
+    pin = pin_message(3, 4, True, 0.5, 'world')
+    mode = mode_message('adaptive', 'constraint', 0.5, 'world')
+    command = command_message(Command.CLEAR_PUSHES, 0.5, 'world')
+    assert (pin.row, pin.col, pin.pinned) == (3, 4, True)
+    assert (mode.mode, mode.previous_mode) == ('adaptive', 'constraint')
+    assert command.command == 'clear_pushes'
+    assert {message.header.stamp.nanosec for message in (pin, mode, command)} == {500000000}
+
+
+def test_a_scene_can_be_made_again_from_its_parameters():
+    """A run could not be simulated again from its recording."""
+    scene = Scene({'rows': 5, 'cols': 7, 'pins': ['0,0'], 'pushes.start': [0.5],
+                   'pushes.duration': [0.25], 'pushes.force': [0.0, 0.0, 1.0]})
+    event = parameters_message(scene.values, SCENE_FIELDS, 1.5, 'left/cloth_sim')
+    assert event.node == '/left/cloth_sim' and event.stamp.sec == 1
+    assert not event.changed_parameters
+    again = {
+        parameter.name: Parameter.from_parameter_msg(parameter).value
+        for parameter in deserialize_message(serialize_message(event), type(event)).new_parameters}
+    values = {
+        name: list(value) if not isinstance(value, (str, int, float)) else value
+        for name, value in again.items()}
+    assert Scene(values).values == scene.values
+
+
+def test_a_change_is_told_as_a_change():
+    """A reader would take a change for the whole set of parameters."""
+    event = parameters_message(
+        {'mode': 'constraint'}, SCENE_FIELDS, 0.0, 'cloth_sim', is_change=True)
+    assert not event.new_parameters
+    assert [parameter.name for parameter in event.changed_parameters] == ['mode']

@@ -1,0 +1,115 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""The markers, decoded."""
+
+from cloth_sim_ros.messages.markers import MarkersMessage
+from cloth_sim_ros.messages.strain_colors import strain_colors
+from cloth_sim_ros.messages.triangles import triangles
+from cloth_sim_ros.sim.push import Push
+from cloth_sim_ros.sim.snapshot import FLAG_AT_LIMIT
+from cloth_sim_ros.sim.snapshot import FLAG_PINNED
+from made_snapshot import make_snapshot
+import numpy as np
+import pytest
+from rclpy.serialization import deserialize_message
+from visualization_msgs.msg import Marker
+from visualization_msgs.msg import MarkerArray
+
+PUSH = Push.checked(force=(0.0, 0.0, 1.0), start=1.0, duration=0.5)
+
+
+def decode(data):
+    """Return the markers by namespace and number."""
+    markers = deserialize_message(data, MarkerArray).markers
+    assert len({(marker.ns, marker.id) for marker in markers}) == len(markers)
+    return {(marker.ns, marker.id): marker for marker in markers}
+
+
+def points_of(marker):
+    """Return the points of a marker as an array."""
+    return np.array([[point.x, point.y, point.z] for point in marker.points])
+
+
+def test_surface_is_the_cloth():
+    """The surface would show other positions or strains than the simulation's."""
+    snapshot = make_snapshot(5, 7)
+    surface = decode(MarkersMessage(5, 7, 'world').serialise(snapshot))['surface', 0]
+    corners = triangles(5, 7).ravel()
+    assert (surface.type, surface.action) == (Marker.TRIANGLE_LIST, Marker.ADD)
+    assert surface.header.frame_id == 'world'
+    assert (surface.header.stamp.sec, surface.header.stamp.nanosec) == (1, 250000000)
+    np.testing.assert_array_equal(
+        points_of(surface), snapshot.positions.reshape(-1, 3)[corners].astype(float))
+    colors = [[color.r, color.g, color.b, color.a] for color in surface.colors]
+    np.testing.assert_array_equal(
+        np.array(colors, np.float32), strain_colors(snapshot.strain.ravel()[corners]))
+
+
+@pytest.mark.parametrize(('rows', 'cols'), [(1, 6), (6, 1)])
+def test_a_chain_is_a_line(rows, cols):
+    """A chain would be invisible."""
+    snapshot = make_snapshot(rows, cols)
+    chain = decode(MarkersMessage(rows, cols, 'world').serialise(snapshot))['surface', 0]
+    assert chain.type == Marker.LINE_STRIP and chain.scale.x > 0.0
+    np.testing.assert_array_equal(
+        points_of(chain), snapshot.positions.reshape(-1, 3).astype(float))
+    assert len(chain.colors) == 6
+
+
+def test_only_what_is_there_is_sent():
+    """Empty markers would cost time and bandwidth, and viewers warn of them."""
+    markers = decode(MarkersMessage(5, 7, 'world').serialise(make_snapshot(5, 7)))
+    assert list(markers) == [('surface', 0)]
+
+
+def test_pins_and_active_constraints_stand_on_their_nodes():
+    """A pin or a node at its limit would be shown elsewhere."""
+    snapshot = make_snapshot(5, 7)
+    snapshot.flags[0, 6] = FLAG_PINNED
+    snapshot.flags[2, 3] = FLAG_AT_LIMIT
+    snapshot.flags[4, 1] = FLAG_PINNED | FLAG_AT_LIMIT
+    markers = decode(MarkersMessage(5, 7, 'world').serialise(snapshot))
+    pins, limits = markers['pins', 0], markers['active_constraints', 0]
+    assert (pins.type, limits.type) == (Marker.SPHERE_LIST, Marker.POINTS)
+    np.testing.assert_array_equal(points_of(pins), snapshot.positions[[0, 4], [6, 1]])
+    np.testing.assert_array_equal(points_of(limits), snapshot.positions[[2, 4], [3, 1]])
+
+
+def test_pushes_are_shown_while_they_act():
+    """A push would not be seen, or stay for ever."""
+    message = MarkersMessage(5, 7, 'world')
+    arrow = decode(message.serialise(make_snapshot(5, 7), [PUSH, PUSH]))['pushes', 1]
+    assert (arrow.type, arrow.action, len(arrow.points)) == (Marker.ARROW, Marker.ADD, 2)
+    tail, tip = points_of(arrow)
+    assert tip[2] > tail[2] and tip[0] == tail[0] and tip[1] == tail[1]
+    later = decode(message.serialise(make_snapshot(5, 7, time=1.5), [PUSH, PUSH]))
+    assert [later['pushes', number].action for number in (0, 1)] == [Marker.DELETE] * 2
+
+
+def test_what_has_gone_is_deleted_until_it_comes_back():
+    """Viewers would keep pins that were released, above all when they missed a message."""
+    message = MarkersMessage(4, 4, 'world')
+    pinned, free = make_snapshot(4, 4), make_snapshot(4, 4)
+    pinned.flags[0, 0] = FLAG_PINNED
+    actions = [
+        decode(message.serialise(snapshot))['pins', 0].action
+        for snapshot in (pinned, free, free, pinned)]
+    assert actions == [Marker.ADD, Marker.DELETE, Marker.DELETE, Marker.ADD]
+
+
+def test_a_large_cloth_stays_a_small_message():
+    """A cloth of a million nodes would make messages of 250 MB."""
+    data = MarkersMessage(300, 40, 'world', max_side=20).serialise(make_snapshot(300, 40))
+    assert len(decode(data)['surface', 0].points) == 6 * 19 * 19

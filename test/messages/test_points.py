@@ -1,0 +1,94 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""The point cloud, decoded."""
+
+from dataclasses import replace
+
+from cloth_sim_ros.messages.points import PointsMessage
+from cloth_sim_ros.sim.snapshot import POINT_DTYPE
+from made_snapshot import make_snapshot
+import numpy as np
+import pytest
+from rclpy.serialization import deserialize_message
+from sensor_msgs.msg import PointCloud2
+from sensor_msgs.msg import PointField
+
+
+def decode(data):
+    """Return the message and its points."""
+    cloud = deserialize_message(data, PointCloud2)
+    points = np.frombuffer(cloud.data, POINT_DTYPE).reshape(cloud.height, cloud.width)
+    return cloud, points
+
+
+@pytest.mark.parametrize(('rows', 'cols'), [(5, 7), (1, 9), (9, 1), (64, 33)])
+@pytest.mark.parametrize('frame_id', ['', 'w', 'world', 'map_01', 'großer Rahmen'])
+def test_points_are_the_records(rows, cols, frame_id):
+    """Positions on the topic would differ from the simulation's."""
+    snapshot = make_snapshot(rows, cols)
+    snapshot.records['flags'] = np.arange(rows * cols).reshape(rows, cols)
+    cloud, points = decode(PointsMessage(rows, cols, frame_id).serialise(snapshot))
+    np.testing.assert_array_equal(points, snapshot.records)
+    np.testing.assert_array_equal(points['flags'], snapshot.flags)
+    assert cloud.header.frame_id == frame_id
+    assert (cloud.header.stamp.sec, cloud.header.stamp.nanosec) == (1, 250000000)
+
+
+def test_layout_is_described():
+    """A reader would take the wrong bytes for a coordinate."""
+    cloud, _ = decode(PointsMessage(5, 7, 'world').serialise(make_snapshot(5, 7)))
+    assert (cloud.height, cloud.width, cloud.point_step, cloud.row_step) == (5, 7, 44, 308)
+    assert not cloud.is_bigendian and cloud.is_dense
+    names = ['x', 'y', 'z', 'vx', 'vy', 'vz', 'normal_x', 'normal_y', 'normal_z', 'strain']
+    assert [field.name for field in cloud.fields] == [*names, 'flags']
+    assert [field.offset for field in cloud.fields] == list(range(0, 44, 4))
+    assert [field.datatype for field in cloud.fields] == (
+        [PointField.FLOAT32] * 10 + [PointField.UINT32])
+    assert all(field.count == 1 for field in cloud.fields)
+
+
+def test_each_message_is_its_own():
+    """A message that waits to be sent would change with the next frame."""
+    message = PointsMessage(4, 4, 'world')
+    first = make_snapshot(4, 4)
+    second = make_snapshot(4, 4, time=2.000000001, records=np.zeros_like(first.records))
+    data = message.serialise(first)
+    other, points = decode(message.serialise(second))
+    np.testing.assert_array_equal(points, second.records)
+    assert (other.header.stamp.sec, other.header.stamp.nanosec) == (2, 1)
+    cloud, points = decode(data)
+    np.testing.assert_array_equal(points, first.records)
+    assert cloud.header.stamp.nanosec == 250000000
+
+
+def test_takes_records_that_are_not_contiguous():
+    """A view of a larger array would be sent with the wrong nodes."""
+    snapshot = make_snapshot(6, 8)
+    part = replace(snapshot, records=snapshot.records[::2, 1:5])
+    _, points = decode(PointsMessage(3, 4, 'world').serialise(part))
+    np.testing.assert_array_equal(points, snapshot.records[::2, 1:5])
+
+
+def test_a_state_that_is_not_finite_is_not_dense():
+    """A reader would trust points that are not numbers."""
+    message = PointsMessage(2, 2, 'world')
+    assert not decode(message.serialise(make_snapshot(2, 2, finite=False)))[0].is_dense
+    assert decode(message.serialise(make_snapshot(2, 2)))[0].is_dense
+
+
+def test_another_grid_is_refused():
+    """The cloud would claim a size its bytes don't have."""
+    with pytest.raises(ValueError, match='make a PointsMessage for this cloth'):
+        PointsMessage(3, 4, 'world').serialise(make_snapshot(4, 3))

@@ -1,0 +1,45 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Simulated time as ROS writes it."""
+
+from fractions import Fraction
+
+from cloth_sim_ros.messages.stamp import nanoseconds
+from cloth_sim_ros.messages.stamp import stamp
+from hypothesis import given
+from hypothesis import strategies
+import pytest
+
+
+@given(
+    steps=strategies.integers(0, 10**8),
+    dt=strategies.sampled_from(['0.005', '0.01', '0.001', '0.0025', '0.0001']))
+def test_steps_of_dt_fall_on_exact_nanoseconds(steps, dt):
+    """Stamps would drift against the steps they belong to."""
+    exact = Fraction(dt) * steps * 10**9
+    assert nanoseconds(steps * float(dt)) == exact
+
+
+@pytest.mark.parametrize(('seconds', 'sec', 'nanosec'), [
+    (0.0, 0, 0),
+    (1.9999999999, 2, 0),
+    (0.3, 0, 300000000),
+    (0.1 + 0.2, 0, 300000000),
+    (2147483646.5, 2147483646, 500000000),
+])
+def test_rounds_to_the_nearest_and_carries(seconds, sec, nanosec):
+    """A stamp would be cut off instead of rounded, or hold 10^9 nanoseconds."""
+    time = stamp(seconds)
+    assert (time.sec, time.nanosec) == (sec, nanosec)

@@ -1,0 +1,47 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""One frame in plain numbers."""
+
+from cloth_sim_ros.messages.stats import stats_message
+from made_snapshot import make_snapshot
+import pytest
+from rclpy.serialization import deserialize_message
+from rclpy.serialization import serialize_message
+
+NUMBERS = {
+    'solver_iterations': 11, 'solver_residual': 1e-3, 'active_constraints': 12,
+    'active_fraction': 0.25, 'constraint_switches': 13}
+
+
+def test_every_number_is_in_its_place():
+    """A plot would show one number under the name of another."""
+    snapshot = make_snapshot(2, 2, **NUMBERS)
+    message = stats_message(snapshot, 'world', step_wall_time=0.125, real_time_factor=0.75)
+    stats = deserialize_message(serialize_message(message), type(message))
+    assert stats.header.frame_id == 'world'
+    assert (stats.header.stamp.sec, stats.header.stamp.nanosec) == (1, 250000000)
+    assert stats.sim_time == snapshot.time
+    assert (stats.step_wall_time, stats.real_time_factor) == (0.125, 0.75)
+    own = {'header', 'sim_time', 'step_wall_time', 'real_time_factor'}
+    names = set(stats.get_fields_and_field_types()) - own
+    assert {name: getattr(stats, name) for name in names} == {
+        name: getattr(snapshot, name) for name in names}
+
+
+@pytest.mark.parametrize('value', [float('nan'), float('inf')])
+def test_a_run_that_blew_up_is_still_told(value):
+    """The node would stop on the first number that is not finite."""
+    stats = stats_message(make_snapshot(2, 2, kinetic_energy=value, finite=False), 'world')
+    assert str(stats.kinetic_energy) == str(value)

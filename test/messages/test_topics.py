@@ -1,0 +1,48 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""The table of topics."""
+
+from cloth_sim_ros.messages.topics import TOPICS
+import pytest
+
+
+@pytest.mark.parametrize(('key', 'type_name', 'depth', 'transient_local'), [
+    ('points', 'sensor_msgs/msg/PointCloud2', 10, False),
+    ('markers', 'visualization_msgs/msg/MarkerArray', 1, False),
+    ('topology', 'shape_msgs/msg/Mesh', 1, True),
+    ('stats', 'cloth_sim_interfaces/msg/ClothStats', 10, False),
+    ('state', 'cloth_sim_interfaces/msg/ClothState', 1, True),
+    ('clock', 'rosgraph_msgs/msg/Clock', 10, False),
+    ('diagnostics', 'diagnostic_msgs/msg/DiagnosticArray', 10, False),
+])
+def test_topics_are_as_documented(key, type_name, depth, transient_local):
+    """Subscribers written against the documentation would not connect."""
+    topic = TOPICS[key]
+    assert (topic.type_name, topic.depth, topic.transient_local, topic.reliable) == (
+        type_name, depth, transient_local, True)
+
+
+def test_all_inputs_are_recorded():
+    """A run could not be simulated again from its recording."""
+    inputs = {key for key in TOPICS if key.startswith('inputs/')}
+    assert inputs == {
+        'inputs/push', 'inputs/pin', 'inputs/mode', 'inputs/command', 'inputs/parameters'}
+    assert all(TOPICS[key].recorded for key in inputs)
+    assert TOPICS['topology'].recorded and TOPICS['clock'].recorded
+
+
+def test_only_clock_and_diagnostics_are_global():
+    """Topics of two nodes would run into each other."""
+    assert {key for key, topic in TOPICS.items() if topic.is_global} == {'clock', 'diagnostics'}

@@ -1,0 +1,33 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Snapshots made by hand: what is made from them is tested without a GL device."""
+
+from cloth_sim_ros.sim.snapshot import POINT_DTYPE
+from cloth_sim_ros.sim.snapshot import Snapshot
+import numpy as np
+
+
+def make_snapshot(rows, cols, **changes):
+    """Return a snapshot with random records and no flags; ``changes`` replace its fields."""
+    random = np.random.default_rng(rows * 10007 + cols)
+    records = np.zeros((rows, cols), POINT_DTYPE)
+    for name in POINT_DTYPE.names[:-1]:
+        records[name] = random.uniform(-1.0, 1.0, (rows, cols))
+    records['strain'] = random.uniform(0.0, 0.1, (rows, cols))
+    content = {
+        'records': records, 'mode': 'mass_spring', 'time': 1.25, 'steps': 250, 'dt': 0.005,
+        'substeps': 3, 'stability_margin': 0.5, 'kinetic_energy': 1.5, 'elastic_energy': 2.5,
+        'gravitational_energy': -0.5, 'max_strain': 0.07, 'finite': True}
+    return Snapshot(**{**content, **changes})
