@@ -1,0 +1,60 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""What a recording says about a message type, so that it can be read without the package."""
+
+from functools import cache
+import json
+import re
+
+from cloth_sim_ros.recording.share_folder import share_folder
+
+_PRIMITIVES = {
+    'bool', 'byte', 'char', 'float32', 'float64', 'int8', 'uint8', 'int16', 'uint16', 'int32',
+    'uint32', 'int64', 'uint64', 'string', 'wstring'}
+_FIELD_TYPE = re.compile(r'^\s*([a-zA-Z0-9_/]+)', re.MULTILINE)
+
+
+@cache
+def message_definition(type_name: str) -> str:
+    """Return the text of ``type_name``, such as std_msgs/msg/Header, and of all it is made of."""
+    package, name = _split(type_name)
+    return _text_with_parts(package, name, set())
+
+
+@cache
+def type_hash(type_name: str) -> str:
+    """Return the hash publishers of ``type_name`` announce."""
+    package, name = _split(type_name)
+    description = json.loads((share_folder(package) / 'msg' / f'{name}.json').read_text())
+    return next(
+        entry['hash_string'] for entry in description['type_hashes']
+        if entry['type_name'] == f'{package}/msg/{name}')
+
+
+def _split(type_name: str) -> tuple[str, str]:
+    parts = type_name.split('/')
+    return parts[0], parts[-1]
+
+
+def _text_with_parts(package: str, name: str, seen: set[str]) -> str:
+    """Return the text of one type, then of each type in it that is not in ``seen`` yet."""
+    text = (share_folder(package) / 'msg' / f'{name}.msg').read_text()
+    found = set(_FIELD_TYPE.findall(text)) - _PRIMITIVES
+    result = text
+    for part in sorted(part if '/' in part else f'{package}/{part}' for part in found):
+        if part not in seen:
+            seen.add(part)
+            result += f'\n{"=" * 80}\nMSG: {part}\n' + _text_with_parts(*_split(part), seen)
+    return result

@@ -1,0 +1,38 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Where a ROS package keeps its files."""
+
+from importlib.util import find_spec
+from pathlib import Path
+
+from ament_index_python.packages import get_package_share_directory
+from cloth_sim_ros.sim.errors import ClothSimError
+
+
+def share_folder(package: str) -> Path:
+    """Return the share/ folder of ``package``, from the ament index or beside its Python code."""
+    try:
+        return Path(get_package_share_directory(package))
+    # Without a sourced ROS the index has no search path at all, which is an OSError.
+    except (KeyError, OSError):
+        pass
+    code = find_spec(package)
+    for prefix in Path(code.origin).parents if code is not None and code.origin else ():
+        folder = prefix / 'share' / package
+        if folder.is_dir():
+            return folder
+    raise ClothSimError(
+        f'the ROS package {package} has no share folder, which recordings take its message '
+        'definitions from: install or build it, and source its setup')

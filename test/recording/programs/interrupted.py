@@ -1,0 +1,32 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Record faster than can be written, and close while interrupts come in."""
+
+import os
+import sys
+
+from cloth_sim_ros.recording.recorder import Recorder
+from rclpy.serialization import serialize_message
+from sensor_msgs.msg import PointCloud2
+
+recorder = Recorder(sys.argv[1], 'run')
+data = serialize_message(PointCloud2(data=os.urandom(2**24)))
+for step in range(12):
+    recorder.write('points', data, step / 50)
+print('closing', flush=True)
+try:
+    recorder.close()
+except KeyboardInterrupt:
+    print('interrupted', flush=True)

@@ -1,0 +1,86 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""What rosbag2 wants to know of a bag before it opens it."""
+
+from cloth_sim_ros.messages.topics import TOPICS
+from cloth_sim_ros.recording.bag_metadata import BagMetadata
+from cloth_sim_ros.recording.message_definition import type_hash
+from cloth_sim_ros.recording.offered_qos import offered_qos
+import pytest
+import yaml
+
+
+def read(folder):
+    """Return the content of metadata.yaml."""
+    return yaml.safe_load((folder / 'metadata.yaml').read_text())['rosbag2_bagfile_information']
+
+
+@pytest.fixture
+def metadata():
+    """Return the metadata of a bag with one topic, and no messages yet."""
+    made = BagMetadata('a_0.mcap')
+    made.add_topic('/cloth_sim/stats', TOPICS['stats'])
+    return made
+
+
+def test_content_is_that_of_version_9(metadata, tmp_path):
+    """Players would refuse the bag, or show other topics and times than it holds."""
+    for time in (2_500_000_000, 1_500_000_000, 4_000_000_000):
+        metadata.add_message('/cloth_sim/stats', time)
+    metadata.write(tmp_path)
+    times = {
+        'duration': {'nanoseconds': 2_500_000_000},
+        'starting_time': {'nanoseconds_since_epoch': 1_500_000_000}}
+    assert read(tmp_path) == {
+        **times, 'version': 9, 'storage_identifier': 'mcap', 'message_count': 3,
+        'topics_with_message_count': [{
+            'topic_metadata': {
+                'name': '/cloth_sim/stats', 'type': 'cloth_sim_interfaces/msg/ClothStats',
+                'serialization_format': 'cdr',
+                'offered_qos_profiles': offered_qos(TOPICS['stats']),
+                'type_description_hash': type_hash('cloth_sim_interfaces/msg/ClothStats')},
+            'message_count': 3}],
+        'compression_format': '', 'compression_mode': '', 'relative_file_paths': ['a_0.mcap'],
+        'files': [{'path': 'a_0.mcap', 'message_count': 3, **times}],
+        'custom_data': None, 'ros_distro': 'jazzy'}
+    assert yaml.safe_load(metadata.text()) == read(tmp_path)
+
+
+def test_an_empty_bag_has_no_time_yet(metadata, tmp_path):
+    """Players would find a negative duration and stop."""
+    metadata.write(tmp_path)
+    content = read(tmp_path)
+    assert content['duration'] == {'nanoseconds': 0}
+    assert content['starting_time'] == {'nanoseconds_since_epoch': 2**63 - 1}
+
+
+def test_writing_again_leaves_one_file(metadata, tmp_path):
+    """Half a file would be left behind, or the old one kept."""
+    metadata.write(tmp_path)
+    metadata.add_message('/cloth_sim/stats', 5)
+    metadata.write(tmp_path)
+    assert [path.name for path in tmp_path.iterdir()] == ['metadata.yaml']
+    assert read(tmp_path)['message_count'] == 1
+
+
+def test_a_failed_write_keeps_the_old_file(metadata, tmp_path):
+    """A full disk would take the metadata of what is recorded already."""
+    metadata.write(tmp_path)
+    (tmp_path / 'metadata.yaml.new').symlink_to('/dev/full')
+    metadata.add_message('/cloth_sim/stats', 5)
+    with pytest.raises(OSError, match='No space left'):
+        metadata.write(tmp_path)
+    assert read(tmp_path)['message_count'] == 0
+    assert [path.name for path in tmp_path.iterdir()] == ['metadata.yaml']
