@@ -13,7 +13,9 @@
 // limitations under the License.
 
 #version 430 core
-// Look at the state: one point record a node, and sums of energies for each workgroup.
+// Look at the state: one point record a node, and sums of energies for each invocation, which
+// looks at STRIP nodes of a column. Summing across invocations is left to the reader: it would
+// need barriers, which cost llvmpipe more than all the rest.
 // RECORDS_WANTED: 0 leaves the records out.
 
 #include "lattice.glsl"
@@ -22,7 +24,6 @@
 #include "applied_acceleration.glsl"
 
 layout(local_size_x = LOCAL_X, local_size_y = LOCAL_Y) in;
-#define LOCAL_SIZE (LOCAL_X * LOCAL_Y)
 
 uniform int first_row;         // of the slab of rows this dispatch looks at
 uniform int slab_rows;
@@ -37,11 +38,10 @@ uniform vec3 gravity;          // [m/s2]
 layout(std430, binding = RECORDS) writeonly buffer Records { uint records[]; };
 #endif
 
-// A workgroup's kinetic, elastic and gravitational energy over the node mass or as is, the
-// largest strain, and how many of its nodes are not finite.
+// An invocation's kinetic and gravitational energy over the node mass, elastic energy, largest
+// strain, and how many of its nodes are not finite.
 #define SUMS 5
 layout(std430, binding = PARTIAL_SUMS) writeonly buffer PartialSums { float partial_sums[]; };
-shared float sums[SUMS][LOCAL_SIZE];
 
 struct Springs {
     float energy;  // [J] half of each spring's, the other half is the other end's
@@ -125,41 +125,35 @@ void write_record(int row, int col, vec4 x, vec4 v, float strain) {
 #endif
 
 void main() {
-    int lane = int(gl_LocalInvocationIndex);
-    int row = int(gl_GlobalInvocationID.y) + first_row;
+    int strip = int(gl_GlobalInvocationID.y);
     int col = int(gl_GlobalInvocationID.x);
-    for (int s = 0; s < SUMS; ++s) {
-        sums[s][lane] = 0.0;
+    int past = min((strip + 1) * STRIP, slab_rows) + first_row;
+    if (strip * STRIP >= slab_rows || col >= COLS) {
+        return;
     }
-    if (row < first_row + slab_rows && col < COLS) {
+    float kinetic = 0.0;
+    float elastic = 0.0;
+    float gravitational = 0.0;
+    float strain = 0.0;
+    float not_finite = 0.0;
+    for (int row = first_row + strip * STRIP; row < past; ++row) {
         int index = node_index(row, col);
         vec4 x = load_position(index);
         vec4 v = load_velocity(index);
         Springs springs = look_at_springs(x, row, col);
-        sums[0][lane] = 0.5 * dot(v.xyz, v.xyz);
-        sums[1][lane] = springs.energy;
-        sums[2][lane] = -dot(gravity, x.xyz);
-        sums[3][lane] = springs.strain;
-        sums[4][lane] = is_finite(x.xyz) && is_finite(v.xyz) ? 0.0 : 1.0;
+        kinetic += 0.5 * dot(v.xyz, v.xyz);
+        elastic += springs.energy;
+        gravitational -= dot(gravity, x.xyz);
+        strain = max(strain, springs.strain);
+        not_finite += is_finite(x.xyz) && is_finite(v.xyz) ? 0.0 : 1.0;
 #if RECORDS_WANTED
         write_record(row, col, x, v, springs.strain);
 #endif
     }
-    barrier();
-    // A fixed tree: the same order on every run.
-    for (int half_size = LOCAL_SIZE / 2; half_size > 0; half_size /= 2) {
-        if (lane < half_size) {
-            for (int s = 0; s < SUMS; ++s) {
-                float other = sums[s][lane + half_size];
-                sums[s][lane] = s == 3 ? max(sums[s][lane], other) : sums[s][lane] + other;
-            }
-        }
-        barrier();
-    }
-    if (lane == 0) {
-        int slab_group = int(gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x);
-        for (int s = 0; s < SUMS; ++s) {
-            partial_sums[slab_group * SUMS + s] = sums[s][0];
-        }
-    }
+    int first = (strip * COLS + col) * SUMS;
+    partial_sums[first] = kinetic;
+    partial_sums[first + 1] = elastic;
+    partial_sums[first + 2] = gravitational;
+    partial_sums[first + 3] = strain;
+    partial_sums[first + 4] = not_finite;
 }

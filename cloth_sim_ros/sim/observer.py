@@ -26,7 +26,8 @@ from cloth_sim_ros.sim.snapshot import POINT_DTYPE
 from cloth_sim_ros.sim.state import State
 import numpy as np
 
-_LOCAL = (16, 8)
+_LOCAL = (16, 2)
+_STRIP = 16
 _SUMS = 5
 # Rows are looked at in slabs, since the records of a large cloth outgrow a storage block.
 _SLAB_BYTES = 32 * 2**20
@@ -39,15 +40,14 @@ class Observer:
         """Prepare for ``scene``; nothing is compiled yet."""
         self._scene = scene
         self._slab_rows = max(
-            _LOCAL[1], min(scene.rows, _SLAB_BYTES // (POINT_DTYPE.itemsize * scene.cols)))
-        local = {'LOCAL_X': _LOCAL[0], 'LOCAL_Y': _LOCAL[1]}
+            _STRIP, min(scene.rows, _SLAB_BYTES // (POINT_DTYPE.itemsize * scene.cols)))
+        choices = {'LOCAL_X': _LOCAL[0], 'LOCAL_Y': _LOCAL[1], 'STRIP': _STRIP}
         self._programs = {
             wanted: SceneProgram(
-                'observe.comp', scene, layout, {**local, 'RECORDS_WANTED': int(wanted)})
+                'observe.comp', scene, layout, {**choices, 'RECORDS_WANTED': int(wanted)})
             for wanted in (False, True)}
-        self._groups_x = -(-scene.cols // _LOCAL[0])
-        groups = self._groups_x * -(-self._slab_rows // _LOCAL[1])
-        self._partial_sums = np.empty((groups, _SUMS), dtype=np.float32)
+        strips = -(-self._slab_rows // _STRIP)
+        self._partial_sums = np.empty((strips * scene.cols, _SUMS), dtype=np.float32)
         self._sums_buffer = Buffer(self._partial_sums.nbytes)
         self._records_buffer: Buffer | None = None
 
@@ -84,10 +84,10 @@ class Observer:
             rows = min(self._slab_rows, self._scene.rows - first)
             program.set_int('first_row', first)
             program.set_int('slab_rows', rows)
-            groups_y = -(-rows // _LOCAL[1])
-            program.dispatch(self._groups_x, groups_y)
+            strips = -(-rows // _STRIP)
+            program.dispatch(-(-self._scene.cols // _LOCAL[0]), -(-strips // _LOCAL[1]))
             shader_writes_visible()
-            sums = self._partial_sums[:self._groups_x * groups_y]
+            sums = self._partial_sums[:strips * self._scene.cols]
             self._sums_buffer.read_into(sums)
             largest = max(totals[3], float(sums[:, 3].max()))
             totals += sums.sum(axis=0, dtype=np.float64)

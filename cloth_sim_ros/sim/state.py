@@ -41,9 +41,8 @@ class State:
     def write(self, positions: np.ndarray, velocities: np.ndarray) -> None:
         """Replace all positions [m] and velocities [m/s], both (rows, cols, 3)."""
         free = ~self.pinned
-        still = np.where(free[..., None], velocities, 0.0)
-        position = self._layout.store(_with_fourth(positions, np.ones_like(free)))
-        velocity = self._layout.store(_with_fourth(still, free))
+        position = self._layout.store(_with_fourth(positions, 1.0))
+        velocity = self._layout.store(_with_fourth(velocities * free[..., None], free))
         # Ghosts are never written by a step, so both pairs need theirs.
         for buffer in self._positions:
             buffer.write(position)
@@ -82,5 +81,8 @@ class State:
             buffer.delete()
 
 
-def _with_fourth(vectors: np.ndarray, fourth: np.ndarray) -> np.ndarray:
-    return np.concatenate([vectors, fourth[..., None]], axis=-1).astype(np.float32)
+def _with_fourth(vectors: np.ndarray, fourth: np.ndarray | float) -> np.ndarray:
+    entries = np.empty((*vectors.shape[:2], 4), dtype=np.float32)
+    entries[..., :3] = vectors
+    entries[..., 3] = fourth
+    return entries

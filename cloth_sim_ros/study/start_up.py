@@ -16,13 +16,14 @@
 
 import subprocess
 import sys
+import tempfile
 import time
 
 from cloth_sim_ros.sim.errors import ClothSimError
 import rclpy
-from rclpy.qos import qos_profile_sensor_data
 from sensor_msgs.msg import PointCloud2
 
+_DEPTH = 10
 _NODE_NAME = 'cloth_sim_start_up'
 
 
@@ -37,12 +38,13 @@ def time_to_first_cloud(parameter_file: str, timeout: float) -> float:
     seen: list[float] = []
     listener.create_subscription(
         PointCloud2, f'/{_NODE_NAME}/points', lambda _: seen.append(time.perf_counter()),
-        qos_profile_sensor_data)
+        _DEPTH)
+    log = tempfile.TemporaryFile('w+')
     begin = time.perf_counter()
     process = subprocess.Popen(
         [sys.executable, '-m', 'cloth_sim_ros.node', '--ros-args',
          '-r', f'__node:={_NODE_NAME}', '--params-file', parameter_file],
-        stdout=subprocess.DEVNULL)
+        stdout=log, stderr=log)
     try:
         while not seen and time.perf_counter() - begin < timeout and process.poll() is None:
             rclpy.spin_once(listener, timeout_sec=0.05)
@@ -52,7 +54,8 @@ def time_to_first_cloud(parameter_file: str, timeout: float) -> float:
         listener.destroy_node()
         rclpy.try_shutdown()
     if not seen:
+        log.seek(0)
         raise ClothSimError(
-            f'no cloud came from a node with {parameter_file} within {timeout:g} s: '
-            'start it with cloth_sim_node to see why')
+            f'no cloud came from a node with {parameter_file} within {timeout:g} s: it said '
+            f'{log.read().strip()!r}')
     return seen[0] - begin

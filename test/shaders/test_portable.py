@@ -35,7 +35,7 @@ _SCENES = {
 }
 _FORMS = {
     'mass_spring_step.comp': {},
-    'observe.comp': {'RECORDS_WANTED': 1},
+    'observe.comp': {'RECORDS_WANTED': 1, 'STRIP': 16},
     'paper_force.comp': {},
     'paper_update.comp': {'UPDATE_LOCAL': 1024},
 }
