@@ -1,0 +1,40 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+# Source this in bash after scripts/setup.sh: the commands, the ROS prefix, the large messages.
+
+_cloth_sim_root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+# shellcheck source=/dev/null
+. "$_cloth_sim_root/scripts/setup/other_ros.sh"
+leave_other_ros "$(ros_source)"
+
+VIRTUAL_ENV=$_cloth_sim_root/.venv
+PATH=$VIRTUAL_ENV/bin:$PATH
+AMENT_PREFIX_PATH=$VIRTUAL_ENV${AMENT_PREFIX_PATH:+:$AMENT_PREFIX_PATH}
+CMAKE_PREFIX_PATH=$VIRTUAL_ENV${CMAKE_PREFIX_PATH:+:$CMAKE_PREFIX_PATH}
+if [ "$(ros_source)" = jazzy ]; then
+  # The wheels find their libraries by themselves, a sourced ROS by this.
+  LD_LIBRARY_PATH=$VIRTUAL_ENV/lib${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH}
+  export LD_LIBRARY_PATH
+fi
+export VIRTUAL_ENV PATH AMENT_PREFIX_PATH CMAKE_PREFIX_PATH
+
+# The profile reserves 128 MiB of shared memory for each process. A container has 64 MB for all by
+# default: there Fast DDS goes on without the profile, slower with large clouds.
+_cloth_sim_shared=$(df --output=avail --block-size=1M /dev/shm 2> /dev/null | tail -n 1)
+if [ "${_cloth_sim_shared:-0}" -ge 1024 ]; then
+  FASTRTPS_DEFAULT_PROFILES_FILE=$_cloth_sim_root/config/fastdds_large_messages.xml
+  export FASTRTPS_DEFAULT_PROFILES_FILE
+fi
+unset _cloth_sim_root _cloth_sim_shared

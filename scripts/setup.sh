@@ -1,0 +1,56 @@
+#!/usr/bin/env bash
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+# Make this checkout ready to run: system packages, .venv, cloth_sim_interfaces, the two commands.
+# Running it again does only what has changed; without a change it needs no network.
+#
+#   scripts/setup.sh           what the node, the commands and the demo need
+#   scripts/setup.sh --tests   what the tests need as well
+
+set -euo pipefail
+
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+venv=$root/.venv
+stamps=$venv/.setup
+cd "$root"
+
+for part in progress other_ros find_python system_packages stamps python_packages interfaces \
+  project; do
+  # shellcheck source=/dev/null
+  . "$root/scripts/setup/$part.sh"
+done
+
+with_tests=no
+case "$*" in
+  '') ;;
+  --tests) with_tests=yes ;;
+  *) stop "unknown argument: $*: give --tests or nothing" ;;
+esac
+
+# Two set-ups of one checkout at a time would mix their files.
+exec 9< "$root"
+flock --nonblock 9 || {
+  say 'Waiting for another set-up of this checkout to end.'
+  flock 9
+}
+
+ros_source=$(ros_source)
+leave_other_ros "$ros_source"
+install_system_packages
+make_venv
+install_python_packages
+build_interfaces
+install_project
+say "cloth_sim_ros is set up in ${SECONDS} s."

@@ -1,0 +1,66 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""
+Point the cmake files of the ROS wheels at this Python and its NumPy.
+
+The wheels' exported targets name the include folders of the machine that built them.
+Run by the Python of the prefix to mend; running it again changes nothing.
+"""
+
+from pathlib import Path
+import re
+import sys
+import sysconfig
+
+import numpy
+
+BUILD_PREFIX = r'/opt/(?:python|_internal)/[^;" )\n]*'
+NUMPY_INCLUDE = re.compile(BUILD_PREFIX + r'/numpy/_?core/include')
+PYTHON_INCLUDE = re.compile(BUILD_PREFIX + r'/include/python3\.\d+t?')
+LEFT_OVER = re.compile(BUILD_PREFIX)
+
+
+def mended(text: str, python_include: str, numpy_include: str) -> str:
+    """Replace the include folders of the build machine."""
+    text = NUMPY_INCLUDE.sub(lambda _: numpy_include, text)
+    return PYTHON_INCLUDE.sub(lambda _: python_include, text)
+
+
+def mend_prefix(prefix: Path, python_include: str, numpy_include: str) -> tuple[int, set[str]]:
+    """Mend every cmake file under the prefix; return the count and what could not be mended."""
+    changed = 0
+    left_over: set[str] = set()
+    for path in sorted((prefix / 'share').rglob('*.cmake')):
+        old = path.read_text(encoding='utf-8')
+        new = mended(old, python_include, numpy_include)
+        left_over.update(LEFT_OVER.findall(new))
+        if new != old:
+            path.write_text(new, encoding='utf-8')
+            changed += 1
+    return changed, left_over
+
+
+def main() -> str | None:
+    """Mend the prefix of the running Python."""
+    _, left_over = mend_prefix(
+        Path(sys.prefix), sysconfig.get_paths()['include'], numpy.get_include())
+    if left_over:
+        return ('the ROS wheels name folders of their build machine that this machine lacks: '
+                f'{sorted(left_over)}: update PYTHON_INCLUDE and NUMPY_INCLUDE in {__file__}')
+    return None
+
+
+if __name__ == '__main__':
+    sys.exit(main())

@@ -1,0 +1,74 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+# The virtual environment and what pip puts into it.
+
+# A venv of this checkout, of the ROS in use, complete, and with its Python still there?
+venv_runs() {
+  is_current venv "$root $ros_source" && [ ! -e "$stamps/installing" ] &&
+    "$venv/bin/python" -c '' 2> /dev/null
+}
+
+make_venv() {
+  local options=()
+  ! venv_runs || return 0
+  if [ -e "$venv" ] && [ ! -d "$stamps" ]; then
+    stop "$venv was not made by this script: move it away and run this again"
+  fi
+  if [ -e "$venv" ]; then
+    say 'The .venv is unfinished or of another place: making it again.'
+  fi
+  find_python
+  [ -n "$python" ] || stop 'no Python 3.10 to 3.14 was found on the PATH: install one'
+  [ "$ros_source" != jazzy ] || options=(--system-site-packages)
+  rm -rf "$venv"
+  mkdir -p "$stamps"
+  "$python" -m venv "${options[@]}" "$venv"
+  set_stamp venv "$root $ros_source"
+}
+
+pip_install() {
+  PIP_USER=0 PIP_NO_INPUT=1 PIP_DISABLE_PIP_VERSION_CHECK=1 PIP_PROGRESS_BAR=off \
+    "$venv/bin/python" -m pip install "$@"
+}
+
+# One environment is resolved as a whole; a sourced ROS brings most of it from the system.
+requirement_files() {
+  if [ "$ros_source" = jazzy ]; then
+    echo requirements/sourced_ros.txt
+  else
+    printf '%s\n' requirements/ros.txt requirements/build.txt requirements/runtime.txt
+    [ "$1" = no ] || echo requirements/test.txt
+  fi
+}
+
+install_python_packages() {
+  local files current tests=$with_tests
+  # What the tests need stays, once it is there.
+  [ ! -e "$stamps/tests" ] || tests=yes
+  mapfile -t files < <(requirement_files "$tests")
+  current=$(digest "${files[@]}" scripts/setup/fix_wheel_paths.py < /dev/null)
+  ! is_current packages "$current" || return 0
+  # pip leaves half a package behind when it is interrupted; this marker makes the next run
+  # start from an empty venv.
+  : > "$stamps/installing"
+  clear_stamp packages
+  long_step 'Installing the Python packages' pip_install "${files[@]/#/--requirement=}"
+  if [ "$ros_source" = wheels ]; then
+    "$venv/bin/python" scripts/setup/fix_wheel_paths.py
+  fi
+  [ "$tests" = no ] || set_stamp tests yes
+  set_stamp packages "$current"
+  rm -f "$stamps/installing"
+}

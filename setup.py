@@ -1,0 +1,58 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Build cloth_sim_ros as an ament_python package."""
+
+from pathlib import Path
+
+from setuptools import find_packages
+from setuptools import setup
+
+PACKAGE = 'cloth_sim_ros'
+SHARED_FOLDERS = ('config', 'launch', 'shaders')
+
+
+def shared_files():
+    """List the files that go to share/, folder by folder."""
+    folders = {}
+    for top in SHARED_FOLDERS:
+        for path in sorted(Path(top).rglob('*')):
+            if path.is_file() and '__pycache__' not in path.parts:
+                folders.setdefault(f'share/{PACKAGE}/{path.parent}', []).append(str(path))
+    return sorted(folders.items())
+
+
+setup(
+    name=PACKAGE,
+    version='0.1.0',
+    packages=find_packages(include=[PACKAGE, f'{PACKAGE}.*']),
+    data_files=[
+        ('share/ament_index/resource_index/packages', [f'resource/{PACKAGE}']),
+        (f'share/{PACKAGE}', ['package.xml']),
+        *shared_files(),
+    ],
+    python_requires='>=3.10',
+    install_requires=['setuptools'],
+    zip_safe=True,
+    maintainer='cloth_sim_ros maintainers',
+    maintainer_email='cloth_sim_ros@example.org',
+    description='Cloth simulation on GLSL compute shaders as a ROS 2 node.',
+    license='Apache-2.0',
+    entry_points={
+        'console_scripts': [
+            'cloth_sim = cloth_sim_ros.verb.main:main',
+            'cloth_sim_node = cloth_sim_ros.node.main:main',
+        ],
+    },
+)

@@ -1,0 +1,69 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Give each pytest process a ROS graph of its own, and run long tests only when asked to."""
+
+import os
+import random
+import socket
+
+import pytest
+
+# Where ROS's own domain_coordinator claims domains too, so that both respect each other.
+FIRST_CLAIM_PORT = 32768
+DOMAINS = range(1, 101)
+
+
+def claim_domain() -> tuple[int, socket.socket]:
+    """Return a domain that no other test process uses while the socket stays open."""
+    for domain in random.sample(DOMAINS, len(DOMAINS)):
+        claim = socket.socket()
+        try:
+            claim.bind(('', FIRST_CLAIM_PORT + domain))
+        except OSError:
+            claim.close()
+        else:
+            return domain, claim
+    raise RuntimeError(
+        f'all ROS domains {DOMAINS[0]} to {DOMAINS[-1]} are taken by other test processes: '
+        'wait for one of them to end')
+
+
+CLAIM = pytest.StashKey[socket.socket]()
+
+
+def pytest_addoption(parser: pytest.Parser) -> None:
+    """Add --long."""
+    parser.addoption('--long', action='store_true', help='run the tests that take minutes, too')
+
+
+def pytest_configure(config: pytest.Config) -> None:
+    """Set the environment that every node and every child process inherits."""
+    domain, config.stash[CLAIM] = claim_domain()
+    os.environ['ROS_DOMAIN_ID'] = str(domain)
+    os.environ['ROS_AUTOMATIC_DISCOVERY_RANGE'] = 'LOCALHOST'
+
+
+def pytest_unconfigure(config: pytest.Config) -> None:
+    """Let other processes have the domain."""
+    config.stash[CLAIM].close()
+
+
+def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
+    """Leave the long tests out unless --long asks for them."""
+    if config.getoption('--long'):
+        return
+    long_items = [item for item in items if item.get_closest_marker('long')]
+    config.hook.pytest_deselected(items=long_items)
+    items[:] = [item for item in items if item not in long_items]

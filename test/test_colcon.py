@@ -1,0 +1,101 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Build the two packages the ordinary ROS way, and use what was installed."""
+
+import os
+from pathlib import Path
+import shlex
+import subprocess
+
+from cloth_sim_ros.node.missing_module import BUILD_COMMAND
+import pytest
+
+ROOT = Path(__file__).resolve().parents[1]
+NOT_SOURCES = {'.git', '.venv', 'build', 'install', 'log', 'bags'}
+
+
+def bash(command: str, folder: Path) -> str:
+    """Run a command as the README says, after scripts/env.sh; return what it printed."""
+    done = subprocess.run(
+        ['bash', '-ec', f'. {shlex.quote(str(ROOT))}/scripts/env.sh; {command}'],
+        cwd=folder, stdin=subprocess.DEVNULL, capture_output=True, text=True)
+    assert done.returncode == 0, done.stdout + done.stderr
+    return done.stdout
+
+
+@pytest.fixture(scope='module')
+def installed(tmp_path_factory) -> Path:
+    """Build at the root of the checkout with the defaults that lie there."""
+    base = tmp_path_factory.mktemp('colcon')
+    bash(
+        f'colcon --log-base {base}/log build --build-base {base}/build '
+        f'--install-base {base}/install', ROOT)
+    return base / 'install'
+
+
+def test_both_packages_are_built(installed):
+    """A `colcon build` at the root would miss the interface package."""
+    for package in ('cloth_sim_ros', 'cloth_sim_interfaces'):
+        index = installed / package / 'share' / 'ament_index' / 'resource_index' / 'packages'
+        assert (index / package).is_file()
+
+
+@pytest.mark.parametrize('name', ['cloth_sim', 'cloth_sim_node'])
+def test_executables_are_where_ros2_run_looks(installed, name):
+    """`ros2 run cloth_sim_ros ...` would not find the executable."""
+    path = installed / 'cloth_sim_ros' / 'lib' / 'cloth_sim_ros' / name
+    assert os.access(path, os.X_OK)
+
+
+@pytest.mark.parametrize('folder', ['config', 'launch', 'shaders'])
+def test_every_shared_file_is_installed(installed, folder):
+    """An installed node would lack shaders, a scene or its launch file."""
+    share = installed / 'cloth_sim_ros' / 'share' / 'cloth_sim_ros'
+    sources = [path for path in (ROOT / folder).rglob('*')
+               if path.is_file() and '__pycache__' not in path.parts]
+    assert sources
+    for path in sources:
+        copy = share / path.relative_to(ROOT)
+        assert copy.read_bytes() == path.read_bytes()
+
+
+def test_installed_code_runs_without_the_checkout(installed, tmp_path):
+    """The installed node would need the source tree beside it."""
+    printed = bash(
+        f'. {installed}/setup.bash; python3 -c "'
+        'import cloth_sim_ros.node.process as process; '
+        'import cloth_sim_ros.gl.shader_directory as shaders; '
+        'import cloth_sim_interfaces.srv; '
+        'print(process.__file__, shaders.shader_directory(), cloth_sim_interfaces.__file__)"',
+        tmp_path)
+    for place in printed.split():
+        assert Path(place).is_relative_to(installed)
+
+
+def test_workspace_build(installed, tmp_path):
+    """The command that README and node tell to someone with a workspace would not work."""
+    checkout = tmp_path / 'src' / 'cloth_sim_ros'
+    checkout.mkdir(parents=True)
+    for path in ROOT.iterdir():
+        if path.name not in NOT_SOURCES:
+            (checkout / path.name).symlink_to(path)
+    build = f'. {installed}/setup.bash; {BUILD_COMMAND}'
+    printed = bash(
+        build.replace('colcon build', 'colcon build --packages-select cloth_sim_ros')
+        + ' && python3 -c "import cloth_sim_ros.node as node; print(node.__file__)"', tmp_path)
+    assert Path(printed.split()[-1]).is_relative_to(tmp_path / 'install')
+    listed = bash(build.partition('&&')[0].replace('colcon build', 'colcon list'), tmp_path)
+    assert {line.split()[0] for line in listed.splitlines()} == {
+        'cloth_sim_interfaces', 'cloth_sim_ros'}

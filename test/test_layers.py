@@ -1,0 +1,85 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Hold the imports to the layers of the architecture: each room looks only at those below it."""
+
+import ast
+from pathlib import Path
+import sys
+
+import pytest
+
+PACKAGE = Path(__file__).resolve().parents[1] / 'cloth_sim_ros'
+
+# Each room, and the other rooms it may import.
+ROOMS = {
+    'gl': set(),
+    'sim': {'gl'},
+    'reference': {'sim'},
+    'messages': {'sim'},
+    'recording': {'messages', 'sim'},
+    'node': {'recording', 'messages', 'sim', 'gl'},
+    'study': {'recording', 'messages', 'sim', 'gl', 'reference'},
+    'analysis': {'recording', 'messages', 'sim', 'gl'},
+    'verb': {
+        'node', 'study', 'analysis', 'recording', 'messages', 'reference', 'sim', 'gl'},
+}
+
+# These rooms must run where there is no ROS; beside the standard library they may import only this.
+WITHOUT_ROS = ('gl', 'sim', 'reference')
+NUMERIC_MODULES = {'numpy', 'scipy', 'OpenGL', 'yaml'}
+
+SOURCES = sorted(path for path in PACKAGE.rglob('*.py') if path.parent != PACKAGE)
+
+
+def imported_modules(path: Path) -> set[str]:
+    """Return the full names of all modules a file imports, wherever it does."""
+    names = set()
+    for node in ast.walk(ast.parse(path.read_text(encoding='utf-8'))):
+        if isinstance(node, ast.Import):
+            names.update(alias.name for alias in node.names)
+        elif isinstance(node, ast.ImportFrom):
+            assert node.level == 0, f'{path}: relative import'
+            names.update(f'{node.module}.{alias.name}' for alias in node.names)
+    return names
+
+
+def room_of(path: Path) -> str:
+    """Return the room a file stands in."""
+    return path.relative_to(PACKAGE).parts[0]
+
+
+def test_every_room_is_known():
+    """A new folder would have no place in the layers."""
+    assert {room_of(path) for path in SOURCES} <= set(ROOMS)
+
+
+@pytest.mark.parametrize('path', SOURCES, ids=lambda path: str(path.relative_to(PACKAGE)))
+def test_imports_go_down_only(path):
+    """A room would depend on one above it, and could no longer be used or tested alone."""
+    room = room_of(path)
+    used = {
+        name.split('.')[1] for name in imported_modules(path)
+        if name.startswith('cloth_sim_ros.')}
+    assert used - {room} <= ROOMS[room]
+
+
+@pytest.mark.parametrize(
+    'path', [path for path in SOURCES if room_of(path) in WITHOUT_ROS],
+    ids=lambda path: str(path.relative_to(PACKAGE)))
+def test_no_ros_below_the_messages(path):
+    """The simulation would not run on a machine without ROS."""
+    outside = {name.partition('.')[0] for name in imported_modules(path)}
+    outside -= sys.stdlib_module_names | {'cloth_sim_ros'}
+    assert outside <= NUMERIC_MODULES
