@@ -1,0 +1,54 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""The energies of a state, in J."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from cloth_sim_ros.reference.springs import SpringSet
+import numpy as np
+
+
+@dataclass(frozen=True)
+class Energies:
+    """Kinetic, elastic and gravitational energy [J]; gravitational is zero at the origin."""
+
+    kinetic: float
+    elastic: float
+    gravitational: float
+
+    @property
+    def total(self) -> float:
+        """Return the sum of the three [J]."""
+        return self.kinetic + self.elastic + self.gravitational
+
+
+def kinetic_energy(velocities: np.ndarray, free: np.ndarray, node_mass: float) -> float:
+    """Return 1/2 m v^2 over the free nodes [J]."""
+    return 0.5 * node_mass * float(np.sum(velocities[free] ** 2))
+
+
+def elastic_energy(springs: Sequence[SpringSet], positions: np.ndarray) -> float:
+    """Return 1/2 k (l - L0)^2 over the springs [J]."""
+    return sum(
+        0.5 * spring_set.stiffness * float(np.sum(
+            (spring_set.lengths(positions) - spring_set.rest_length) ** 2))
+        for spring_set in springs)
+
+
+def gravitational_energy(
+        positions: np.ndarray, node_mass: float, gravity: np.ndarray) -> float:
+    """Return -m g . x over all nodes, the pinned ones too [J]."""
+    return -node_mass * float(np.sum(positions @ gravity))

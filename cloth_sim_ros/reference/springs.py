@@ -1,0 +1,102 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""The springs of a cloth: six directions, each a slice of the grid against a shifted slice."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from cloth_sim_ros.sim.scene import Scene
+import numpy as np
+
+
+@dataclass(frozen=True)
+class SpringSet:
+    """
+    Every spring of one direction: node (r, c) is tied to node (r + down, c + right).
+
+    :param family: structural, shear or bend
+    :param rest_length: [m]
+    :param stiffness: [N/m]
+    :param damping: [N s/m]
+    """
+
+    family: str
+    down: int
+    right: int
+    rest_length: float
+    stiffness: float
+    damping: float
+
+    def ends(self, field: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Return views of ``field`` (rows, cols, ...) at the two ends of each spring."""
+        rows, cols = field.shape[:2]
+        height = max(rows - self.down, 0)
+        width = max(cols - abs(self.right), 0)
+        left = max(-self.right, 0)
+        first = field[:height, left:left + width]
+        second = field[self.down:self.down + height,
+                       left + self.right:left + self.right + width]
+        return first, second
+
+    def lengths(self, positions: np.ndarray) -> np.ndarray:
+        """Return the length of each spring [m]."""
+        first, second = self.ends(positions)
+        return np.linalg.norm(first - second, axis=-1)
+
+    def strains(self, positions: np.ndarray) -> np.ndarray:
+        """Return l / L0 - 1 of each spring."""
+        return self.lengths(positions) / self.rest_length - 1.0
+
+    def forces(self, positions: np.ndarray, velocities: np.ndarray) -> np.ndarray:
+        """Return the force on the first end of each spring [N]; the second gets its opposite."""
+        first, second = self.ends(positions)
+        difference = first - second
+        length = np.linalg.norm(difference, axis=-1, keepdims=True)
+        # A spring of no length has no direction: it pulls nowhere.
+        direction = np.divide(
+            difference, length, out=np.zeros_like(difference), where=length > 0.0)
+        first_velocity, second_velocity = self.ends(velocities)
+        rate = np.sum((first_velocity - second_velocity) * direction, axis=-1, keepdims=True)
+        tension = self.stiffness * (length - self.rest_length) + self.damping * rate
+        return -tension * direction
+
+
+def spring_sets(scene: Scene) -> tuple[SpringSet, ...]:
+    """Return the springs of a scene: the families it models, where its grid has room."""
+    dx, dy = scene.spacing
+    diagonal = float(np.hypot(dx, dy))
+    directions = (
+        ('structural', 0, 1, dx), ('structural', 1, 0, dy),
+        ('shear', 1, 1, diagonal), ('shear', 1, -1, diagonal),
+        ('bend', 0, 2, 2.0 * dx), ('bend', 2, 0, 2.0 * dy),
+    )
+    return tuple(
+        SpringSet(family, down, right, rest_length,
+                  scene.stiffness(family), scene.damping(family))
+        for family, down, right, rest_length in directions
+        if scene.models(family) and down < scene.rows and abs(right) < scene.cols)
+
+
+def total_forces(
+        springs: Sequence[SpringSet], positions: np.ndarray,
+        velocities: np.ndarray) -> np.ndarray:
+    """Return the force of all springs on each node [N], shape (rows, cols, 3)."""
+    total = np.zeros_like(positions)
+    for spring_set in springs:
+        force = spring_set.forces(positions, velocities)
+        first, second = spring_set.ends(total)
+        first += force
+        second -= force
+    return total

@@ -1,0 +1,76 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""
+What the physics tests share: how a scene is run, and how a figure is held to its limit.
+
+A ground truth is written once. It runs for each mode it holds in and each way the shaders have
+of doing it; a new mode joins by its name in SPRING_MODES, or in a list of its own.
+"""
+
+from collections.abc import Callable
+from collections.abc import Iterator
+
+from cloth_sim_ros.sim.scene import Scene
+from cloth_sim_ros.sim.simulation import Simulation
+import pytest
+
+# Modes whose motion is that of the springs as long as none of them is at its limit.
+SPRING_MODES = ('mass_spring',)
+
+LAYOUTS = ('fused', 'paper')
+
+
+@pytest.fixture(scope='session', params=SPRING_MODES)
+def mode(request: pytest.FixtureRequest) -> str:
+    """Return each mode that moves as its springs do."""
+    return request.param
+
+
+@pytest.fixture(scope='session')
+def tested_modes() -> frozenset[str]:
+    """Return all modes these tests run in."""
+    return frozenset(SPRING_MODES)
+
+
+@pytest.fixture(scope='session', params=LAYOUTS)
+def layout(request: pytest.FixtureRequest) -> str:
+    """Return each way the passes are laid out."""
+    return request.param
+
+
+@pytest.fixture
+def simulate() -> Iterator[Callable[..., Simulation]]:
+    """Return a function from scene values to a simulation, which ends with the test."""
+    opened = []
+
+    def start(values: dict, **options) -> Simulation:
+        simulation = Simulation(Scene(values), **options)
+        opened.append(simulation)
+        return simulation
+
+    yield start
+    for simulation in opened:
+        simulation.close()
+
+
+@pytest.fixture
+def within() -> Callable[[str, float, float], None]:
+    """Return a function that prints a figure and fails where it is above its limit."""
+
+    def check(what: str, value: float, limit: float) -> None:
+        print(f'measured {value:.1e} of {limit:.0e} allowed: {what}')
+        assert value <= limit, what
+
+    return check

@@ -1,0 +1,35 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""A chain hung from its top: each spring carries what is below it."""
+
+import numpy as np
+
+
+def test_hanging_strip(simulate, within, mode, layout):
+    """At rest the springs do not hold the weight below them."""
+    nodes, mass, stiffness = 11, 0.01, 50.0
+    simulation = simulate({
+        'mode': mode, 'layout': layout, 'rows': nodes, 'cols': 1, 'height': 1.0,
+        'pins': ['top_left'], 'node_mass': mass, 'start.pose': 'hanging', 'start.z': -0.5,
+        'stiffness.structural': stiffness, 'stiffness.bend': 0.0,
+        'damping.structural': 0.3, 'damping.bend': 0.0, 'dt': 0.001, 'auto_substeps': False})
+    simulation.advance(60.0)
+    snapshot = simulation.snapshot()
+    height = snapshot.positions[:, 0, 2].astype(float)
+    extension = -np.diff(height) - 1.0 / (nodes - 1)
+    exact = mass * 9.81 / stiffness * np.arange(nodes - 1, 0, -1)
+    within('hanging strip, extension of each spring over the largest',
+           np.abs(extension - exact).max() / exact.max(), 1e-4)
+    within('hanging strip, speed left [m/s]', float(np.abs(snapshot.velocities).max()), 1e-4)

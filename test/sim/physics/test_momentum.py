@@ -1,0 +1,47 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""A free cloth in no field keeps its linear and angular momentum."""
+
+import numpy as np
+
+
+def test_momentum_over_ten_thousand_steps(simulate, within, mode, layout):
+    """The two ends of a spring do not feel opposite forces along it."""
+    simulation = simulate({
+        'mode': mode, 'layout': layout, 'rows': 16, 'cols': 16, 'pins': ['none'],
+        'gravity': [0.0, 0.0, 0.0], 'start.z': 0.0, 'stiffness.bend': 100.0,
+        'damping.bend': 0.01, 'dt': 5e-4, 'auto_substeps': False})
+    random = np.random.default_rng(3)
+    start = simulation.snapshot()
+    shape = start.positions.shape
+    simulation.set_state(
+        (start.positions + random.standard_normal(shape) / 150.0).astype(np.float32),
+        random.standard_normal(shape).astype(np.float32))
+    before = _momenta(simulation.snapshot())
+    simulation.step(10_000)
+    after = _momenta(simulation.snapshot())
+    within('linear momentum, change over sum of |v|',
+           np.abs(after[0] - before[0]).max() / before[2], 1e-6)
+    within('angular momentum, change over sum of |x| |v|',
+           np.abs(after[1] - before[1]).max() / before[3], 5e-6)
+
+
+def _momenta(snapshot):
+    """Return sums over nodes of v, of x cross v, of |v| and of |x| |v|."""
+    positions = snapshot.positions.astype(float)
+    velocities = snapshot.velocities.astype(float)
+    speed = np.linalg.norm(velocities, axis=-1)
+    return (velocities.sum(axis=(0, 1)), np.cross(positions, velocities).sum(axis=(0, 1)),
+            speed.sum(), (np.linalg.norm(positions, axis=-1) * speed).sum())

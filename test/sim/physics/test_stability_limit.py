@@ -1,0 +1,89 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""The predicted longest step: below it nothing grows, above it everything does."""
+
+from cloth_sim_ros.sim.scene import Scene
+from cloth_sim_ros.sim.stability import stability_limit
+import numpy as np
+import pytest
+
+STIFFNESS = 100.0
+# Each node moves this much of the spacing at the start. Strains that stay near it are calm; a
+# cloth that blows up may end in a violent motion of bounded strain before it ends in NaN.
+JITTER = 1e-4
+CALM = 30.0 * JITTER
+BLOWN_UP = 3000.0 * JITTER
+
+
+def _values(mode, nodes, damping_ratio, shear, bend):
+    mass = 0.2 / nodes**2
+    # The ratio is that of the stiffest wave, mu k = 10 k or so.
+    damping = 2.0 * damping_ratio * np.sqrt(STIFFNESS * mass / 10.0)
+    return {
+        'mode': mode, 'rows': nodes, 'cols': nodes, 'gravity': [0.0, 0.0, 0.0],
+        'stiffness.structural': STIFFNESS, 'damping.structural': damping,
+        'stiffness.shear': STIFFNESS * shear, 'damping.shear': damping * shear,
+        'stiffness.bend': STIFFNESS * bend, 'damping.bend': damping * bend,
+        'start.jitter': JITTER, 'auto_substeps': False}
+
+
+def _strain_after(simulate, values, over_limit, steps):
+    dt = over_limit * stability_limit(Scene(values))
+    simulation = simulate({**values, 'dt': dt}, check_stability=False)
+    simulation.step(steps)
+    snapshot = simulation.snapshot()
+    return snapshot.max_strain if snapshot.finite else np.inf
+
+
+@pytest.mark.parametrize('damping_ratio', [0.0, 0.05, 0.2, 1.0, 5.0])
+@pytest.mark.parametrize('nodes', [12, 24, 48, 64])
+def test_limit_separates_calm_from_blow_up(simulate, mode, nodes, damping_ratio):
+    """The limit is too high, or so low that it costs steps for nothing."""
+    values = _values(mode, nodes, damping_ratio, shear=1.0, bend=1.0)
+    calm = _strain_after(simulate, values, 0.85, 2000)
+    blown = _strain_after(simulate, values, 1.1, 2000)
+    print(f'measured strain {calm:.1e} at 0.85, {blown:.1e} at 1.1 of the limit')
+    assert calm < CALM
+    assert blown > BLOWN_UP
+
+
+@pytest.mark.parametrize(('shear', 'bend'), [(1.0, 0.1), (0.0, 0.0), (0.5, 4.0), (4.0, 0.0)])
+@pytest.mark.parametrize('damping_ratio', [0.0, 1.0])
+def test_limit_for_unlike_families(simulate, mode, shear, bend, damping_ratio):
+    """The limit is right only where all families are alike."""
+    values = _values(mode, 24, damping_ratio, shear, bend)
+    values.update({'rows': 20, 'width': 1.3})
+    assert _strain_after(simulate, values, 0.85, 2000) < CALM
+    assert _strain_after(simulate, values, 1.1, 2000) > BLOWN_UP
+
+
+def test_a_hard_push_does_not_blow_up(simulate, within, mode):
+    """Automatic substeps hold for a cloth at rest only, not for one stretched to its double."""
+    nodes = 32
+    weight = 0.2 * 9.81 * (1.0 - 2.0 / nodes**2)
+    simulation = simulate({
+        'mode': mode, 'rows': nodes, 'cols': nodes, 'dt': 0.02, 'pushes.start': [0.5],
+        'pushes.duration': [0.2], 'pushes.force': [0.0, 0.0, 20.0 * weight]})
+    simulation.advance(0.7)
+    pushed = simulation.measure()
+    strains = []
+    for _ in range(20):
+        simulation.advance(0.1)
+        strains.append(simulation.measure().max_strain)
+    after = simulation.measure()
+    assert after.finite
+    assert max(strains) > 1.0
+    within('energy 2 s after a push of 20 g, over that at its end',
+           after.total_energy / pushed.total_energy, 1.0)

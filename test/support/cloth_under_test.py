@@ -1,0 +1,115 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""A running cloth node together with everything it says."""
+
+from collections.abc import Mapping
+from typing import Any
+
+from cloth_sim_ros.messages.stamp import nanoseconds
+from cloth_sim_ros.messages.topics import TOPICS
+from cloth_sim_ros.node.parameters import FIELDS
+from cloth_sim_ros.sim.snapshot import POINT_DTYPE
+from graph_client import GraphClient
+from graph_client import Watch
+import numpy as np
+from rcl_interfaces.srv import SetParametersAtomically
+from rclpy.parameter import Parameter
+from std_srvs.srv import SetBool
+from std_srvs.srv import Trigger
+
+NAME = '/cloth_sim'
+SCENE = {
+    'rows': 8, 'cols': 10, 'width': 0.9, 'height': 0.7, 'stiffness.structural': 40.0,
+    'stiffness.shear': 30.0, 'stiffness.bend': 5.0, 'damping.structural': 0.02, 'dt': 0.005,
+}
+PAUSED = {**SCENE, 'start_paused': True}
+
+
+class ClothUnderTest:
+    """
+    Call the services of a node and keep the messages of all its topics.
+
+    :param values: what differs from the defaults in the node's parameters
+    :param name: of the node, with its namespace
+    """
+
+    def __init__(
+            self, client: GraphClient, values: Mapping[str, Any], name: str = NAME) -> None:
+        """Subscribe to everything, and wait until the node knows that."""
+        self.client = client
+        self.name = name
+        self.dt = values['dt']
+        self._shape = (values['rows'], values['cols'])
+        self._topics: dict[str, Watch] = {
+            key: client.watch(topic.message, topic.full_name(name), kept=topic.transient_local)
+            for key, topic in TOPICS.items() if key != 'clock'}
+        # The node learns of the subscriptions in their order: it has them all when the last
+        # one, of inputs/parameters, is answered.
+        while not self['inputs/parameters']:
+            self.set_parameters(real_time_factor=1.0)
+
+    def __getitem__(self, key: str) -> list[Any]:
+        """Return the messages of the topic ``key`` since the last clear."""
+        return self._topics[key].messages
+
+    def clear(self) -> None:
+        """Forget all messages."""
+        for watch in self._topics.values():
+            watch.clear()
+
+    def call(self, kind: type, name: str, /, **fields: Any) -> Any:
+        """Return the answer of the node's service ``name``."""
+        return self.client.call(kind, f'{self.name}/{name}', **fields)
+
+    def set_parameters(self, **values: Any) -> Any:
+        """Set parameters at once; __ in a name stands for a dot. Return the result."""
+        parameters = [
+            Parameter(name.replace('__', '.'), value=value).to_parameter_msg()
+            for name, value in values.items()]
+        return self.call(
+            SetParametersAtomically, 'set_parameters_atomically', parameters=parameters).result
+
+    def wait_for(self, key: str, condition: Any = None) -> Any:
+        """Return the first message of ``key`` since the last clear that ``condition`` likes."""
+        likes = condition or (lambda message: True)
+        return self.client.spin_until(
+            lambda: next(filter(likes, self[key]), None), f'a message on {key}')
+
+    def frame(self, steps: int) -> np.ndarray:
+        """Return the points after ``steps`` steps as an array of POINT_DTYPE."""
+        return self.points_of(self.wait_for('points', lambda cloud: self.steps_of(cloud) == steps))
+
+    def points_of(self, cloud: Any) -> np.ndarray:
+        """Return a PointCloud2 as an array of POINT_DTYPE."""
+        return np.frombuffer(bytes(cloud.data), dtype=POINT_DTYPE).reshape(self._shape)
+
+    def steps_of(self, message: Any) -> float:
+        """Return the steps of dt that the stamp of ``message`` amounts to."""
+        time = message.header.stamp
+        return (time.sec * 10**9 + time.nanosec) / nanoseconds(self.dt)
+
+    def restore(self) -> None:
+        """Go back to the start, paused, not recording, with the parameters of the start."""
+        self.call(SetBool, 'pause', data=True)
+        self.call(Trigger, 'stop_recording')
+        self.call(Trigger, 'clear_pushes')
+        assert self.set_parameters(**{
+            field.name: list(field.default) if field.is_array else field.default
+            for field in FIELDS if field.live}).successful
+        self.clear()
+        assert self.call(Trigger, 'reset').success
+        self.frame(0)
+        self.client.spin_until(lambda: self['state'] and self['stats'], 'the reset is told')
+        self.clear()
