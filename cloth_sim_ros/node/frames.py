@@ -1,0 +1,87 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""What a frame is made of: the cloud, markers and plain numbers of one moment."""
+
+from collections.abc import Mapping
+import time
+from typing import Any
+
+from cloth_sim_ros.messages.markers import MarkersMessage
+from cloth_sim_ros.messages.points import PointsMessage
+from cloth_sim_ros.messages.stamp import stamp
+from cloth_sim_ros.messages.stats import stats_message
+from cloth_sim_ros.node.outlet import Outlet
+from cloth_sim_ros.sim.simulation import Simulation
+from rclpy.serialization import serialize_message
+from rosgraph_msgs.msg import Clock
+
+_PARTS = ('points', 'markers', 'stats')
+
+
+class Frames:
+    """
+    Send the topics that show the cloth.
+
+    :param values: the node's parameter values, read at each frame
+    """
+
+    def __init__(
+            self, simulation: Simulation, outlet: Outlet, values: Mapping[str, Any]) -> None:
+        """Prepare the messages of this cloth."""
+        scene = simulation.scene
+        self._simulation = simulation
+        self._outlet = outlet
+        self._values = values
+        self._frame_id = values['frame_id']
+        self._points = PointsMessage(scene.rows, scene.cols, self._frame_id)
+        self._markers = MarkersMessage(scene.rows, scene.cols, self._frame_id)
+
+    def send(
+            self, *, worked: float = 0.0, steps: int = 0, real_time_factor: float = 0.0,
+            to_recording: bool = True) -> bool:
+        """
+        Send what is wanted of the moment, and return False when its state is not finite.
+
+        :param worked: wall time the steps of this frame took [s]
+        :param steps: of dt in this frame, 0 when the moment has been there before
+        :param real_time_factor: simulated time per wall time, achieved
+        :param to_recording: False to show the same moment once more
+        """
+        simulation = self._simulation
+        now = simulation.time
+        self._outlet.send_message(
+            'clock', Clock(clock=stamp(now)), now, to_recording=to_recording)
+        made = [
+            part for part in _PARTS if self._values[f'publish.{part}']
+            and self._outlet.wanted(part, by_recording=to_recording)]
+        if not made:
+            return simulation.measure().finite
+        begin = time.monotonic()
+        snapshot = simulation.snapshot()
+        # The device may still be at work when the steps return: the read-back waits for it.
+        worked += time.monotonic() - begin
+        makers = {
+            'points': lambda: self._points.serialise(snapshot),
+            'markers': lambda: self._markers.serialise(
+                snapshot, [applied.push for applied in simulation.pushes]),
+            'stats': lambda: serialize_message(stats_message(
+                snapshot, self._frame_id, step_wall_time=worked / max(steps, 1),
+                real_time_factor=real_time_factor)),
+        }
+        for part in made:
+            # Nothing can be drawn of a state that is not finite, but its numbers tell.
+            if snapshot.finite or part == 'stats':
+                self._outlet.send(part, makers[part], now, to_recording=to_recording)
+        return snapshot.finite

@@ -1,0 +1,79 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Tell topics and the recording everything that is done to the cloth."""
+
+from collections.abc import Sequence
+
+from cloth_sim_ros.messages.inputs import command_message
+from cloth_sim_ros.messages.inputs import mode_message
+from cloth_sim_ros.messages.inputs import parameters_message
+from cloth_sim_ros.messages.inputs import pin_message
+from cloth_sim_ros.messages.inputs import push_message
+from cloth_sim_ros.node.outlet import Outlet
+from cloth_sim_ros.node.parameters import FIELDS
+from cloth_sim_ros.node.parameters import plain_value
+from cloth_sim_ros.sim.push import Push
+from cloth_sim_ros.sim.simulation import Simulation
+from rclpy.parameter import Parameter
+
+
+class Inputs:
+    """
+    Send each input as a message, stamped with the simulated time at which it was given.
+
+    :param node_name: with its namespace
+    """
+
+    def __init__(
+            self, outlet: Outlet, simulation: Simulation, frame_id: str, node_name: str) -> None:
+        """Keep the parts the messages are made of."""
+        self._outlet = outlet
+        self._simulation = simulation
+        self._frame_id = frame_id
+        self._node_name = node_name
+
+    def push(self, push: Push) -> None:
+        """Tell that ``push`` was accepted."""
+        now = self._simulation.time
+        self._outlet.send_message('inputs/push', push_message(push, now, self._frame_id), now)
+
+    def pin(self, row: int, col: int, pinned: bool) -> None:
+        """Tell that a node was pinned or released."""
+        now = self._simulation.time
+        self._outlet.send_message(
+            'inputs/pin', pin_message(row, col, pinned, now, self._frame_id), now)
+
+    def mode(self, mode: str, previous: str) -> None:
+        """Tell that the mode was switched."""
+        now = self._simulation.time
+        self._outlet.send_message(
+            'inputs/mode', mode_message(mode, previous, now, self._frame_id), now)
+
+    def command(self, command: str) -> None:
+        """Tell that Command.RESET or Command.CLEAR_PUSHES is about to be carried out."""
+        now = self._simulation.time
+        self._outlet.send_message(
+            'inputs/command', command_message(command, now, self._frame_id), now)
+
+    def parameters(self, parameters: Sequence[Parameter]) -> None:
+        """Tell that parameters of the running node were changed."""
+        # The mode has a message of its own, which also says what it was before.
+        values = {
+            parameter.name: plain_value(parameter) for parameter in parameters
+            if parameter.name != 'mode'}
+        if values:
+            now = self._simulation.time
+            self._outlet.send_message('inputs/parameters', parameters_message(
+                values, FIELDS, now, self._node_name, is_change=True), now)

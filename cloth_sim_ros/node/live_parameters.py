@@ -1,0 +1,85 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Parameters that a running node accepts: checked as a whole, then put to work."""
+
+from collections.abc import Callable
+from collections.abc import Sequence
+from typing import Any
+
+from cloth_sim_ros.node.node_fields import check_together
+from cloth_sim_ros.node.parameters import as_parameter
+from cloth_sim_ros.node.parameters import FIELDS
+from cloth_sim_ros.node.parameters import plain_value
+from cloth_sim_ros.sim.errors import ClothSimError
+from cloth_sim_ros.sim.field import Field
+from rcl_interfaces.msg import SetParametersResult
+from rclpy.node import Node
+from rclpy.parameter import Parameter
+
+_FIELD_OF = {field.name: field for field in FIELDS}
+
+
+class LiveParameters:
+    """
+    Check and apply changes of parameters while the node runs.
+
+    :param values: parameter values by name, kept up to date here
+    :param set_mode: switches the mode; a ClothSimError is the reason of the rejection
+    :param changed: called with the parameters after each accepted change
+    """
+
+    def __init__(
+            self, node: Node, values: dict[str, Any], *, set_mode: Callable[[str], None],
+            changed: Callable[[Sequence[Parameter]], None]) -> None:
+        """Register with ``node``."""
+        self._values = values
+        self._set_mode = set_mode
+        self._changed = changed
+        node.add_pre_set_parameters_callback(_with_field_types)
+        node.add_on_set_parameters_callback(self._on_set)
+        node.add_post_set_parameters_callback(self._after_set)
+
+    def _on_set(self, parameters: list[Parameter]) -> SetParametersResult:
+        try:
+            checked = {
+                parameter.name: _FIELD_OF[parameter.name].check(plain_value(parameter))
+                for parameter in parameters if parameter.name in _FIELD_OF}
+            check_together({**self._values, **checked})
+            # Last, because it is the only one that can still fail, and nothing may change then.
+            if 'mode' in checked:
+                self._set_mode(checked['mode'])
+        except ClothSimError as error:
+            return SetParametersResult(successful=False, reason=str(error))
+        self._values.update(checked)
+        return SetParametersResult(successful=True)
+
+    def _after_set(self, parameters: list[Parameter]) -> None:
+        own = [parameter for parameter in parameters if parameter.name in _FIELD_OF]
+        if own:
+            self._changed(own)
+
+
+def _with_field_types(parameters: list[Parameter]) -> list[Parameter]:
+    """Take whole numbers where a field holds numbers: `ros2 param set` types 2 as an integer."""
+    return [_converted(parameter, _FIELD_OF.get(parameter.name)) for parameter in parameters]
+
+
+def _converted(parameter: Parameter, field: Field | None) -> Parameter:
+    whole = (Parameter.Type.INTEGER, Parameter.Type.INTEGER_ARRAY)
+    if field is None or field.kind is not float or parameter.type_ not in whole:
+        return parameter
+    if field.is_array != (parameter.type_ == Parameter.Type.INTEGER_ARRAY):
+        return parameter
+    return as_parameter(field, plain_value(parameter))

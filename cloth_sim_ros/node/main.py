@@ -1,0 +1,38 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""The command `cloth_sim_node`: start the node, or say in one line why it can't start."""
+
+from collections.abc import Sequence
+import sys
+
+from cloth_sim_ros.gl.errors import DeviceError
+from cloth_sim_ros.node.missing_module import way_out
+from cloth_sim_ros.sim.errors import ClothSimError
+
+
+def main(args: Sequence[str] | None = None) -> int:
+    """Run the node until SIGINT or SIGTERM and return the exit code."""
+    try:
+        # Imported here, so that a missing ROS or interface package gets an answer as well.
+        from cloth_sim_ros.node.process import run_node
+        run_node(sys.argv if args is None else args)
+    except ImportError as error:
+        problem = way_out(error)
+    except (ClothSimError, DeviceError) as error:
+        problem = ' '.join(str(error).split())
+    else:
+        return 0
+    print(f'cloth_sim_node: {problem}', file=sys.stderr)
+    return 1

@@ -1,0 +1,33 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""What to do about a Python module that this machine lacks."""
+
+BUILD_COMMAND = (
+    'colcon build --base-paths src/cloth_sim_ros src/cloth_sim_ros/cloth_sim_interfaces '
+    '&& . install/setup.bash')
+
+
+def way_out(error: ImportError) -> str:
+    """Return one sentence that says how to get the module; raise ``error`` for an unknown one."""
+    package = (error.name or '').partition('.')[0]
+    if package == 'cloth_sim_interfaces':
+        return (
+            'the package cloth_sim_interfaces is not built: in your workspace run '
+            f'`{BUILD_COMMAND}`')
+    if package in ('rclpy', 'rcl_interfaces', 'std_msgs', 'std_srvs', 'sensor_msgs'):
+        return (
+            f'ROS 2 is not here ({package} is missing): source /opt/ros/jazzy/setup.bash, '
+            'or run ./scripts/setup.sh and then `. .venv/bin/activate`')
+    raise error

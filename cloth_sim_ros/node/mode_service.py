@@ -1,0 +1,40 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""~/set_mode: the same as setting the parameter mode."""
+
+from cloth_sim_interfaces.srv import SetMode
+from cloth_sim_ros.node.answer import answer
+from cloth_sim_ros.sim.errors import ClothSimError
+from cloth_sim_ros.sim.simulation import Simulation
+from rclpy.node import Node
+from rclpy.parameter import Parameter
+
+
+class ModeService:
+    """Serve ~/set_mode by the parameter, so that both ways have the same effect and checks."""
+
+    def __init__(self, node: Node, simulation: Simulation) -> None:
+        """Make the service."""
+        self._node = node
+        self._simulation = simulation
+        node.create_service(SetMode, '~/set_mode', answer(self._set_mode))
+
+    def _set_mode(self, request: SetMode.Request, response: SetMode.Response) -> str:
+        response.previous_mode = self._simulation.mode
+        result = self._node.set_parameters_atomically(
+            [Parameter('mode', Parameter.Type.STRING, request.mode)])
+        if not result.successful:
+            raise ClothSimError(result.reason)
+        return f'mode {self._simulation.mode}, was {response.previous_mode}'

@@ -1,0 +1,52 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""The parameters of the node itself: what is published, recorded and how fast it runs."""
+
+from collections.abc import Mapping
+from typing import Any
+
+from cloth_sim_ros.sim.errors import ClothSimError
+from cloth_sim_ros.sim.field import Field
+
+NODE_FIELDS = (
+    Field('frame_id', str, 'world', 'frame of every message'),
+    Field('real_time_factor', float, 1.0, 'simulated time per wall time to keep to; 0 runs as '
+          'fast as possible', low=0.0, high=1e6, live=True),
+    Field('start_paused', bool, False, 'wait for ~/pause or ~/step before the first step'),
+    Field('publish.rate', float, 50.0, 'frames per simulated second', 'Hz', low=1e-3, high=1e6),
+    Field('publish.points', bool, True, 'make ~/points', live=True),
+    Field('publish.markers', bool, True, 'make ~/markers', live=True),
+    Field('publish.stats', bool, True, 'make ~/stats', live=True),
+    Field('publish.clock', bool, False, 'publish the simulated time on /clock while nobody else '
+          'does'),
+    Field('recording.directory', str, 'bags', 'folder that every recording goes into'),
+    Field('recording.enabled', bool, False, 'record from the start'),
+    Field('recording.name', str, '', 'folder of that recording inside recording.directory; '
+          'empty takes a fresh name'),
+    Field('clicked_point.force', float, (0.0, 0.0, 1.0), 'total force of the push that a message '
+          'on /clicked_point makes, x y z', 'N', low=-1e9, high=1e9, is_array=True, live=True),
+    Field('clicked_point.radius', float, 0.1, 'radius of that push', 'm', low=1e-6, high=1e6,
+          live=True),
+    Field('clicked_point.duration', float, 0.1, 'duration of that push', 's', low=1e-6, high=1e6,
+          live=True),
+)
+
+
+def check_together(values: Mapping[str, Any]) -> None:
+    """Raise ClothSimError for what one field's range cannot say about the node's values."""
+    count = len(values['clicked_point.force'])
+    if count != 3:
+        raise ClothSimError(
+            f'clicked_point.force needs 3 components, got {count}: write [x, y, z]')

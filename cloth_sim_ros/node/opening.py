@@ -1,0 +1,56 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""What a recording begins with, so that it needs nothing from before its start."""
+
+from collections.abc import Mapping
+from typing import Any
+
+from cloth_sim_ros.messages.inputs import mode_message
+from cloth_sim_ros.messages.inputs import parameters_message
+from cloth_sim_ros.messages.inputs import pin_message
+from cloth_sim_ros.messages.inputs import push_message
+from cloth_sim_ros.messages.topology import serialise_topology
+from cloth_sim_ros.node.parameters import FIELDS
+from cloth_sim_ros.node.recording_session import RecordingSession
+from cloth_sim_ros.sim.simulation import Simulation
+import numpy as np
+from rclpy.serialization import serialize_message
+
+
+def write_opening(
+        recording: RecordingSession, simulation: Simulation, values: Mapping[str, Any],
+        node_name: str) -> None:
+    """
+    Record the rest shape, and as inputs all that holds now.
+
+    Pins are written where they differ from the parameter; pushes where they act or will act.
+
+    :param values: parameter values by name
+    :param node_name: with its namespace
+    """
+    now = simulation.time
+    frame_id = values['frame_id']
+    recording.write('topology', serialise_topology(simulation.scene), now)
+    inputs = [
+        ('inputs/parameters', parameters_message(values, FIELDS, now, node_name)),
+        ('inputs/mode', mode_message(simulation.mode, '', now, frame_id))]
+    pinned = simulation.pinned_nodes()
+    for row, col in np.argwhere(pinned != simulation.scene.pinned_nodes()).tolist():
+        inputs.append(
+            ('inputs/pin', pin_message(row, col, bool(pinned[row, col]), now, frame_id)))
+    for applied in simulation.pushes:
+        inputs.append(('inputs/push', push_message(applied.push, now, frame_id)))
+    for key, message in inputs:
+        recording.write(key, serialize_message(message), now)

@@ -1,0 +1,103 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Declare the scene's and the node's parameters from their field tables."""
+
+from collections.abc import Mapping
+from typing import Any
+
+from cloth_sim_ros.messages.parameter_value import parameter_value
+from cloth_sim_ros.node.node_fields import check_together
+from cloth_sim_ros.node.node_fields import NODE_FIELDS
+from cloth_sim_ros.sim.field import Field
+from cloth_sim_ros.sim.scene import refuse_unknown
+from cloth_sim_ros.sim.scene_fields import SCENE_FIELDS
+from rcl_interfaces.msg import FloatingPointRange
+from rcl_interfaces.msg import IntegerRange
+from rcl_interfaces.msg import Parameter as ParameterMessage
+from rcl_interfaces.msg import ParameterDescriptor
+from rclpy.node import Node
+from rclpy.parameter import Parameter
+
+FIELDS = SCENE_FIELDS + NODE_FIELDS
+
+# Parameters that rclpy itself declares or reads on every node.
+_RCLPY_OWN = ('use_sim_time', 'start_type_description_service')
+_RCLPY_OWN_PREFIX = 'qos_overrides.'
+
+
+def declare_fields(node: Node, overrides: Mapping[str, Parameter]) -> dict[str, Any]:
+    """
+    Declare every field on ``node`` and return the checked values by name.
+
+    :param overrides: what was given in parameter files and on the command line
+    :raises ClothSimError: for an unknown name, a wrong type or a value outside its range;
+        nothing is declared then
+    """
+    given = {
+        name: plain_value(parameter) for name, parameter in overrides.items()
+        if name not in _RCLPY_OWN and not name.startswith(_RCLPY_OWN_PREFIX)}
+    refuse_unknown(given, FIELDS)
+    values = {}
+    for field in FIELDS:
+        value = given.get(field.name, field.default)
+        # An empty list has no type in a parameter file: rcl reads it as "not set".
+        values[field.name] = field.check(() if value is None and field.is_array else value)
+    check_together(values)
+    # rclpy takes an empty list for a list of bytes, so the type is declared first, the value set
+    # then, and only then can the parameter become read-only.
+    for field in FIELDS:
+        node.declare_parameter(
+            field.name, _type(field), ParameterDescriptor(), ignore_override=True)
+    node.set_parameters_atomically(
+        [as_parameter(field, values[field.name]) for field in FIELDS])
+    for field in FIELDS:
+        node.set_descriptor(field.name, descriptor(field))
+    return values
+
+
+def as_parameter(field: Field, value: Any) -> Parameter:
+    """Return the ROS parameter that holds a checked value of ``field``."""
+    return Parameter.from_parameter_msg(
+        ParameterMessage(name=field.name, value=parameter_value(field, value)))
+
+
+def descriptor(field: Field) -> ParameterDescriptor:
+    """Describe ``field`` for ROS tools."""
+    bounded = field.low is not None and field.high is not None
+    unit = f' [{field.unit}]' if field.unit else ''
+    constraints = f'one of {", ".join(field.choices)}' if field.choices else ''
+    if bounded and field.is_array:
+        constraints = f'each from {field.low:g} to {field.high:g}'
+    described = ParameterDescriptor(
+        name=field.name, type=_type(field).value,
+        description=f'{field.text}{unit}', additional_constraints=constraints,
+        read_only=not field.live)
+    if bounded and field.kind is int:
+        described.integer_range = [
+            IntegerRange(from_value=int(field.low), to_value=int(field.high))]
+    if bounded and field.kind is float and not field.is_array:
+        described.floating_point_range = [
+            FloatingPointRange(from_value=float(field.low), to_value=float(field.high))]
+    return described
+
+
+def plain_value(parameter: Parameter) -> Any:
+    """Return the value of ``parameter`` with a list for any kind of array."""
+    value = parameter.value
+    return value if value is None or isinstance(value, (str, int, float)) else list(value)
+
+
+def _type(field: Field) -> Parameter.Type:
+    return Parameter.Type(parameter_value(field, field.default).type)

@@ -1,0 +1,78 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""The life of the node's process: from the first signal handler to the last file closed."""
+
+from collections.abc import Sequence
+import signal
+
+from cloth_sim_ros.node.cloth_sim_node import ClothSimNode
+from cloth_sim_ros.node.interfaces import check_interfaces
+from cloth_sim_ros.sim.errors import ClothSimError
+import rclpy
+from rclpy.exceptions import NotInitializedException
+from rclpy.executors import ExternalShutdownException
+from rclpy.executors import SingleThreadedExecutor
+from rclpy.logging import LoggingSeverity
+from rclpy.logging import set_logger_level
+
+
+def run_node(args: Sequence[str]) -> None:
+    """Run the node with the command line ``args`` until it is asked to stop."""
+    check_interfaces()
+    # rclpy stops the executor on SIGINT by itself. Python's KeyboardInterrupt on top would come
+    # at any line, also while the recording is being closed.
+    interrupts: list[int] = []
+    signal.signal(signal.SIGINT, lambda number, _: interrupts.append(number))
+    _init(args)
+    try:
+        # One that came before rclpy listened is only in the list.
+        if not interrupts:
+            _spin()
+    except ExternalShutdownException:
+        pass
+    except (RuntimeError, NotInitializedException):
+        # A signal cuts off ROS in the middle of anything, and what is under way then fails.
+        if rclpy.ok():
+            raise
+    finally:
+        rclpy.try_shutdown()
+
+
+def _spin() -> None:
+    node = ClothSimNode()
+    try:
+        node.begin()
+        executor = SingleThreadedExecutor()
+        executor.add_node(node)
+        executor.spin()
+    finally:
+        try:
+            node.close_recording()
+        finally:
+            node.destroy_node()
+
+
+def _init(args: Sequence[str]) -> None:
+    # rcl would log the same problem once more.
+    set_logger_level('rcl', LoggingSeverity.FATAL)
+    try:
+        rclpy.init(args=args)
+    except RuntimeError as error:
+        reason = str(error).partition(', at /')[0].removeprefix('failed to initialize rcl: ')
+        raise ClothSimError(
+            f'the ROS arguments cannot be read: {reason}; give a parameter file with '
+            '--ros-args --params-file FILE, one parameter with -p NAME:=VALUE, and write lists '
+            'of numbers alike, as in [0.0, 0.0, 1.5]') from error
+    set_logger_level('rcl', LoggingSeverity.UNSET)

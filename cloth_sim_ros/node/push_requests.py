@@ -1,0 +1,99 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Pushes from outside: two services, ~/push, and clicks in RViz or Foxglove."""
+
+from collections.abc import Mapping
+from typing import Any
+
+from cloth_sim_interfaces.msg import Command
+from cloth_sim_interfaces.msg import Push
+from cloth_sim_interfaces.srv import ApplyPush
+from cloth_sim_ros.node.answer import answer
+from cloth_sim_ros.node.inputs import Inputs
+from cloth_sim_ros.sim.errors import ClothSimError
+from cloth_sim_ros.sim.simulation import AppliedPush
+from cloth_sim_ros.sim.simulation import Simulation
+from geometry_msgs.msg import PointStamped
+from geometry_msgs.msg import Vector3
+from rclpy.node import Node
+from std_srvs.srv import Trigger
+
+_DEPTH = 10
+
+
+class PushRequests:
+    """
+    Serve ~/apply_push and ~/clear_pushes, listen to ~/push and /clicked_point.
+
+    :param values: the node's parameter values, read at each click
+    """
+
+    def __init__(
+            self, node: Node, simulation: Simulation, inputs: Inputs,
+            values: Mapping[str, Any]) -> None:
+        """Make the services and subscriptions."""
+        self._node = node
+        self._simulation = simulation
+        self._inputs = inputs
+        self._values = values
+        node.create_service(ApplyPush, '~/apply_push', answer(self._apply))
+        node.create_service(Trigger, '~/clear_pushes', answer(self._clear))
+        node.create_subscription(Push, '~/push', self._on_push, _DEPTH)
+        node.create_subscription(PointStamped, '/clicked_point', self._on_click, _DEPTH)
+
+    def _apply(self, request: ApplyPush.Request, response: ApplyPush.Response) -> str:
+        applied = self._push(
+            force=_parts(request.force), region=request.region or Push.ALL,
+            center=_parts(request.center), radius=request.radius, duration=request.duration)
+        response.nodes = applied.nodes
+        x, y, z = applied.impulse
+        response.impulse = Vector3(x=x, y=y, z=z)
+        return f'pushing {applied.nodes} nodes for {request.duration:g} s'
+
+    def _clear(self, _: Trigger.Request, __: Trigger.Response) -> str:
+        self._inputs.command(Command.CLEAR_PUSHES)
+        return f'{self._simulation.clear_pushes()} pushes cleared'
+
+    def _on_push(self, message: Push) -> None:
+        try:
+            self._push(
+                force=_parts(message.force), region=message.region or Push.ALL,
+                center=_parts(message.center), radius=message.radius,
+                duration=message.duration, start=message.start or None)
+        except ClothSimError as error:
+            self._node.get_logger().warning(f'a message on ~/push is ignored: {error}')
+
+    def _on_click(self, message: PointStamped) -> None:
+        frame = self._values['frame_id']
+        try:
+            if message.header.frame_id not in ('', frame):
+                raise ClothSimError(
+                    f'its frame is {message.header.frame_id!r} and the cloth is in {frame!r}: '
+                    f'choose {frame!r} as the fixed frame')
+            self._push(
+                force=self._values['clicked_point.force'], region=Push.SPHERE,
+                center=_parts(message.point), radius=self._values['clicked_point.radius'],
+                duration=self._values['clicked_point.duration'])
+        except ClothSimError as error:
+            self._node.get_logger().warning(f'a message on /clicked_point is ignored: {error}')
+
+    def _push(self, **request: Any) -> AppliedPush:
+        applied = self._simulation.push(**request)
+        self._inputs.push(applied.push)
+        return applied
+
+
+def _parts(vector: Any) -> tuple[float, float, float]:
+    return (vector.x, vector.y, vector.z)

@@ -1,0 +1,53 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""~/start_recording and ~/stop_recording."""
+
+from collections.abc import Callable
+
+from cloth_sim_interfaces.srv import StartRecording
+from cloth_sim_ros.node.answer import answer
+from cloth_sim_ros.node.recording_session import RecordingSession
+from rclpy.node import Node
+from std_srvs.srv import Trigger
+
+
+class RecordingServices:
+    """
+    Serve the requests about recordings.
+
+    :param start: starts a recording of the given name and returns its path
+    :param changed: called when a recording has ended
+    """
+
+    def __init__(
+            self, node: Node, recording: RecordingSession, *, start: Callable[[str], str],
+            changed: Callable[[], None]) -> None:
+        """Make the services."""
+        self._recording = recording
+        self._start = start
+        self._changed = changed
+        node.create_service(StartRecording, '~/start_recording', answer(self._on_start))
+        node.create_service(Trigger, '~/stop_recording', answer(self._on_stop))
+
+    def _on_start(
+            self, request: StartRecording.Request, response: StartRecording.Response) -> str:
+        response.path = self._start(request.name)
+        return f'recording to {response.path}'
+
+    def _on_stop(self, _: Trigger.Request, __: Trigger.Response) -> str:
+        try:
+            return f'closed {self._recording.stop()}'
+        finally:
+            self._changed()

@@ -1,0 +1,64 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""~/pause, ~/step and ~/reset: when simulated time goes on, and where it begins."""
+
+from collections.abc import Callable
+
+from cloth_sim_interfaces.srv import Step
+from cloth_sim_ros.node.answer import answer
+from cloth_sim_ros.node.run_loop import RunLoop
+from cloth_sim_ros.sim.simulation import Simulation
+from rclpy.node import Node
+from std_srvs.srv import SetBool
+from std_srvs.srv import Trigger
+
+
+class RunServices:
+    """
+    Serve the requests about the run as a whole.
+
+    :param reset: puts the cloth back
+    :param changed: called when the run state has changed
+    """
+
+    def __init__(
+            self, node: Node, simulation: Simulation, run_loop: RunLoop, *,
+            reset: Callable[[], None], changed: Callable[[], None]) -> None:
+        """Make the services."""
+        self._simulation = simulation
+        self._run_loop = run_loop
+        self._reset = reset
+        self._changed = changed
+        node.create_service(SetBool, '~/pause', answer(self._on_pause))
+        node.create_service(Step, '~/step', answer(self._on_step))
+        node.create_service(Trigger, '~/reset', answer(self._on_reset))
+
+    def _on_pause(self, request: SetBool.Request, _: SetBool.Response) -> str:
+        if request.data:
+            self._run_loop.pause()
+        else:
+            self._run_loop.resume()
+        self._changed()
+        return f'{self._run_loop.run_state} at {self._simulation.time:.6g} s'
+
+    def _on_step(self, request: Step.Request, response: Step.Response) -> str:
+        response.sim_time = self._simulation.time
+        self._run_loop.step(request.steps)
+        response.sim_time = self._simulation.time
+        return f'{request.steps} steps made, now at {self._simulation.time:.6g} s'
+
+    def _on_reset(self, _: Trigger.Request, __: Trigger.Response) -> str:
+        self._reset()
+        return f'back at the start, {self._run_loop.run_state}'

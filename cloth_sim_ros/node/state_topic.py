@@ -1,0 +1,45 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""~/state: what the node is doing, sent when it changes and kept for late subscribers."""
+
+from cloth_sim_ros.messages.state import state_message
+from cloth_sim_ros.node.outlet import Outlet
+from cloth_sim_ros.node.recording_session import RecordingSession
+from cloth_sim_ros.node.run_loop import RunLoop
+from cloth_sim_ros.sim.simulation import Simulation
+
+
+class StateTopic:
+    """Send the state put together from the parts that hold it."""
+
+    def __init__(
+            self, outlet: Outlet, simulation: Simulation, run_loop: RunLoop,
+            recording: RecordingSession, frame_id: str) -> None:
+        """Keep the parts."""
+        self._outlet = outlet
+        self._simulation = simulation
+        self._run_loop = run_loop
+        self._recording = recording
+        self._frame_id = frame_id
+
+    def send(self) -> None:
+        """Send the state as it is now."""
+        simulation = self._simulation
+        self._outlet.send_message('state', state_message(
+            frame_id=self._frame_id, sim_time=simulation.time, mode=simulation.mode,
+            available_modes=simulation.available_modes, run_state=self._run_loop.run_state,
+            rows=simulation.scene.rows, cols=simulation.scene.cols, dt=simulation.dt,
+            substeps=simulation.substeps, stability_limit=simulation.stability_limit,
+            device=simulation.device, recording_path=self._recording.path), simulation.time)

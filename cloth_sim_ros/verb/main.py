@@ -1,0 +1,81 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""
+The command `cloth_sim VERB`: finds the verb's module and hands over to it.
+
+A verb is a module of this package with `add_arguments(parser)` and `main(args) -> int`, the exit
+code; its docstring is its help text. Only the module of the verb asked for is imported.
+"""
+
+from argparse import ArgumentParser
+from argparse import RawDescriptionHelpFormatter
+from collections.abc import Sequence
+from importlib import import_module
+import sys
+
+from cloth_sim_ros.gl.errors import DeviceError
+from cloth_sim_ros.node.missing_module import way_out
+from cloth_sim_ros.sim.errors import ClothSimError
+
+VERBS = {
+    'run': 'simulate a scene file, without ROS',
+    'bench': 'measure the speed of this device, without ROS',
+    'mode': 'switch the simulation mode of a running node',
+    'push': 'push the cloth of a running node',
+    'pin': 'hold a node of the cloth in place, or let it go',
+    'pause': 'stop the simulated time of a running node',
+    'resume': 'let a paused node run on',
+    'step': 'make a paused node do some steps',
+    'reset': 'put the cloth of a running node back to its start',
+    'record': 'start or stop a recording of a running node',
+    'status': 'show what a running node is doing',
+    'info': 'tell what a recording holds',
+    'picture': 'draw the cloth of a recording into a PNG file',
+}
+INTERRUPTED = 130
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Run the verb named by the first argument and return the exit code."""
+    arguments = list(sys.argv[1:] if argv is None else argv)
+    if not arguments or arguments[0] not in VERBS:
+        return _no_verb(arguments)
+    name, *rest = arguments
+    try:
+        verb = import_module(f'cloth_sim_ros.verb.{name}')
+        parser = ArgumentParser(
+            prog=f'cloth_sim {name}', description=verb.__doc__,
+            formatter_class=RawDescriptionHelpFormatter)
+        verb.add_arguments(parser)
+        return verb.main(parser.parse_args(rest))
+    except (ClothSimError, DeviceError) as error:
+        problem = str(error)
+    except ImportError as error:
+        problem = way_out(error)
+    except KeyboardInterrupt:
+        return INTERRUPTED
+    print(f'cloth_sim {name}: {problem}', file=sys.stderr)
+    return 1
+
+
+def _no_verb(arguments: list[str]) -> int:
+    verbs = '\n'.join(f'  {name:8} {text}' for name, text in VERBS.items())
+    parser = ArgumentParser(
+        prog='cloth_sim', usage='cloth_sim VERB ...', formatter_class=RawDescriptionHelpFormatter,
+        description=f'Simulate cloth, and talk to a running cloth_sim_node.\n\nverbs:\n{verbs}',
+        epilog='cloth_sim VERB --help tells more about a verb.')
+    parser.add_argument('verb', choices=VERBS, metavar='VERB', help='what to do')
+    parser.parse_args(arguments[:1])
+    return 0

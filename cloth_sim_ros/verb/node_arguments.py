@@ -1,0 +1,37 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""The options that say which node a verb talks to."""
+
+from argparse import ArgumentParser
+from argparse import Namespace
+
+from cloth_sim_ros.verb.node_client import NodeClient
+
+
+def add_node_arguments(parser: ArgumentParser) -> None:
+    """Add the options that say which node is meant."""
+    group = parser.add_argument_group('which node')
+    group.add_argument(
+        '--node', default='cloth_sim', metavar='NAME',
+        help='name of the node, with its namespace (default: %(default)s)')
+    group.add_argument(
+        # Nodes of a graph may need 3 s to find each other.
+        '--timeout', type=float, default=10.0, metavar='S',
+        help='wall seconds to wait for an answer (default: %(default)s)')
+
+
+def open_node(args: Namespace) -> NodeClient:
+    """Return the node that the options of add_node_arguments mean."""
+    return NodeClient(args.node, args.timeout)

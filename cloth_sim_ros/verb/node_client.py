@@ -1,0 +1,110 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""A running cloth_sim node, as a verb sees it."""
+
+import os
+import time
+from typing import Any
+
+from cloth_sim_interfaces.srv import SetMode
+from cloth_sim_ros.node.interfaces import check_interfaces
+from cloth_sim_ros.sim.errors import ClothSimError
+import rclpy
+from rclpy.context import Context
+from rclpy.executors import SingleThreadedExecutor
+from rclpy.node import Node
+from rclpy.qos import QoSProfile
+
+_LOOK_AGAIN = 0.05
+
+
+class NodeClient:
+    """
+    Call services and read topics of one node; a context manager.
+
+    :param node: name of the node, with its namespace
+    :param timeout: wall seconds to wait for an answer
+    """
+
+    def __init__(self, node: str, timeout: float) -> None:
+        """Join the graph."""
+        self._target = f'/{node.lstrip("/")}'
+        self._timeout = timeout
+        check_interfaces()
+        # In a context of its own, rclpy leaves the signals alone: Ctrl-C works as in any command.
+        self._context = Context()
+        rclpy.init(args=[], context=self._context)
+        self._node = Node(
+            f'cloth_sim_verb_{os.getpid()}', context=self._context,
+            start_parameter_services=False, enable_rosout=False)
+        self._executor = SingleThreadedExecutor(context=self._context)
+        self._executor.add_node(self._node)
+
+    def __enter__(self) -> 'NodeClient':
+        """Return itself."""
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        """Leave the graph."""
+        self._executor.shutdown()
+        self._node.destroy_node()
+        rclpy.try_shutdown(context=self._context)
+
+    def call(self, kind: type, name: str, request: Any, *, patient: bool = False) -> Any:
+        """
+        Return the answer of the node's service ``name``.
+
+        :param patient: True to wait for as long as the node is there
+        :raises ClothSimError: when no answer comes, or when it says that the request failed
+        """
+        client = self._node.create_client(kind, f'{self._target}/{name}')
+        deadline = time.monotonic() + self._timeout
+        while not client.service_is_ready():
+            self._wait(deadline, f'no node offers {self._target}/{name}')
+        future = client.call_async(request)
+        while not future.done():
+            if patient and client.service_is_ready():
+                deadline = time.monotonic() + self._timeout
+            self._wait(deadline, f'{self._target}/{name} does not answer')
+        response = future.result()
+        if not response.success:
+            raise ClothSimError(response.message)
+        return response
+
+    def read(self, kind: type, name: str, quality: QoSProfile) -> Any:
+        """Return one message of the node's topic ``name``; ClothSimError when none comes."""
+        received: list[Any] = []
+        self._node.create_subscription(
+            kind, f'{self._target}/{name}', received.append, quality)
+        deadline = time.monotonic() + self._timeout
+        while not received:
+            self._wait(deadline, f'nothing comes on {self._target}/{name}')
+        return received[0]
+
+    def _wait(self, deadline: float, problem: str) -> None:
+        if time.monotonic() > deadline:
+            raise ClothSimError(f'{problem} within {self._timeout:g} s: {self._way_out()}')
+        self._executor.spin_once(timeout_sec=_LOOK_AGAIN)
+
+    def _way_out(self) -> str:
+        kind = f'{SetMode.__module__.split(".")[0]}/srv/{SetMode.__name__}'
+        found = sorted(
+            name.rpartition('/')[0]
+            for name, kinds in self._node.get_service_names_and_types() if kind in kinds)
+        if self._target in found:
+            return 'it may be busy, so give more time with --timeout'
+        if found:
+            return f'name the node with --node, there is {", ".join(found)}'
+        return 'start one with `cloth_sim_node`, or name it with --node'

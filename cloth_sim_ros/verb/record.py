@@ -1,0 +1,55 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""
+Start or stop a recording of a running node.
+
+The node writes into a fresh folder inside its parameter recording.directory; start prints the
+path of the folder.
+
+For example:
+  cloth_sim record start
+  cloth_sim record start drop_test
+  cloth_sim record stop
+"""
+
+from argparse import ArgumentParser
+from argparse import Namespace
+
+from cloth_sim_interfaces.srv import StartRecording
+from cloth_sim_ros.verb.node_arguments import add_node_arguments
+from cloth_sim_ros.verb.node_arguments import open_node
+from std_srvs.srv import Trigger
+
+
+def add_arguments(parser: ArgumentParser) -> None:
+    """Add the arguments of this verb."""
+    actions = parser.add_subparsers(dest='action', required=True, metavar='start|stop')
+    start = actions.add_parser('start', help='begin a recording')
+    start.add_argument(
+        'name', nargs='?', default='', help='name of the folder; a fresh one by default')
+    stop = actions.add_parser('stop', help='close the recording')
+    for action in (start, stop):
+        add_node_arguments(action)
+
+
+def main(args: Namespace) -> int:
+    """Start, or stop."""
+    with open_node(args) as node:
+        if args.action == 'start':
+            request = StartRecording.Request(name=args.name)
+            print(node.call(StartRecording, 'start_recording', request).path)
+        else:
+            print(node.call(Trigger, 'stop_recording', Trigger.Request()).message)
+    return 0

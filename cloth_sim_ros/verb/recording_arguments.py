@@ -1,0 +1,47 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+
+"""The arguments of every verb that reads a recording."""
+
+from argparse import ArgumentParser
+from argparse import ArgumentTypeError
+from argparse import Namespace
+import math
+
+from cloth_sim_ros.analysis.recording import Recording
+
+
+def add_recording_arguments(parser: ArgumentParser) -> None:
+    """Add the recording and the name of its node."""
+    parser.add_argument('recording', metavar='BAG', help='folder of the recording')
+    parser.add_argument(
+        '--node', default='cloth_sim', metavar='NAME',
+        help='name of the recorded node, with its namespace (default: %(default)s)')
+
+
+def open_recording(args: Namespace) -> Recording:
+    """Return the recording that the arguments mean."""
+    return Recording(args.recording, args.node)
+
+
+def list_of_times(text: str) -> list[float]:
+    """Read times [s], as in 0.5,1,2."""
+    try:
+        times = [float(part) for part in text.split(',')]
+    except ValueError:
+        times = [math.nan]
+    if not all(math.isfinite(time) for time in times):
+        raise ArgumentTypeError(f'{text!r} is no list of times: write them as in 0.5,1,2')
+    return sorted(times)

@@ -1,0 +1,71 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""
+Show what a running node is doing: its state, and the plain numbers of the newest frame.
+
+For example:
+  cloth_sim status
+  cloth_sim status --json
+"""
+
+from argparse import ArgumentParser
+from argparse import Namespace
+import json
+import sys
+from typing import Any
+
+from cloth_sim_interfaces.msg import ClothState
+from cloth_sim_interfaces.msg import ClothStats
+from cloth_sim_ros.sim.errors import ClothSimError
+from cloth_sim_ros.verb.node_arguments import add_node_arguments
+from cloth_sim_ros.verb.node_arguments import open_node
+from rclpy.qos import DurabilityPolicy
+from rclpy.qos import QoSProfile
+
+
+def add_arguments(parser: ArgumentParser) -> None:
+    """Add the arguments of this verb."""
+    parser.add_argument('--json', action='store_true', help='print one JSON object')
+    add_node_arguments(parser)
+
+
+def main(args: Namespace) -> int:
+    """Print the state and the stats."""
+    with open_node(args) as node:
+        kept = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+        content = {'state': _plain(node.read(ClothState, 'state', kept)), 'stats': None}
+        try:
+            content['stats'] = _plain(node.read(ClothStats, 'stats', QoSProfile(depth=10)))
+        except ClothSimError as error:
+            # A node may have publish.stats off; what it is doing is known all the same.
+            print(f'cloth_sim status: {error}', file=sys.stderr)
+    print(json.dumps(content) if args.json else _text(content))
+    return 0
+
+
+def _plain(message: Any) -> dict[str, Any]:
+    fields = (name for name in message.get_fields_and_field_types() if name != 'header')
+    return {name: getattr(message, name) for name in fields}
+
+
+def _text(content: dict[str, dict[str, Any] | None]) -> str:
+    merged = {**content['state'], **(content['stats'] or {})}
+    return '\n'.join(f'{name:22} {_word(value)}' for name, value in merged.items())
+
+
+def _word(value: Any) -> str:
+    if isinstance(value, list):
+        return ', '.join(value)
+    return f'{value:.6g}' if isinstance(value, float) else str(value)

@@ -1,0 +1,53 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""
+Make a paused node do some steps of dt, and wait until they are done.
+
+For example:
+  cloth_sim step
+  cloth_sim step 200
+"""
+
+from argparse import ArgumentParser
+from argparse import ArgumentTypeError
+from argparse import Namespace
+
+from cloth_sim_interfaces.srv import Step
+from cloth_sim_ros.verb.node_arguments import add_node_arguments
+from cloth_sim_ros.verb.node_arguments import open_node
+
+_LARGEST = 2**32 - 1
+
+
+def add_arguments(parser: ArgumentParser) -> None:
+    """Add the arguments of this verb."""
+    parser.add_argument(
+        'steps', nargs='?', type=_count, default=1, help='how many (default: %(default)s)')
+    add_node_arguments(parser)
+
+
+def main(args: Namespace) -> int:
+    """Step."""
+    with open_node(args) as node:
+        request = Step.Request(steps=args.steps)
+        print(node.call(Step, 'step', request, patient=True).message)
+    return 0
+
+
+def _count(text: str) -> int:
+    count = int(text)
+    if not 0 <= count <= _LARGEST:
+        raise ArgumentTypeError(f'{count} is outside 0 to {_LARGEST}')
+    return count

@@ -1,0 +1,68 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""One node, and one place in the graph, for all the tests that need no node of their own."""
+
+from collections.abc import Iterator
+
+from cloth_sim_ros.sim.scene import Scene
+from cloth_sim_ros.sim.simulation import Simulation
+from cloth_under_test import ClothUnderTest
+from cloth_under_test import PAUSED
+from cloth_under_test import SCENE
+from graph_client import GraphClient
+from node_process import NodeProcess
+import pytest
+import quick_discovery
+
+
+@pytest.fixture(scope='session', autouse=True)
+def discovery() -> Iterator[None]:
+    """Find nodes soon."""
+    yield from quick_discovery.quick_discovery()
+
+
+@pytest.fixture(scope='session')
+def client() -> Iterator[GraphClient]:
+    """Join the graph once."""
+    with GraphClient() as client:
+        yield client
+
+
+@pytest.fixture(scope='session')
+def shared_node(tmp_path_factory: pytest.TempPathFactory) -> Iterator[NodeProcess]:
+    """Start the node that most tests share."""
+    with NodeProcess(tmp_path_factory.mktemp('shared_node'), PAUSED) as node:
+        yield node
+
+
+@pytest.fixture(scope='session')
+def shared_cloth(shared_node: NodeProcess, client: GraphClient) -> ClothUnderTest:
+    """Listen to the shared node once."""
+    return ClothUnderTest(client, PAUSED)
+
+
+@pytest.fixture
+def cloth(shared_cloth: ClothUnderTest) -> ClothUnderTest:
+    """Bring the shared node back to its start, paused."""
+    shared_cloth.restore()
+    return shared_cloth
+
+
+@pytest.fixture
+def simulation() -> Iterator[Simulation]:
+    """Make the same cloth without a node, to compare with."""
+    simulation = Simulation(Scene(SCENE))
+    yield simulation
+    simulation.close()

@@ -1,0 +1,75 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Changing parameters while the node runs."""
+
+from cloth_sim_interfaces.srv import Step
+import pytest
+from rcl_interfaces.srv import GetParameters
+
+BAD = {
+    'negative': ({'real_time_factor': -1.0}, 'out of range'),
+    'no number': ({'real_time_factor': float('nan')}, ''),
+    'infinite': ({'real_time_factor': float('inf')}, 'out of range'),
+    'word for a number': ({'real_time_factor': 'fast'}, 'Wrong parameter type'),
+    'number for a switch': ({'publish.points': 1}, 'Wrong parameter type'),
+    'no number in a list': ({'clicked_point.force': [0.0, 0.0, float('nan')]}, 'must be finite'),
+    'too few components': ({'clicked_point.force': [1.0]}, 'needs 3 components, got 1'),
+    'no radius': ({'clicked_point.radius': 0.0}, 'out of range'),
+    'unknown mode': ({'mode': 'fluid'}, 'must be one of'),
+    'good beside bad': (
+        {'publish.points': False, 'clicked_point.force': [1.0]}, 'needs 3 components'),
+    'unknown name': ({'no.such.name': 1.0}, 'undeclared parameter'),
+}
+LIVE = [
+    'mode', 'real_time_factor', 'publish.points', 'clicked_point.force', 'clicked_point.radius']
+
+
+def live_values(cloth):
+    """Return the values of some live parameters."""
+    return cloth.call(GetParameters, 'get_parameters', names=LIVE).values
+
+
+@pytest.mark.parametrize('case', BAD)
+def test_rejects_with_a_reason_and_changes_nothing(cloth, case):
+    """A bad value would be taken, or one part of a rejected change."""
+    change, reason = BAD[case]
+    before = live_values(cloth)
+    result = cloth.set_parameters(**change)
+    assert not result.successful
+    assert reason in result.reason and result.reason
+    assert live_values(cloth) == before
+    cloth.call(Step, 'step', steps=1)
+    cloth.frame(1)
+    assert not cloth['inputs/parameters']
+
+
+def test_takes_whole_numbers_for_numbers(cloth):
+    """`ros2 param set /cloth_sim real_time_factor 2` would be refused."""
+    assert cloth.set_parameters(real_time_factor=2, clicked_point__force=[0, 0, 2]).successful
+    _, factor, _, force, _ = live_values(cloth)
+    assert factor.double_value == 2.0
+    assert list(force.double_array_value) == [0.0, 0.0, 2.0]
+
+
+def test_changes_are_told_as_inputs(cloth):
+    """A recording would not know that a parameter was changed while it ran."""
+    cloth.call(Step, 'step', steps=4)
+    cloth.clear()
+    assert cloth.set_parameters(clicked_point__radius=0.5, real_time_factor=3.0).successful
+    told = cloth.wait_for('inputs/parameters')
+    assert {entry.name: entry.value.double_value for entry in told.changed_parameters} == {
+        'clicked_point.radius': 0.5, 'real_time_factor': 3.0}
+    assert told.node == cloth.name
+    assert told.stamp.nanosec == 20_000_000

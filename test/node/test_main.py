@@ -1,0 +1,88 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""How the node's command refuses to start: exit code 1 and one line, never a traceback."""
+
+from node_process import NodeProcess
+import pytest
+
+BAD_PARAMETERS = {
+    'unknown name': ({'stiffness.sheer': 1.0}, 'did you mean stiffness.shear?'),
+    'unknown name of the node': ({'publish.rates': 1.0}, 'did you mean publish.rate?'),
+    'word for a number': ({'width': 'wide'}, "width must be a number, got 'wide'"),
+    'empty list for a number': ({'rows': []}, 'rows must be a whole number'),
+    'out of range': ({'rows': 0}, 'give a value from 1 to 8192'),
+    'not a number': ({'dt': float('nan')}, 'dt must be finite, got nan'),
+    'too few components': ({'gravity': [0.0, -9.81]}, 'gravity needs 3 components, got 2'),
+    'unknown mode': ({'mode': 'fluid'}, "one of mass_spring, constraint, adaptive, got 'fluid'"),
+    'unstable': ({'dt': 0.5, 'auto_substeps': False}, 'or auto_substeps: true'),
+    'too large for the device': ({'rows': 8192, 'cols': 8192}, 'use up to about'),
+    'mixed list': ({'gravity': [0, 0, -9.81]}, 'write lists of numbers alike'),
+}
+
+
+def refusal(node: NodeProcess) -> str:
+    """Return the only line of a node that did not start."""
+    with node:
+        code = node.wait()
+    lines = node.output.strip().splitlines()
+    assert code == 1, node.output
+    assert len(lines) == 1, node.output
+    assert lines[0].startswith('cloth_sim_node: ')
+    return lines[0]
+
+
+@pytest.mark.parametrize('case', BAD_PARAMETERS)
+def test_refuses_bad_parameters(case, tmp_path):
+    """A parameter file with a mistake would be run as if it had none, or end in a traceback."""
+    parameters, reason = BAD_PARAMETERS[case]
+    assert reason in refusal(NodeProcess(tmp_path, parameters))
+
+
+@pytest.mark.parametrize('arguments, reason', [
+    (('--params-file', 'nowhere.yaml'), 'Error opening YAML file'),
+    (('-p', 'rows'), 'cannot be read'),
+    (('--unknown-flag',), '--unknown-flag'),
+])
+def test_refuses_bad_ros_arguments(arguments, reason, tmp_path):
+    """A mistyped command line would end in a traceback."""
+    assert reason in refusal(NodeProcess(tmp_path, {}, *arguments))
+
+
+def test_refuses_to_lose_the_recording_asked_for(tmp_path):
+    """A node told to record would run on without recording."""
+    (tmp_path / 'taken').write_text('a file, not a folder')
+    text = refusal(NodeProcess(tmp_path, {
+        'recording.enabled': True, 'recording.directory': 'taken/bags'}))
+    assert 'set recording.directory' in text
+
+
+def test_says_that_there_is_no_device(tmp_path):
+    """A machine without a GL device would give a traceback of the GL library."""
+    nowhere = str(tmp_path / 'nowhere')
+    text = refusal(NodeProcess(tmp_path, environment={
+        '__EGL_VENDOR_LIBRARY_DIRS': nowhere, '__EGL_VENDOR_LIBRARY_FILENAMES': nowhere}))
+    assert 'there is no EGL device' in text
+
+
+@pytest.mark.parametrize('module, reason', [
+    ('cloth_sim_interfaces', 'colcon build --base-paths'),
+    ('rclpy', 'source /opt/ros/jazzy/setup.bash'),
+])
+def test_says_how_to_get_what_is_missing(module, reason, tmp_path):
+    """A half installed node would end in a traceback about imports."""
+    start = (
+        f'import sys; sys.modules["{module}"] = None; '
+        'from cloth_sim_ros.node.main import main; sys.exit(main())')
+    assert reason in refusal(NodeProcess(tmp_path, start=start))

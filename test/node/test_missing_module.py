@@ -1,0 +1,36 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""What is said about modules that are not there."""
+
+from cloth_sim_ros.node.missing_module import way_out
+import pytest
+
+
+def test_says_how_to_build_the_interfaces():
+    """A user without the interface package would not learn the one command."""
+    text = way_out(ModuleNotFoundError(name='cloth_sim_interfaces.msg'))
+    assert 'colcon build --base-paths' in text
+    assert 'cloth_sim_interfaces' in text
+
+
+def test_says_where_ros_comes_from():
+    """A user without ROS would not learn how to get it."""
+    assert '/opt/ros/jazzy/setup.bash' in way_out(ModuleNotFoundError(name='rclpy'))
+
+
+def test_does_not_guess():
+    """Another missing module would be taken for a missing ROS."""
+    with pytest.raises(ModuleNotFoundError):
+        way_out(ModuleNotFoundError(name='cloth_sim_ros.typo'))

@@ -1,0 +1,66 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Switching the mode, by service and by parameter."""
+
+from cloth_sim_interfaces.msg import ClothState
+from cloth_sim_interfaces.srv import SetMode
+from cloth_sim_ros.sim.scene_fields import MODES
+import pytest
+from rcl_interfaces.srv import GetParameters
+
+
+def mode_parameter(cloth):
+    """Return the value of the parameter mode."""
+    return cloth.call(GetParameters, 'get_parameters', names=['mode']).values[0].string_value
+
+
+def test_returns_the_previous_mode(cloth):
+    """A caller could not go back to the mode it found."""
+    response = cloth.call(SetMode, 'set_mode', mode='mass_spring')
+    assert (response.success, response.previous_mode) == (True, 'mass_spring')
+
+
+@pytest.mark.parametrize('mode, reason', [
+    ('fluid', 'must be one of mass_spring, constraint, adaptive'), ('', 'must be one of')])
+def test_refuses_an_unknown_mode(cloth, mode, reason):
+    """A mistyped mode would be taken, or end the node."""
+    response = cloth.call(SetMode, 'set_mode', mode=mode)
+    assert (response.success, response.previous_mode) == (False, 'mass_spring')
+    assert reason in response.message
+    assert mode_parameter(cloth) == 'mass_spring'
+    assert not cloth['inputs/mode']
+
+
+@pytest.mark.parametrize('mode', MODES)
+def test_takes_the_modes_that_the_state_names(cloth, mode):
+    """A tool would offer modes that are refused, or the parameter would differ from the mode."""
+    before = cloth.client.read_kept(ClothState, f'{cloth.name}/state')
+    response = cloth.call(SetMode, 'set_mode', mode=mode)
+    assert response.success == (mode in before.available_modes)
+    assert response.previous_mode == before.mode
+    assert response.success or f'mode {mode} is not in this version yet' in response.message
+    after = cloth.client.read_kept(ClothState, f'{cloth.name}/state')
+    assert after.mode == mode_parameter(cloth) == (mode if response.success else before.mode)
+
+
+@pytest.mark.parametrize('mode', MODES)
+def test_the_parameter_does_what_the_service_does(cloth, mode):
+    """`ros2 param set` would change the parameter and not the simulation."""
+    before = cloth.client.read_kept(ClothState, f'{cloth.name}/state')
+    result = cloth.set_parameters(mode=mode)
+    assert result.successful == (mode in before.available_modes)
+    assert result.successful or f'mode {mode} is not in this version yet' in result.reason
+    after = cloth.client.read_kept(ClothState, f'{cloth.name}/state')
+    assert after.mode == mode_parameter(cloth) == (mode if result.successful else before.mode)

@@ -1,0 +1,89 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Names, types and quality of service of the topics."""
+
+from cloth_sim_ros.messages.topics import TOPICS
+import pytest
+from rclpy.qos import DurabilityPolicy
+from rclpy.qos import ReliabilityPolicy
+from shape_msgs.msg import Mesh
+
+NAMES_AND_TYPES = {
+    '/cloth_sim/points': 'sensor_msgs/msg/PointCloud2',
+    '/cloth_sim/markers': 'visualization_msgs/msg/MarkerArray',
+    '/cloth_sim/topology': 'shape_msgs/msg/Mesh',
+    '/cloth_sim/stats': 'cloth_sim_interfaces/msg/ClothStats',
+    '/cloth_sim/state': 'cloth_sim_interfaces/msg/ClothState',
+    '/diagnostics': 'diagnostic_msgs/msg/DiagnosticArray',
+    '/cloth_sim/inputs/push': 'cloth_sim_interfaces/msg/Push',
+    '/cloth_sim/inputs/pin': 'cloth_sim_interfaces/msg/PinChange',
+    '/cloth_sim/inputs/mode': 'cloth_sim_interfaces/msg/ModeChange',
+    '/cloth_sim/inputs/command': 'cloth_sim_interfaces/msg/Command',
+    '/cloth_sim/inputs/parameters': 'rcl_interfaces/msg/ParameterEvent',
+}
+SERVICES = {
+    'set_mode': 'cloth_sim_interfaces/srv/SetMode',
+    'apply_push': 'cloth_sim_interfaces/srv/ApplyPush',
+    'clear_pushes': 'std_srvs/srv/Trigger',
+    'set_pin': 'cloth_sim_interfaces/srv/SetPin',
+    'reset': 'std_srvs/srv/Trigger',
+    'pause': 'std_srvs/srv/SetBool',
+    'step': 'cloth_sim_interfaces/srv/Step',
+    'start_recording': 'cloth_sim_interfaces/srv/StartRecording',
+    'stop_recording': 'std_srvs/srv/Trigger',
+}
+KEPT = ('topology', 'state')
+
+
+@pytest.mark.parametrize('name', NAMES_AND_TYPES)
+def test_topic_has_its_type_and_quality(cloth, name):
+    """A subscriber with the documented settings would get nothing."""
+    publisher = next(
+        info for info in cloth.client.node.get_publishers_info_by_topic(name)
+        if info.node_name == 'cloth_sim' and info.node_namespace == '/')
+    assert publisher.topic_type == NAMES_AND_TYPES[name]
+    quality = publisher.qos_profile
+    assert quality.reliability == ReliabilityPolicy.RELIABLE
+    kept = name.rpartition('/')[2] in KEPT
+    assert (quality.durability == DurabilityPolicy.TRANSIENT_LOCAL) == kept
+
+
+def test_every_topic_of_the_table_is_there(cloth):
+    """A topic would be added to the table, and never published."""
+    names = {topic.full_name(cloth.name) for key, topic in TOPICS.items() if key != 'clock'}
+    assert names == set(NAMES_AND_TYPES)
+
+
+def test_services_have_their_types(cloth):
+    """A client made from the documentation would find no service."""
+    offered = dict(cloth.client.node.get_service_names_and_types_by_node('cloth_sim', '/'))
+    for name, kind in SERVICES.items():
+        assert offered[f'{cloth.name}/{name}'] == [kind]
+
+
+def test_listens_to_pushes_and_clicks(cloth):
+    """A push from RViz or Foxglove would go nowhere."""
+    listened = dict(cloth.client.node.get_subscriber_names_and_types_by_node('cloth_sim', '/'))
+    assert listened[f'{cloth.name}/push'] == ['cloth_sim_interfaces/msg/Push']
+    assert listened['/clicked_point'] == ['geometry_msgs/msg/PointStamped']
+
+
+def test_topology_is_kept_for_those_who_come_late(cloth, simulation):
+    """A viewer that starts after the node would never learn the faces."""
+    mesh = cloth.client.read_kept(Mesh, f'{cloth.name}/topology')
+    assert len(mesh.triangles) == 2 * 7 * 9
+    rest = simulation.scene.rest_positions().reshape(-1, 3)
+    assert [(vertex.x, vertex.y, vertex.z) for vertex in mesh.vertices] == [
+        tuple(node) for node in rest.tolist()]

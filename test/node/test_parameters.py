@@ -1,0 +1,81 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""The parameters as ROS tools see them."""
+
+from cloth_sim_ros.node.parameters import FIELDS
+from cloth_under_test import PAUSED
+import pytest
+from rcl_interfaces.msg import ParameterType
+from rcl_interfaces.srv import DescribeParameters
+from rcl_interfaces.srv import GetParameters
+from rcl_interfaces.srv import ListParameters
+
+NAMES = [field.name for field in FIELDS]
+TYPES = {
+    (bool, False): ParameterType.PARAMETER_BOOL,
+    (int, False): ParameterType.PARAMETER_INTEGER,
+    (float, False): ParameterType.PARAMETER_DOUBLE,
+    (str, False): ParameterType.PARAMETER_STRING,
+    (float, True): ParameterType.PARAMETER_DOUBLE_ARRAY,
+    (str, True): ParameterType.PARAMETER_STRING_ARRAY,
+}
+VALUE_SLOTS = {
+    ParameterType.PARAMETER_BOOL: 'bool_value',
+    ParameterType.PARAMETER_INTEGER: 'integer_value',
+    ParameterType.PARAMETER_DOUBLE: 'double_value',
+    ParameterType.PARAMETER_STRING: 'string_value',
+    ParameterType.PARAMETER_DOUBLE_ARRAY: 'double_array_value',
+    ParameterType.PARAMETER_STRING_ARRAY: 'string_array_value',
+}
+
+
+def test_all_fields_are_declared(cloth):
+    """A value of the field tables could not be seen from outside."""
+    listed = cloth.call(ListParameters, 'list_parameters').result.names
+    assert set(NAMES) <= set(listed)
+
+
+def test_values_are_those_of_the_file_and_the_tables(cloth):
+    """A parameter would tell another value than the one in use; empty lists would be lost."""
+    values = cloth.call(GetParameters, 'get_parameters', names=NAMES).values
+    for field, value in zip(FIELDS, values, strict=True):
+        expected = PAUSED.get(field.name, field.default)
+        assert value.type == TYPES[field.kind, field.is_array], field.name
+        told = getattr(value, VALUE_SLOTS[value.type])
+        assert (tuple(told) if field.is_array else told) == expected, field.name
+
+
+def test_descriptions_carry_text_unit_and_range(cloth):
+    """A user of a parameter tool would have to guess what a value means."""
+    described = cloth.call(DescribeParameters, 'describe_parameters', names=NAMES).descriptors
+    for field, descriptor in zip(FIELDS, described, strict=True):
+        assert descriptor.description.startswith(field.text)
+        assert not field.unit or f'[{field.unit}]' in descriptor.description
+        assert descriptor.read_only == (not field.live), field.name
+        assert descriptor.type == TYPES[field.kind, field.is_array], field.name
+        ranges = [*descriptor.integer_range, *descriptor.floating_point_range]
+        if field.low is not None and not field.is_array:
+            assert (ranges[0].from_value, ranges[0].to_value) == (field.low, field.high)
+        assert all(choice in descriptor.additional_constraints for choice in field.choices)
+
+
+@pytest.mark.parametrize('name, value', [
+    ('rows', 9), ('dt', 0.001), ('gravity', [0.0, 0.0, 0.0]), ('pins', ['all']),
+    ('recording.directory', '/'), ('publish.rate', 10.0)])
+def test_what_the_run_depends_on_is_read_only(cloth, name, value):
+    """A parameter would seem changed although the simulation goes on as before."""
+    result = cloth.set_parameters(**{name: value})
+    assert not result.successful
+    assert 'read-only' in result.reason

@@ -1,0 +1,63 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Holding nodes and letting them go."""
+
+from cloth_sim_interfaces.srv import SetPin
+from cloth_sim_interfaces.srv import Step
+from cloth_sim_ros.sim.snapshot import FLAG_PINNED
+from geometry_msgs.msg import Point
+import pytest
+
+
+def test_pins_and_releases_a_node(cloth):
+    """A pin would not hold, a released one would, or the recording would not know."""
+    response = cloth.call(SetPin, 'set_pin', row=5, col=3)
+    assert (response.success, response.row, response.col) == (True, 5, 3)
+    told = cloth.wait_for('inputs/pin')
+    assert (told.row, told.col, told.pinned) == (5, 3, True)
+    cloth.call(Step, 'step', steps=2)
+    assert cloth.frame(2)['flags'][5, 3] & FLAG_PINNED
+    cloth.clear()
+    assert cloth.call(SetPin, 'set_pin', row=5, col=3, release=True).success
+    assert not cloth.wait_for('inputs/pin').pinned
+    cloth.call(Step, 'step', steps=2)
+    assert not cloth.frame(4)['flags'][5, 3] & FLAG_PINNED
+
+
+def test_finds_the_nearest_node(cloth, simulation):
+    """A pin by point would hold another node than the one meant."""
+    expected = simulation.nearest_node((0.21, -0.12, 1.3))
+    response = cloth.call(
+        SetPin, 'set_pin', use_point=True, point=Point(x=0.21, y=-0.12, z=1.3))
+    assert (response.success, response.row, response.col) == (True, *expected)
+
+
+@pytest.mark.parametrize('row, col', [(8, 0), (0, 10), (2**32 - 1, 2**32 - 1)])
+def test_refuses_a_node_outside(cloth, row, col):
+    """A pin outside the cloth would hold some other node, or end the node."""
+    response = cloth.call(SetPin, 'set_pin', row=row, col=col)
+    assert not response.success
+    assert f'({row}, {col})' in response.message
+    assert '0 to 7' in response.message and '0 to 9' in response.message
+    assert not cloth['inputs/pin']
+
+
+@pytest.mark.parametrize('value', [float('nan'), float('inf')])
+def test_refuses_a_point_that_is_none(cloth, value):
+    """A point that is no number would pin the first node."""
+    response = cloth.call(SetPin, 'set_pin', use_point=True, point=Point(y=value))
+    assert not response.success
+    assert 'finite' in response.message
+    assert not cloth['inputs/pin']

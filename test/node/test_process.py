@@ -1,0 +1,70 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""The end of the node: asked to stop, it closes its recording and leaves with exit code 0."""
+
+from signal import SIGINT
+from signal import SIGTERM
+import time
+
+from cloth_sim_interfaces.msg import ClothStats
+from cloth_sim_ros.sim.scene import Scene
+from cloth_sim_ros.sim.simulation import Simulation
+from cloth_sim_ros.sim.snapshot import POINT_DTYPE
+from cloth_under_test import SCENE
+from node_process import NodeProcess
+import numpy as np
+import pytest
+from recorded import Recorded
+
+RECORDING = {
+    **SCENE, 'recording.enabled': True, 'recording.name': 'run', 'real_time_factor': 0.0}
+
+
+@pytest.mark.parametrize('signals', [
+    (SIGINT,), (SIGTERM,), (SIGINT, SIGINT), (SIGTERM, SIGINT), (SIGINT, SIGINT, SIGINT)],
+    ids=lambda signals: '+'.join(number.name for number in signals))
+def test_stops_cleanly_with_the_recording_closed(signals, client, tmp_path):
+    """A stopped or impatiently stopped node would lose its recording, or fail."""
+    namespace = f'/stopped_by_{"_".join(number.name for number in signals)}'
+    with NodeProcess(tmp_path, RECORDING, '-r', f'__ns:={namespace}') as node:
+        stats = client.watch(ClothStats, f'{namespace}/cloth_sim/stats')
+        client.spin_until(
+            lambda: stats.messages and stats.messages[-1].steps >= 100, 'the node runs')
+        for number in signals:
+            if node.running:
+                node.send(number)
+        assert node.wait() == 0, node.output
+    assert 'Traceback' not in node.output
+    bag = Recorded(tmp_path / 'bags' / 'run')
+    clouds = bag.messages(f'{namespace}/cloth_sim/points')
+    assert len(clouds) > 100 // 4
+    steps = [cloud.header.stamp.sec * 200 + cloud.header.stamp.nanosec // 5_000_000
+             for cloud in clouds]
+    assert steps == list(range(0, 4 * len(clouds), 4)), 'every frame, up to the last'
+    simulation = Simulation(Scene(SCENE))
+    simulation.step(steps[-1])
+    last = np.frombuffer(clouds[-1].data, POINT_DTYPE)
+    assert last.tobytes() == simulation.snapshot().records.tobytes()
+    simulation.close()
+
+
+def test_an_interrupt_while_starting_is_a_clean_stop(tmp_path):
+    """A node stopped at once would fail, or not stop."""
+    with NodeProcess(tmp_path, RECORDING) as node:
+        while node.running and not (tmp_path / 'bags').exists():
+            time.sleep(0.01)
+        node.send(SIGINT)
+        assert node.wait() == 0, node.output
+    assert 'Traceback' not in node.output

@@ -1,0 +1,44 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""A recording that cannot go on."""
+
+import resource
+
+from cloth_sim_interfaces.srv import StartRecording
+from cloth_sim_interfaces.srv import Step
+from cloth_under_test import ClothUnderTest
+from cloth_under_test import PAUSED
+from node_process import NodeProcess
+
+SMALL_FILE = 4096
+
+
+def test_a_full_disk_ends_the_recording_and_nothing_else(client, tmp_path):
+    """A full disk would end the simulation, or go unnoticed."""
+    with NodeProcess(tmp_path, PAUSED, '-r', '__ns:=/full_disk') as node:
+        cloth = ClothUnderTest(client, PAUSED, '/full_disk/cloth_sim')
+        path = cloth.call(StartRecording, 'start_recording').path
+        _, hard = resource.prlimit(node.pid, resource.RLIMIT_FSIZE)
+        # From here on the node can't make any file longer than this.
+        resource.prlimit(node.pid, resource.RLIMIT_FSIZE, (SMALL_FILE, hard))
+        cloth.client.spin_until(
+            lambda: cloth.call(Step, 'step', steps=1).success
+            and cloth['state'] and not cloth['state'][-1].recording, 'the end is told')
+        assert path in node.output and 'start a new one' in node.output
+        resource.prlimit(node.pid, resource.RLIMIT_FSIZE, (hard, hard))
+        told = cloth.wait_for('diagnostics', lambda array: any(
+            'start a new one' in status.message for status in array.status))
+        assert told
+        assert cloth.call(StartRecording, 'start_recording').success

@@ -1,0 +1,102 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""The test's own place in the ROS graph: calls a node and listens to it."""
+
+from collections.abc import Callable
+import time
+from typing import Any
+
+import rclpy
+from rclpy.context import Context
+from rclpy.executors import SingleThreadedExecutor
+from rclpy.node import Node
+from rclpy.qos import DurabilityPolicy
+from rclpy.qos import QoSProfile
+
+PATIENCE = 30.0
+
+
+class Watch:
+    """The messages of one topic since the last clear."""
+
+    def __init__(self) -> None:
+        """Start empty."""
+        self.messages: list[Any] = []
+
+    def clear(self) -> None:
+        """Forget the messages."""
+        self.messages.clear()
+
+
+class GraphClient:
+    """A node of the test; a context manager."""
+
+    def __init__(self) -> None:
+        """Join the graph, in a context of its own."""
+        self._context = Context()
+        rclpy.init(context=self._context)
+        self.node = Node('test_client', context=self._context)
+        self._executor = SingleThreadedExecutor(context=self._context)
+        self._executor.add_node(self.node)
+        self._clients: dict[str, Any] = {}
+
+    def __enter__(self) -> 'GraphClient':
+        """Return itself."""
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        """Leave the graph."""
+        self._executor.shutdown()
+        self.node.destroy_node()
+        rclpy.try_shutdown(context=self._context)
+
+    def spin_until(self, condition: Callable[[], Any], what: str) -> Any:
+        """Return what ``condition`` returns as soon as that is true; fail after a long while."""
+        deadline = time.monotonic() + PATIENCE
+        while not (result := condition()):
+            assert time.monotonic() < deadline, f'{what}: not within {PATIENCE} s'
+            self._executor.spin_once(timeout_sec=0.02)
+        return result
+
+    def call(self, kind: type, name: str, /, **fields: Any) -> Any:
+        """Return the answer of the service ``name``."""
+        if name not in self._clients:
+            self._clients[name] = self.node.create_client(kind, name)
+        client = self._clients[name]
+        self.spin_until(client.service_is_ready, f'{name} is offered')
+        future = client.call_async(kind.Request(**fields))
+        self.spin_until(future.done, f'{name} answers')
+        return future.result()
+
+    def watch(self, kind: type, topic: str, *, depth: int = 1000, kept: bool = False) -> Watch:
+        """Listen to ``topic``; ``kept`` asks for what was published before as well."""
+        watch = Watch()
+        durability = DurabilityPolicy.TRANSIENT_LOCAL if kept else DurabilityPolicy.VOLATILE
+        subscription = self.node.create_subscription(
+            kind, topic, watch.messages.append,
+            QoSProfile(depth=depth, durability=durability))
+        self.spin_until(
+            lambda: self.node.count_publishers(subscription.topic_name), f'{topic} is published')
+        return watch
+
+    def read_kept(self, kind: type, topic: str) -> Any:
+        """Return what a subscriber of ``topic`` gets that came after it was published."""
+        messages: list[Any] = []
+        subscription = self.node.create_subscription(
+            kind, topic, messages.append,
+            QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL))
+        self.spin_until(lambda: messages, f'{topic} is kept')
+        self.node.destroy_subscription(subscription)
+        return messages[0]

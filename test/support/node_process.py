@@ -1,0 +1,91 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""A cloth_sim_node in a process of its own."""
+
+from collections.abc import Mapping
+import os
+from pathlib import Path
+import signal
+import subprocess
+import sys
+from typing import Any
+
+import yaml
+
+_START = 'import sys; from cloth_sim_ros.node.main import main; sys.exit(main())'
+PATIENCE = 30.0
+
+
+class NodeProcess:
+    """
+    Start a node with parameters from a file; a context manager that stops it.
+
+    :param folder: working directory of the node, gets the parameter file and its output
+    :param parameters: dotted names and values
+    :param arguments: more of the command line
+    :param environment: added to this process's own
+    """
+
+    def __init__(
+            self, folder: Path, parameters: Mapping[str, Any] | None = None, *arguments: str,
+            environment: Mapping[str, str] | None = None, start: str = _START) -> None:
+        """Start the process."""
+        folder.mkdir(parents=True, exist_ok=True)
+        self.folder = folder
+        file = folder / 'parameters.yaml'
+        file.write_text(yaml.safe_dump({'/**': {'ros__parameters': dict(parameters or {})}}))
+        from_file = ('--params-file', str(file)) if parameters else ()
+        self._log = folder / 'node.log'
+        with self._log.open('w') as log:
+            self._process = subprocess.Popen(
+                [sys.executable, '-c', start, '--ros-args', *from_file, *arguments],
+                cwd=folder, stdout=log, stderr=subprocess.STDOUT,
+                env={**os.environ, **(environment or {})})
+
+    def __enter__(self) -> 'NodeProcess':
+        """Return itself."""
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        """Stop the node, whatever its state."""
+        if self._process.poll() is None:
+            self.send(signal.SIGINT)
+        try:
+            self.wait()
+        finally:
+            self._process.kill()
+
+    @property
+    def output(self) -> str:
+        """Get what the node has printed so far."""
+        return self._log.read_text()
+
+    @property
+    def pid(self) -> int:
+        """Get the number of the process."""
+        return self._process.pid
+
+    @property
+    def running(self) -> bool:
+        """Tell whether the process is there."""
+        return self._process.poll() is None
+
+    def send(self, number: signal.Signals) -> None:
+        """Send a signal to this process and no other."""
+        self._process.send_signal(number)
+
+    def wait(self) -> int:
+        """Wait for the end and return the exit code."""
+        return self._process.wait(PATIENCE)

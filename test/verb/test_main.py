@@ -1,0 +1,87 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""The command as a whole."""
+
+from pathlib import Path
+
+from cloth_sim_ros.verb.main import main
+from cloth_sim_ros.verb.main import VERBS
+from command import cloth_sim
+import pytest
+
+
+@pytest.mark.parametrize('verb', VERBS)
+def test_every_verb_has_help_with_an_example(verb, capsys):
+    """A user would have to read the source to use a verb."""
+    with pytest.raises(SystemExit) as stop:
+        main([verb, '--help'])
+    assert stop.value.code == 0
+    assert f'  cloth_sim {verb}' in capsys.readouterr().out
+
+
+def test_lists_its_verbs(capsys):
+    """A user would not learn what the command can do."""
+    with pytest.raises(SystemExit) as stop:
+        main(['--help'])
+    assert stop.value.code == 0
+    text = capsys.readouterr().out
+    assert all(f'  {verb} ' in text for verb in VERBS)
+
+
+@pytest.mark.parametrize('arguments', [[], ['dance']])
+def test_refuses_what_is_no_verb(arguments, capsys):
+    """A mistyped verb would do nothing, in silence."""
+    with pytest.raises(SystemExit) as stop:
+        main(arguments)
+    assert stop.value.code == 2
+    assert 'VERB' in capsys.readouterr().err
+
+
+def test_says_that_no_node_answers():
+    """A verb would hang, or end with a traceback, when no node runs."""
+    result = cloth_sim('pause', '--node', '/nobody/there', '--timeout', '0.3')
+    assert result.returncode == 1
+    assert len(result.stderr.splitlines()) == 1
+    assert 'no node offers /nobody/there/pause within 0.3 s' in result.stderr
+    assert '--node' in result.stderr
+
+
+def test_names_the_nodes_that_are_there(cloth):
+    """A user of a node with a namespace would not learn its name."""
+    result = cloth_sim('pause', '--node', 'not_me', '--timeout', '2')
+    assert result.returncode == 1
+    assert cloth.name in result.stderr
+
+
+def test_says_how_to_get_ros():
+    """A verb for a running node would end in a traceback on a machine without ROS."""
+    result = cloth_sim('pause', before='import sys; sys.modules["rclpy"] = None')
+    assert result.returncode == 1
+    assert len(result.stderr.splitlines()) == 1
+    assert 'source /opt/ros/jazzy/setup.bash' in result.stderr
+
+
+def test_run_needs_no_ros(tmp_path):
+    """A machine without ROS could not simulate at all."""
+    scene = tmp_path / 'scene.yaml'
+    scene.write_text('/**: {ros__parameters: {rows: 4, cols: 5}}')
+    state = tmp_path / 'state.npz'
+    result = cloth_sim(
+        'run', str(scene), '--seconds', '0.02', '--out', str(state), before=(
+            'import sys\n'
+            'for name in ("rclpy", "cloth_sim_interfaces", "sensor_msgs", "rcl_interfaces"):\n'
+            '    sys.modules[name] = None'))
+    assert result.returncode == 0, result.stderr
+    assert Path(state).exists()

@@ -1,0 +1,43 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""cloth_sim pin."""
+
+import pytest
+
+
+def test_pins_and_releases(verb, cloth):
+    """A pin could not be set or taken away from the command line."""
+    result = verb('pin', '5', '3')
+    assert (result.returncode, result.stdout) == (0, 'node (5, 3) is pinned\n')
+    result = verb('pin', '5', '3', '--release')
+    assert (result.returncode, result.stdout) == (0, 'node (5, 3) is free\n')
+    told = cloth.client.spin_until(lambda: cloth['inputs/pin'][1:], 'both are told')
+    assert not told[0].pinned
+
+
+def test_takes_the_nearest(verb):
+    """A pin by point would hold another node."""
+    result = verb('pin', '--near', '-0.45', '0.35', '1')
+    assert (result.returncode, result.stdout) == (0, 'node (0, 0) is pinned\n')
+
+
+@pytest.mark.parametrize('arguments', [
+    ('5',), (), ('1', '2', '--near', '0', '0', '0'), ('-1', '0'), ('0', str(2**32)), ('8', '0')])
+def test_tells_why_not(verb, cloth, arguments):
+    """A mistyped node would be pinned as some other one, or end in a traceback."""
+    result = verb('pin', *arguments)
+    assert (result.returncode, result.stdout) == (1, '')
+    assert len(result.stderr.splitlines()) == 1
+    assert not cloth['inputs/pin']

@@ -1,0 +1,40 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""cloth_sim status."""
+
+import json
+
+from cloth_sim_interfaces.srv import Step
+
+
+def test_prints_state_and_stats(verb, cloth):
+    """A user could not see what the node is doing."""
+    cloth.call(Step, 'step', steps=40)
+    result = verb('status')
+    assert result.returncode == 0, result.stderr
+    lines = dict(
+        (*line.split(maxsplit=1), '')[:2] for line in result.stdout.splitlines())
+    assert lines['run_state'] == 'paused'
+    assert lines['sim_time'] == '0.2'
+    assert lines['rows'] == '8'
+
+
+def test_prints_json(verb, cloth):
+    """A script could not read the status."""
+    cloth.call(Step, 'step', steps=40)
+    content = json.loads(verb('status', '--json').stdout)
+    assert content['state']['run_state'] == 'paused'
+    assert 'mass_spring' in content['state']['available_modes']
+    assert content['stats']['steps'] == 40

@@ -1,0 +1,37 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""cloth_sim pause, step, resume and reset: one after the other, as they are used."""
+
+
+def test_drives_a_run(verb, cloth):
+    """A run could not be held, stepped, let go and put back from the command line."""
+    result = verb('step', '40')
+    assert (result.returncode, result.stdout) == (0, '40 steps made, now at 0.2 s\n')
+    assert verb('step').stdout == '1 steps made, now at 0.205 s\n'
+    assert verb('resume').stdout.startswith('running at 0.205')
+    refused = verb('step')
+    assert (refused.returncode, refused.stdout) == (1, '')
+    assert 'call ~/pause' in refused.stderr
+    assert verb('pause').stdout.startswith('paused at ')
+    assert verb('reset').stdout == 'back at the start, paused\n'
+    assert cloth.wait_for('inputs/command').command == 'reset'
+
+
+def test_refuses_what_is_no_number_of_steps(verb):
+    """A mistyped number would end in a traceback."""
+    for steps, code in (('many', 2), ('-1', 2), (str(2**32), 2), ('0', 1)):
+        result = verb('step', steps)
+        assert result.returncode == code
+        assert 'Traceback' not in result.stderr
