@@ -31,9 +31,6 @@ from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.scene_fields import MODES
 from cloth_sim_ros.sim.snapshot import Measures
 from cloth_sim_ros.sim.snapshot import Snapshot
-from cloth_sim_ros.sim.stability import choose_substeps
-from cloth_sim_ros.sim.stability import SAFETY
-from cloth_sim_ros.sim.stability import stability_limit
 from cloth_sim_ros.sim.state import State
 import numpy as np
 
@@ -58,11 +55,8 @@ class Simulation:
         """Compile, allocate and take up the start pose."""
         self.scene = scene
         self.dt: float = scene['dt']
-        self.stability_limit = stability_limit(scene)
-        self.substeps = choose_substeps(scene) if scene['auto_substeps'] else scene['substeps']
+        self._check_stability = check_stability
         _check_mode(scene['mode'])
-        if check_stability:
-            self._check_stability()
         self._owns_context = context is None
         self._context = context or Context(
             single_thread=scene.node_count < _SINGLE_THREAD_NODES)
@@ -90,6 +84,16 @@ class Simulation:
     def time(self) -> float:
         """Return the simulated time since the start or the last reset [s]."""
         return self.steps * self.dt
+
+    @property
+    def substeps(self) -> int:
+        """Return the substeps in a step of dt."""
+        return self._mode.substeps
+
+    @property
+    def stability_limit(self) -> float:
+        """Return the longest stable substep of the present mode [s]."""
+        return self._mode.stability_limit
 
     @property
     def stability_margin(self) -> float:
@@ -234,12 +238,8 @@ class Simulation:
 
     def _make_steps(self, count: int) -> int:
         self._context.make_current()
-        length = self.dt / self.substeps
         for _ in range(count):
-            for substep in range(self.substeps):
-                begin = self.time + substep * length
-                self._mode.substep(
-                    self._state, self._pushes.forcing(begin, begin + length), length)
+            self._mode.step(self._state, self.time, self._pushes.forcing)
             self.steps += 1
         return count
 
@@ -252,23 +252,14 @@ class Simulation:
 
     def _get_mode(self, name: str) -> modes.Mode:
         if name not in self._modes:
-            self._modes[name] = modes.AVAILABLE[name](self.scene, self.layout)
+            self._modes[name] = modes.AVAILABLE[name](
+                self.scene, self.layout, check_stability=self._check_stability)
         return self._modes[name]
 
     def _set_pinned(self, row: int, col: int, pinned: bool) -> None:
         check_node(row, col, self.scene.rows, self.scene.cols)
         self._context.make_current()
         self._state.set_pinned(row, col, pinned)
-
-    def _check_stability(self) -> None:
-        length = self.dt / self.substeps
-        if length > self.stability_limit:
-            most = SAFETY * self.stability_limit * self.substeps
-            raise ClothSimError(
-                f'dt {self.dt:g} s in {self.substeps} substeps is above the stability limit '
-                f'{self.stability_limit:.3g} s of a substep in mode {self.scene["mode"]} '
-                f'(node mass {self.scene.node_mass:.3g} kg): '
-                f'set dt <= {most:.3g}, or auto_substeps: true')
 
 
 def _check_mode(name: str) -> None:

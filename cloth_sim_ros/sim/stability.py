@@ -33,7 +33,7 @@ OFFSETS = {
 
 def stability_limit(scene: Scene) -> float:
     """
-    Return the longest stable substep [s]; infinite for a scene without springs.
+    Return the longest stable substep [s] of the flat cloth at rest; infinite without springs.
 
     A plane wave with wave numbers (p, q) on the lattice feels the stiffness
     K(p, q) = sum over springs of 2 k n n^T (1 - cos(p dcol + q drow)), n the spring's
@@ -41,7 +41,30 @@ def stability_limit(scene: Scene) -> float:
     these is stable while h^2 kappa + 2 h gamma < 4 m. The limit is the least such h over all
     waves. For a square lattice this is the closed form of docs/numerics.md.
     """
-    kappa, gamma = _wave_eigenvalues(scene)
+    return _least_limit(scene, *(_largest_eigenvalue(k) for k in _wave_matrices(scene)))
+
+
+def any_shape_limit(scene: Scene) -> float:
+    """
+    Return the longest substep [s] that is stable in any shape, folded or stretched.
+
+    No spring is stiffer than k in any direction. So whatever the directions n, no eigenvalue
+    is above that of the springs' graph: the trace of K, as n n^T has the trace 1.
+    """
+    return _least_limit(scene, *(k[0] + k[2] for k in _wave_matrices(scene)))
+
+
+def safe_substep(scene: Scene) -> float:
+    """Return the longest substep [s] that automatic substeps may take."""
+    return min(SAFETY * stability_limit(scene), any_shape_limit(scene))
+
+
+def choose_substeps(scene: Scene) -> int:
+    """Return how many substeps of dt keep to the safe length; at least 1."""
+    return max(1, math.ceil(scene['dt'] / safe_substep(scene) - 1e-9))
+
+
+def _least_limit(scene: Scene, kappa: np.ndarray, gamma: np.ndarray) -> float:
     present = (kappa > 0.0) | (gamma > 0.0)
     if not present.any():
         return math.inf
@@ -51,12 +74,8 @@ def stability_limit(scene: Scene) -> float:
     return float(np.min(4.0 * scene.node_mass / (gamma + root)))
 
 
-def choose_substeps(scene: Scene) -> int:
-    """Return how many substeps of dt keep to 0.85 of the limit; at least 1."""
-    return max(1, math.ceil(scene['dt'] / (SAFETY * stability_limit(scene)) - 1e-9))
-
-
-def _wave_eigenvalues(scene: Scene) -> tuple[np.ndarray, np.ndarray]:
+def _wave_matrices(scene: Scene) -> tuple[np.ndarray, np.ndarray]:
+    """Return K and C over the waves (p, q), each as its entries xx, xy, yy."""
     # A lattice one node wide carries no waves across.
     p = np.linspace(0.0, np.pi, _SAMPLES if scene.cols > 1 else 1)[:, None]
     q = np.linspace(0.0, np.pi, _SAMPLES if scene.rows > 1 else 1)[None, :]
@@ -72,7 +91,7 @@ def _wave_eigenvalues(scene: Scene) -> tuple[np.ndarray, np.ndarray]:
             outer = np.array([nx * nx, nx * ny, ny * ny])[:, None, None]
             totals[0] += scene.stiffness(family) * outer * bend
             totals[1] += scene.damping(family) * outer * bend
-    return tuple(_largest_eigenvalue(total) for total in totals)
+    return tuple(totals)
 
 
 def _largest_eigenvalue(matrix: np.ndarray) -> np.ndarray:

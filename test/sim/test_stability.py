@@ -17,7 +17,9 @@
 import math
 
 from cloth_sim_ros.sim.scene import Scene
+from cloth_sim_ros.sim.stability import any_shape_limit
 from cloth_sim_ros.sim.stability import choose_substeps
+from cloth_sim_ros.sim.stability import safe_substep
 from cloth_sim_ros.sim.stability import stability_limit
 import pytest
 
@@ -81,10 +83,19 @@ def test_no_springs_no_limit():
     assert choose_substeps(free) == 1
 
 
+@pytest.mark.parametrize(('stiffness', 'mu'), [
+    ((100.0, 0.0, 0.0), 8.0), ((100.0, 100.0, 0.0), 12.0), ((100.0, 100.0, 100.0), 49.0 / 3.0)])
+def test_the_limit_of_any_shape(stiffness: tuple, mu: float):
+    """A cloth that folds would blow up, however carefully its flat limit is kept."""
+    cloth = scene(stiffness)
+    assert any_shape_limit(cloth) == pytest.approx(
+        2.0 * math.sqrt(_NODE_MASS / (mu * 100.0)), rel=1e-4)
+    assert safe_substep(cloth) <= min(any_shape_limit(cloth), 0.85 * stability_limit(cloth))
+
+
 def test_substeps_keep_to_the_share():
     """The automatic choice would come too near to the limit, or be wasteful."""
     cloth = scene((1000.0,) * 3, dt=0.02)
     substeps = choose_substeps(cloth)
-    limit = stability_limit(cloth)
-    assert 0.02 / substeps <= 0.85 * limit
-    assert 0.02 / (substeps - 1) > 0.85 * limit
+    assert 0.02 / substeps <= safe_substep(cloth) <= 0.85 * stability_limit(cloth)
+    assert 0.02 / (substeps - 1) > safe_substep(cloth)

@@ -14,11 +14,15 @@
 
 """Mass-spring: explicit springs to 12 neighbours, symplectic Euler (paper, section 4.1)."""
 
-from cloth_sim_ros.sim.forcing import Forcing
+from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.layout import Layout
+from cloth_sim_ros.sim.modes.mode import ForcingOf
 from cloth_sim_ros.sim.modes.one_pass import OnePass
 from cloth_sim_ros.sim.modes.two_pass import TwoPass
 from cloth_sim_ros.sim.scene import Scene
+from cloth_sim_ros.sim.stability import choose_substeps
+from cloth_sim_ros.sim.stability import safe_substep
+from cloth_sim_ros.sim.stability import stability_limit
 from cloth_sim_ros.sim.state import State
 
 
@@ -27,14 +31,30 @@ class MassSpring:
 
     name = 'mass_spring'
 
-    def __init__(self, scene: Scene, layout: Layout) -> None:
-        """Compile the passes."""
+    def __init__(self, scene: Scene, layout: Layout, *, check_stability: bool = True) -> None:
+        """Choose the substeps and compile the passes."""
+        self.stability_limit = stability_limit(scene)
+        self.substeps: int = (
+            choose_substeps(scene) if scene['auto_substeps'] else scene['substeps'])
+        self._length: float = scene['dt'] / self.substeps
+        if check_stability and self._length > self.stability_limit:
+            raise ClothSimError(self._too_long(scene))
         self._passes = OnePass(scene, layout) if layout.kind == 'fused' else TwoPass(scene, layout)
 
-    def substep(self, state: State, forcing: Forcing, length: float) -> None:
-        """Step ``state`` on by ``length`` [s]."""
-        self._passes.substep(state, forcing, length)
+    def step(self, state: State, begin: float, forcing_of: ForcingOf) -> None:
+        """Step ``state`` on by one dt, in substeps of equal length."""
+        for substep in range(self.substeps):
+            start = begin + substep * self._length
+            self._passes.substep(state, forcing_of(start, start + self._length), self._length)
 
     def delete(self) -> None:
         """Give back what the passes allocated."""
         self._passes.delete()
+
+    def _too_long(self, scene: Scene) -> str:
+        most = safe_substep(scene) * self.substeps
+        return (
+            f'dt {scene["dt"]:g} s in {self.substeps} substeps is above the stability limit '
+            f'{self.stability_limit:.3g} s of a substep in mode {self.name} '
+            f'(node mass {scene.node_mass:.3g} kg): '
+            f'set dt <= {most:.3g}, or auto_substeps: true')

@@ -14,6 +14,7 @@
 
 """What every mode offers."""
 
+from collections.abc import Callable
 from typing import Protocol
 
 from cloth_sim_ros.sim.forcing import Forcing
@@ -21,17 +22,31 @@ from cloth_sim_ros.sim.layout import Layout
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.state import State
 
+ForcingOf = Callable[[float, float], Forcing]
+
 
 class Mode(Protocol):
-    """A way to step the state of a scene."""
+    """
+    A way to step the state of a scene.
+
+    :param check_stability: False takes a dt above the stability limit, to study what happens
+    :raises ClothSimError: when the mode can't step the scene as it asks
+    """
 
     name: str
+    substeps: int
+    stability_limit: float
 
-    def __init__(self, scene: Scene, layout: Layout) -> None:
+    def __init__(self, scene: Scene, layout: Layout, *, check_stability: bool = True) -> None:
         """Compile and allocate what this mode needs and nothing else."""
 
-    def substep(self, state: State, forcing: Forcing, length: float) -> None:
-        """Step ``state`` on by ``length`` [s] of simulated time."""
+    def step(self, state: State, begin: float, forcing_of: ForcingOf) -> None:
+        """
+        Step ``state`` on by one dt.
+
+        :param begin: simulated time at which the step begins [s]
+        :param forcing_of: returns what accelerates the nodes between two times [s]
+        """
 
     def delete(self) -> None:
         """Give back what the mode allocated."""
