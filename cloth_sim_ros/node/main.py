@@ -15,6 +15,7 @@
 """The command `cloth_sim_node`: start the node, or say in one line why it can't start."""
 
 from collections.abc import Sequence
+import signal
 import sys
 
 from cloth_sim_ros.gl.errors import DeviceError
@@ -24,6 +25,8 @@ from cloth_sim_ros.sim.errors import ClothSimError
 
 def main(args: Sequence[str] | None = None) -> int:
     """Run the node until SIGINT or SIGTERM and return the exit code."""
+    # Until the node can take care of it, an interrupt ends the process without a traceback.
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
     try:
         # Imported here, so that a missing ROS or interface package gets an answer as well.
         from cloth_sim_ros.node.process import run_node

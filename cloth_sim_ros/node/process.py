@@ -24,6 +24,7 @@ import rclpy
 from rclpy.exceptions import NotInitializedException
 from rclpy.executors import ExternalShutdownException
 from rclpy.executors import SingleThreadedExecutor
+from rclpy.logging import get_logger_effective_level
 from rclpy.logging import LoggingSeverity
 from rclpy.logging import set_logger_level
 
@@ -51,10 +52,10 @@ def run_node(args: Sequence[str]) -> None:
 
 
 def _spin() -> None:
+    executor = SingleThreadedExecutor()
     node = ClothSimNode()
     try:
         node.begin()
-        executor = SingleThreadedExecutor()
         executor.add_node(node)
         executor.spin()
     finally:
@@ -75,4 +76,6 @@ def _init(args: Sequence[str]) -> None:
             f'the ROS arguments cannot be read: {reason}; give a parameter file with '
             '--ros-args --params-file FILE, one parameter with -p NAME:=VALUE, and write lists '
             'of numbers alike, as in [0.0, 0.0, 1.5]') from error
-    set_logger_level('rcl', LoggingSeverity.UNSET)
+    # A level given on the command line stays.
+    if get_logger_effective_level('rcl') == LoggingSeverity.FATAL:
+        set_logger_level('rcl', LoggingSeverity.UNSET)

@@ -21,6 +21,8 @@ import math
 from cloth_sim_ros.sim.errors import ClothSimError
 
 REGIONS = ('all', 'sphere')
+# Forces and accelerations are float32 on the device, which ends at 3e38.
+_MOST = 1e30
 
 
 @dataclass(frozen=True)
@@ -56,6 +58,10 @@ class Push:
             if len(vector) != 3 or not all(math.isfinite(part) for part in vector):
                 raise ClothSimError(
                     f'the {name} of a push must be 3 finite numbers, '
+                    f'got {[float(part) for part in vector]}')
+            if max(map(abs, vector)) > _MOST:
+                raise ClothSimError(
+                    f'the {name} of a push is at most {_MOST:g} along each axis, '
                     f'got {[float(part) for part in vector]}')
         if not math.isfinite(start) or start < 0.0:
             raise ClothSimError(

@@ -26,6 +26,8 @@ from cloth_sim_ros.sim.push import Push
 import numpy as np
 
 MOST_REGION_PUSHES = 32
+# Beyond it a sum of pushes would leave float32.
+_MOST_ACCELERATION = 1e36
 
 
 @dataclass(frozen=True)
@@ -94,6 +96,7 @@ class PushField:
                 f'no free node lies in the region of the push ({describe_region(push)}): '
                 'move or enlarge it, or release a pin')
         entry.nodes = int(np.count_nonzero(inside))
+        self._check_acceleration(entry)
         if push.start <= now:
             self._begin(entry)
         self._entries.append(entry)
@@ -149,6 +152,13 @@ class PushField:
             if push.region == 'sphere':
                 entry.slot = self._take_slot(inside)
         entry.begun = True
+
+    def _check_acceleration(self, entry: _Entry) -> None:
+        strongest = max(map(abs, entry.push.force)) / (entry.nodes * self._node_mass)
+        if strongest > _MOST_ACCELERATION:
+            raise ClothSimError(
+                f'the push would accelerate its {entry.nodes} nodes by {strongest:.3g} m/s2, '
+                f'more than {_MOST_ACCELERATION:g}: give a smaller force')
 
     def _nodes_inside(self, push: Push) -> np.ndarray:
         inside = ~self._pinned

@@ -28,6 +28,7 @@ from rclpy.node import Node
 from rclpy.qos import QoSProfile
 
 _LOOK_AGAIN = 0.05
+_SETTLE = 0.1
 
 
 class NodeClient:
@@ -73,6 +74,8 @@ class NodeClient:
         deadline = time.monotonic() + self._timeout
         while not client.service_is_ready():
             self._wait(deadline, f'no node offers {self._target}/{name}')
+        # The node has to learn of this client, too, or its answer gets lost.
+        self._executor.spin_once(timeout_sec=_SETTLE)
         future = client.call_async(request)
         while not future.done():
             if patient and client.service_is_ready():

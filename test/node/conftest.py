@@ -19,6 +19,7 @@ from collections.abc import Iterator
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.simulation import Simulation
 from cloth_under_test import ClothUnderTest
+from cloth_under_test import NAMESPACE
 from cloth_under_test import PAUSED
 from cloth_under_test import SCENE
 from graph_client import GraphClient
@@ -43,7 +44,8 @@ def client() -> Iterator[GraphClient]:
 @pytest.fixture(scope='session')
 def shared_node(tmp_path_factory: pytest.TempPathFactory) -> Iterator[NodeProcess]:
     """Start the node that most tests share."""
-    with NodeProcess(tmp_path_factory.mktemp('shared_node'), PAUSED) as node:
+    folder = tmp_path_factory.mktemp('shared_node')
+    with NodeProcess(folder, PAUSED, '-r', f'__ns:={NAMESPACE}') as node:
         yield node
 
 

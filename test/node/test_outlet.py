@@ -15,23 +15,24 @@
 """Names, types and quality of service of the topics."""
 
 from cloth_sim_ros.messages.topics import TOPICS
+from cloth_under_test import NAMESPACE
 import pytest
 from rclpy.qos import DurabilityPolicy
 from rclpy.qos import ReliabilityPolicy
 from shape_msgs.msg import Mesh
 
 NAMES_AND_TYPES = {
-    '/cloth_sim/points': 'sensor_msgs/msg/PointCloud2',
-    '/cloth_sim/markers': 'visualization_msgs/msg/MarkerArray',
-    '/cloth_sim/topology': 'shape_msgs/msg/Mesh',
-    '/cloth_sim/stats': 'cloth_sim_interfaces/msg/ClothStats',
-    '/cloth_sim/state': 'cloth_sim_interfaces/msg/ClothState',
+    '~/points': 'sensor_msgs/msg/PointCloud2',
+    '~/markers': 'visualization_msgs/msg/MarkerArray',
+    '~/topology': 'shape_msgs/msg/Mesh',
+    '~/stats': 'cloth_sim_interfaces/msg/ClothStats',
+    '~/state': 'cloth_sim_interfaces/msg/ClothState',
     '/diagnostics': 'diagnostic_msgs/msg/DiagnosticArray',
-    '/cloth_sim/inputs/push': 'cloth_sim_interfaces/msg/Push',
-    '/cloth_sim/inputs/pin': 'cloth_sim_interfaces/msg/PinChange',
-    '/cloth_sim/inputs/mode': 'cloth_sim_interfaces/msg/ModeChange',
-    '/cloth_sim/inputs/command': 'cloth_sim_interfaces/msg/Command',
-    '/cloth_sim/inputs/parameters': 'rcl_interfaces/msg/ParameterEvent',
+    '~/inputs/push': 'cloth_sim_interfaces/msg/Push',
+    '~/inputs/pin': 'cloth_sim_interfaces/msg/PinChange',
+    '~/inputs/mode': 'cloth_sim_interfaces/msg/ModeChange',
+    '~/inputs/command': 'cloth_sim_interfaces/msg/Command',
+    '~/inputs/parameters': 'rcl_interfaces/msg/ParameterEvent',
 }
 SERVICES = {
     'set_mode': 'cloth_sim_interfaces/srv/SetMode',
@@ -51,8 +52,9 @@ KEPT = ('topology', 'state')
 def test_topic_has_its_type_and_quality(cloth, name):
     """A subscriber with the documented settings would get nothing."""
     publisher = next(
-        info for info in cloth.client.node.get_publishers_info_by_topic(name)
-        if info.node_name == 'cloth_sim' and info.node_namespace == '/')
+        info for info in cloth.client.node.get_publishers_info_by_topic(
+            name.replace('~', cloth.name))
+        if f'{info.node_namespace}/{info.node_name}' == cloth.name)
     assert publisher.topic_type == NAMES_AND_TYPES[name]
     quality = publisher.qos_profile
     assert quality.reliability == ReliabilityPolicy.RELIABLE
@@ -62,20 +64,22 @@ def test_topic_has_its_type_and_quality(cloth, name):
 
 def test_every_topic_of_the_table_is_there(cloth):
     """A topic would be added to the table, and never published."""
-    names = {topic.full_name(cloth.name) for key, topic in TOPICS.items() if key != 'clock'}
+    names = {topic.name for key, topic in TOPICS.items() if key != 'clock'}
     assert names == set(NAMES_AND_TYPES)
 
 
 def test_services_have_their_types(cloth):
     """A client made from the documentation would find no service."""
-    offered = dict(cloth.client.node.get_service_names_and_types_by_node('cloth_sim', '/'))
+    offered = dict(cloth.client.node.get_service_names_and_types_by_node(
+        'cloth_sim', NAMESPACE))
     for name, kind in SERVICES.items():
         assert offered[f'{cloth.name}/{name}'] == [kind]
 
 
 def test_listens_to_pushes_and_clicks(cloth):
     """A push from RViz or Foxglove would go nowhere."""
-    listened = dict(cloth.client.node.get_subscriber_names_and_types_by_node('cloth_sim', '/'))
+    listened = dict(cloth.client.node.get_subscriber_names_and_types_by_node(
+        'cloth_sim', NAMESPACE))
     assert listened[f'{cloth.name}/push'] == ['cloth_sim_interfaces/msg/Push']
     assert listened['/clicked_point'] == ['geometry_msgs/msg/PointStamped']
 

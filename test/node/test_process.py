@@ -48,7 +48,7 @@ def test_stops_cleanly_with_the_recording_closed(signals, client, tmp_path):
         assert node.wait() == 0, node.output
     assert 'Traceback' not in node.output
     bag = Recorded(tmp_path / 'bags' / 'run')
-    clouds = bag.messages(f'{namespace}/cloth_sim/points')
+    clouds = bag.messages('points')
     assert len(clouds) > 100 // 4
     steps = [cloud.header.stamp.sec * 200 + cloud.header.stamp.nanosec // 5_000_000
              for cloud in clouds]

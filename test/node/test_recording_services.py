@@ -49,12 +49,12 @@ def test_records_the_published_bytes(cloth):
     """A recording would show another run than the topics did."""
     bag = record(
         cloth, *[lambda: cloth.call(Step, 'step', steps=4)] * 3)
-    recorded = bag.messages('/cloth_sim/points')
+    recorded = bag.messages('points')
     published = [cloth.points_of(cloud) for cloud in cloth['points']]
     assert len(recorded) == len(published) == 4, 'the frame of the start, and one for each step'
     for cloud, points in zip(recorded, published):
         assert np.frombuffer(cloud.data, POINT_DTYPE).tobytes() == points.tobytes()
-    assert [stats.steps for stats in bag.messages('/cloth_sim/stats')] == [0, 4, 8, 12]
+    assert [stats.steps for stats in bag.messages('stats')] == [0, 4, 8, 12]
 
 
 def test_begins_with_all_that_holds(cloth):
@@ -64,18 +64,18 @@ def test_begins_with_all_that_holds(cloth):
     cloth.call(ApplyPush, 'apply_push', force=Vector3(z=1.0), duration=0.5)
     cloth.call(Step, 'step', steps=10)
     bag = record(cloth)
-    parameters, = bag.messages('/cloth_sim/inputs/parameters')
+    parameters, = bag.messages('inputs/parameters')
     assert [entry.name for entry in parameters.new_parameters] == [f.name for f in FIELDS]
-    assert [mode.mode for mode in bag.messages('/cloth_sim/inputs/mode')] == ['mass_spring']
-    pins = bag.messages('/cloth_sim/inputs/pin')
+    assert [mode.mode for mode in bag.messages('inputs/mode')] == ['mass_spring']
+    pins = bag.messages('inputs/pin')
     assert {(pin.row, pin.col, pin.pinned) for pin in pins} == {(3, 4, True), (0, 9, False)}
-    push, = bag.messages('/cloth_sim/inputs/push')
+    push, = bag.messages('inputs/push')
     assert (push.force.z, push.start, push.duration) == (1.0, 0.0, 0.5)
-    mesh, = bag.messages('/cloth_sim/topology')
+    mesh, = bag.messages('topology')
     assert len(mesh.triangles) == 2 * 7 * 9
-    state = bag.messages('/cloth_sim/state')[0]
+    state = bag.messages('state')[0]
     assert (state.recording, state.run_state) == (True, 'paused')
-    cloud, = bag.messages('/cloth_sim/points')
+    cloud, = bag.messages('points')
     assert cloth.steps_of(cloud) == 10
 
 
@@ -88,7 +88,7 @@ def test_records_inputs_as_they_come(cloth):
         lambda: cloth.call(SetPin, 'set_pin', row=6, col=6),
         lambda: cloth.call(Trigger, 'clear_pushes'))
     for topic in ('push', 'pin', 'command'):
-        message = bag.messages(f'/cloth_sim/inputs/{topic}')[-1]
+        message = bag.messages(f'inputs/{topic}')[-1]
         assert cloth.steps_of(message) == 2, topic
 
 
@@ -102,8 +102,19 @@ def test_log_time_grows_through_a_reset(cloth):
     times = [time for _, time, _ in bag.entries]
     assert times == sorted(times)
     assert times[-1] - times[0] == 100_000_000
-    clouds = bag.messages('/cloth_sim/points')
+    clouds = bag.messages('points')
     assert [cloth.steps_of(cloud) for cloud in clouds] == [0, 10, 0, 10]
+
+
+def test_a_pause_is_not_recorded_again_and_again(cloth):
+    """A recording of a paused cloth would grow with copies of one moment."""
+    path = Path(start(cloth).path)
+    cloth.frame(0)
+    cloth.clear()
+    cloth.frame(0)
+    cloth.wait_for('diagnostics')
+    assert cloth.call(Trigger, 'stop_recording').success
+    assert len(Recorded(path).messages('points')) == 1
 
 
 def test_state_tells_of_the_recording(cloth):

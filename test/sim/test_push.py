@@ -29,6 +29,7 @@ _NAN, _INF = float('nan'), float('inf')
     ({'force': (_NAN, 0.0, 0.0)}, 'the force of a push must be 3 finite numbers, got [nan'),
     ({'force': (0.0, _INF, 0.0)}, 'the force of a push must be 3 finite numbers'),
     ({'force': (1.0, 2.0)}, 'the force of a push must be 3 finite numbers, got [1.0, 2.0]'),
+    ({'force': (0.0, 0.0, 1e38)}, 'the force of a push is at most 1e+30 along each axis, got'),
     ({'duration': _NAN}, 'the duration of a push must be finite and above 0, got nan s'),
     ({'duration': -1.0}, 'the duration of a push must be finite and above 0, got -1.0 s'),
     ({'duration': _INF}, 'the duration of a push must be finite and above 0, got inf s'),

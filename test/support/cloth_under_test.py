@@ -17,6 +17,11 @@
 from collections.abc import Mapping
 from typing import Any
 
+from cloth_sim_interfaces.srv import ApplyPush
+from cloth_sim_interfaces.srv import SetMode
+from cloth_sim_interfaces.srv import SetPin
+from cloth_sim_interfaces.srv import StartRecording
+from cloth_sim_interfaces.srv import Step
 from cloth_sim_ros.messages.stamp import nanoseconds
 from cloth_sim_ros.messages.topics import TOPICS
 from cloth_sim_ros.node.parameters import FIELDS
@@ -24,15 +29,35 @@ from cloth_sim_ros.sim.snapshot import POINT_DTYPE
 from graph_client import GraphClient
 from graph_client import Watch
 import numpy as np
+from rcl_interfaces.srv import DescribeParameters
+from rcl_interfaces.srv import GetParameters
+from rcl_interfaces.srv import ListParameters
 from rcl_interfaces.srv import SetParametersAtomically
 from rclpy.parameter import Parameter
 from std_srvs.srv import SetBool
 from std_srvs.srv import Trigger
 
-NAME = '/cloth_sim'
+# Other tests may run a node without a namespace at the same time.
+NAMESPACE = '/node_tests'
+NAME = f'{NAMESPACE}/cloth_sim'
 SCENE = {
     'rows': 8, 'cols': 10, 'width': 0.9, 'height': 0.7, 'stiffness.structural': 40.0,
     'stiffness.shear': 30.0, 'stiffness.bend': 5.0, 'damping.structural': 0.02, 'dt': 0.005,
+}
+SERVICES = {
+    'set_mode': SetMode,
+    'apply_push': ApplyPush,
+    'clear_pushes': Trigger,
+    'set_pin': SetPin,
+    'reset': Trigger,
+    'pause': SetBool,
+    'step': Step,
+    'start_recording': StartRecording,
+    'stop_recording': Trigger,
+    'get_parameters': GetParameters,
+    'describe_parameters': DescribeParameters,
+    'list_parameters': ListParameters,
+    'set_parameters_atomically': SetParametersAtomically,
 }
 PAUSED = {**SCENE, 'start_paused': True}
 
@@ -52,13 +77,22 @@ class ClothUnderTest:
         self.name = name
         self.dt = values['dt']
         self._shape = (values['rows'], values['cols'])
+        for service, kind in SERVICES.items():
+            client.service(kind, f'{name}/{service}')
         self._topics: dict[str, Watch] = {
             key: client.watch(topic.message, topic.full_name(name), kept=topic.transient_local)
             for key, topic in TOPICS.items() if key != 'clock'}
-        # The node learns of the subscriptions in their order: it has them all when the last
-        # one, of inputs/parameters, is answered.
+        self._shake_hands()
+
+    def _shake_hands(self) -> None:
+        # The node learns of clients and subscriptions in their order, and does not answer a
+        # client that it does not know yet: it knows them all when the last one hears something.
+        set_parameters = self.client.service(
+            SetParametersAtomically, f'{self.name}/set_parameters_atomically')
         while not self['inputs/parameters']:
-            self.set_parameters(real_time_factor=1.0)
+            set_parameters.call_async(SetParametersAtomically.Request(
+                parameters=_as_messages({'real_time_factor': 1.0})))
+            self.client.spin_for(0.2)
 
     def __getitem__(self, key: str) -> list[Any]:
         """Return the messages of the topic ``key`` since the last clear."""
@@ -75,11 +109,9 @@ class ClothUnderTest:
 
     def set_parameters(self, **values: Any) -> Any:
         """Set parameters at once; __ in a name stands for a dot. Return the result."""
-        parameters = [
-            Parameter(name.replace('__', '.'), value=value).to_parameter_msg()
-            for name, value in values.items()]
         return self.call(
-            SetParametersAtomically, 'set_parameters_atomically', parameters=parameters).result
+            SetParametersAtomically, 'set_parameters_atomically',
+            parameters=_as_messages(values)).result
 
     def wait_for(self, key: str, condition: Any = None) -> Any:
         """Return the first message of ``key`` since the last clear that ``condition`` likes."""
@@ -113,3 +145,9 @@ class ClothUnderTest:
         self.frame(0)
         self.client.spin_until(lambda: self['state'] and self['stats'], 'the reset is told')
         self.clear()
+
+
+def _as_messages(values: Mapping[str, Any]) -> list[Any]:
+    return [
+        Parameter(name.replace('__', '.'), value=value).to_parameter_msg()
+        for name, value in values.items()]

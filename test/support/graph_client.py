@@ -70,15 +70,24 @@ class GraphClient:
             self._executor.spin_once(timeout_sec=0.02)
         return result
 
-    def call(self, kind: type, name: str, /, **fields: Any) -> Any:
-        """Return the answer of the service ``name``."""
+    def service(self, kind: type, name: str) -> Any:
+        """Return the client of the service ``name``, as soon as that is offered."""
         if name not in self._clients:
             self._clients[name] = self.node.create_client(kind, name)
-        client = self._clients[name]
-        self.spin_until(client.service_is_ready, f'{name} is offered')
-        future = client.call_async(kind.Request(**fields))
+        self.spin_until(self._clients[name].service_is_ready, f'{name} is offered')
+        return self._clients[name]
+
+    def call(self, kind: type, name: str, /, **fields: Any) -> Any:
+        """Return the answer of the service ``name``."""
+        future = self.service(kind, name).call_async(kind.Request(**fields))
         self.spin_until(future.done, f'{name} answers')
         return future.result()
+
+    def spin_for(self, seconds: float) -> None:
+        """Take in what comes within ``seconds``."""
+        end = time.monotonic() + seconds
+        while (left := end - time.monotonic()) > 0.0:
+            self._executor.spin_once(timeout_sec=left)
 
     def watch(self, kind: type, topic: str, *, depth: int = 1000, kept: bool = False) -> Watch:
         """Listen to ``topic``; ``kept`` asks for what was published before as well."""

@@ -43,6 +43,7 @@ class Recorded:
                 for _, channel, record, message in reader.iter_decoded_messages()]
         assert len(self.entries) == rosbags_count, 'the two libraries disagree'
 
-    def messages(self, topic: str) -> list[Any]:
-        """Return the messages of ``topic`` in their order."""
-        return [message for name, _, message in self.entries if name == topic]
+    def messages(self, key: str) -> list[Any]:
+        """Return the messages of the node's topic ``key`` in their order."""
+        return [
+            message for topic, _, message in self.entries if topic.endswith(f'/cloth_sim/{key}')]
