@@ -111,7 +111,7 @@ void write_record(int row, int col, vec4 x, vec4 v, float strain) {
     uint flags = v.w == 0.0 ? FLAG_PINNED : 0u;
     bool pushed = pushed_everywhere == 1;
 #if HAS_REGION_PUSHES
-    pushed = pushed || (push_mask[node_index(row, col)] & pushes_acting) != 0u;
+    pushed = pushed || region_pushes[node_index(row, col)].w > 0.0;
 #endif
     if (pushed && v.w != 0.0) {
         flags |= FLAG_PUSHED;

@@ -64,10 +64,6 @@ class Program:
         """Set an int uniform of the program in use."""
         GL.glUniform1i(self._location(name), value)
 
-    def set_bits(self, name: str, value: int) -> None:
-        """Set a uint uniform of the program in use."""
-        GL.glUniform1ui(self._location(name), value)
-
     def set_floats(self, name: str, values: Sequence[float]) -> None:
         """Set the first floats of an array uniform of the program in use."""
         flat = np.ascontiguousarray(values, dtype=np.float32)

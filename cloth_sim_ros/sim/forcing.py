@@ -15,12 +15,10 @@
 """What accelerates the nodes in one step besides the springs."""
 
 from dataclasses import dataclass
-from dataclasses import field
 
 from cloth_sim_ros.gl.buffer import Buffer
 from cloth_sim_ros.gl.program import Program
 from cloth_sim_ros.sim import bindings
-import numpy as np
 
 
 @dataclass(frozen=True, eq=False)
@@ -30,31 +28,24 @@ class Forcing:
 
     :param everywhere: on every free node [m/s2]
     :param pushed_everywhere: True when a push has part in ``everywhere``
-    :param regions: acceleration [m/s2] by the bit of the nodes' push mask
-    :param mask: the masks on the device; None when there are no ``regions``
+    :param regions: what comes on top at each node [m/s2], and how many pushes on regions act
+        there; None where there are none
     """
 
     everywhere: tuple[float, float, float]
     pushed_everywhere: bool = False
-    regions: dict[int, np.ndarray] = field(default_factory=dict)
-    mask: Buffer | None = None
+    regions: Buffer | None = None
 
     @property
     def has_regions(self) -> bool:
         """Tell whether some nodes are pushed and others are not."""
-        return self.mask is not None
+        return self.regions is not None
 
     def apply(self, program: Program) -> None:
-        """Set the uniforms of applied_acceleration.glsl in the program in use."""
+        """Set the uniform of applied_acceleration.glsl in the program in use."""
         program.set_vectors('acceleration', self.everywhere)
-        if self.mask is not None:
-            accelerations = np.zeros((max(self.regions) + 1, 3))
-            for slot, acceleration in self.regions.items():
-                accelerations[slot] = acceleration
-            program.set_vectors('region_acceleration', accelerations)
-            program.set_bits('pushes_acting', sum(1 << slot for slot in self.regions))
 
     def bind(self) -> None:
-        """Bind the masks for the next dispatch, if there are any."""
-        if self.mask is not None:
-            self.mask.bind_storage(bindings.PUSH_MASK)
+        """Bind the regions for the next dispatch, if there are any."""
+        if self.regions is not None:
+            self.regions.bind_storage(bindings.REGION_PUSHES)

@@ -15,6 +15,7 @@
 """Pushes that act or will act, and the acceleration they give in each step."""
 
 from collections.abc import Callable
+from collections.abc import Iterable
 from dataclasses import dataclass
 from dataclasses import field
 
@@ -25,7 +26,6 @@ from cloth_sim_ros.sim.layout import Layout
 from cloth_sim_ros.sim.push import Push
 import numpy as np
 
-MOST_REGION_PUSHES = 32
 # Beyond it a sum of pushes would leave float32.
 _MOST_ACCELERATION = 1e36
 
@@ -35,7 +35,7 @@ class AppliedPush:
     """
     A push and what it acts on.
 
-    :param nodes: free nodes it is spread over
+    :param nodes: free nodes it is spread over; 0 for one to come, whose nodes are not settled
     """
 
     push: Push
@@ -47,13 +47,15 @@ class AppliedPush:
         return self.push.impulse
 
 
-@dataclass
+@dataclass(eq=False)
 class _Entry:
     push: Push
+    inside: np.ndarray | None = None
     nodes: int = 0
-    begun: bool = False
-    slot: int | None = None
     acceleration: np.ndarray = field(default_factory=lambda: np.zeros(3))
+
+    def acts_at(self, time: float) -> bool:
+        return self.inside is not None and self.push.start <= time < self.push.end
 
 
 class PushField:
@@ -74,9 +76,10 @@ class PushField:
         self._read_positions = read_positions
         self._pinned = pinned
         self._entries: list[_Entry] = []
-        self._mask: np.ndarray | None = None
-        self._mask_buffer: Buffer | None = None
+        self._buffer: Buffer | None = None
+        self._in_buffer: tuple[tuple[_Entry, float], ...] = ()
         self.still = Forcing(gravity)
+        self._latest: tuple[object, Forcing] = ((), self.still)
 
     @property
     def applied(self) -> tuple[AppliedPush, ...]:
@@ -85,26 +88,21 @@ class PushField:
 
     def add(self, push: Push, now: float) -> AppliedPush:
         """
-        Take up ``push``; it is spread over the nodes in its region when it begins.
+        Take up ``push``; it is spread over the free nodes that are in its region as it begins.
 
-        :raises ClothSimError: when no free node is there to push, or too many pushes overlap
+        :raises ClothSimError: when it begins now and no free node is there to push, or would be
+            accelerated beyond what the device can hold
         """
         entry = _Entry(push)
-        inside = self._nodes_inside(push)
-        if not inside.any():
-            raise ClothSimError(
-                f'no free node lies in the region of the push ({describe_region(push)}): '
-                'move or enlarge it, or release a pin')
-        entry.nodes = int(np.count_nonzero(inside))
-        self._check_acceleration(entry)
         if push.start <= now:
             self._begin(entry)
+            if not entry.nodes:
+                raise ClothSimError(
+                    f'no free node lies in the region of the push ({_in_words(push)}): '
+                    'move or enlarge it, or release a pin')
+            _check_acceleration(entry)
         self._entries.append(entry)
         return AppliedPush(push, entry.nodes)
-
-    def plan(self, push: Push) -> None:
-        """Take up ``push`` for its start; where no free node is then, it does nothing."""
-        self._entries.append(_Entry(push))
 
     def clear(self) -> int:
         """Drop all pushes; return how many."""
@@ -113,81 +111,74 @@ class PushField:
         return count
 
     def forcing(self, begin: float, end: float) -> Forcing:
-        """Return the acceleration of the step from ``begin`` to ``end`` [s]."""
+        """Return the acceleration of the step from ``begin`` to ``end`` [s]; begin its pushes."""
         if not self._entries:
             return self.still
         self._entries = [entry for entry in self._entries if entry.push.end > begin]
-        everywhere = np.array(self.still.everywhere)
-        regions: dict[int, np.ndarray] = {}
-        pushed_everywhere = False
-        for entry in self._entries:
-            share = entry.push.overlap(begin, end)
-            if share == 0.0:
-                continue
-            if not entry.begun:
+        shares = [(entry, entry.push.overlap(begin, end)) for entry in self._entries]
+        for entry, share in shares:
+            if share > 0.0 and entry.inside is None:
                 self._begin(entry)
-            if entry.slot is None:
-                everywhere += share * entry.acceleration
-                pushed_everywhere = True
-            elif entry.nodes:
-                regions[entry.slot] = share * entry.acceleration
-        if not regions and not pushed_everywhere:
-            return self.still
-        return Forcing(
-            tuple(everywhere), pushed_everywhere, regions,
-            self._mask_buffer if regions else None)
+        return self._compose(shares)
+
+    def acting(self, now: float) -> Forcing:
+        """Return what acts at the moment ``now`` [s], for looking only: nothing begins by it."""
+        return self._compose((entry, 1.0) for entry in self._entries if entry.acts_at(now))
 
     def delete(self) -> None:
         """Give the buffer back."""
-        if self._mask_buffer is not None:
-            self._mask_buffer.delete()
+        if self._buffer is not None:
+            self._buffer.delete()
+
+    def _compose(self, shares: Iterable[tuple[_Entry, float]]) -> Forcing:
+        active = tuple((entry, share) for entry, share in shares if share > 0.0 and entry.nodes)
+        known, forcing = self._latest
+        if active == known:
+            return forcing
+        in_regions = tuple(pair for pair in active if pair[0].push.region == 'sphere')
+        everywhere = np.array(self.still.everywhere)
+        for entry, share in active:
+            if entry.push.region == 'all':
+                everywhere += share * entry.acceleration
+        if in_regions and in_regions != self._in_buffer:
+            self._upload(in_regions)
+        forcing = Forcing(
+            tuple(everywhere), len(in_regions) < len(active),
+            self._buffer if in_regions else None) if active else self.still
+        self._latest = (active, forcing)
+        return forcing
 
     def _begin(self, entry: _Entry) -> None:
         push = entry.push
-        inside = self._nodes_inside(push)
-        entry.nodes = int(np.count_nonzero(inside))
-        if entry.nodes:
-            force = np.array(push.force)
-            entry.acceleration = force / (entry.nodes * self._node_mass)
-            if push.region == 'sphere':
-                entry.slot = self._take_slot(inside)
-        entry.begun = True
-
-    def _check_acceleration(self, entry: _Entry) -> None:
-        strongest = max(map(abs, entry.push.force)) / (entry.nodes * self._node_mass)
-        if strongest > _MOST_ACCELERATION:
-            raise ClothSimError(
-                f'the push would accelerate its {entry.nodes} nodes by {strongest:.3g} m/s2, '
-                f'more than {_MOST_ACCELERATION:g}: give a smaller force')
-
-    def _nodes_inside(self, push: Push) -> np.ndarray:
-        inside = ~self._pinned
+        entry.inside = ~self._pinned
         if push.region == 'sphere':
             away = self._read_positions() - np.array(push.center, dtype=np.float32)
-            inside &= np.einsum('rci,rci->rc', away, away) <= push.radius**2
-        return inside
+            entry.inside &= np.einsum('rci,rci->rc', away, away) <= push.radius**2
+        entry.nodes = int(np.count_nonzero(entry.inside))
+        if entry.nodes:
+            entry.acceleration = np.array(push.force) / (entry.nodes * self._node_mass)
 
-    def _take_slot(self, inside: np.ndarray) -> int:
-        taken = {entry.slot for entry in self._entries}
-        free = [slot for slot in range(MOST_REGION_PUSHES) if slot not in taken]
-        if not free:
-            raise ClothSimError(
-                f'{MOST_REGION_PUSHES} pushes on spheres act already, no more fit: '
-                'wait for one to end, or clear them')
-        bit = np.uint32(1 << free[0])
-        if self._mask is None:
-            self._mask = np.zeros(inside.shape, dtype=np.uint32)
-        self._mask = np.where(inside, self._mask | bit, self._mask & ~bit)
-        stored = self._layout.store(self._mask)
-        if self._mask_buffer is None:
-            self._mask_buffer = Buffer(stored)
+    def _upload(self, in_regions: tuple[tuple[_Entry, float], ...]) -> None:
+        accelerations = np.zeros((*self._pinned.shape, 4), dtype=np.float32)
+        for entry, share in in_regions:
+            accelerations[entry.inside] += (*(share * entry.acceleration), 1.0)
+        stored = self._layout.store(accelerations)
+        if self._buffer is None:
+            self._buffer = Buffer(stored)
         else:
-            self._mask_buffer.write(stored)
-        return free[0]
+            self._buffer.write(stored)
+        self._in_buffer = in_regions
 
 
-def describe_region(push: Push) -> str:
-    """Return the region of ``push`` in words."""
+def _check_acceleration(entry: _Entry) -> None:
+    strongest = float(np.abs(entry.acceleration).max())
+    if strongest > _MOST_ACCELERATION:
+        raise ClothSimError(
+            f'the push would accelerate its {entry.nodes} nodes by {strongest:.3g} m/s2, more '
+            f'than {_MOST_ACCELERATION:g}: give a smaller force')
+
+
+def _in_words(push: Push) -> str:
     if push.region == 'all':
         return 'the whole cloth'
     x, y, z = push.center

@@ -16,6 +16,7 @@
 
 from cloth_sim_ros.sim.field import Field
 
+MOST_SUBSTEPS = 100000
 MODES = ('mass_spring', 'constraint', 'adaptive')
 
 SCENE_FIELDS = (
@@ -54,7 +55,7 @@ SCENE_FIELDS = (
     Field('auto_substeps', bool, True, 'split dt so that each substep keeps to 0.85 of the '
           'stability limit, and is stable in any shape'),
     Field('substeps', int, 1, 'substeps in each dt when auto_substeps is false',
-          low=1, high=100000),
+          low=1, high=MOST_SUBSTEPS),
     Field('pushes.start', float, (), 'start of each timed push', 's', low=0.0, high=1e9,
           is_array=True),
     Field('pushes.duration', float, (), 'length of each timed push', 's', low=0.0, high=1e9,

@@ -18,7 +18,6 @@ from cloth_sim_ros.gl.program import Program
 from cloth_sim_ros.gl.shader_source import ShaderSource
 from cloth_sim_ros.sim.forcing import Forcing
 from cloth_sim_ros.sim.layout import Layout
-from cloth_sim_ros.sim.push_field import MOST_REGION_PUSHES
 from cloth_sim_ros.sim.scene import FAMILIES
 from cloth_sim_ros.sim.scene import Scene
 import numpy as np
@@ -70,7 +69,6 @@ def scene_defines(scene: Scene) -> dict[str, object]:
     """Return what the scene's shaders compile in."""
     has_damping = any(scene.damping(family) > 0.0 for family in FAMILIES)
     return {
-        'MOST_REGION_PUSHES': MOST_REGION_PUSHES,
         'HAS_DAMPING': int(has_damping),
         **{f'HAS_{family.upper()}': int(scene.models(family)) for family in FAMILIES},
     }

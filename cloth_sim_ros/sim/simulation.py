@@ -36,6 +36,7 @@ import numpy as np
 
 # Below this many nodes llvmpipe is faster without its worker threads (docs/performance.md).
 _SINGLE_THREAD_NODES = 128 * 128
+_LARGEST = float(np.finfo(np.float32).max)
 
 
 class Simulation:
@@ -133,7 +134,7 @@ class Simulation:
         Push the cloth with a total ``force`` [N] for ``duration`` [s] of simulated time.
 
         :param region: all, or sphere: the free nodes within ``radius`` of ``center`` [m]
-            when the push begins
+            when the push begins; one to come that finds none does nothing
         :param start: simulated time at which it begins [s]; now by default
         :raises ClothSimError: when a value is wrong or no free node is in the region
         """
@@ -141,10 +142,10 @@ class Simulation:
         push = Push.checked(
             force=force, start=begin, duration=duration, region=region, center=center,
             radius=radius)
-        if push.end <= self.time:
+        if begin < self.time:
             raise ClothSimError(
-                f'a push from {begin} s to {push.end} s lies in the past, it is {self.time} s: '
-                'give a later start')
+                f'the start of the push, {begin:g} s, lies in the past, it is {self.time:g} s: '
+                'give a later one, or none for now')
         self._context.make_current()
         return self._pushes.add(push, self.time)
 
@@ -185,9 +186,10 @@ class Simulation:
         """Replace positions [m] and velocities [m/s], both (rows, cols, 3); pins stay still."""
         shape = (self.scene.rows, self.scene.cols, 3)
         for name, values in (('positions', positions), ('velocities', velocities)):
-            if np.shape(values) != shape or not np.all(np.isfinite(values)):
+            if np.shape(values) != shape or not np.all(np.abs(values) < _LARGEST):
                 raise ClothSimError(
-                    f'{name} must be {shape} finite numbers, got {np.shape(values)}')
+                    f'{name} must be {shape} numbers that float32 can hold, '
+                    f'got {np.shape(values)}')
         self._context.make_current()
         self._state.write(np.asarray(positions), np.asarray(velocities))
 
@@ -234,7 +236,7 @@ class Simulation:
             self._read_positions,
             self._state.pinned)
         for push in self.scene.timed_pushes():
-            self._pushes.plan(push)
+            self._pushes.add(push, -math.inf)
 
     def _make_steps(self, count: int) -> int:
         self._context.make_current()
@@ -248,7 +250,7 @@ class Simulation:
         return np.stack([records[axis] for axis in 'xyz'], axis=-1)
 
     def _forcing_now(self) -> Forcing:
-        return self._pushes.forcing(self.time, self.time + self.dt / self.substeps)
+        return self._pushes.acting(self.time)
 
     def _get_mode(self, name: str) -> modes.Mode:
         if name not in self._modes:

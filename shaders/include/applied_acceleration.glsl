@@ -17,21 +17,10 @@
 uniform vec3 acceleration;  // [m/s2] gravity and pushes on the whole cloth
 
 #if HAS_REGION_PUSHES
-// Bit p of a node's mask: push p acts on it. Only the pushes of pushes_acting do so now.
-layout(std430, binding = PUSH_MASK) readonly buffer PushMask { uint push_mask[]; };
-uniform vec3 region_acceleration[MOST_REGION_PUSHES];  // [m/s2]
-uniform uint pushes_acting;
+// What pushes on regions add at a node [m/s2]; w: how many act on it.
+layout(std430, binding = REGION_PUSHES) readonly buffer RegionPushes { vec4 region_pushes[]; };
 
-vec3 applied_acceleration(int index) {
-    vec3 total = acceleration;
-    uint mask = push_mask[index] & pushes_acting;
-    for (int p = 0; mask != 0u; ++p, mask >>= 1) {
-        if ((mask & 1u) == 1u) {
-            total += region_acceleration[p];
-        }
-    }
-    return total;
-}
+vec3 applied_acceleration(int index) { return acceleration + region_pushes[index].xyz; }
 #else
 vec3 applied_acceleration(int index) { return acceleration; }
 #endif

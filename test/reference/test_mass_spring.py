@@ -123,5 +123,5 @@ def test_first_order_against_dop853():
         cloth.advance(0.25)
         errors.append(np.sqrt(np.mean(np.sum((cloth.positions - target) ** 2, axis=-1))))
     orders = np.log2(np.array(errors[:-1]) / errors[1:])
-    print(f'errors {errors} m, orders {orders}')
+    print(f'measured {orders.round(3)} of 0.95 to 1.1 allowed: order against DOP853')
     assert np.all((orders > 0.95) & (orders < 1.1))

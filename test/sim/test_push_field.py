@@ -15,7 +15,6 @@
 """Pushes act on the nodes of their region, for their time, and add up."""
 
 from cloth_sim_ros.sim.errors import ClothSimError
-from cloth_sim_ros.sim.push_field import MOST_REGION_PUSHES
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.simulation import Simulation
 import numpy as np
@@ -71,7 +70,7 @@ def test_overlapping_pushes_add_up():
     assert simulation.scene.node_mass * v.sum() == pytest.approx(0.25, rel=1e-5)
 
 
-def test_slots_are_used_again():
+def test_what_has_ended_leaves_no_trace():
     """A node would carry on the mark of a push that has ended."""
     simulation = Simulation(Scene(_FREE))
     elsewhere = {**_CORNER, 'center': (-0.5, -0.5, 1.0)}
@@ -118,6 +117,7 @@ def test_cleared_pushes_do_no_more():
     ({'duration': -1.0}, 'the duration of a push'),
     ({'force': (float('nan'), 0.0, 0.0)}, 'the force of a push'),
     ({'start': -1.0}, 'the start of a push'),
+    ({'force': (0.0, 0.0, 1e31)}, 'is at most 1e[+]30 along each axis'),
 ])
 def test_a_refused_push_leaves_nothing_behind(changed: dict, message: str):
     """Half a push would act on."""
@@ -129,22 +129,59 @@ def test_a_refused_push_leaves_nothing_behind(changed: dict, message: str):
 
 
 def test_a_push_in_the_past_is_refused():
-    """It would be accepted and do nothing."""
+    """It would be accepted and give less than the impulse it answers with."""
     simulation = Simulation(Scene(_FREE))
     simulation.advance(1.0)
-    with pytest.raises(ClothSimError, match='lies in the past, it is 1'):
-        simulation.push((0.0, 0.0, 1.0), duration=0.1, start=0.5)
+    with pytest.raises(ClothSimError, match='the start of the push, 0.5 s, lies in the past'):
+        simulation.push((0.0, 0.0, 1.0), duration=1.0, start=0.5)
 
 
-def test_there_is_an_end_to_pushes_on_spheres():
-    """One push too many would overwrite another's nodes."""
+def test_many_pushes_on_spheres_add_up():
+    """One push too many would be lost, or overwrite another's nodes."""
     simulation = Simulation(Scene(_FREE))
-    for _ in range(MOST_REGION_PUSHES):
-        simulation.push((0.0, 0.0, 0.1), duration=0.1, **_CORNER)
-    with pytest.raises(ClothSimError, match='32 pushes on spheres act already'):
-        simulation.push((0.0, 0.0, 0.1), duration=0.1, **_CORNER)
+    for begin in range(40):
+        simulation.push((0.0, 0.0, 0.1), duration=0.1, start=0.001 * begin, **_CORNER)
     v = velocities_after(simulation, 0.2)
-    assert simulation.scene.node_mass * v.sum() == pytest.approx(0.32, rel=1e-5)
+    assert simulation.scene.node_mass * v.sum() == pytest.approx(0.4, rel=1e-5)
+
+
+@pytest.mark.parametrize('look', [False, True])
+@pytest.mark.parametrize('region', [_CORNER, {}])
+def test_looking_does_not_begin_a_push(look: bool, region: dict):
+    """A frame published before a push begins would settle its nodes too early."""
+    simulation = Simulation(Scene(_FREE))
+    simulation.push((0.0, 0.0, 1.0), duration=0.1, start=0.105, **region)
+    simulation.step(10)
+    if look:
+        assert not np.any(simulation.snapshot().flags & 4)
+    simulation.pin(5, 4)
+    v = velocities_after(simulation, 0.3)
+    assert simulation.scene.node_mass * v.sum() == pytest.approx(0.1, rel=1e-5)
+
+
+def test_a_push_that_finds_no_node_marks_none():
+    """The whole cloth would be shown as pushed."""
+    simulation = Simulation(Scene(_FREE))
+    simulation.push((0.0, 0.0, 1.0), duration=0.5, start=0.05, region='sphere',
+                    center=(50.0, 0.0, 0.0), radius=0.1)
+    assert not velocities_after(simulation, 0.1).any()
+    assert not np.any(simulation.snapshot().flags & 4)
+
+
+def test_a_push_for_later_finds_the_nodes_that_have_come():
+    """A push would be refused because its sphere is empty now."""
+    simulation = Simulation(Scene({**_FREE, 'gravity': [0.0, 0.0, -10.0]}))
+    simulation.push((0.0, 0.0, 1.0), region='sphere', center=(0.0, 0.0, 0.0), radius=0.7,
+                    duration=0.1, start=0.4)
+    assert np.ptp(velocities_after(simulation, 0.6)[1:]) > 0.0
+
+
+def test_an_acceleration_beyond_float32_is_refused():
+    """The state would be infinite after one step."""
+    simulation = Simulation(Scene({**_FREE, 'node_mass': 1e-12}))
+    with pytest.raises(ClothSimError, match='would accelerate its 29 nodes by .* m/s2'):
+        simulation.push((0.0, 0.0, 1e29), duration=0.1)
+    assert simulation.pushes == ()
 
 
 def test_a_pinned_cloth_has_nothing_to_push():

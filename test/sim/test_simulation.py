@@ -135,6 +135,17 @@ def test_a_dt_above_the_limit_is_refused_with_the_way_out():
     Simulation(Scene({**values, 'auto_substeps': True})).close()
 
 
+def test_more_substeps_than_can_be_meant_are_refused():
+    """The first step would never end."""
+    stiff = {**_SMALL, 'dt': 1.0, 'stiffness.structural': 1e9}
+    with pytest.raises(ClothSimError) as caught:
+        Simulation(Scene(stiff))
+    message = str(caught.value)
+    assert 'substeps of the' in message
+    offered = float(message.split('set dt <= ')[1].split(',')[0])
+    Simulation(Scene({**stiff, 'dt': offered * 0.999})).close()
+
+
 def test_a_state_that_is_not_finite_is_seen():
     """Cloth of NaN would be published as if it were real."""
     simulation = Simulation(
@@ -154,7 +165,8 @@ def test_measure_and_snapshot_agree(simulation: Simulation):
         assert getattr(snapshot, name) == value, name
 
 
-@pytest.mark.parametrize('bad', [np.zeros((7, 5, 3)), np.full((5, 7, 3), np.nan)])
+@pytest.mark.parametrize('bad', [
+    np.zeros((7, 5, 3)), np.full((5, 7, 3), np.nan), np.full((5, 7, 3), 1e39)])
 def test_a_bad_state_is_refused(simulation: Simulation, bad: np.ndarray):
     """A wrong array would end up on the device."""
     before = simulation.snapshot().state_sha256

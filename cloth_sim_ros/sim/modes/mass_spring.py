@@ -20,6 +20,7 @@ from cloth_sim_ros.sim.modes.mode import ForcingOf
 from cloth_sim_ros.sim.modes.one_pass import OnePass
 from cloth_sim_ros.sim.modes.two_pass import TwoPass
 from cloth_sim_ros.sim.scene import Scene
+from cloth_sim_ros.sim.scene_fields import MOST_SUBSTEPS
 from cloth_sim_ros.sim.stability import choose_substeps
 from cloth_sim_ros.sim.stability import safe_substep
 from cloth_sim_ros.sim.stability import stability_limit
@@ -36,6 +37,8 @@ class MassSpring:
         self.stability_limit = stability_limit(scene)
         self.substeps: int = (
             choose_substeps(scene) if scene['auto_substeps'] else scene['substeps'])
+        if self.substeps > MOST_SUBSTEPS:
+            raise ClothSimError(self._too_many(scene))
         self._length: float = scene['dt'] / self.substeps
         if check_stability and self._length > self.stability_limit:
             raise ClothSimError(self._too_long(scene))
@@ -50,6 +53,13 @@ class MassSpring:
     def delete(self) -> None:
         """Give back what the passes allocated."""
         self._passes.delete()
+
+    def _too_many(self, scene: Scene) -> str:
+        most = safe_substep(scene) * MOST_SUBSTEPS
+        return (
+            f'dt {scene["dt"]:g} s would take {self.substeps:.3g} substeps of the '
+            f'{self.stability_limit:.3g} s that are stable, more than {MOST_SUBSTEPS}: '
+            f'set dt <= {most:.3g}, or take softer springs, less damping or a larger node mass')
 
     def _too_long(self, scene: Scene) -> str:
         most = safe_substep(scene) * self.substeps

@@ -70,7 +70,7 @@ def within() -> Callable[[str, float, float], None]:
     """Return a function that prints a figure and fails where it is above its limit."""
 
     def check(what: str, value: float, limit: float) -> None:
-        print(f'measured {value:.1e} of {limit:.0e} allowed: {what}')
+        print(f'measured {value:.1e} of {limit:g} allowed: {what}')
         assert value <= limit, what
 
     return check

@@ -130,6 +130,7 @@ def _hold_to_reference(values):
     steps = max(1, min(int(0.5 / scene['dt']), MOST_SUBSTEPS // substeps))
     exact, rounded = _twins(scene, substeps, steps * substeps)
     noise = np.abs(rounded.positions - exact.positions).max()
+    assert np.isfinite(noise), 'automatic substeps let the cloth blow up'
     # Beyond this the scene is chaotic in the time given, and says nothing about the shaders.
     assume(noise < 1e-5)
     with closing(Simulation(scene)) as simulation:
@@ -164,16 +165,18 @@ def test_random_scenes(within, mode, layout, loads, block, scenes):
     within(f'random scenes against the oracle, {layout} {loads} {block}', max(ratios), 1.0)
 
 
-@pytest.mark.parametrize(('seconds', 'allowed'), [(0.5, 4e-6), (1.0, 1e-3)])
-def test_rounding_grows_as_it_does_in_any_cloth(simulate, within, mode, seconds, allowed):
+@pytest.mark.parametrize(('nodes', 'seconds', 'allowed'), [
+    (16, 0.5, 4e-6), (16, 1.0, 1e-3), (32, 0.5, 4e-5)])
+def test_rounding_grows_as_it_does_in_any_cloth(
+        simulate, within, mode, nodes, seconds, allowed):
     """The shaders lose more digits than float32 does: trajectories part too early."""
     simulation = simulate({
-        'mode': mode, 'rows': 16, 'cols': 16, 'dt': 1e-3, 'auto_substeps': False})
+        'mode': mode, 'rows': nodes, 'cols': nodes, 'dt': 5e-4, 'auto_substeps': False})
     oracle = MassSpringReference(simulation.scene)
     simulation.advance(seconds)
     oracle.advance(seconds)
     miss = simulation.snapshot().positions - oracle.positions
-    within(f'RMS distance to the oracle at {seconds:g} s [m]',
+    within(f'RMS distance to the oracle, {nodes} x {nodes}, at {seconds:g} s [m]',
            np.sqrt(np.mean(np.sum(miss**2, axis=-1))), allowed)
 
 

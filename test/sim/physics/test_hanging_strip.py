@@ -32,4 +32,6 @@ def test_hanging_strip(simulate, within, mode, layout):
     exact = mass * 9.81 / stiffness * np.arange(nodes - 1, 0, -1)
     within('hanging strip, extension of each spring over the largest',
            np.abs(extension - exact).max() / exact.max(), 1e-4)
-    within('hanging strip, speed left [m/s]', float(np.abs(snapshot.velocities).max()), 1e-4)
+    # A speed below half a unit in the last place of 1 m in a step moves no node.
+    still = 2.0 * 6e-8 / simulation.dt
+    within('hanging strip, speed left [m/s]', np.abs(snapshot.velocities).max(), still)

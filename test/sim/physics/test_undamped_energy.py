@@ -29,7 +29,7 @@ def _scene_values(mode, layout, dt):
 
 
 def _largest_errors(simulate, mode, layout, dt):
-    """Return the largest energy error over M g L, as it stands and with v half a step back."""
+    """Return the largest energy error over M g L: as it stands, and with v half a step on."""
     simulation = simulate(_scene_values(mode, layout, dt))
     oracle = MassSpringReference(Scene(_scene_values(mode, layout, dt)))
     start = simulation.snapshot().total_energy
@@ -40,7 +40,7 @@ def _largest_errors(simulate, mode, layout, dt):
         plain.append(snapshot.total_energy - start)
         oracle.positions = snapshot.positions.astype(float)
         oracle.velocities = snapshot.velocities.astype(float)
-        # The scheme's velocities are half a step ahead of what its positions are worth.
+        # The scheme's velocities are those of half a step before its positions.
         oracle.velocities += 0.5 * dt * oracle.accelerations(
             oracle.positions, oracle.velocities)
         centred.append(oracle.energies().total - start)
