@@ -18,7 +18,20 @@ from collections.abc import Sequence
 
 from cloth_sim_interfaces.msg import ClothState
 from cloth_sim_ros.messages.stamp import stamp
+from cloth_sim_ros.sim.simulation import Simulation
 from std_msgs.msg import Header
+
+
+def state_of(
+        simulation: Simulation, *, frame_id: str, run_state: str,
+        recording_path: str = '') -> ClothState:
+    """Return the state of ``simulation`` now; the rest as in state_message."""
+    return state_message(
+        frame_id=frame_id, sim_time=simulation.time, mode=simulation.mode,
+        available_modes=simulation.available_modes, run_state=run_state,
+        rows=simulation.scene.rows, cols=simulation.scene.cols, dt=simulation.dt,
+        substeps=simulation.substeps, stability_limit=simulation.stability_limit,
+        device=simulation.device, recording_path=recording_path)
 
 
 def state_message(

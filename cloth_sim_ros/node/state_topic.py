@@ -14,7 +14,7 @@
 
 """~/state: what the node is doing, sent when it changes and kept for late subscribers."""
 
-from cloth_sim_ros.messages.state import state_message
+from cloth_sim_ros.messages.state import state_of
 from cloth_sim_ros.node.outlet import Outlet
 from cloth_sim_ros.node.recording_session import RecordingSession
 from cloth_sim_ros.node.run_loop import RunLoop
@@ -36,10 +36,7 @@ class StateTopic:
 
     def send(self) -> None:
         """Send the state as it is now."""
-        simulation = self._simulation
-        self._outlet.send_message('state', state_message(
-            frame_id=self._frame_id, sim_time=simulation.time, mode=simulation.mode,
-            available_modes=simulation.available_modes, run_state=self._run_loop.run_state,
-            rows=simulation.scene.rows, cols=simulation.scene.cols, dt=simulation.dt,
-            substeps=simulation.substeps, stability_limit=simulation.stability_limit,
-            device=simulation.device, recording_path=self._recording.path), simulation.time)
+        state = state_of(
+            self._simulation, frame_id=self._frame_id, run_state=self._run_loop.run_state,
+            recording_path=self._recording.path)
+        self._outlet.send_message('state', state, self._simulation.time)

@@ -16,7 +16,9 @@
 
 from typing import Any
 
+from cloth_sim_interfaces.msg import ClothState
 from cloth_sim_ros.messages.points import PointsMessage
+from cloth_sim_ros.messages.state import state_of
 from cloth_sim_ros.messages.stats import stats_message
 from cloth_sim_ros.node.opening import write_opening
 from cloth_sim_ros.node.recording_session import RecordingSession
@@ -44,6 +46,10 @@ class BatchRecording:
         self.path = self._session.start(node_values['recording.name'])
         values = {**simulation.scene.values, **node_values}
         write_opening(self._session, simulation, values, f'/{_NODE_NAME}')
+        state = state_of(
+            simulation, frame_id=self._frame_id, run_state=ClothState.RUNNING,
+            recording_path=self.path)
+        self._session.write('state', serialize_message(state), simulation.time)
         self.write(0.0, 0.0)
 
     def write(self, step_wall_time: float, real_time_factor: float) -> None:
