@@ -112,14 +112,15 @@ bags=$(realpath -m "${1:-$root/bags}")
 . "$root/scripts/env.sh"
 scratch=$(mktemp -d)
 # A ROS graph of its own, on this machine only.
-export ROS_DOMAIN_ID=$((RANDOM % 100 + 1)) ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST
-export ROS_LOG_DIR=$scratch
+ROS_DOMAIN_ID=$(python "$root/scripts/free_ros_domain.py")
+ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST
+ROS_LOG_DIR=$scratch
+export ROS_DOMAIN_ID ROS_AUTOMATIC_DISCOVERY_RANGE ROS_LOG_DIR
 
 tell 'Starting cloth_sim_node with config/drape.yaml, paused.'
 start_node
 echo "device: $(status state.device)"
-echo "To watch it: export ROS_DOMAIN_ID=$ROS_DOMAIN_ID ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST," \
-  'then start rviz2 -d config/cloth_sim.rviz.'
+echo "To watch: ROS_DOMAIN_ID=$ROS_DOMAIN_ID rviz2 -d $root/config/cloth_sim.rviz"
 
 tell 'Recording, and letting the cloth fall.'
 recording=$(cloth_sim record start)

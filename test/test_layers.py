@@ -36,7 +36,7 @@ ROOMS = {
         'node', 'study', 'analysis', 'recording', 'messages', 'reference', 'sim', 'gl'},
 }
 
-# These rooms must run where there is no ROS; beside the standard library they may import only this.
+# These rooms must run where there is no ROS; they may import no more than this beside Python.
 WITHOUT_ROS = ('gl', 'sim', 'reference')
 NUMERIC_MODULES = {'numpy', 'scipy', 'OpenGL', 'yaml'}
 

@@ -1,0 +1,99 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+
+"""The cloth at one moment of a recording."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from cloth_sim_ros.messages.push_arrows import push_arrows
+from cloth_sim_ros.sim.errors import ClothSimError
+from cloth_sim_ros.sim.push import Push
+from cloth_sim_ros.sim.snapshot import FLAG_PINNED
+import numpy as np
+
+_KINDS = {
+    1: np.int8, 2: np.uint8, 3: np.int16, 4: np.uint16, 5: np.int32, 6: np.uint32,
+    7: np.float32, 8: np.float64,
+}
+_NEEDED = ('x', 'y', 'z', 'normal_x', 'normal_y', 'normal_z', 'strain', 'flags')
+
+
+@dataclass(frozen=True)
+class Frame:
+    """
+    All nodes at one time.
+
+    :param time: [s] simulated, going on where a reset put the clock back
+    :param records: (rows, cols), the fields of ~/points
+    :param pushes: those known so far, with ``start`` in the same time
+    """
+
+    time: float
+    records: np.ndarray
+    pushes: Sequence[Push] = ()
+
+    @classmethod
+    def from_points(cls, time: float, cloud: Any, pushes: Sequence[Push] = ()) -> 'Frame':
+        """Return the frame of a decoded PointCloud2; ClothSimError when it is no cloth."""
+        fields = {field.name: field for field in cloud.fields}
+        missing = [name for name in _NEEDED if name not in fields]
+        if missing:
+            raise ClothSimError(
+                f'the cloud at {time:g} s has no field {missing[0]}: '
+                'give a recording of a cloth_sim node')
+        layout = np.dtype({
+            'names': list(fields),
+            'formats': [
+                np.dtype(_KINDS[field.datatype]).newbyteorder('>' if cloud.is_bigendian else '<')
+                for field in fields.values()],
+            'offsets': [field.offset for field in fields.values()],
+            'itemsize': cloud.point_step})
+        records = np.frombuffer(cloud.data, layout).reshape(cloud.height, cloud.width)
+        return cls(time, records, tuple(pushes))
+
+    @property
+    def positions(self) -> np.ndarray:
+        """Get the positions [m], (rows, cols, 3) float64."""
+        return self._vectors('x', 'y', 'z')
+
+    @property
+    def normals(self) -> np.ndarray:
+        """Get the unit normals, (rows, cols, 3) float64."""
+        return self._vectors('normal_x', 'normal_y', 'normal_z')
+
+    @property
+    def strain(self) -> np.ndarray:
+        """Get the largest abs(l / L0 - 1) at each node, (rows, cols)."""
+        return self.records['strain']
+
+    @property
+    def pinned(self) -> np.ndarray:
+        """Tell which nodes are held, (rows, cols) bool."""
+        return (self.records['flags'] & FLAG_PINNED) != 0
+
+    @property
+    def acting_pushes(self) -> tuple[Push, ...]:
+        """Get the pushes that act at this time."""
+        return tuple(push for push in self.pushes if push.start <= self.time < push.end)
+
+    def push_arrows(self, length: float) -> list[np.ndarray]:
+        """Return tail and tip [m] of each acting push; the largest is ``length`` long."""
+        pushes = self.acting_pushes
+        return push_arrows(pushes, self.time, self.positions.reshape(-1, 3), length)
+
+    def _vectors(self, *names: str) -> np.ndarray:
+        return np.stack([self.records[name] for name in names], axis=-1).astype(float)

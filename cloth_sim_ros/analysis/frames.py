@@ -1,0 +1,94 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+
+"""The frames of a recording, in the order of time."""
+
+from collections.abc import Iterator
+from collections.abc import Sequence
+from dataclasses import replace
+
+from cloth_sim_ros.analysis.frame import Frame
+from cloth_sim_ros.analysis.panel_times import panel_times
+from cloth_sim_ros.analysis.recording import Entry
+from cloth_sim_ros.analysis.recording import Recording
+from cloth_sim_ros.sim.push import Push
+
+
+def read_frames(recording: Recording) -> Iterator[Frame]:
+    """Yield every frame with the pushes given before it; one is in memory at a time."""
+    pushes: list[Push] = []
+    for entry in recording.entries('points', 'inputs/push', 'inputs/command'):
+        if entry.key == 'points':
+            yield Frame.from_points(entry.time, entry.message, pushes)
+        elif entry.key == 'inputs/push':
+            pushes.append(_push(entry))
+        else:
+            # Both commands, a reset and a removal of all pushes, end what acts.
+            pushes = [_ended(push, entry.time) for push in pushes if push.start < entry.time]
+
+
+def frames_at(recording: Recording, times: Sequence[float]) -> list[Frame]:
+    """
+    Return the frame nearest to each of ``times`` [s], which grow.
+
+    :raises ClothSimError: when the recording holds no frame
+    """
+    wanted = list(times)
+    chosen: list[Frame] = []
+    before = None
+    for frame in read_frames(recording):
+        while wanted and frame.time >= wanted[0]:
+            is_before_nearer = (
+                before is not None and wanted[0] - before.time < frame.time - wanted[0])
+            chosen.append(before if is_before_nearer else frame)
+            wanted.pop(0)
+        before = frame
+        if not wanted:
+            break
+    if before is None:
+        raise recording.no_frame()
+    return chosen + [before] * len(wanted)
+
+
+def default_times(recording: Recording, count: int) -> list[float]:
+    """Return ``count`` times [s] that show what happens; ClothSimError without a frame."""
+    times: list[float] = []
+    pushes: dict[tuple, Push] = {}
+    for frame in read_frames(recording):
+        times.append(frame.time)
+        # As it was last seen: an early end shortens it.
+        pushes.update({(push.start, push.force): push for push in frame.pushes})
+    if not times:
+        raise recording.no_frame()
+    return panel_times(times[0], times[-1], pushes.values(), count)
+
+
+def _push(entry: Entry) -> Push:
+    message = entry.message
+    stamp = message.header.stamp
+    return Push(
+        force=_parts(message.force),
+        # From the time of the run, which a reset puts back, to the time of the recording.
+        start=message.start + entry.time - (stamp.sec + 1e-9 * stamp.nanosec),
+        duration=message.duration, region=message.region, center=_parts(message.center),
+        radius=message.radius)
+
+
+def _ended(push: Push, time: float) -> Push:
+    return replace(push, duration=min(push.duration, time - push.start))
+
+
+def _parts(vector: object) -> tuple[float, float, float]:
+    return (vector.x, vector.y, vector.z)

@@ -1,0 +1,33 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+
+"""Time over resets."""
+
+from types import SimpleNamespace
+
+from cloth_sim_ros.analysis.steady_time import SteadyTime
+
+
+def test_it_goes_on_where_a_reset_put_the_clock_back():
+    """What came after a reset would be mixed with what was before."""
+    time = SteadyTime()
+    stamps = [(0, 0), (1, 500000000), (0, 0), (2, 0), (0, 250000000)]
+    read = [time.read(SimpleNamespace(sec=sec, nanosec=nanosec)) for sec, nanosec in stamps]
+    assert read == [0.0, 1.5, 1.5, 3.5, 3.5]
+
+
+def test_it_begins_where_the_recording_begins():
+    """A recording that was started late would seem to start at 0."""
+    assert SteadyTime().read(SimpleNamespace(sec=7, nanosec=0)) == 7.0

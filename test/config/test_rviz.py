@@ -1,0 +1,70 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+
+"""The display that ships for RViz."""
+
+from pathlib import Path
+
+from cloth_sim_ros.messages.topics import TOPICS
+from cloth_sim_ros.node.node_fields import NODE_FIELDS
+from cloth_sim_ros.sim.snapshot import POINT_DTYPE
+import pytest
+import yaml
+
+FILE = Path(__file__).resolve().parents[2] / 'config' / 'cloth_sim.rviz'
+
+
+@pytest.fixture(scope='module')
+def manager():
+    """Return the part that says what is shown."""
+    return yaml.safe_load(FILE.read_text(encoding='utf-8'))['Visualization Manager']
+
+
+def display(manager, kind):
+    """Return the display of this kind."""
+    found, = (
+        shown for shown in manager['Displays']
+        if shown['Class'] == f'rviz_default_plugins/{kind}')
+    return found
+
+
+@pytest.mark.parametrize('kind, key', [('PointCloud2', 'points'), ('MarkerArray', 'markers')])
+def test_shows_topics_of_the_node(manager, kind, key):
+    """Nothing would be shown: no such topic, or a quality of service that does not match."""
+    topic, shown = TOPICS[key], display(manager, kind)
+    assert topic.type_name.endswith(f'/{kind}')
+    assert shown['Topic']['Value'] == topic.full_name('cloth_sim')
+    assert shown['Topic']['Reliability Policy'] == 'Reliable'
+    assert topic.reliable
+    assert shown['Topic']['Depth'] == topic.depth
+    assert shown['Enabled']
+
+
+def test_colors_are_those_of_strain(manager):
+    """The nodes would be coloured by a field that is not there."""
+    assert display(manager, 'PointCloud2')['Channel Name'] in POINT_DTYPE.names
+
+
+def test_the_fixed_frame_is_that_of_the_node(manager):
+    """The display would ask for a transform that nobody publishes."""
+    frame, = (field.default for field in NODE_FIELDS if field.name == 'frame_id')
+    assert manager['Global Options']['Fixed Frame'] == frame
+
+
+def test_a_click_reaches_the_node(manager):
+    """Clicking on the cloth would do nothing."""
+    tool, = (
+        tool for tool in manager['Tools'] if tool['Class'].endswith('/PublishPoint'))
+    assert tool['Topic']['Value'] == '/clicked_point'

@@ -1,0 +1,70 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+
+"""The scenes that ship with the project."""
+
+from pathlib import Path
+
+from cloth_sim_ros.node.node_fields import check_together
+from cloth_sim_ros.node.node_fields import NODE_FIELDS
+from cloth_sim_ros.sim.scene import refuse_unknown
+from cloth_sim_ros.sim.scene import Scene
+from cloth_sim_ros.sim.scene_fields import SCENE_FIELDS
+from cloth_sim_ros.sim.scene_file import load_parameters
+from cloth_sim_ros.sim.simulation import Simulation
+import pytest
+
+SCENES = sorted((Path(__file__).resolve().parents[2] / 'config').glob('*.yaml'))
+
+
+@pytest.fixture(params=SCENES, ids=lambda path: path.stem)
+def given(request):
+    """Return the parameters of each scene."""
+    return load_parameters(request.param)
+
+
+def scene_of(given):
+    """Return the scene in what a file gives."""
+    names = {field.name for field in SCENE_FIELDS}
+    return Scene({name: value for name, value in given.items() if name in names})
+
+
+def test_node_and_simulation_accept_it(given):
+    """A user's first start would end with an error."""
+    refuse_unknown(given, SCENE_FIELDS + NODE_FIELDS)
+    scene_of(given)
+    check_together({
+        field.name: field.check(given.get(field.name, field.default)) for field in NODE_FIELDS})
+
+
+def test_lists_of_numbers_are_all_of_one_kind(given):
+    """ROS would refuse the file: it takes [0.0, 1.0] and [0, 1], and not [0, 1.0]."""
+    for name, value in given.items():
+        if isinstance(value, list):
+            assert len({type(part) for part in value}) == 1, name
+
+
+def test_it_moves_and_stays_cloth(given):
+    """A shipped scene would blow up, or stretch like rubber."""
+    scene = scene_of(given)
+    simulation = Simulation(scene)
+    simulation.advance(2.5)
+    snapshot = simulation.snapshot()
+    simulation.close()
+    assert snapshot.finite
+    assert snapshot.kinetic_energy > 1e-3
+    # Next to pins springs stretch more; cloth as a whole hardly does.
+    assert float(snapshot.strain.mean()) < 0.03
+    assert snapshot.max_strain < 0.3

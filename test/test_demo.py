@@ -1,0 +1,137 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+
+"""The demo, as a user runs it."""
+
+from contextlib import contextmanager
+import os
+from pathlib import Path
+import signal
+import subprocess
+
+from matplotlib.image import imread
+import pytest
+from rosbags.highlevel import AnyReader
+
+DEMO = Path(__file__).resolve().parents[1] / 'scripts' / 'demo.sh'
+PATIENCE = 300.0
+
+
+@contextmanager
+def demo(folder, *arguments):
+    """Start the demo in a session of its own, with nothing but a home and a path."""
+    process = subprocess.Popen(
+        [DEMO, *arguments], cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+        text=True, start_new_session=True,
+        env={'HOME': os.environ.get('HOME', str(folder)), 'PATH': os.environ['PATH']},
+        # A shell that was started with SIGINT ignored can't trap it.
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL))
+    try:
+        yield process
+    finally:
+        for pid in processes_of(process.pid):
+            os.kill(pid, signal.SIGKILL)
+        process.wait()
+        process.stdout.close()
+
+
+def processes_of(session):
+    """Return the processes of a session that still run."""
+    found = []
+    for stat in Path('/proc').glob('[0-9]*/stat'):
+        try:
+            state, _, _, its_session = stat.read_text().rpartition(')')[2].split()[:4]
+        except OSError:
+            continue  # it has ended meanwhile
+        if int(its_session) == session and state != 'Z':
+            found.append(int(stat.parent.name))
+    return found
+
+
+def recorded_topics(folder):
+    """Return the number of messages of each topic in the one recording in ``folder``."""
+    bag, = (path for path in folder.iterdir() if path.is_dir())
+    with AnyReader([bag]) as reader:
+        return {connection.topic: connection.msgcount for connection in reader.connections}
+
+
+@pytest.fixture(scope='module')
+def finished(tmp_path_factory):
+    """Run the demo to its end; return its folder, output, exit code and leftovers."""
+    folder = tmp_path_factory.mktemp('demo')
+    with demo(folder, 'bags') as process:
+        output = process.communicate(timeout=PATIENCE)[0]
+        return folder / 'bags', output, process.returncode, processes_of(process.pid)
+
+
+def test_it_ends_well_and_leaves_no_process(finished):
+    """A user's first command would fail, or leave a node running for ever."""
+    _, output, returncode, left = finished
+    assert returncode == 0, output
+    assert left == []
+
+
+def test_its_recording_holds_all_that_was_done(finished):
+    """The recording could not be played or analysed, or would miss what the demo did."""
+    folder, output, _, _ = finished
+    counts = recorded_topics(folder)
+    assert counts['/cloth_sim/points'] > 50, output
+    assert counts['/cloth_sim/stats'] == counts['/cloth_sim/points']
+    assert counts['/cloth_sim/inputs/push'] == 2
+    assert counts['/cloth_sim/inputs/pin'] == 1
+    assert counts['/cloth_sim/topology'] == 1
+
+
+def test_it_makes_a_picture(finished):
+    """The picture it names would not be there, or be empty."""
+    folder, output, _, _ = finished
+    file, = folder.glob('*.png')
+    assert str(file) in output
+    picture = imread(file)
+    assert picture.shape[1] > 1000
+    assert picture[..., :3].std() > 0.05
+
+
+def test_it_tells_what_happened(finished):
+    """A user would not learn what ran where, how fast, and where the results are."""
+    folder, output, _, _ = finished
+    bag, = (path for path in folder.iterdir() if path.is_dir())
+    for words in ('device', 'real-time factor', 'max strain', 'total energy', str(bag),
+                  'mode mass_spring', '100 steps made', 'has ended'):
+        assert words in output
+
+
+@pytest.mark.parametrize('number', [signal.SIGINT, signal.SIGTERM])
+def test_stopped_early_it_cleans_up(tmp_path, number):
+    """Ctrl-C in the demo would leave a node behind, or lose the recording."""
+    with demo(tmp_path, 'bags') as process:
+        lines = iter(process.stdout.readline, '')
+        assert any(line.startswith('Pushing') for line in lines)
+        os.killpg(process.pid, number)
+        rest = process.communicate(timeout=PATIENCE)[0]
+        assert process.returncode == 128 + number
+        assert processes_of(process.pid) == []
+    assert 'stopped early' in rest
+    assert recorded_topics(tmp_path / 'bags')['/cloth_sim/points'] > 0
+
+
+def test_a_folder_that_cannot_be_written_is_told(tmp_path):
+    """The demo would hang, or end without a reason."""
+    (tmp_path / 'file').write_text('')
+    with demo(tmp_path, 'file/bags') as process:
+        output = process.communicate(timeout=PATIENCE)[0]
+        assert process.returncode == 1
+        assert processes_of(process.pid) == []
+    assert 'nothing can be recorded into' in output

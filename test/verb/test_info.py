@@ -1,0 +1,44 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+
+"""Asking what a recording holds."""
+
+from pathlib import Path
+
+from cloth_sim_ros.verb.main import main
+
+ROOT = Path(__file__).resolve().parents[2]
+
+
+def test_tells_what_was_recorded(tmp_path, capsys):
+    """A user would need another tool to see what a recording is of."""
+    assert main([
+        'run', str(ROOT / 'config' / 'curtain.yaml'), '--seconds', '0.7', '--record',
+        str(tmp_path), '--set', 'rows=6', '--set', 'cols=46', '--set',
+        'recording.name=small']) == 0
+    capsys.readouterr()
+    assert main(['info', str(tmp_path / 'small')]) == 0
+    lines = dict(line.split(None, 1) for line in capsys.readouterr().out.splitlines())
+    assert lines['cloth'] == '6 x 46 nodes'
+    assert lines['mode'] == 'mass_spring'
+    assert lines['time'] == '0 to 0.7 s, 36 frames'
+    assert lines['done'].startswith('to the cloth  2 pushes, 0 nodes released')
+    assert lines['state'] == 'finite'
+
+
+def test_says_what_is_wrong_with_a_recording(tmp_path, capsys):
+    """A wrong path would end in a traceback."""
+    assert main(['info', str(tmp_path / 'none')]) == 1
+    assert 'there is no recording' in capsys.readouterr().err
