@@ -14,10 +14,13 @@
 
 """How long a new node takes to its first published cloud."""
 
+from collections.abc import Mapping
+import json
 import subprocess
 import sys
 import tempfile
 import time
+from typing import Any
 
 from cloth_sim_ros.sim.errors import ClothSimError
 import rclpy
@@ -27,10 +30,12 @@ _DEPTH = 10
 _NODE_NAME = 'cloth_sim_start_up'
 
 
-def time_to_first_cloud(parameter_file: str, timeout: float) -> float:
+def time_to_first_cloud(
+        parameter_file: str, changes: Mapping[str, Any], timeout: float) -> float:
     """
     Start a node in a process of its own and return the wall time [s] to its first cloud here.
 
+    :param changes: parameters over those of the file
     :raises ClothSimError: when no cloud comes within ``timeout`` [s]
     """
     rclpy.init()
@@ -43,7 +48,9 @@ def time_to_first_cloud(parameter_file: str, timeout: float) -> float:
     begin = time.perf_counter()
     process = subprocess.Popen(
         [sys.executable, '-m', 'cloth_sim_ros.node', '--ros-args',
-         '-r', f'__node:={_NODE_NAME}', '--params-file', parameter_file],
+         '-r', f'__node:={_NODE_NAME}', '--params-file', parameter_file,
+         *(part for name, value in changes.items()
+           for part in ('-p', f'{name}:={json.dumps(value)}'))],
         stdout=log, stderr=log)
     try:
         while not seen and time.perf_counter() - begin < timeout and process.poll() is None:

@@ -51,6 +51,8 @@ def add_arguments(parser: ArgumentParser) -> None:
                         help='wall time of a round (default: %(default)s)')
     parser.add_argument('--start-up', metavar='SCENE.yaml',
                         help='measure the time of a node to its first cloud instead; needs ROS')
+    parser.add_argument('--set', action='append', default=[], metavar='name=value',
+                        dest='changes', help='change a parameter of that node')
     parser.add_argument('--json', action='store_true', help='print JSON, a line for each size')
 
 
@@ -60,7 +62,9 @@ def main(args: Namespace) -> int:
         # ROS is needed for this figure alone.
         from cloth_sim_ros.study.start_up import time_to_first_cloud
         times = [
-            time_to_first_cloud(args.start_up, _START_UP_TIMEOUT) for _ in range(args.rounds)]
+            time_to_first_cloud(
+                args.start_up, dict(map(parse_change, args.changes)), _START_UP_TIMEOUT)
+            for _ in range(args.rounds)]
         print(json.dumps({'scene': args.start_up, 'seconds_to_first_cloud': times})
               if args.json else f'first cloud after {statistics.median(times):.2f} s '
               f'(median of {len(times)}, {min(times):.2f} to {max(times):.2f})')

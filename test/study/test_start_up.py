@@ -24,7 +24,7 @@ def bench_start_up(scene: Path) -> subprocess.CompletedProcess:
     """Call the bench in a process of its own."""
     return subprocess.run(
         [sys.executable, '-m', 'cloth_sim_ros.verb', 'bench', '--start-up', str(scene),
-         '--rounds', '2', '--json'], capture_output=True, text=True)
+         '--rounds', '2', '--json', '--set', 'cols=6'], capture_output=True, text=True)
 
 
 def test_each_round_has_its_time(tmp_path: Path):
