@@ -25,7 +25,7 @@ stop() {
 
 # The last line a command wrote, short, without the addresses it may name.
 latest_line() {
-  tail -c 2000 "$1" | tr '\r' '\n' | grep -v '^ *$' | tail -n 1 |
+  tr '\r' '\n' < "$1" | grep -v '^ *$' | tail -n 1 |
     sed -E 's#[a-z]+://[^ ]*/##g' | cut -c 1-80
 }
 
