@@ -32,9 +32,10 @@ ROOT = Path(__file__).resolve().parents[1]
 README = (ROOT / 'README.md').read_text(encoding='utf-8')
 PAGES = [ROOT / 'README.md', ROOT / 'bags' / 'README.md', *sorted((ROOT / 'docs').glob('*.md'))]
 COMMAND = re.compile(r'^ {4}(cloth_sim [^#\n]*)', re.MULTILINE)
+CONTINUED = re.compile(r'\\\n *')
 COMMANDS = sorted({
     command.strip() for page in PAGES
-    for command in COMMAND.findall(page.read_text(encoding='utf-8'))})
+    for command in COMMAND.findall(CONTINUED.sub(' ', page.read_text(encoding='utf-8')))})
 
 
 def rows(heading):
