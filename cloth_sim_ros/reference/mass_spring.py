@@ -14,23 +14,14 @@
 
 """Mass-spring cloth, symplectic Euler, float64: the same scheme as the shaders."""
 
-from cloth_sim_ros.reference.energy import elastic_energy
-from cloth_sim_ros.reference.energy import Energies
-from cloth_sim_ros.reference.energy import gravitational_energy
-from cloth_sim_ros.reference.energy import kinetic_energy
-from cloth_sim_ros.reference.push_force import push_acceleration
-from cloth_sim_ros.reference.push_force import push_nodes
-from cloth_sim_ros.reference.push_force import push_weight
-from cloth_sim_ros.reference.springs import spring_sets
+from cloth_sim_ros.reference.cloth import ReferenceCloth
 from cloth_sim_ros.reference.springs import total_forces
-from cloth_sim_ros.reference.strain import node_strain
-from cloth_sim_ros.sim.push import Push
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.stability import choose_substeps
 import numpy as np
 
 
-class MassSpringReference:
+class MassSpringReference(ReferenceCloth):
     """
     One cloth and its state.
 
@@ -42,39 +33,8 @@ class MassSpringReference:
 
     def __init__(self, scene: Scene, substeps: int | None = None) -> None:
         """Start at rest in the scene's start pose."""
-        self.scene = scene
-        self.dt: float = scene['dt']
+        super().__init__(scene)
         self.substeps = substeps or self._substeps_of_scene()
-        self.springs = spring_sets(scene)
-        self.gravity = np.array(scene['gravity'])
-        self.free = ~scene.pinned_nodes()
-        self.positions = scene.start_positions()
-        self.velocities = np.zeros_like(self.positions)
-        self.steps = 0
-        self._waiting = list(scene.timed_pushes())
-        self._acting: list[tuple[Push, np.ndarray]] = []
-
-    @property
-    def time(self) -> float:
-        """Return the simulated time [s]."""
-        return self.steps * self.dt
-
-    def push(self, push: Push) -> None:
-        """Add a push that acts at its own time."""
-        self._waiting.append(push)
-
-    def step(self, count: int = 1) -> None:
-        """Make ``count`` steps of dt."""
-        for _ in range(count):
-            for substep in range(self.substeps):
-                begin = (self.steps + substep / self.substeps) * self.dt
-                end = (self.steps + (substep + 1) / self.substeps) * self.dt
-                self._substep(begin, end)
-            self.steps += 1
-
-    def advance(self, seconds: float) -> None:
-        """Make the whole steps of dt in ``seconds``."""
-        self.step(round(seconds / self.dt))
 
     def accelerations(self, positions: np.ndarray, velocities: np.ndarray) -> np.ndarray:
         """Return g + F / m at free nodes and 0 at pinned ones [m/s2], without the pushes."""
@@ -93,34 +53,18 @@ class MassSpringReference:
         return np.concatenate(
             (moving.ravel(), self.accelerations(positions, moving).ravel()))
 
-    def energies(self) -> Energies:
-        """Return the energies of the present state."""
-        return Energies(
-            kinetic_energy(self.velocities, self.free, self.scene.node_mass),
-            elastic_energy(self.springs, self.positions),
-            gravitational_energy(self.positions, self.scene.node_mass, self.gravity))
-
-    def node_strain(self) -> np.ndarray:
-        """Return the largest |l / L0 - 1| at each node, (rows, cols)."""
-        return node_strain(self.springs, self.positions)
-
     def _substeps_of_scene(self) -> int:
         return choose_substeps(self.scene) if self.scene['auto_substeps'] else (
             self.scene['substeps'])
 
+    def _step_of_dt(self) -> None:
+        for substep in range(self.substeps):
+            begin = (self.steps + substep / self.substeps) * self.dt
+            end = (self.steps + (substep + 1) / self.substeps) * self.dt
+            self._substep(begin, end)
+
     def _substep(self, begin: float, end: float) -> None:
         acceleration = self.accelerations(self.positions, self.velocities)
-        self._start_pushes(end)
-        for push, nodes in self._acting:
-            acceleration += push_weight(push, begin, end) * push_acceleration(
-                push, nodes, self.scene.node_mass)
-        length = end - begin
-        self.velocities += length * acceleration
-        self.positions += length * self.velocities * self.free[..., None]
-
-    def _start_pushes(self, end: float) -> None:
-        # The nodes of a push are settled once, by where they are when it begins.
-        starting = [push for push in self._waiting if push.start < end]
-        for push in starting:
-            self._waiting.remove(push)
-            self._acting.append((push, push_nodes(push, self.positions, self.free)))
+        acceleration += self._push_accelerations(begin, end)
+        self.velocities += (end - begin) * acceleration
+        self.positions += (end - begin) * self.velocities

@@ -73,8 +73,12 @@ class SpringSet:
         return -tension * direction
 
 
-def spring_sets(scene: Scene) -> tuple[SpringSet, ...]:
-    """Return the springs of a scene: the families it models, where its grid has room."""
+def spring_sets(scene: Scene, always: Sequence[str] = ()) -> tuple[SpringSet, ...]:
+    """
+    Return the springs of a scene: the families it models, where its grid has room.
+
+    :param always: families that are there even when the scene gives them no stiffness
+    """
     dx, dy = scene.spacing
     diagonal = float(np.hypot(dx, dy))
     directions = (
@@ -86,7 +90,8 @@ def spring_sets(scene: Scene) -> tuple[SpringSet, ...]:
         SpringSet(family, down, right, rest_length,
                   scene.stiffness(family), scene.damping(family))
         for family, down, right, rest_length in directions
-        if scene.models(family) and down < scene.rows and abs(right) < scene.cols)
+        if (scene.models(family) or family in always)
+        and down < scene.rows and abs(right) < scene.cols)
 
 
 def total_forces(

@@ -1,0 +1,124 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""What every reference mode shares: the state, the clock, the pushes and the pins."""
+
+from cloth_sim_ros.reference.energy import elastic_energy
+from cloth_sim_ros.reference.energy import Energies
+from cloth_sim_ros.reference.energy import gravitational_energy
+from cloth_sim_ros.reference.energy import kinetic_energy
+from cloth_sim_ros.reference.push_force import push_acceleration
+from cloth_sim_ros.reference.push_force import push_nodes
+from cloth_sim_ros.reference.push_force import push_weight
+from cloth_sim_ros.reference.springs import spring_sets
+from cloth_sim_ros.reference.strain import node_strain
+from cloth_sim_ros.sim.push import Push
+from cloth_sim_ros.sim.scene import Scene
+import numpy as np
+
+
+class ReferenceCloth:
+    """
+    One cloth and its state; a mode adds how a step of dt is made.
+
+    :param scene: what is modelled; its timed pushes act at their times
+    """
+
+    def __init__(self, scene: Scene) -> None:
+        """Start at rest in the scene's start pose."""
+        self.scene = scene
+        self.dt: float = scene['dt']
+        self.springs = spring_sets(scene)
+        self.gravity = np.array(scene['gravity'])
+        self.free = ~scene.pinned_nodes()
+        self.positions = scene.start_positions()
+        self.velocities = np.zeros_like(self.positions)
+        self.steps = 0
+        self._waiting = list(scene.timed_pushes())
+        self._acting: list[tuple[Push, np.ndarray]] = []
+
+    @property
+    def time(self) -> float:
+        """Return the simulated time [s]."""
+        return self.steps * self.dt
+
+    @property
+    def inverse_masses(self) -> np.ndarray:
+        """Return 1 / m of each node, 0 where it is pinned [1/kg], flat."""
+        return self.free.ravel() / self.scene.node_mass
+
+    def push(self, push: Push) -> None:
+        """Add a push that acts at its own time."""
+        self._waiting.append(push)
+
+    def move_pin(self, row: int, col: int, velocity: np.ndarray) -> None:
+        """Let the pinned node (row, col) move with ``velocity`` [m/s] from now on."""
+        self.velocities[row, col] = velocity
+
+    def step(self, count: int = 1) -> None:
+        """Make ``count`` steps of dt."""
+        for _ in range(count):
+            self._step_of_dt()
+            self.steps += 1
+
+    def advance(self, seconds: float) -> None:
+        """Make the whole steps of dt in ``seconds``."""
+        self.step(round(seconds / self.dt))
+
+    def energies(self) -> Energies:
+        """Return the energies of the present state."""
+        return Energies(
+            kinetic_energy(self.velocities, self.free, self.scene.node_mass),
+            elastic_energy(self.springs, self.positions),
+            gravitational_energy(self.positions, self.scene.node_mass, self.gravity))
+
+    def node_strain(self) -> np.ndarray:
+        """Return the largest |l / L0 - 1| at each node, (rows, cols)."""
+        return node_strain(self.springs, self.positions)
+
+    def _step_of_dt(self) -> None:
+        raise NotImplementedError
+
+    def _push_accelerations(self, begin: float, end: float) -> np.ndarray:
+        """Return what the pushes add from ``begin`` to ``end`` [s], 0 at pinned nodes [m/s2]."""
+        # The nodes of a push are settled once, by where they are when it begins.
+        starting = [push for push in self._waiting if push.start < end]
+        for push in starting:
+            self._waiting.remove(push)
+            self._acting.append((push, push_nodes(push, self.positions, self.free)))
+        return self._sum_of_pushes(self._acting, begin, end)
+
+    def _applied_accelerations(self, begin: float, end: float) -> np.ndarray:
+        """Return gravity and pushes at free nodes, 0 at pinned ones [m/s2]."""
+        return self.gravity * self.free[..., None] + self._push_accelerations(begin, end)
+
+    def _foreseen_velocities(self) -> np.ndarray:
+        """Return the velocities after dt of gravity and pushes alone [m/s]."""
+        # The pushes that begin within dt may still find other nodes: none is settled here.
+        end = self.time + self.dt
+        pushes = self._acting + [
+            (push, push_nodes(push, self.positions, self.free))
+            for push in self._waiting if push.start < end]
+        applied = self.gravity * self.free[..., None] + self._sum_of_pushes(
+            pushes, self.time, end)
+        return self.velocities + self.dt * applied
+
+    def _sum_of_pushes(
+            self, pushes: list[tuple[Push, np.ndarray]], begin: float,
+            end: float) -> np.ndarray:
+        total = np.zeros_like(self.positions)
+        for push, nodes in pushes:
+            total += push_weight(push, begin, end) * push_acceleration(
+                push, nodes, self.scene.node_mass)
+        return total

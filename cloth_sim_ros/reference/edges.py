@@ -1,0 +1,107 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""The springs of a cloth as one flat list of edges, for schemes that solve for all at once."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from cloth_sim_ros.reference.springs import spring_sets
+from cloth_sim_ros.sim.scene import Scene
+import numpy as np
+from scipy import sparse
+
+
+@dataclass(frozen=True)
+class Edges:
+    """
+    Edges between nodes numbered row by row; fields of nodes are (nodes, 3).
+
+    :param first: node of each edge at its upper end
+    :param second: node at its other end
+    :param rest_length: [m]
+    :param stiffness: [N/m]
+    :param damping: [N s/m]
+    :param family: structural, shear or bend, of each edge
+    """
+
+    first: np.ndarray
+    second: np.ndarray
+    rest_length: np.ndarray
+    stiffness: np.ndarray
+    damping: np.ndarray
+    family: np.ndarray
+
+    def __len__(self) -> int:
+        """Return the number of edges."""
+        return len(self.first)
+
+    def of(self, families: Sequence[str]) -> np.ndarray:
+        """Return which edges belong to ``families``, bool."""
+        return np.isin(self.family, families)
+
+    def differences(self, field: np.ndarray) -> np.ndarray:
+        """Return the field at the first end less that at the second."""
+        return field[self.first] - field[self.second]
+
+    def lengths(self, positions: np.ndarray) -> np.ndarray:
+        """Return the length of each edge [m]."""
+        return np.linalg.norm(self.differences(positions), axis=1)
+
+    def strains(self, positions: np.ndarray) -> np.ndarray:
+        """Return l / L0 - 1 of each edge."""
+        return self.lengths(positions) / self.rest_length - 1.0
+
+    def directions(self, positions: np.ndarray) -> np.ndarray:
+        """Return the unit vector to the first end; 0 where an edge has no length."""
+        differences = self.differences(positions)
+        lengths = np.linalg.norm(differences, axis=1, keepdims=True)
+        return np.divide(
+            differences, lengths, out=np.zeros_like(differences), where=lengths > 0.0)
+
+    def scatter(self, vectors: np.ndarray, nodes: int) -> np.ndarray:
+        """Return at each node what its edges give: ``vectors`` to the first, - to the second."""
+        total = np.zeros((nodes, 3))
+        np.add.at(total, self.first, vectors)
+        np.subtract.at(total, self.second, vectors)
+        return total
+
+    def jacobian(self, directions: np.ndarray, nodes: int) -> sparse.csr_matrix:
+        """Return J, edges x 3 nodes: J v is the rate at which each edge grows."""
+        rows = np.repeat(np.arange(len(self)), 3)
+        columns = [3 * end[:, None] + np.arange(3) for end in (self.first, self.second)]
+        return sparse.csr_matrix(
+            (np.concatenate((directions.ravel(), -directions.ravel())),
+             (np.tile(rows, 2), np.concatenate([column.ravel() for column in columns]))),
+            shape=(len(self), 3 * nodes))
+
+
+def edges_of(scene: Scene, always: Sequence[str] = ()) -> Edges:
+    """
+    Return the edges of a scene, in the order of ``spring_sets``.
+
+    :param always: families that are there even when the scene gives them no stiffness
+    """
+    numbers = np.arange(scene.node_count).reshape(scene.rows, scene.cols)
+    columns: list[list[np.ndarray]] = [[] for _ in range(6)]
+    for springs in spring_sets(scene, always):
+        first, second = (end.ravel() for end in springs.ends(numbers))
+        row = (first, second, springs.rest_length, springs.stiffness, springs.damping,
+               springs.family)
+        for column, value in zip(columns, row):
+            column.append(np.broadcast_to(value, first.shape))
+    if not columns[0]:
+        nodes, numbers = np.zeros(0, int), np.zeros(0)
+        return Edges(nodes, nodes, numbers, numbers, numbers, np.zeros(0, 'U10'))
+    return Edges(*(np.concatenate(column) for column in columns))
