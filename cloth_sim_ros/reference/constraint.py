@@ -130,6 +130,8 @@ class ConstraintReference(ReferenceCloth):
                 jacobian = edges.jacobian(edges.directions(at), len(at))
                 residual = error / h**2 - np.where(self.hard, 0.0, compliance * tension)
             used = self._used(at)
+            if not used.any():
+                break
             jacobian = jacobian[used]
             change, added = self.options.solve(
                 jacobian, np.repeat(inverse_masses, 3), compliance[used], residual[used], h)

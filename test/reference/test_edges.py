@@ -1,0 +1,67 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""The flat list of edges against the grid's springs, and J against finite differences."""
+
+from cloth_sim_ros.reference.edges import edges_of
+from cloth_sim_ros.reference.springs import spring_sets
+from cloth_sim_ros.reference.springs import total_forces
+from cloth_sim_ros.sim.scene import Scene
+import numpy as np
+import pytest
+
+
+def _scene(**values):
+    return Scene({'rows': 4, 'cols': 5, 'width': 1.3, 'height': 0.9, 'damping.shear': 0.03,
+                  'stiffness.shear': 70.0, **values})
+
+
+@pytest.mark.parametrize(('rows', 'cols'), [(4, 5), (1, 6), (6, 1), (2, 2)])
+def test_edges_give_the_forces_of_the_springs(rows, cols):
+    """An edge joins other nodes than its spring, or has another length, k or k_d."""
+    scene = _scene(rows=rows, cols=cols)
+    random = np.random.default_rng(1)
+    positions = scene.rest_positions() + random.normal(0.0, 0.05, (rows, cols, 3))
+    velocities = random.normal(0.0, 1.0, positions.shape)
+    edges = edges_of(scene)
+    flat, speed = positions.reshape(-1, 3), velocities.reshape(-1, 3)
+    directions = edges.directions(flat)
+    rate = np.sum(edges.differences(speed) * directions, axis=1)
+    tension = edges.stiffness * (edges.lengths(flat) - edges.rest_length) + edges.damping * rate
+    np.testing.assert_allclose(
+        -edges.scatter(tension[:, None] * directions, len(flat)).reshape(positions.shape),
+        total_forces(spring_sets(scene), positions, velocities), atol=1e-12)
+
+
+def test_jacobian_is_the_slope_of_the_lengths():
+    """J v is not the rate at which the edges grow."""
+    scene = _scene()
+    random = np.random.default_rng(2)
+    positions = (scene.rest_positions() + random.normal(0.0, 0.05, (4, 5, 3))).reshape(-1, 3)
+    moved = random.normal(0.0, 1.0, positions.shape)
+    edges = edges_of(scene)
+    slope = (edges.lengths(positions + 1e-6 * moved)
+             - edges.lengths(positions - 1e-6 * moved)) / 2e-6
+    jacobian = edges.jacobian(edges.directions(positions), len(positions))
+    np.testing.assert_allclose(jacobian @ moved.ravel(), slope, atol=1e-8)
+
+
+def test_families_that_are_always_there():
+    """A cloth without springs has no edges to hold."""
+    scene = _scene(**{
+        f'{kind}.{family}': 0.0 for kind in ('stiffness', 'damping')
+        for family in ('structural', 'shear', 'bend')})
+    assert len(edges_of(scene)) == 0
+    assert set(edges_of(scene, always=('structural', 'shear')).family) == {
+        'structural', 'shear'}

@@ -1,0 +1,50 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""The two scenes that the constraint and the adaptive modes are measured in."""
+
+from typing import Any
+
+from cloth_sim_ros.sim.scene import Scene
+
+GRAVITY = 9.81
+
+
+def push_up(strength: float, mass: float) -> dict[str, Any]:
+    """Return a push of ``strength`` g on all free nodes, ``mass`` [kg], from 1.0 to 1.2 s."""
+    return {'pushes.start': [1.0], 'pushes.duration': [0.2],
+            'pushes.force': [0.0, 0.0, strength * GRAVITY * mass]}
+
+
+def springs(stiffness: float, damping: float, bend: float) -> dict[str, float]:
+    """Return one stiffness [N/m] and damping [N s/m] for all families, times ``bend`` there."""
+    return {
+        'stiffness.structural': stiffness, 'stiffness.shear': stiffness,
+        'stiffness.bend': bend * stiffness, 'damping.structural': damping,
+        'damping.shear': damping, 'damping.bend': bend * damping}
+
+
+def paper_scene(dt: float, strength: float, bend: float = 1.0, **values: Any) -> Scene:
+    """Return 12 x 12 nodes of 1 kg, 1 m apart, held at two corners, pushed at 1 s."""
+    return Scene({
+        'rows': 12, 'cols': 12, 'width': 11.0, 'height': 11.0, 'node_mass': 1.0, 'dt': dt,
+        **springs(1000.0, 10.0, bend), **push_up(strength, 142.0), **values})
+
+
+def unit_scene(nodes: int, dt: float, strength: float, **values: Any) -> Scene:
+    """Return a soft cloth of 1 m x 1 m and 0.2 kg, held at two corners, pushed at 1 s."""
+    mass = 0.2 * (1.0 - 2.0 / nodes**2)
+    return Scene({
+        'rows': nodes, 'cols': nodes, 'areal_density': 0.2, 'dt': dt,
+        **springs(5.0, 1e-3, 0.1), **push_up(strength, mass), **values})
