@@ -56,6 +56,8 @@ class ImpulseAdaptiveReference(LimitedCloth):
         self.impulse = np.zeros(len(self.edges))
         self._last_substep = 0.0
         self._substep_now = self.base_substep
+        # Of the edges at the start of the substep.
+        self._differences = self._directions = np.zeros((len(self.edges), 3))
 
     def _step_of_dt(self) -> None:
         end = (self.steps + 1) * self.dt
@@ -81,6 +83,8 @@ class ImpulseAdaptiveReference(LimitedCloth):
     def _substep(self, begin: float, end: float) -> None:
         h = end - begin
         velocities = self._spring_velocities(begin, end).reshape(-1, 3)
+        self._differences = self.edges.differences(self._flat_positions)
+        self._directions = self.edges.directions(self._flat_positions)
         if self._last_substep > 0.0:
             self._warm_start(velocities, h)
         for _ in range(self.sweeps):
@@ -96,16 +100,18 @@ class ImpulseAdaptiveReference(LimitedCloth):
         most = np.full(len(self.edges), 0.0)
         most[held] = _WARM_REACH * self.edges.rest_length[held] / (h * self.weight_sums[held])
         self.impulse = np.clip(self.impulse * (h / self._last_substep), -most, most)
-        directions = self.edges.directions(self._flat_positions)
         velocities -= self.inverse_masses[:, None] * self.edges.scatter(
-            self.impulse[:, None] * directions, len(velocities))
+            self.impulse[:, None] * self._directions, len(velocities))
 
     def _sweep(self, colour: np.ndarray, velocities: np.ndarray, h: float) -> None:
-        """Bring the edges of one colour, which share no node, to the limit or let them go."""
+        """
+        Bring the edges of one colour, which share no node, to the limit or let them go.
+
+        The length is the foreseen one. The impulse acts along the edge as it is now: along the
+        foreseen edge it would turn the cloth.
+        """
         first, second = self.edges.first[colour], self.edges.second[colour]
-        positions = self._flat_positions
-        foreseen = positions[first] - positions[second] + h * (
-            velocities[first] - velocities[second])
+        foreseen = self._differences[colour] + h * (velocities[first] - velocities[second])
         length = np.linalg.norm(foreseen, axis=1)
         rest = self.edges.rest_length[colour]
         upper, lower = rest * (1.0 + self.limit), rest * (1.0 - self.limit)
@@ -117,6 +123,6 @@ class ImpulseAdaptiveReference(LimitedCloth):
             at_upper, np.maximum(old + (length - upper) * per_length, 0.0),
             np.where(at_lower, np.minimum(old + (length - lower) * per_length, 0.0), 0.0))
         self.impulse[colour] = new
-        change = ((new - old) / np.maximum(length, 1e-20))[:, None] * foreseen
+        change = (new - old)[:, None] * self._directions[colour]
         velocities[first] -= self.inverse_masses[first, None] * change
         velocities[second] += self.inverse_masses[second, None] * change

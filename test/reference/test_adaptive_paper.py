@@ -1,0 +1,54 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""The paper's adaptive scheme, with the failure the paper reports."""
+
+from cloth_sim_ros.reference.adaptive_paper import PaperAdaptiveReference
+from cloth_sim_ros.sim.scene import Scene
+from limit_scenes import paper_scene
+import numpy as np
+import pytest
+
+
+def test_an_edge_beyond_the_limit_goes_to_rest_length_at_once():
+    """A stretched edge is not pulled back by |d|^2 = L0^2, linearised, in one step."""
+    cloth = PaperAdaptiveReference(Scene({
+        'rows': 2, 'cols': 1, 'node_mass': 0.1, 'pins': ['top_left'], 'dt': 0.01,
+        'gravity': [0.0, 0.0, 0.0]}), delta=1e-12)
+    cloth.positions[1, 0] = cloth.positions[0, 0] + [0.0, -1.2, 0.0]
+    cloth.step()
+    assert cloth.active.all()
+    length = np.linalg.norm(cloth.positions[1, 0] - cloth.positions[0, 0])
+    assert length == pytest.approx(1.2 - (1.2**2 - 1.0) / (2.0 * 1.2))
+
+
+def _run(dt):
+    cloth = PaperAdaptiveReference(paper_scene(dt, 5))
+    strain = energy = 0.0
+    for _ in range(round(5.0 / dt)):
+        cloth.step()
+        strain = max(strain, cloth.max_strain())
+        energy = max(energy, cloth.energies().kinetic)
+    print(f'measured: dt {dt} max strain {strain:.3g} kinetic energy {energy:.3g} J')
+    return strain, energy
+
+
+def test_the_failure_of_the_paper():
+    """The scheme does not blow up at dt = 0.02 s, or already does at 0.01 s."""
+    strain, energy = _run(0.01)
+    assert strain < 0.5
+    assert energy < 1e4
+    strain, energy = _run(0.02)
+    assert strain > 10.0
+    assert energy > 1e6
