@@ -45,7 +45,7 @@ class ImpulseAdaptiveReference(LimitedCloth):
     :param sweeps: through all colours in a substep
     """
 
-    def __init__(self, scene: Scene, limit: float = 0.1, sweeps: int = 2) -> None:
+    def __init__(self, scene: Scene, limit: float = 0.1, sweeps: int = 4) -> None:
         """Start at rest in the scene's start pose."""
         super().__init__(scene, limit)
         self.sweeps = sweeps

@@ -21,6 +21,7 @@ from cloth_sim_ros.reference.cloth import ReferenceCloth
 from cloth_sim_ros.reference.edges import edges_of
 from cloth_sim_ros.reference.solve import Solve
 from cloth_sim_ros.reference.solve import solve_dual
+from cloth_sim_ros.reference.substeps import across_edges
 from cloth_sim_ros.reference.substeps import geometric_substep
 from cloth_sim_ros.reference.substeps import turn_substep
 from cloth_sim_ros.sim.scene import Scene
@@ -36,6 +37,8 @@ class ConstraintOptions:
         springs with their stiffness and damping, in the same system
     :param newton_iterations: linear solves in a substep; 1 is the paper's method, each further
         one starts from the edges where the one before left them
+    :param foresee_turn: where further solves follow, let the first allow for how much longer
+        edges get by turning; without it they take speed from what turns
     :param delta: regularisation of hard edges, over the sum of their inverse masses
     :param substeps: in each dt; None takes them from how fast edges turn and how tight they are
     :param max_substeps: the most that are taken so
@@ -44,6 +47,7 @@ class ConstraintOptions:
 
     hard: tuple[str, ...] = ('structural', 'shear')
     newton_iterations: int = 2
+    foresee_turn: bool = True
     delta: float = 1e-3
     substeps: int | None = None
     max_substeps: int = 32
@@ -120,8 +124,9 @@ class ConstraintReference(ReferenceCloth):
         pull = np.zeros_like(start)
         for iteration in range(self.options.newton_iterations):
             if iteration == 0:
-                # Linearised at x: C + J (x+ - x) for the velocities without tension.
-                at, error = start, beta * start_error
+                # Linearised at x: C + J (x+ - x) for the velocities without tension, and
+                # the part of C that is second order in the step.
+                at, error = start, beta * start_error + self._turn(start, velocities, h)
                 jacobian = edges.jacobian(edges.directions(at), len(at))
                 residual = error / h**2 + jacobian @ velocities.ravel() / h
             else:
@@ -143,6 +148,14 @@ class ConstraintReference(ReferenceCloth):
         self.positions = self.positions + h * self.velocities
         held = pull.reshape(self.positions.shape) - self.scene.node_mass * self.gravity
         self._pin_impulse += h * held * ~self.free[..., None]
+
+    def _turn(self, start: np.ndarray, velocities: np.ndarray, h: float) -> np.ndarray:
+        """Return how much longer each edge gets by moving across its direction [m]."""
+        if not self.options.foresee_turn or self.options.newton_iterations == 1:
+            return np.zeros(len(self.edges))
+        across = h * across_edges(self.edges, start, velocities)
+        lengths = self.edges.lengths(start)
+        return np.sqrt(lengths**2 + np.sum(across**2, axis=1)) - lengths
 
     def _compliance(self, h: float) -> tuple[np.ndarray, np.ndarray]:
         """Return E [1/kg] and beta of each edge for a substep of ``h`` [s]."""

@@ -23,6 +23,13 @@ import numpy as np
 TURN = 0.005
 
 
+def across_edges(edges: Edges, positions: np.ndarray, velocities: np.ndarray) -> np.ndarray:
+    """Return the velocity of each edge's first end past its second, across the edge [m/s]."""
+    directions = edges.directions(positions)
+    rates = edges.differences(velocities)
+    return rates - np.sum(rates * directions, axis=1, keepdims=True) * directions
+
+
 def turn_substep(edges: Edges, positions: np.ndarray, velocities: np.ndarray) -> float:
     """
     Return the longest substep [s] in which no edge turns too far: (omega h)^2 / 2 <= TURN.
@@ -32,9 +39,7 @@ def turn_substep(edges: Edges, positions: np.ndarray, velocities: np.ndarray) ->
 
     :param velocities: foreseen at the end of the step [m/s]
     """
-    directions = edges.directions(positions)
-    rates = edges.differences(velocities)
-    across = rates - np.sum(rates * directions, axis=1, keepdims=True) * directions
+    across = across_edges(edges, positions, velocities)
     omega = np.max(np.linalg.norm(across, axis=1) / edges.rest_length, initial=0.0)
     return math.sqrt(2.0 * TURN) / omega if omega > 0.0 else math.inf
 

@@ -58,7 +58,8 @@ def test_the_limit_is_one_sided(side):
 
 
 @pytest.mark.parametrize(
-    ('strength', 'sweeps', 'strain'), [(5, 2, 0.115), (20, 2, 0.127), (5, 4, 0.11)])
+    ('strength', 'sweeps', 'strain'),
+    [(5, 2, 0.115), (20, 2, 0.127), (5, 4, 0.11), (20, 4, 0.125)])
 def test_paper_scene(strength, sweeps, strain):
     """Strain or peak energy depend on the frame's dt, or the strain is above the table's."""
     results = [
@@ -66,14 +67,14 @@ def test_paper_scene(strength, sweeps, strain):
             ImpulseAdaptiveReference(paper_scene(dt, strength), sweeps=sweeps), 10.0)
         for dt in (0.01, 0.05)]
     assert max(result[0] for result in results) < strain
-    assert max(result[2] for result in results) < 0.03
+    assert max(result[2] for result in results) < 0.045
     assert results[0][1] == pytest.approx(results[1][1], rel=0.1)
 
 
 @pytest.mark.long
 @pytest.mark.parametrize(
     ('nodes', 'strength', 'strain'),
-    [(12, 5, 0.125), (12, 20, 0.13), (32, 5, 0.12), (32, 20, 0.13)])
+    [(12, 5, 0.12), (12, 20, 0.125), (32, 5, 0.12), (32, 20, 0.13)])
 def test_unit_scene(nodes, strength, strain):
     """The strain of the soft cloth is above the table's."""
     results = [

@@ -96,8 +96,8 @@ def test_momentum_of_a_tumbling_cloth(newton_iterations):
     assert np.abs(after[0] - before[0]).max() < 1e-11 * scale[0]
     turned = np.abs(after[1] - before[1]).max() / scale[1]
     print(f'measured: newton {newton_iterations} angular momentum lost {turned:.1e}')
-    # The second solve shortens edges after the velocities of the first have turned them.
-    assert turned < (1e-11 if newton_iterations == 1 else 0.02)
+    # The second solve pulls along edges that the first has turned, by what it left to do.
+    assert turned < (1e-11 if newton_iterations == 1 else 1e-3)
 
 
 def test_reactions_balance_the_momentum():
