@@ -145,8 +145,9 @@ def test_catenary(newton_iterations):
     cloth = ConstraintReference(
         Scene({'rows': 1, 'cols': nodes, 'width': 1.0, 'node_mass': 0.01, 'dt': 0.01,
                'stiffness.bend': 0.0, 'damping.bend': 0.0}),
-        # With the default delta the chain is 1e-3 m longer: test_regularisation_at_rest.
-        ConstraintOptions(newton_iterations=newton_iterations, substeps=1, delta=1e-6))
+        # One substep of 0.01 s is so near the geometric limit that it never quite rests. With
+        # the default delta the chain hangs 1e-3 m too low: see test_regularisation_at_rest.
+        ConstraintOptions(newton_iterations=newton_iterations, substeps=2, delta=1e-6))
     link = 1.0 / (nodes - 1)
     falling = (nodes - 2) / 2.0 - np.arange(nodes - 1)
 
@@ -158,7 +159,7 @@ def test_catenary(newton_iterations):
     exact[1:, 0] = np.cumsum(link * np.cos(angles(pull)))
     exact[1:, 2] = -np.cumsum(link * np.sin(angles(pull)))
     cloth.positions[0] = exact * [1.0, 1.0, 0.97]
-    for _ in range(2500):
+    for _ in range(1500):
         cloth.velocities *= 1.0 - 2.0 * cloth.dt
         cloth.step()
     off = np.max(np.abs(cloth.positions[0] - exact))
