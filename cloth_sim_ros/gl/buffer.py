@@ -51,6 +51,10 @@ class Buffer:
         else:
             GL.glBindTexture(GL.GL_TEXTURE_BUFFER, self._texture)
 
+    def bind_dispatches(self) -> None:
+        """Let indirect dispatches take their workgroups from it."""
+        GL.glBindBuffer(GL.GL_DISPATCH_INDIRECT_BUFFER, self._buffer)
+
     def write(self, data: np.ndarray, offset: int = 0) -> None:
         """Overwrite the bytes from ``offset`` on with ``data``."""
         content = np.ascontiguousarray(data)
@@ -77,3 +81,10 @@ def shader_writes_visible() -> None:
     """Order all reads by later dispatches after the writes of earlier ones."""
     GL.glMemoryBarrier(
         GL.GL_SHADER_STORAGE_BARRIER_BIT | GL.GL_TEXTURE_FETCH_BARRIER_BIT)
+
+
+def shader_dispatches_visible() -> None:
+    """Order all indirect dispatches to come after the writes of earlier ones, too."""
+    GL.glMemoryBarrier(
+        GL.GL_SHADER_STORAGE_BARRIER_BIT | GL.GL_TEXTURE_FETCH_BARRIER_BIT
+        | GL.GL_COMMAND_BARRIER_BIT)

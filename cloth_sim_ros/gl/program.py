@@ -74,6 +74,12 @@ class Program:
         flat = np.ascontiguousarray(vectors, dtype=np.float32).reshape(-1, 3)
         GL.glUniform3fv(self._location(name), len(flat), flat)
 
+    def set_int_vectors(self, name: str, vectors: np.ndarray) -> None:
+        """Set the first of an array of ivec2 or ivec4 uniforms of the program in use."""
+        flat = np.ascontiguousarray(vectors, dtype=np.int32)
+        setter = {2: GL.glUniform2iv, 4: GL.glUniform4iv}[flat.shape[1]]
+        setter(self._location(name), len(flat), flat)
+
     def dispatch(self, groups_x: int, groups_y: int = 1) -> None:
         """Run the program in use on ``groups_x`` x ``groups_y`` workgroups."""
         if max(groups_x, groups_y) > _MOST_GROUPS:
@@ -81,6 +87,10 @@ class Program:
                 f'{self.name} needs {groups_x} x {groups_y} workgroups, at most {_MOST_GROUPS} '
                 'are allowed a side: use fewer nodes')
         GL.glDispatchCompute(groups_x, groups_y, 1)
+
+    def dispatch_indirect(self, offset: int) -> None:
+        """Run the program in use on the workgroups that stand at ``offset`` [bytes]."""
+        GL.glDispatchComputeIndirect(offset)
 
     def _location(self, name: str) -> int:
         if name not in self._locations:

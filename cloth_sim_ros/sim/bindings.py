@@ -23,5 +23,10 @@ FORCE = 5
 MASS = 7
 RECORDS = 5
 PARTIAL_SUMS = 6
+SOLVER_SUMS = 2
+SOLVER_DISPATCHES = 3
+SOLVER_VECTORS = 5
+SOLVER_SYSTEM = 6
+SOLVER_SCALARS = 7
 
 DEFINES = {name: value for name, value in list(globals().items()) if name.isupper()}

@@ -22,8 +22,11 @@ import subprocess
 from cloth_sim_ros.gl.shader_directory import shader_directory
 from cloth_sim_ros.gl.shader_source import ShaderSource
 from cloth_sim_ros.sim.layout import Layout
+from cloth_sim_ros.sim.scene import FAMILIES
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.scene_program import scene_defines
+from cloth_sim_ros.sim.solver.levels import Levels
+from cloth_sim_ros.sim.solver.solver_programs import solver_defines
 import pytest
 
 _SCENES = {
@@ -38,12 +41,14 @@ _FORMS = {
     'observe.comp': {'RECORDS_WANTED': 1, 'STRIP': 16},
     'paper_force.comp': {},
     'paper_update.comp': {'UPDATE_LOCAL': 1024},
+    'solver/reduce.comp': {'GROUPS_COUNT': 2, 'GROUPS_OF_EACH': 'ivec2(1, 1), ivec2(3, 2)'},
 }
 
 
 def shader_names() -> list[str]:
     """Return the shaders that are dispatched."""
-    return sorted(path.name for path in shader_directory().glob('*.comp'))
+    root = shader_directory()
+    return sorted(str(path.relative_to(root)) for path in root.rglob('*.comp'))
 
 
 def variants() -> list[tuple[str, str, bool, bool, int]]:
@@ -56,10 +61,15 @@ def test_glslang_accepts_the_shader(
         tmp_path: Path, name: str, scene: str, texture: bool, regions: bool, block: int):
     """The shader would compile on one driver's leniency only."""
     layout = Layout(7, 9, 'fused', texture, block, (8, 4))
+    model = Scene(_SCENES[scene])
     defines = {
-        **layout.defines(), **scene_defines(Scene(_SCENES[scene])), **_FORMS[name],
+        **layout.defines(), **scene_defines(model), **_FORMS.get(name, {}),
         'HAS_REGION_PUSHES': int(regions)}
-    path = tmp_path / name
+    if name.startswith('solver/'):
+        families = [family for family in FAMILIES if model.models(family)]
+        levels = Levels(layout, coarsen=True)
+        defines.update(solver_defines(layout, levels, families, is_multigrid=regions))
+    path = tmp_path / Path(name).name
     path.write_text(ShaderSource(name, defines).text)
     done = subprocess.run(
         ['glslangValidator', '-S', 'comp', str(path)], capture_output=True, text=True)

@@ -1,0 +1,78 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""The lattices of the solver, from the cloth down to a few nodes, and where each is stored."""
+
+from cloth_sim_ros.gl.program import Program
+from cloth_sim_ros.sim.layout import Layout
+import numpy as np
+
+# A coarsest level of up to this many nodes a side is solved in one workgroup.
+COARSEST_SIDE = 8
+_CLOTH_VECTORS = 6
+_CLOTH_SYSTEM = 3
+_COARSE_VECTORS = 3
+_COARSE_SYSTEM = 10
+_SOFTWARE_BLOCK = 4
+_GPU_BLOCK = 2
+_COARSE_BLOCK = 2
+_BYTES = 16
+
+
+class Levels:
+    """
+    The cloth and, if asked for, ever coarser levels.
+
+    :param state: how the state is stored, which tells what suits the device
+    :param coarsen: False keeps to the cloth alone
+    """
+
+    def __init__(self, state: Layout, *, coarsen: bool) -> None:
+        """Lay out all levels."""
+        block = _SOFTWARE_BLOCK if state.texture_loads else _GPU_BLOCK
+        self.layouts = [_layout(state, state.rows, state.cols, block)]
+        while coarsen and (len(self.layouts) == 1 or self._coarsest_side > COARSEST_SIDE):
+            finer = self.layouts[-1]
+            self.layouts.append(
+                _layout(state, -(-finer.rows // 2), -(-finer.cols // 2), _COARSE_BLOCK))
+        vectors = [_CLOTH_VECTORS] + [_COARSE_VECTORS] * (len(self.layouts) - 1)
+        system = [_CLOTH_SYSTEM] + [_COARSE_SYSTEM] * (len(self.layouts) - 1)
+        stored = np.array([layout.stored for layout in self.layouts])
+        ends = np.cumsum([stored * vectors, stored * system], axis=1)
+        self._begins = (ends - [stored * vectors, stored * system]).T
+        self.vector_bytes, self.system_bytes = (int(end) * _BYTES for end in ends[:, -1])
+
+    @property
+    def cloth(self) -> Layout:
+        """Return the finest level."""
+        return self.layouts[0]
+
+    @property
+    def coarsest(self) -> int:
+        """Return the number of the last level."""
+        return len(self.layouts) - 1
+
+    def set_in(self, program: Program) -> None:
+        """Set the uniforms of solver/levels.glsl in the program in use."""
+        program.set_int_vectors('level_shape', np.array([
+            (layout.rows, layout.cols, layout.pitch, layout.stored) for layout in self.layouts]))
+        program.set_int_vectors('level_begin', self._begins)
+
+    @property
+    def _coarsest_side(self) -> int:
+        return max(self.layouts[-1].rows, self.layouts[-1].cols)
+
+
+def _layout(state: Layout, rows: int, cols: int, block: int) -> Layout:
+    return Layout(rows, cols, 'fused', state.texture_loads, block, state.local)

@@ -1,0 +1,41 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""What conjugate gradients want of a preconditioner."""
+
+from typing import Protocol
+
+from cloth_sim_ros.sim.solver.edge_law import EdgeLaw
+from cloth_sim_ros.sim.solver.levels import Levels
+from cloth_sim_ros.sim.solver.solver_pass import SolverPass
+from cloth_sim_ros.sim.solver.solver_programs import SolverPrograms
+
+
+class Preconditioner(Protocol):
+    """
+    Makes PRECONDITIONED from RESIDUAL; begin.comp and update.comp make the first smoothing.
+
+    :param assembly: run once for each system, after the blocks of the cloth are inverted
+    :param cycle: run in each iteration
+    """
+
+    is_multigrid: bool
+    assembly: list[SolverPass]
+    cycle: list[SolverPass]
+
+    def __init__(self, programs: SolverPrograms, levels: Levels) -> None:
+        """Compile the passes."""
+
+    def set_law(self, law: EdgeLaw) -> None:
+        """Take up what depends on the weights of the edges, besides the weights."""

@@ -1,0 +1,44 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""The right side of the linearised step, on the device."""
+
+from cloth_sim_ros.gl.buffer import shader_writes_visible
+from cloth_sim_ros.sim.forcing import Forcing
+from cloth_sim_ros.sim.layout import Layout
+from cloth_sim_ros.sim.scene import Scene
+from cloth_sim_ros.sim.scene_program import SceneProgram
+from cloth_sim_ros.sim.solver.edge_law import EdgeLaw
+from cloth_sim_ros.sim.solver.levels import Levels
+from cloth_sim_ros.sim.solver.solver_programs import SolverPrograms
+
+
+class RightSide:
+    """Runs right_side.comp, which has a form with and one without pushes on regions."""
+
+    def __init__(
+            self, scene: Scene, state: Layout, programs: SolverPrograms, levels: Levels) -> None:
+        """Prepare; nothing is compiled yet."""
+        self._program = SceneProgram('solver/right_side.comp', scene, state, programs.defines)
+        self._levels = levels
+
+    def run(self, law: EdgeLaw, forcing: Forcing) -> None:
+        """Make the right side of the state that is bound."""
+        program = self._program.use_for_step(forcing, law.length)
+        self._levels.set_in(program)
+        program.set_floats('edge_weights', law.weights)
+        program.set_floats('edge_pulls', law.pulls)
+        program.set_float('pinned_weight', law.pinned_weight)
+        program.dispatch(*self._levels.cloth.groups)
+        shader_writes_visible()

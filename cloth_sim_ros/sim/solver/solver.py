@@ -1,0 +1,168 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Preconditioned conjugate gradients on the device, which decides itself when to stop."""
+
+from collections.abc import Callable
+
+from cloth_sim_ros.gl.buffer import shader_dispatches_visible
+from cloth_sim_ros.sim.forcing import Forcing
+from cloth_sim_ros.sim.layout import Layout
+from cloth_sim_ros.sim.scene import FAMILIES
+from cloth_sim_ros.sim.scene import Scene
+from cloth_sim_ros.sim.solver.block_jacobi import BlockJacobi
+from cloth_sim_ros.sim.solver.edge_law import EdgeLaw
+from cloth_sim_ros.sim.solver.levels import Levels
+from cloth_sim_ros.sim.solver.preconditioner import Preconditioner
+from cloth_sim_ros.sim.solver.right_side import RightSide
+from cloth_sim_ros.sim.solver.solve_report import SolveReport
+from cloth_sim_ros.sim.solver.solver_buffers import PRECONDITIONED
+from cloth_sim_ros.sim.solver.solver_buffers import PRODUCT
+from cloth_sim_ros.sim.solver.solver_buffers import RESIDUAL
+from cloth_sim_ros.sim.solver.solver_buffers import SOLUTION
+from cloth_sim_ros.sim.solver.solver_buffers import SolverBuffers
+from cloth_sim_ros.sim.solver.solver_pass import SolverPass
+from cloth_sim_ros.sim.solver.solver_programs import POINT_LOCAL
+from cloth_sim_ros.sim.solver.solver_programs import SolverPrograms
+from cloth_sim_ros.sim.state import State
+import numpy as np
+
+PRECONDITIONERS: dict[str, type[Preconditioner]] = {'block_jacobi': BlockJacobi}
+
+
+class Solver:
+    """
+    Solves (M + J^T diag(a) J) dv = b for the free nodes of a cloth.
+
+    :param state: how the state is stored
+    :param families: of the edges in the system; None takes those the scene models
+    :param tolerance: sqrt((r, B r)) over that at the start, r the residual and B the
+        preconditioner; where it is reached, one last step is made
+    """
+
+    def __init__(
+            self, scene: Scene, state: Layout, *, families: tuple[str, ...] | None = None,
+            preconditioner: str = 'block_jacobi', tolerance: float = 1e-2,
+            max_iterations: int = 20) -> None:
+        """Compile the passes and allocate the buffers."""
+        if families is None:
+            families = tuple(family for family in FAMILIES if scene.models(family))
+        kind = PRECONDITIONERS[preconditioner]
+        levels = Levels(state, coarsen=kind.is_multigrid)
+        self._programs = SolverPrograms(
+            state, levels, families, is_multigrid=kind.is_multigrid)
+        self._right_side = RightSide(scene, state, self._programs, levels)
+        self._preconditioner = kind(self._programs, levels)
+        self._max_iterations = max_iterations
+        self._tolerance = tolerance
+        self._law: EdgeLaw | None = None
+        self._compile(levels)
+
+    def set_law(self, law: EdgeLaw) -> None:
+        """Take the weights of the edges and the length of the step from ``law``."""
+        if law != self._law:
+            self._law = law
+            self._programs.set_law(law)
+            self._preconditioner.set_law(law)
+
+    def assemble(self, state: State) -> None:
+        """Take up positions and pins, and prepare the preconditioner."""
+        self._buffers.bind()
+        state.bind_in()
+        self._assemble.run()
+        for each in self._preconditioner.assembly:
+            each.run()
+
+    def make_right_side(self, state: State, forcing: Forcing) -> None:
+        """Make b = h (M a - J^T pull C) - J^T a J v from the state and what accelerates it."""
+        self._buffers.bind()
+        state.bind_in()
+        self._right_side.run(self._law, forcing)
+
+    def set_right_side(self, values: np.ndarray) -> None:
+        """Take (rows, cols, 3) ``values``, zero at pinned nodes, as b over the node mass [m/s]."""
+        self._buffers.write(RESIDUAL, values)
+
+    def right_side(self) -> np.ndarray:
+        """Return b over the node mass [m/s], (rows, cols, 3); ``solve`` uses it up."""
+        return self._buffers.read(RESIDUAL)
+
+    def solve(self) -> None:
+        """Find the solution; returns before the device has it."""
+        self._buffers.bind()
+        self._buffers.clear_scalars()
+        self._begin.run()
+        self._iterate(SolverPass.run)
+        for _ in range(self._max_iterations - 1):
+            self._update.run_if_going()
+            self._iterate(SolverPass.run_if_going)
+        self._update.run()
+
+    def apply(self, state: State) -> None:
+        """Add the solution to the velocities and move the nodes for the length of the step."""
+        self._buffers.bind()
+        state.bind_in()
+        state.bind_out()
+        self._apply.run()
+        state.swap()
+
+    def multiply(self, values: np.ndarray) -> np.ndarray:
+        """Return the matrix over the node mass times ``values``, both (rows, cols, 3)."""
+        self._buffers.bind()
+        self._buffers.write(PRECONDITIONED, values)
+        self._multiply.run()
+        return self._buffers.read(PRODUCT)
+
+    def solution(self) -> np.ndarray:
+        """Return dv [m/s], (rows, cols, 3) float32."""
+        return self._buffers.read(SOLUTION)
+
+    def report(self) -> SolveReport:
+        """Return how the last solve ended."""
+        _, _, now, start, iterations = (float(value) for value in self._buffers.scalars())
+        residual = (now / start)**0.5 if start > 0.0 else now
+        return SolveReport(int(iterations), residual, residual <= self._tolerance)
+
+    def delete(self) -> None:
+        """Give the buffers back."""
+        self._buffers.delete()
+
+    def _iterate(self, run: Callable[[SolverPass], None]) -> None:
+        for each in self._preconditioner.cycle:
+            run(each)
+        run(self._multiply)
+        run(self._reduce)
+        shader_dispatches_visible()
+
+    def _compile(self, levels: Levels) -> None:
+        cloth = levels.cloth
+        points = (-(-cloth.stored // POINT_LOCAL), 1)
+        nodes = tuple(
+            -(-count // local) for count, local in zip((cloth.cols, cloth.rows), cloth.local))
+        programs = self._programs
+        self._assemble = SolverPass(programs.make('assemble.comp'), nodes)
+        self._begin = SolverPass(programs.make('begin.comp'), points)
+        self._multiply = SolverPass(programs.make('product.comp'), cloth.groups)
+        self._update = SolverPass(programs.make('update.comp'), points)
+        self._apply = SolverPass(programs.make('apply.comp'), nodes)
+        dispatches = [(1, 1)]
+        for each in (*self._preconditioner.cycle, self._multiply, self._update):
+            each.switch(dispatches)
+        reduce = programs.make(
+            'reduce.comp', GROUPS_COUNT=len(dispatches),
+            GROUPS_OF_EACH=', '.join(f'ivec2({x}, {y})' for x, y in dispatches))
+        self._reduce = SolverPass(reduce, (1, 1))
+        self._buffers = SolverBuffers(levels, len(dispatches))
+        reduce.set_int('sum_count', self._buffers.sum_count)
+        reduce.set_float('tolerance_square', self._tolerance**2)

@@ -1,0 +1,59 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""One pass of the solver, and the list of workgroup counts that reduce.comp switches off."""
+
+from cloth_sim_ros.gl.buffer import shader_writes_visible
+from cloth_sim_ros.gl.program import Program
+
+_BYTES_PER_DISPATCH = 12
+
+
+class SolverPass:
+    """
+    A program with the workgroups it always runs on.
+
+    :param level: what the program's uniform ``level`` is set to; None leaves it alone
+    """
+
+    def __init__(
+            self, program: Program, groups: tuple[int, int], level: int | None = None) -> None:
+        """Remember how to run ``program``."""
+        self.groups = groups
+        self._program = program
+        self._level = level
+        self._offset = 0
+
+    def switch(self, dispatches: list[tuple[int, int]]) -> None:
+        """Take the pass's place in ``dispatches``, the workgroup counts that can be switched."""
+        if self.groups not in dispatches:
+            dispatches.append(self.groups)
+        self._offset = dispatches.index(self.groups) * _BYTES_PER_DISPATCH
+
+    def run(self) -> None:
+        """Run the pass and order what follows after it."""
+        self._use()
+        self._program.dispatch(*self.groups)
+        shader_writes_visible()
+
+    def run_if_going(self) -> None:
+        """Run the pass unless the device has decided to stop."""
+        self._use()
+        self._program.dispatch_indirect(self._offset)
+        shader_writes_visible()
+
+    def _use(self) -> None:
+        self._program.use()
+        if self._level is not None:
+            self._program.set_int('level', self._level)

@@ -1,0 +1,78 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Compile the programs of the solver: for the families of edges it takes, on its levels."""
+
+from collections.abc import Collection
+
+from cloth_sim_ros.gl.program import Program
+from cloth_sim_ros.gl.shader_source import ShaderSource
+from cloth_sim_ros.sim.layout import Layout
+from cloth_sim_ros.sim.scene import FAMILIES
+from cloth_sim_ros.sim.solver.edge_law import EdgeLaw
+from cloth_sim_ros.sim.solver.levels import Levels
+
+POINT_LOCAL = 64
+REDUCE_LOCAL = 16
+# Of block-Jacobi as a smoother; undamped it amplifies what it should smooth.
+_DAMPING = 0.8
+
+
+class SolverPrograms:
+    """
+    What all programs of one solver share.
+
+    :param state: how the state is stored
+    :param families: of the edges in the system
+    """
+
+    def __init__(
+            self, state: Layout, levels: Levels, families: Collection[str], *,
+            is_multigrid: bool) -> None:
+        """Gather the choices made at compile time."""
+        self.defines = solver_defines(state, levels, families, is_multigrid=is_multigrid)
+        self._levels = levels
+        self._compiled: list[Program] = []
+
+    def make(self, name: str, **defines: object) -> Program:
+        """Return shaders/solver/``name``, compiled, in use and with its levels set."""
+        program = Program(ShaderSource(f'solver/{name}', {**self.defines, **defines}))
+        self._compiled.append(program)
+        program.use()
+        self._levels.set_in(program)
+        return program
+
+    def set_law(self, law: EdgeLaw) -> None:
+        """Set the weights of the edges in all programs."""
+        for program in self._compiled:
+            program.use()
+            program.set_floats('edge_weights', law.weights)
+            program.set_float('pinned_weight', law.pinned_weight)
+            program.set_float('substep', law.length)
+
+
+def solver_defines(
+        state: Layout, levels: Levels, families: Collection[str], *,
+        is_multigrid: bool) -> dict[str, object]:
+    """Return what every shader of the solver compiles in."""
+    return {
+        **levels.cloth.defines(),
+        **{f'HAS_{family.upper()}': int(family in families) for family in FAMILIES},
+        'STATE_PITCH': state.pitch,
+        'MULTIGRID': int(is_multigrid),
+        'DAMPING': _DAMPING if is_multigrid else 1.0,
+        'SUMS_BY_GROUP': int(not state.texture_loads),
+        'POINT_LOCAL': POINT_LOCAL,
+        'REDUCE_LOCAL': REDUCE_LOCAL,
+    }

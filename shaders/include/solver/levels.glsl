@@ -1,0 +1,57 @@
+// Copyright 2026 the cloth_sim_ros authors
+//
+// Licensed under the Apache License, Version 2.0 (the "License");
+// you may not use this file except in compliance with the License.
+// You may obtain a copy of the License at
+//
+//     http://www.apache.org/licenses/LICENSE-2.0
+//
+// Unless required by applicable law or agreed to in writing, software
+// distributed under the License is distributed on an "AS IS" BASIS,
+// WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+// See the License for the specific language governing permissions and
+// limitations under the License.
+
+// The levels of the solver in two buffers. Level 0 is the cloth; each further one has half the
+// nodes along each side, rounded up. A level is stored like the cloth, with two ghosts around,
+// one field after the other. All fields of a ghost are zero for good.
+
+#include "lattice.glsl"
+
+#define MOST_LEVELS 16
+
+uniform ivec4 level_shape[MOST_LEVELS];  // rows, cols, entries in a stored row, entries in all
+uniform ivec2 level_begin[MOST_LEVELS];  // where its vectors begin, where its system begins
+uniform int level;
+
+// Vectors, one an entry. A field serves two purposes where one is over before the other begins.
+#define RESIDUAL 0
+#define SMOOTHED 1        // after the first smoothing
+#define PRODUCT 1         // level 0: the matrix times PRECONDITIONED
+#define DEFECT 2          // what the first smoothing left over
+#define PRECONDITIONED 2  // what the preconditioner makes of RESIDUAL
+#define DIRECTION 3       // level 0 only, as those that follow
+#define IMAGE 4           // the matrix times DIRECTION
+#define SOLUTION 5
+
+// The system.
+#define INVERSE 0  // two fields: inverse of the node's diagonal block, zero where it can't move
+#define NODE 2     // level 0: position [m] and the node's part in the weight of its edges
+#define GROUND 2   // coarse levels, two fields: mass, and what ties the node to pinned ones
+#define EDGES 4    // coarse levels, six fields: the tensors of the edges that begin here
+
+int level_index(int which, int row, int col) {
+    return (row + HALO) * level_shape[which].z + col + HALO;
+}
+
+int vector_entry(int which, int field, int index) {
+    return level_begin[which].x + field * level_shape[which].w + index;
+}
+
+int system_entry(int which, int field, int index) {
+    return level_begin[which].y + field * level_shape[which].w + index;
+}
+
+bool inside(int which, int row, int col) {
+    return row < level_shape[which].x && col < level_shape[which].y;
+}

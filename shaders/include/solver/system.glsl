@@ -1,0 +1,42 @@
+// Copyright 2026 the cloth_sim_ros authors
+//
+// Licensed under the Apache License, Version 2.0 (the "License");
+// you may not use this file except in compliance with the License.
+// You may obtain a copy of the License at
+//
+//     http://www.apache.org/licenses/LICENSE-2.0
+//
+// Unless required by applicable law or agreed to in writing, software
+// distributed under the License is distributed on an "AS IS" BASIS,
+// WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+// See the License for the specific language governing permissions and
+// limitations under the License.
+
+// Access to the system of all levels.
+
+#include "symmetric.glsl"
+
+layout(std430, binding = SOLVER_SYSTEM) buffer System { vec4 system_data[]; };
+
+#if LOADS_TEXTURE
+layout(binding = SOLVER_SYSTEM) uniform samplerBuffer system_in;
+
+vec4 load_system(int entry) { return texelFetch(system_in, entry); }
+#else
+vec4 load_system(int entry) { return system_data[entry]; }
+#endif
+
+Symmetric load_symmetric(int which, int field, int index) {
+    return Symmetric(
+        load_system(system_entry(which, field, index)).xyz,
+        load_system(system_entry(which, field + 1, index)).xyz);
+}
+
+void store_symmetric(int which, int field, int index, Symmetric value) {
+    system_data[system_entry(which, field, index)] = vec4(value[0], 0.0);
+    system_data[system_entry(which, field + 1, index)] = vec4(value[1], 0.0);
+}
+
+vec3 times_inverse(int which, int index, vec3 v) {
+    return times(load_symmetric(which, INVERSE, index), v);
+}

@@ -1,0 +1,40 @@
+// Copyright 2026 the cloth_sim_ros authors
+//
+// Licensed under the Apache License, Version 2.0 (the "License");
+// you may not use this file except in compliance with the License.
+// You may obtain a copy of the License at
+//
+//     http://www.apache.org/licenses/LICENSE-2.0
+//
+// Unless required by applicable law or agreed to in writing, software
+// distributed under the License is distributed on an "AS IS" BASIS,
+// WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+// See the License for the specific language governing permissions and
+// limitations under the License.
+
+#version 430 core
+// Add the solution to the velocity and move the nodes: v+ = v + dv, x+ = x + h v+.
+
+#include "solver/levels.glsl"
+#include "solver/vectors.glsl"
+#include "state_in.glsl"
+#include "state_out.glsl"
+#include "solver/state_index.glsl"
+
+layout(local_size_x = LOCAL_X, local_size_y = LOCAL_Y) in;
+
+uniform float substep;  // [s]
+
+void main() {
+    int row = int(gl_GlobalInvocationID.y);
+    int col = int(gl_GlobalInvocationID.x);
+    if (row >= ROWS || col >= COLS) {
+        return;
+    }
+    int index = state_index(row, col);
+    vec4 velocity = load_velocity(index);
+    vec4 position = load_position(index);
+    velocity.xyz += load_vector(vector_entry(0, SOLUTION, level_index(0, row, col)));
+    velocity_out[index] = velocity;
+    position_out[index] = vec4(position.xyz + substep * velocity.xyz, position.w);
+}

@@ -1,0 +1,77 @@
+// Copyright 2026 the cloth_sim_ros authors
+//
+// Licensed under the Apache License, Version 2.0 (the "License");
+// you may not use this file except in compliance with the License.
+// You may obtain a copy of the License at
+//
+//     http://www.apache.org/licenses/LICENSE-2.0
+//
+// Unless required by applicable law or agreed to in writing, software
+// distributed under the License is distributed on an "AS IS" BASIS,
+// WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+// See the License for the specific language governing permissions and
+// limitations under the License.
+
+#version 430 core
+// One workgroup adds up the partial sums, finds the step along the next direction (conjugate
+// gradients after Chronopoulos and Gear, doi:10.1016/0377-0427(89)90045-9), and decides whether
+// there is another iteration: without one, all passes that follow are dispatched with no
+// workgroups.
+
+layout(local_size_x = REDUCE_LOCAL) in;
+
+#define SCALARS_ACCESS
+#include "solver/scalars.glsl"
+
+layout(std430, binding = SOLVER_DISPATCHES) writeonly buffer Dispatches { uint dispatches[]; };
+
+uniform int sum_count;
+uniform float tolerance_square;
+
+#if LOADS_TEXTURE
+layout(binding = SOLVER_SUMS) uniform samplerBuffer sums_in;
+#define LOAD_SUMS(i) texelFetch(sums_in, i).xy
+#else
+layout(std430, binding = SOLVER_SUMS) readonly buffer PartialSums { vec4 partial_sums[]; };
+#define LOAD_SUMS(i) partial_sums[i].xy
+#endif
+
+const ivec2 GROUPS[GROUPS_COUNT] = ivec2[](GROUPS_OF_EACH);
+
+shared vec2 sums[REDUCE_LOCAL];
+
+void decide(float now, float curvature) {
+    bool first = iterations == 0.0;
+    float start = first ? now : measure_start;
+    keep = first ? 0.0 : now / measure;
+    // Along the direction, from that along the preconditioned residual.
+    float bent = first ? curvature : curvature - keep * now / step_length;
+    bool sound = now > 0.0 && bent > 0.0;
+    step_length = sound ? now / bent : 0.0;
+    measure = now;
+    measure_start = start;
+    iterations += first && !sound ? 0.0 : 1.0;
+    uint another = sound && now > tolerance_square * start ? 1u : 0u;
+    for (int i = 0; i < GROUPS_COUNT; ++i) {
+        dispatches[3 * i] = another * uint(GROUPS[i].x);
+        dispatches[3 * i + 1] = uint(GROUPS[i].y);
+        dispatches[3 * i + 2] = 1u;
+    }
+}
+
+void main() {
+    int at = int(gl_LocalInvocationIndex);
+    vec2 sum = vec2(0.0);
+    for (int i = at; i < sum_count; i += REDUCE_LOCAL) {
+        sum += LOAD_SUMS(i);
+    }
+    sums[at] = sum;
+    barrier();
+    if (at == 0) {
+        vec2 total = vec2(0.0);
+        for (int i = 0; i < REDUCE_LOCAL; ++i) {
+            total += sums[i];
+        }
+        decide(total.x, total.y);
+    }
+}

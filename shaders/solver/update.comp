@@ -1,0 +1,56 @@
+// Copyright 2026 the cloth_sim_ros authors
+//
+// Licensed under the Apache License, Version 2.0 (the "License");
+// you may not use this file except in compliance with the License.
+// You may obtain a copy of the License at
+//
+//     http://www.apache.org/licenses/LICENSE-2.0
+//
+// Unless required by applicable law or agreed to in writing, software
+// distributed under the License is distributed on an "AS IS" BASIS,
+// WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+// See the License for the specific language governing permissions and
+// limitations under the License.
+
+#version 430 core
+// One iteration's new direction, solution and residual, and the first smoothing of the latter.
+
+#include "solver/levels.glsl"
+#include "solver/vectors.glsl"
+#include "solver/system.glsl"
+#include "solver/smooth_residual.glsl"
+
+#define SCALARS_ACCESS readonly
+#include "solver/scalars.glsl"
+
+layout(local_size_x = POINT_LOCAL) in;
+
+vec3 load(int field, int index) { return load_vector(vector_entry(0, field, index)); }
+
+void store(int field, int index, vec3 v) { store_vector(vector_entry(0, field, index), v); }
+
+void main() {
+    int index = int(gl_GlobalInvocationID.x);
+    if (index >= level_shape[0].w) {
+        return;
+    }
+    vec3 direction = load(PRECONDITIONED, index);
+    vec3 image = load(PRODUCT, index);
+    vec3 solution = vec3(0.0);
+    vec3 residual = load(RESIDUAL, index);
+    // Before the first iteration these fields hold what the last solve left.
+    if (iterations > 1.0) {
+        direction += keep * load(DIRECTION, index);
+        image += keep * load(IMAGE, index);
+        solution = load(SOLUTION, index);
+    }
+    if (step_length > 0.0) {
+        solution += step_length * direction;
+        residual -= step_length * image;
+    }
+    store(DIRECTION, index, direction);
+    store(IMAGE, index, image);
+    store(SOLUTION, index, solution);
+    store(RESIDUAL, index, residual);
+    smooth_residual(index, residual);
+}
