@@ -61,9 +61,12 @@ class Layout:
     @property
     def groups(self) -> tuple[int, int]:
         """Workgroups that cover the cloth, x and y."""
-        return tuple(
-            -(-nodes // (self.block * local))
-            for nodes, local in zip((self.cols, self.rows), self.local))
+        return self._groups_of(self.block)
+
+    @property
+    def node_groups(self) -> tuple[int, int]:
+        """Workgroups that cover the cloth with one node an invocation, x and y."""
+        return self._groups_of(1)
 
     def index(self, row: int, col: int) -> int:
         """Return where the node (row, col) is stored."""
@@ -74,6 +77,11 @@ class Layout:
         stored = np.zeros((self.stored // self.pitch, self.pitch, *values.shape[2:]), values.dtype)
         stored[HALO:HALO + self.rows, HALO:HALO + self.cols] = values
         return stored
+
+    def _groups_of(self, block: int) -> tuple[int, int]:
+        return tuple(
+            -(-nodes // (block * local))
+            for nodes, local in zip((self.cols, self.rows), self.local))
 
     def defines(self) -> dict[str, object]:
         """Return what every shader on this lattice needs to know."""

@@ -24,6 +24,7 @@ from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.solver.block_jacobi import BlockJacobi
 from cloth_sim_ros.sim.solver.edge_law import EdgeLaw
 from cloth_sim_ros.sim.solver.levels import Levels
+from cloth_sim_ros.sim.solver.multigrid import Multigrid
 from cloth_sim_ros.sim.solver.preconditioner import Preconditioner
 from cloth_sim_ros.sim.solver.right_side import RightSide
 from cloth_sim_ros.sim.solver.solve_report import SolveReport
@@ -38,7 +39,8 @@ from cloth_sim_ros.sim.solver.solver_programs import SolverPrograms
 from cloth_sim_ros.sim.state import State
 import numpy as np
 
-PRECONDITIONERS: dict[str, type[Preconditioner]] = {'block_jacobi': BlockJacobi}
+PRECONDITIONERS: dict[str, type[Preconditioner]] = {
+    'multigrid': Multigrid, 'block_jacobi': BlockJacobi}
 
 
 class Solver:
@@ -53,7 +55,7 @@ class Solver:
 
     def __init__(
             self, scene: Scene, state: Layout, *, families: tuple[str, ...] | None = None,
-            preconditioner: str = 'block_jacobi', tolerance: float = 1e-2,
+            preconditioner: str = 'multigrid', tolerance: float = 1e-2,
             max_iterations: int = 20) -> None:
         """Compile the passes and allocate the buffers."""
         if families is None:
@@ -148,8 +150,7 @@ class Solver:
     def _compile(self, levels: Levels) -> None:
         cloth = levels.cloth
         points = (-(-cloth.stored // POINT_LOCAL), 1)
-        nodes = tuple(
-            -(-count // local) for count, local in zip((cloth.cols, cloth.rows), cloth.local))
+        nodes = cloth.node_groups
         programs = self._programs
         self._assemble = SolverPass(programs.make('assemble.comp'), nodes)
         self._begin = SolverPass(programs.make('begin.comp'), points)

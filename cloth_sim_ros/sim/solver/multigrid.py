@@ -1,0 +1,80 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Geometric multigrid: smooth, solve what is left on a lattice half as fine, smooth again."""
+
+from cloth_sim_ros.sim.solver.edge_law import EdgeLaw
+from cloth_sim_ros.sim.solver.levels import Levels
+from cloth_sim_ros.sim.solver.solver_pass import SolverPass
+from cloth_sim_ros.sim.solver.solver_programs import SolverPrograms
+
+# Chebyshev steps on the coarsest level, and the spread of eigenvalues they are made for.
+_COARSEST_STEPS = 6
+_LEAST_SPREAD = 4.0
+_MOST_SPREAD = 60.0
+# The largest eigenvalue of an edge system over its diagonal blocks: an edge ties two nodes.
+_LARGEST_EIGENVALUE = 2.0
+
+
+class Multigrid:
+    """A V-cycle with one damped block-Jacobi step before and after each coarser level."""
+
+    is_multigrid = True
+
+    def __init__(self, programs: SolverPrograms, levels: Levels) -> None:
+        """Compile the passes of all levels; one program serves all coarse levels."""
+        self._levels = levels
+        coarsest = levels.layouts[-1]
+        self._coarsest = programs.make(
+            'coarsest.comp', COARSEST_ROWS=coarsest.rows, COARSEST_COLS=coarsest.cols,
+            COARSEST_STEPS=_COARSEST_STEPS)
+        self.assembly = self._assembly(programs)
+        self.cycle = self._cycle(programs)
+
+    def set_law(self, law: EdgeLaw) -> None:
+        """Set the eigenvalues to damp on the coarsest level."""
+        cloth, coarsest = self._levels.cloth, self._levels.layouts[-1]
+        share = coarsest.rows * coarsest.cols / (cloth.rows * cloth.cols)
+        spread = min(max(1.0 + 10.0 * law.largest_weight * share, _LEAST_SPREAD), _MOST_SPREAD)
+        least = _LARGEST_EIGENVALUE / spread
+        self._coarsest.use()
+        self._coarsest.set_float('middle', (_LARGEST_EIGENVALUE + least) / 2.0)
+        self._coarsest.set_float('half_width', (_LARGEST_EIGENVALUE - least) / 2.0)
+
+    def _assembly(self, programs: SolverPrograms) -> list[SolverPass]:
+        coarsen_cloth = programs.make('coarsen_cloth.comp')
+        coarsen = programs.make('coarsen.comp')
+        invert = programs.make('invert.comp')
+        passes = []
+        for level, layout in list(enumerate(self._levels.layouts))[1:]:
+            program = coarsen_cloth if level == 1 else coarsen
+            passes.append(SolverPass(program, layout.node_groups, level))
+            passes.append(SolverPass(invert, layout.node_groups, level))
+        return passes
+
+    def _cycle(self, programs: SolverPrograms) -> list[SolverPass]:
+        layouts, last = self._levels.layouts, self._levels.coarsest
+        block = {'BLOCK': layouts[last].block}
+        restrict = programs.make('restrict.comp')
+        defect = programs.make('defect.comp', **block)
+        smooth = programs.make('smooth.comp', **block)
+        down = [SolverPass(programs.make('cloth_defect.comp'), layouts[0].groups)]
+        up = [SolverPass(programs.make('cloth_smooth.comp'), layouts[0].groups)]
+        for level in range(1, last):
+            down.append(SolverPass(restrict, layouts[level].node_groups, level))
+            down.append(SolverPass(defect, layouts[level].groups, level))
+            up.append(SolverPass(smooth, layouts[level].groups, level))
+        down.append(SolverPass(restrict, layouts[last].node_groups, last))
+        down.append(SolverPass(self._coarsest, (1, 1), last))
+        return down + up[::-1]

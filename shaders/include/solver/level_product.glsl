@@ -1,0 +1,63 @@
+// Copyright 2026 the cloth_sim_ros authors
+//
+// Licensed under the Apache License, Version 2.0 (the "License");
+// you may not use this file except in compliance with the License.
+// You may obtain a copy of the License at
+//
+//     http://www.apache.org/licenses/LICENSE-2.0
+//
+// Unless required by applicable law or agreed to in writing, software
+// distributed under the License is distributed on an "AS IS" BASIS,
+// WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+// See the License for the specific language governing permissions and
+// limitations under the License.
+
+// The matrix of a coarse level times a vector, for a block: value in, product out.
+
+#include "block_edges.glsl"
+#include "solver/edge_tensors.glsl"
+
+#define REACH 1
+#define TILE (BLOCK + 2 * REACH)
+
+vec3 value[TILE][TILE];
+vec3 product[TILE][TILE];
+
+ivec2 first_of_block() { return ivec2(gl_GlobalInvocationID.xy) * BLOCK; }
+
+bool in_level(ivec2 first) { return inside(level, first.y, first.x); }
+
+int tile_index(ivec2 first, int row, int col) {
+    return level_index(level, first.y + row - REACH, first.x + col - REACH);
+}
+
+bool tile_inside(ivec2 first, int row, int col) {
+    return inside(level, first.y + row - REACH, first.x + col - REACH);
+}
+
+void add_to_product(ivec2 first, int row, int col, int drow, int dcol, int direction) {
+    Symmetric edge = load_edge(level, tile_index(first, row, col), direction);
+    vec3 part = times(edge, value[row][col] - value[row + drow][col + dcol]);
+    product[row][col] += part;
+    product[row + drow][col + dcol] -= part;
+}
+
+void load_values(ivec2 first, int field) {
+    FOR_TILE {
+        value[row][col] = load_vector(vector_entry(level, field, tile_index(first, row, col)));
+    }
+}
+
+void make_product(ivec2 first) {
+    FOR_TILE {
+        product[row][col] = vec3(0.0);
+    }
+    FOR_BLOCK {
+        product[row][col] = times(
+            load_symmetric(level, GROUND, tile_index(first, row, col)), value[row][col]);
+    }
+    FOR_BLOCK_EDGES(0, 1, add_to_product(first, row, col, 0, 1, 0))
+    FOR_BLOCK_EDGES(1, 0, add_to_product(first, row, col, 1, 0, 1))
+    FOR_BLOCK_EDGES(1, 1, add_to_product(first, row, col, 1, 1, 2))
+    FOR_BLOCK_EDGES(1, -1, add_to_product(first, row, col, 1, -1, 3))
+}

@@ -1,0 +1,51 @@
+// Copyright 2026 the cloth_sim_ros authors
+//
+// Licensed under the Apache License, Version 2.0 (the "License");
+// you may not use this file except in compliance with the License.
+// You may obtain a copy of the License at
+//
+//     http://www.apache.org/licenses/LICENSE-2.0
+//
+// Unless required by applicable law or agreed to in writing, software
+// distributed under the License is distributed on an "AS IS" BASIS,
+// WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+// See the License for the specific language governing permissions and
+// limitations under the License.
+
+#version 430 core
+// The system of a coarse level from that of the level above.
+
+#include "solver/levels.glsl"
+#include "solver/system.glsl"
+#include "solver/edge_tensors.glsl"
+
+layout(local_size_x = LOCAL_X, local_size_y = LOCAL_Y) in;
+
+Symmetric finer_edge(ivec2 at, int direction) {
+    return load_edge(level - 1, level_index(level - 1, at.x, at.y), direction);
+}
+
+#include "solver/average_edges.glsl"
+
+Symmetric finer_ground(int row, int col) {
+    return load_symmetric(level - 1, GROUND, level_index(level - 1, row, col));
+}
+
+void main() {
+    int row = int(gl_GlobalInvocationID.y);
+    int col = int(gl_GlobalInvocationID.x);
+    if (!inside(level, row, col)) {
+        return;
+    }
+    int index = level_index(level, row, col);
+    Symmetric edges[DIRECTIONS];
+    for (int i = 0; i < DIRECTIONS; ++i) {
+        edges[i] = stays_inside(row, col, i)
+            ? average_edge(2 * ivec2(row, col), i) : Symmetric(0.0);
+    }
+    store_edges(level, index, edges);
+    store_symmetric(
+        level, GROUND, index,
+        finer_ground(2 * row, 2 * col) + finer_ground(2 * row, 2 * col + 1)
+            + finer_ground(2 * row + 1, 2 * col) + finer_ground(2 * row + 1, 2 * col + 1));
+}

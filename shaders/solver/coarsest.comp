@@ -1,0 +1,70 @@
+// Copyright 2026 the cloth_sim_ros authors
+//
+// Licensed under the Apache License, Version 2.0 (the "License");
+// you may not use this file except in compliance with the License.
+// You may obtain a copy of the License at
+//
+//     http://www.apache.org/licenses/LICENSE-2.0
+//
+// Unless required by applicable law or agreed to in writing, software
+// distributed under the License is distributed on an "AS IS" BASIS,
+// WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+// See the License for the specific language governing permissions and
+// limitations under the License.
+
+#version 430 core
+// Nearly solve the coarsest level: Chebyshev iteration in one workgroup, a node an invocation.
+
+#include "solver/levels.glsl"
+#include "solver/vectors.glsl"
+#include "solver/system.glsl"
+#include "solver/edge_tensors.glsl"
+
+layout(local_size_x = COARSEST_COLS, local_size_y = COARSEST_ROWS) in;
+
+// Middle and half width of the eigenvalues it damps.
+uniform float middle;
+uniform float half_width;
+
+shared vec3 values[COARSEST_ROWS + 2][COARSEST_COLS + 2];
+
+void main() {
+    ivec2 at = ivec2(gl_LocalInvocationID.yx);
+    int index = level_index(level, at.x, at.y);
+    // Neighbours beyond the border weigh nothing, but must be finite.
+    for (int i = int(gl_LocalInvocationIndex); i < (COARSEST_ROWS + 2) * (COARSEST_COLS + 2);
+            i += COARSEST_ROWS * COARSEST_COLS) {
+        values[i / (COARSEST_COLS + 2)][i % (COARSEST_COLS + 2)] = vec3(0.0);
+    }
+    Symmetric ahead[DIRECTIONS];
+    Symmetric behind[DIRECTIONS];
+    Symmetric diagonal = load_symmetric(level, GROUND, index);
+    for (int i = 0; i < DIRECTIONS; ++i) {
+        ahead[i] = load_edge(level, index, i);
+        behind[i] = load_edge(
+            level, level_index(level, at.x - TOWARDS[i].x, at.y - TOWARDS[i].y), i);
+        diagonal += ahead[i] + behind[i];
+    }
+    Symmetric inverse_block = load_symmetric(level, INVERSE, index);
+    vec3 residual = load_vector(vector_entry(level, RESIDUAL, index));
+    vec3 change = times(inverse_block, residual) / middle;
+    vec3 value = change;
+    float ratio = half_width / middle;
+    barrier();
+    for (int step = 1; step < COARSEST_STEPS; ++step) {
+        values[at.x + 1][at.y + 1] = value;
+        barrier();
+        vec3 left = residual - times(diagonal, value);
+        for (int i = 0; i < DIRECTIONS; ++i) {
+            ivec2 to = at + 1 + TOWARDS[i];
+            ivec2 from = at + 1 - TOWARDS[i];
+            left += times(ahead[i], values[to.x][to.y]) + times(behind[i], values[from.x][from.y]);
+        }
+        barrier();
+        float next = 1.0 / (2.0 * middle / half_width - ratio);
+        change = next * ratio * change + (2.0 * next / half_width) * times(inverse_block, left);
+        value += change;
+        ratio = next;
+    }
+    store_vector(vector_entry(level, PRECONDITIONED, index), value);
+}
