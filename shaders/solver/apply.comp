@@ -34,7 +34,7 @@ void main() {
     int index = state_index(row, col);
     vec4 velocity = load_velocity(index);
     vec4 position = load_position(index);
-    velocity.xyz += load_vector(vector_entry(0, SOLUTION, level_index(0, row, col)));
+    velocity.xyz += load_vector(cloth_entry(SOLUTION, level_index(0, row, col)));
     velocity_out[index] = velocity;
     position_out[index] = vec4(position.xyz + substep * velocity.xyz, position.w);
 }

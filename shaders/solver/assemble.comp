@@ -13,18 +13,16 @@
 // limitations under the License.
 
 #version 430 core
-// Take the positions over into the solver and invert the diagonal block of each node.
+// Invert the diagonal block of each node of the cloth.
 
 #include "solver/levels.glsl"
 #include "solver/system.glsl"
-#include "state_in.glsl"
-#include "solver/state_index.glsl"
 #include "solver/edge_weight.glsl"
 
 layout(local_size_x = LOCAL_X, local_size_y = LOCAL_Y) in;
 
-Symmetric edge_block(vec4 here, int row, int col, int family) {
-    vec4 there = state_node(row, col);
+Symmetric edge_block(vec4 here, int index, int family) {
+    vec4 there = load_system(cloth_entry(NODE, index));
     vec3 d = here.xyz - there.xyz;
     return weight_over_square(here, there, d, family) * outer_square(d);
 }
@@ -35,11 +33,12 @@ void main() {
     if (row >= ROWS || col >= COLS) {
         return;
     }
-    vec4 here = state_node(row, col);
+    int index = node_index(row, col);
+    vec4 here = load_system(cloth_entry(NODE, index));
     Symmetric diagonal = scaled_identity(1.0);
 #define ADD_BOTH_WAYS(DROW, DCOL, FAMILY) \
-    diagonal += edge_block(here, row + DROW, col + DCOL, FAMILY) \
-        + edge_block(here, row - DROW, col - DCOL, FAMILY);
+    diagonal += edge_block(here, index + (DROW) * PITCH + (DCOL), FAMILY) \
+        + edge_block(here, index - (DROW) * PITCH - (DCOL), FAMILY);
 #if HAS_STRUCTURAL
     ADD_BOTH_WAYS(0, 1, STRUCTURAL)
     ADD_BOTH_WAYS(1, 0, STRUCTURAL)
@@ -52,8 +51,8 @@ void main() {
     ADD_BOTH_WAYS(0, 2, BEND)
     ADD_BOTH_WAYS(2, 0, BEND)
 #endif
-    int index = node_index(row, col);
     float moves = is_free(here) ? 1.0 : 0.0;
-    system_data[system_entry(0, NODE, index)] = here;
-    store_symmetric(0, INVERSE, index, moves * inverse_above(diagonal, 1.0));
+    Symmetric inverse_block = moves * inverse_above(diagonal, 1.0);
+    system_data[cloth_entry(INVERSE, index)] = vec4(inverse_block[0], 0.0);
+    system_data[cloth_entry(INVERSE + 1, index)] = vec4(inverse_block[1], 0.0);
 }

@@ -23,8 +23,7 @@
 layout(local_size_x = POINT_LOCAL) in;
 
 void main() {
-    int index = int(gl_GlobalInvocationID.x);
-    if (index < level_shape[0].w) {
-        smooth_residual(index, load_vector(vector_entry(0, RESIDUAL, index)));
+    FOR_POINTS {
+        smooth_residual(index, load_vector(cloth_entry(RESIDUAL, index)));
     }
 }

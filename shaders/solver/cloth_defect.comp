@@ -32,7 +32,7 @@ void main() {
     make_product();
     FOR_BLOCK {
         int index = tile_index(first, row, col);
-        vec3 residual = load_vector(vector_entry(0, RESIDUAL, index));
-        store_vector(vector_entry(0, DEFECT, index), residual - product[row][col]);
+        vec3 residual = load_vector(cloth_entry(RESIDUAL, index));
+        store_vector(cloth_entry(DEFECT, index), residual - product[row][col]);
     }
 }

@@ -39,9 +39,9 @@ void main() {
     make_product();
     FOR_BLOCK {
         int index = tile_index(first, row, col);
-        vec3 left = load_vector(vector_entry(0, RESIDUAL, index)) - product[row][col];
+        vec3 left = load_vector(cloth_entry(RESIDUAL, index)) - product[row][col];
         store_vector(
-            vector_entry(0, PRECONDITIONED, index),
-            value[row][col] + DAMPING * times_inverse(0, index, left));
+            cloth_entry(PRECONDITIONED, index),
+            value[row][col] + DAMPING * times(load_cloth_inverse(index), left));
     }
 }

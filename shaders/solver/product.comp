@@ -33,8 +33,8 @@ void main() {
         make_product();
         FOR_BLOCK {
             int index = tile_index(first, row, col);
-            vec3 residual = load_vector(vector_entry(0, RESIDUAL, index));
-            store_vector(vector_entry(0, PRODUCT, index), product[row][col]);
+            vec3 residual = load_vector(cloth_entry(RESIDUAL, index));
+            store_vector(cloth_entry(PRODUCT, index), product[row][col]);
             sums += vec2(dot(residual, value[row][col]), dot(product[row][col], value[row][col]));
         }
     }

@@ -19,6 +19,7 @@
 
 #include "solver/levels.glsl"
 #include "solver/vectors.glsl"
+#include "solver/system.glsl"
 #include "state_in.glsl"
 #include "solver/state_index.glsl"
 #include "solver/cloth_tile.glsl"
@@ -54,9 +55,8 @@ void main() {
     }
     FOR_TILE {
         ivec2 at = first + ivec2(col, row) - REACH;
-        node[row][col] = state_node(at.y, at.x);
-        velocity[row][col] = is_stored(at.y, at.x)
-            ? load_velocity(state_index(at.y, at.x)).xyz : vec3(0.0);
+        node[row][col] = load_system(cloth_entry(NODE, tile_index(first, row, col)));
+        velocity[row][col] = load_velocity(state_index(at.y, at.x)).xyz;
         change[row][col] = vec3(0.0);
     }
     FOR_CLOTH_EDGES(add_to_change)
@@ -67,6 +67,6 @@ void main() {
             vec3 applied = applied_acceleration(state_index(at.y, at.x));
             total = change[row][col] + substep * applied;
         }
-        store_vector(vector_entry(0, RESIDUAL, tile_index(first, row, col)), total);
+        store_vector(cloth_entry(RESIDUAL, tile_index(first, row, col)), total);
     }
 }

@@ -25,32 +25,33 @@
 
 layout(local_size_x = POINT_LOCAL) in;
 
-vec3 load(int field, int index) { return load_vector(vector_entry(0, field, index)); }
+vec3 load(int field, int index) { return load_vector(cloth_entry(field, index)); }
 
-void store(int field, int index, vec3 v) { store_vector(vector_entry(0, field, index), v); }
+void store(int field, int index, vec3 v) { store_vector(cloth_entry(field, index), v); }
 
 void main() {
-    int index = int(gl_GlobalInvocationID.x);
-    if (index >= level_shape[0].w) {
-        return;
-    }
-    vec3 direction = load(PRECONDITIONED, index);
-    vec3 image = load(PRODUCT, index);
-    vec3 solution = vec3(0.0);
-    vec3 residual = load(RESIDUAL, index);
     // Before the first iteration these fields hold what the last solve left.
-    if (iterations > 1.0) {
-        direction += keep * load(DIRECTION, index);
-        image += keep * load(IMAGE, index);
-        solution = load(SOLUTION, index);
+    bool goes_on = iterations > 1.0;
+    float kept = keep;
+    float length = step_length;
+    FOR_POINTS {
+        vec3 direction = load(PRECONDITIONED, index);
+        vec3 image = load(PRODUCT, index);
+        vec3 solution = vec3(0.0);
+        vec3 residual = load(RESIDUAL, index);
+        if (goes_on) {
+            direction += kept * load(DIRECTION, index);
+            image += kept * load(IMAGE, index);
+            solution = load(SOLUTION, index);
+        }
+        if (length > 0.0) {
+            solution += length * direction;
+            residual -= length * image;
+        }
+        store(DIRECTION, index, direction);
+        store(IMAGE, index, image);
+        store(SOLUTION, index, solution);
+        store(RESIDUAL, index, residual);
+        smooth_residual(index, residual);
     }
-    if (step_length > 0.0) {
-        solution += step_length * direction;
-        residual -= step_length * image;
-    }
-    store(DIRECTION, index, direction);
-    store(IMAGE, index, image);
-    store(SOLUTION, index, solution);
-    store(RESIDUAL, index, residual);
-    smooth_residual(index, residual);
 }

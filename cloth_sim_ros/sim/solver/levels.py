@@ -24,9 +24,10 @@ _CLOTH_VECTORS = 6
 _CLOTH_SYSTEM = 3
 _COARSE_VECTORS = 3
 _COARSE_SYSTEM = 10
-_SOFTWARE_BLOCK = 4
-_GPU_BLOCK = 2
-_COARSE_BLOCK = 2
+# Nodes along each side of an invocation, an even number, and invocations of a workgroup.
+# Software runs whole workgroups even where a level ends, so small ones leave less idle.
+_ON_SOFTWARE = (4, (8, 2))
+_ON_GPU = (2, (8, 8))
 _BYTES = 16
 
 
@@ -40,12 +41,11 @@ class Levels:
 
     def __init__(self, state: Layout, *, coarsen: bool) -> None:
         """Lay out all levels."""
-        block = _SOFTWARE_BLOCK if state.texture_loads else _GPU_BLOCK
-        self.layouts = [_layout(state, state.rows, state.cols, block)]
+        self.layouts = [_layout(state, state.rows, state.cols)]
         while coarsen and (len(self.layouts) == 1 or self._coarsest_side > COARSEST_SIDE):
             finer = self.layouts[-1]
             self.layouts.append(
-                _layout(state, -(-finer.rows // 2), -(-finer.cols // 2), _COARSE_BLOCK))
+                _layout(state, -(-finer.rows // 2), -(-finer.cols // 2)))
         vectors = [_CLOTH_VECTORS] + [_COARSE_VECTORS] * (len(self.layouts) - 1)
         system = [_CLOTH_SYSTEM] + [_COARSE_SYSTEM] * (len(self.layouts) - 1)
         stored = np.array([layout.stored for layout in self.layouts])
@@ -74,5 +74,6 @@ class Levels:
         return max(self.layouts[-1].rows, self.layouts[-1].cols)
 
 
-def _layout(state: Layout, rows: int, cols: int, block: int) -> Layout:
-    return Layout(rows, cols, 'fused', state.texture_loads, block, state.local)
+def _layout(state: Layout, rows: int, cols: int) -> Layout:
+    block, local = _ON_SOFTWARE if state.texture_loads else _ON_GPU
+    return Layout(rows, cols, 'fused', state.texture_loads, block, local)

@@ -65,10 +65,9 @@ class Multigrid:
 
     def _cycle(self, programs: SolverPrograms) -> list[SolverPass]:
         layouts, last = self._levels.layouts, self._levels.coarsest
-        block = {'BLOCK': layouts[last].block}
         restrict = programs.make('restrict.comp')
-        defect = programs.make('defect.comp', **block)
-        smooth = programs.make('smooth.comp', **block)
+        defect = programs.make('defect.comp')
+        smooth = programs.make('smooth.comp')
         down = [SolverPass(programs.make('cloth_defect.comp'), layouts[0].groups)]
         up = [SolverPass(programs.make('cloth_smooth.comp'), layouts[0].groups)]
         for level in range(1, last):

@@ -31,14 +31,15 @@ class RightSide:
             self, scene: Scene, state: Layout, programs: SolverPrograms, levels: Levels) -> None:
         """Prepare; nothing is compiled yet."""
         self._program = SceneProgram('solver/right_side.comp', scene, state, programs.defines)
-        self._levels = levels
+        self._groups = levels.cloth.groups
+        self._law_in: dict[bool, EdgeLaw] = {}
 
     def run(self, law: EdgeLaw, forcing: Forcing) -> None:
         """Make the right side of the state that is bound."""
         program = self._program.use_for_step(forcing, law.length)
-        self._levels.set_in(program)
-        program.set_floats('edge_weights', law.weights)
-        program.set_floats('edge_pulls', law.pulls)
-        program.set_float('pinned_weight', law.pinned_weight)
-        program.dispatch(*self._levels.cloth.groups)
+        if self._law_in.get(forcing.has_regions) != law:
+            program.set_floats('edge_weights', law.weights)
+            program.set_floats('edge_pulls', law.pulls)
+            self._law_in[forcing.has_regions] = law
+        program.dispatch(*self._groups)
         shader_writes_visible()

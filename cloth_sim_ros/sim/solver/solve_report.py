@@ -24,7 +24,8 @@ class SolveReport:
 
     :param iterations: made
     :param residual: sqrt((r, B r)) over that at the start, r the residual and B the
-        preconditioner, before the last iteration
+        preconditioner: as measured before the last iteration, which is expected to reduce it as
+        the one before did
     :param reached: whether the residual asked for was reached
     """
 

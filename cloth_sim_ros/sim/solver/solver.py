@@ -35,6 +35,7 @@ from cloth_sim_ros.sim.solver.solver_buffers import SOLUTION
 from cloth_sim_ros.sim.solver.solver_buffers import SolverBuffers
 from cloth_sim_ros.sim.solver.solver_pass import SolverPass
 from cloth_sim_ros.sim.solver.solver_programs import POINT_LOCAL
+from cloth_sim_ros.sim.solver.solver_programs import POINTS
 from cloth_sim_ros.sim.solver.solver_programs import SolverPrograms
 from cloth_sim_ros.sim.state import State
 import numpy as np
@@ -50,7 +51,7 @@ class Solver:
     :param state: how the state is stored
     :param families: of the edges in the system; None takes those the scene models
     :param tolerance: sqrt((r, B r)) over that at the start, r the residual and B the
-        preconditioner; where it is reached, one last step is made
+        preconditioner
     """
 
     def __init__(
@@ -82,12 +83,15 @@ class Solver:
         """Take up positions and pins, and prepare the preconditioner."""
         self._buffers.bind()
         state.bind_in()
-        self._assemble.run()
-        for each in self._preconditioner.assembly:
+        for each in (self._take_up, self._assemble, *self._preconditioner.assembly):
             each.run()
 
     def make_right_side(self, state: State, forcing: Forcing) -> None:
-        """Make b = h (M a - J^T pull C) - J^T a J v from the state and what accelerates it."""
+        """
+        Make b = h (M a - J^T pull C) - J^T a J v, after ``assemble``.
+
+        :param forcing: what accelerates the nodes besides the edges
+        """
         self._buffers.bind()
         state.bind_in()
         self._right_side.run(self._law, forcing)
@@ -132,8 +136,8 @@ class Solver:
 
     def report(self) -> SolveReport:
         """Return how the last solve ended."""
-        _, _, now, start, iterations = (float(value) for value in self._buffers.scalars())
-        residual = (now / start)**0.5 if start > 0.0 else now
+        _, _, _, start, after, iterations = (float(value) for value in self._buffers.scalars())
+        residual = (after / start)**0.5 if start > 0.0 else after
         return SolveReport(int(iterations), residual, residual <= self._tolerance)
 
     def delete(self) -> None:
@@ -149,9 +153,10 @@ class Solver:
 
     def _compile(self, levels: Levels) -> None:
         cloth = levels.cloth
-        points = (-(-cloth.stored // POINT_LOCAL), 1)
+        points = (-(-cloth.stored // (POINTS * POINT_LOCAL)), 1)
         nodes = cloth.node_groups
         programs = self._programs
+        self._take_up = SolverPass(programs.make('take_up.comp'), nodes)
         self._assemble = SolverPass(programs.make('assemble.comp'), nodes)
         self._begin = SolverPass(programs.make('begin.comp'), points)
         self._multiply = SolverPass(programs.make('product.comp'), cloth.groups)

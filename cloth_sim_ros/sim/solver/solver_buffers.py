@@ -24,7 +24,7 @@ from cloth_sim_ros.sim.solver.levels import Levels
 import numpy as np
 
 RESIDUAL, PRODUCT, PRECONDITIONED, DIRECTION, IMAGE, SOLUTION = range(6)
-_SCALARS = 5
+_SCALARS = 6
 _ENTRY_BYTES = 16
 
 

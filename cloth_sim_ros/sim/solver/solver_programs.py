@@ -24,6 +24,8 @@ from cloth_sim_ros.sim.solver.edge_law import EdgeLaw
 from cloth_sim_ros.sim.solver.levels import Levels
 
 POINT_LOCAL = 64
+# Entries of one invocation where entries stand alone.
+POINTS = 4
 REDUCE_LOCAL = 16
 # Of block-Jacobi as a smoother; undamped it amplifies what it should smooth.
 _DAMPING = 0.8
@@ -70,9 +72,11 @@ def solver_defines(
         **levels.cloth.defines(),
         **{f'HAS_{family.upper()}': int(family in families) for family in FAMILIES},
         'STATE_PITCH': state.pitch,
+        'STORED': levels.cloth.stored,
         'MULTIGRID': int(is_multigrid),
         'DAMPING': _DAMPING if is_multigrid else 1.0,
         'SUMS_BY_GROUP': int(not state.texture_loads),
         'POINT_LOCAL': POINT_LOCAL,
+        'POINTS': POINTS,
         'REDUCE_LOCAL': REDUCE_LOCAL,
     }

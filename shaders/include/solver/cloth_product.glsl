@@ -32,13 +32,13 @@ void add_to_product(int row, int col, int drow, int dcol, int family, int rest) 
 
 void load_nodes(ivec2 first) {
     FOR_TILE {
-        node[row][col] = load_system(system_entry(0, NODE, tile_index(first, row, col)));
+        node[row][col] = load_system(cloth_entry(NODE, tile_index(first, row, col)));
     }
 }
 
 void load_values(ivec2 first, int field) {
     FOR_TILE {
-        value[row][col] = load_vector(vector_entry(0, field, tile_index(first, row, col)));
+        value[row][col] = load_vector(cloth_entry(field, tile_index(first, row, col)));
     }
 }
 

@@ -52,6 +52,9 @@ int system_entry(int which, int field, int index) {
     return level_begin[which].y + field * level_shape[which].w + index;
 }
 
+// On the cloth, which comes first in both buffers; STORED is known when compiling.
+int cloth_entry(int field, int index) { return field * STORED + index; }
+
 bool inside(int which, int row, int col) {
     return row < level_shape[which].x && col < level_shape[which].y;
 }

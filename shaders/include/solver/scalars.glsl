@@ -19,5 +19,6 @@ layout(std430, binding = SOLVER_SCALARS) SCALARS_ACCESS buffer Scalars {
     float keep;         // of the last direction in the next
     float measure;      // residual times preconditioned residual
     float measure_start;
+    float measure_after;  // expected after the last iteration
     float iterations;   // made so far
 };

@@ -20,7 +20,12 @@
 #define SMOOTHED_INTO PRECONDITIONED
 #endif
 
+// An invocation has POINTS entries of its own.
+#define FOR_POINTS \
+    for (int index = int(gl_GlobalInvocationID.x) * POINTS, last = min(index + POINTS, STORED); \
+            index < last; ++index)
+
 void smooth_residual(int index, vec3 residual) {
     store_vector(
-        vector_entry(0, SMOOTHED_INTO, index), DAMPING * times_inverse(0, index, residual));
+        cloth_entry(SMOOTHED_INTO, index), DAMPING * times(load_cloth_inverse(index), residual));
 }

@@ -37,6 +37,12 @@ void store_symmetric(int which, int field, int index, Symmetric value) {
     system_data[system_entry(which, field + 1, index)] = vec4(value[1], 0.0);
 }
 
+Symmetric load_cloth_inverse(int index) {
+    return Symmetric(
+        load_system(cloth_entry(INVERSE, index)).xyz,
+        load_system(cloth_entry(INVERSE + 1, index)).xyz);
+}
+
 vec3 times_inverse(int which, int index, vec3 v) {
     return times(load_symmetric(which, INVERSE, index), v);
 }

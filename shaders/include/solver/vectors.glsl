@@ -24,4 +24,4 @@ vec3 load_vector(int entry) { return texelFetch(vectors_in, entry).xyz; }
 vec3 load_vector(int entry) { return vectors[entry].xyz; }
 #endif
 
-void store_vector(int entry, vec3 value) { vectors[entry] = vec4(value, 0.0); }
+void store_vector(int entry, vec3 value) { vectors[entry].xyz = value; }

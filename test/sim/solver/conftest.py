@@ -47,18 +47,12 @@ class SolverCase:
 
     def __init__(
             self, context: Context, values: dict[str, Any], law: EdgeLaw, hard: bool,
-            positions: np.ndarray | None = None, velocities: np.ndarray | None = None,
-            **options: Any) -> None:
+            state: tuple[np.ndarray, np.ndarray] | None = None, **options: Any) -> None:
         """Disturb the start pose by a random state unless one is given."""
         context.make_current()
         self.scene = Scene(values)
         self.free = ~self.scene.pinned_nodes()[..., None]
-        random = np.random.default_rng(7)
-        if positions is None:
-            size = 0.2 * min(self.scene.spacing)
-            positions = self.scene.rest_positions()
-            positions += random.uniform(-size, size, positions.shape)
-            velocities = random.normal(size=positions.shape)
+        positions, velocities = state or _scrambled(self.scene)
         self.positions = positions.astype(np.float32)
         self.velocities = (velocities * self.free).astype(np.float32)
         families = ('structural', 'shear') if hard else FAMILIES
@@ -95,6 +89,14 @@ class SolverCase:
         """Give the buffers back."""
         self.solver.delete()
         self.state.delete()
+
+
+def _scrambled(scene: Scene) -> tuple[np.ndarray, np.ndarray]:
+    random = np.random.default_rng(7)
+    positions = scene.rest_positions()
+    reach = 0.2 * min(scene.spacing)
+    return (positions + random.uniform(-reach, reach, positions.shape),
+            random.normal(size=positions.shape))
 
 
 @pytest.fixture(scope='module')
