@@ -41,6 +41,7 @@ _FORMS = {
     'observe.comp': {'RECORDS_WANTED': 1, 'STRIP': 16},
     'paper_force.comp': {},
     'paper_update.comp': {'UPDATE_LOCAL': 1024},
+    'solver/coarsest.comp': {'COARSEST_ROWS': 4, 'COARSEST_COLS': 5, 'COARSEST_STEPS': 6},
     'solver/reduce.comp': {'GROUPS_COUNT': 2, 'GROUPS_OF_EACH': 'ivec2(1, 1), ivec2(3, 2)'},
 }
 
@@ -68,6 +69,7 @@ def test_glslang_accepts_the_shader(
     if name.startswith('solver/'):
         families = [family for family in FAMILIES if model.models(family)]
         levels = Levels(layout, coarsen=True)
+        # Multigrid or not changes little, so it shares the forms with the pushes on regions.
         defines.update(solver_defines(layout, levels, families, is_multigrid=regions))
     path = tmp_path / Path(name).name
     path.write_text(ShaderSource(name, defines).text)
