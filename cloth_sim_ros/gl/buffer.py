@@ -77,6 +77,11 @@ class Buffer:
         GL.glDeleteBuffers(1, [self._buffer])
 
 
+def most_bytes() -> int:
+    """Return how large a buffer shaders of this device can reach."""
+    return int(GL.glGetIntegerv(GL.GL_MAX_SHADER_STORAGE_BLOCK_SIZE))
+
+
 def shader_writes_visible() -> None:
     """Order all reads by later dispatches after the writes of earlier ones."""
     GL.glMemoryBarrier(

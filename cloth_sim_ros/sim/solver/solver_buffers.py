@@ -17,6 +17,7 @@
 import math
 
 from cloth_sim_ros.gl.buffer import Buffer
+from cloth_sim_ros.gl.buffer import most_bytes
 from cloth_sim_ros.gl.errors import DeviceError
 from cloth_sim_ros.sim import bindings
 from cloth_sim_ros.sim.layout import HALO
@@ -32,7 +33,12 @@ class SolverBuffers:
     """Vectors and system of all levels, partial sums, scalars and workgroup counts."""
 
     def __init__(self, levels: Levels, dispatch_count: int) -> None:
-        """Allocate everything; ghosts are zero and stay so."""
+        """
+        Allocate everything; ghosts are zero and stay so.
+
+        :raises DeviceError: when the device has no buffers that large
+        """
+        refuse_too_large(levels, most_bytes())
         self._cloth = levels.cloth
         self.sum_count = math.prod(self._cloth.groups)
         if self._cloth.texture_loads:
