@@ -14,6 +14,9 @@
 
 """What every reference mode shares: the state, the clock, the pushes and the pins."""
 
+from abc import ABC
+from abc import abstractmethod
+
 from cloth_sim_ros.reference.energy import elastic_energy
 from cloth_sim_ros.reference.energy import Energies
 from cloth_sim_ros.reference.energy import gravitational_energy
@@ -28,7 +31,7 @@ from cloth_sim_ros.sim.scene import Scene
 import numpy as np
 
 
-class ReferenceCloth:
+class ReferenceCloth(ABC):
     """
     One cloth and its state; a mode adds how a step of dt is made.
 
@@ -87,8 +90,9 @@ class ReferenceCloth:
         """Return the largest |l / L0 - 1| at each node, (rows, cols)."""
         return node_strain(self.springs, self.positions)
 
+    @abstractmethod
     def _step_of_dt(self) -> None:
-        raise NotImplementedError
+        """Step the state on by one dt."""
 
     def _push_accelerations(self, begin: float, end: float) -> np.ndarray:
         """Return what the pushes add from ``begin`` to ``end`` [s], 0 at pinned nodes [m/s2]."""
