@@ -23,5 +23,7 @@ FORCE = 5
 MASS = 7
 RECORDS = 5
 PARTIAL_SUMS = 6
+TENSION = 5
+AT_LIMIT = 7
 
 DEFINES = {name: value for name, value in list(globals().items()) if name.isupper()}

@@ -44,6 +44,14 @@ class Forcing:
         """Tell whether some nodes are pushed and others are not."""
         return self.mask is not None
 
+    def is_like(self, other: 'Forcing') -> bool:
+        """Tell whether ``other`` accelerates every node the same."""
+        return (
+            self.everywhere == other.everywhere and self.mask is other.mask
+            and self.regions.keys() == other.regions.keys()
+            and all(np.array_equal(self.regions[slot], other.regions[slot])
+                    for slot in self.regions))
+
     def apply(self, program: Program) -> None:
         """Set the uniforms of applied_acceleration.glsl in the program in use."""
         program.set_vectors('acceleration', self.everywhere)

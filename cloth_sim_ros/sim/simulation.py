@@ -179,6 +179,8 @@ class Simulation:
         previous = self._mode.name
         self._context.make_current()
         self._mode = self._get_mode(name)
+        if name != previous:
+            self._mode.forget()
         return previous
 
     def set_state(self, positions: np.ndarray, velocities: np.ndarray) -> None:
@@ -190,6 +192,7 @@ class Simulation:
                     f'{name} must be {shape} finite numbers, got {np.shape(values)}')
         self._context.make_current()
         self._state.write(np.asarray(positions), np.asarray(velocities))
+        self._mode.forget()
 
     def reset(self) -> None:
         """Go back to the start: pose, pins, time and the scene's pushes. The mode stays."""
@@ -197,6 +200,7 @@ class Simulation:
         self._state.pinned[:] = self.scene.pinned_nodes()
         start = self.scene.start_positions()
         self._state.write(start, np.zeros_like(start))
+        self._mode.forget()
         self._begin_run()
 
     def measure(self) -> Measures:
@@ -207,9 +211,10 @@ class Simulation:
     def snapshot(self) -> Snapshot:
         """Return everything there is to know of this instant."""
         self._context.make_current()
-        measures, records = self._observer.record(self._state, self._forcing_now())
+        measures, records = self._observer.record(
+            self._state, self._forcing_now(), self._mode.limit_marks())
         return Snapshot(
-            **vars(measures), records=records, mode=self.mode, time=self.time, steps=self.steps,
+            **vars(measures), **self._mode.report(), records=records, mode=self.mode, time=self.time, steps=self.steps,
             dt=self.dt, substeps=self.substeps, stability_margin=self.stability_margin)
 
     def finish(self) -> None:

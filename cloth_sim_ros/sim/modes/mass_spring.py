@@ -14,6 +14,7 @@
 
 """Mass-spring: explicit springs to 12 neighbours, symplectic Euler (paper, section 4.1)."""
 
+from cloth_sim_ros.gl.buffer import Buffer
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.layout import Layout
 from cloth_sim_ros.sim.modes.mode import ForcingOf
@@ -46,6 +47,16 @@ class MassSpring:
         for substep in range(self.substeps):
             start = begin + substep * self._length
             self._passes.substep(state, forcing_of(start, start + self._length), self._length)
+
+    def forget(self) -> None:
+        """Forget nothing: a step depends on the state alone."""
+
+    def report(self) -> dict[str, float]:
+        """Return nothing: there is no solver."""
+        return {}
+
+    def limit_marks(self) -> Buffer | None:
+        """Return None: springs have no limit."""
 
     def delete(self) -> None:
         """Give back what the passes allocated."""

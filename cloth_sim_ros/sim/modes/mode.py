@@ -17,6 +17,7 @@
 from collections.abc import Callable
 from typing import Protocol
 
+from cloth_sim_ros.gl.buffer import Buffer
 from cloth_sim_ros.sim.forcing import Forcing
 from cloth_sim_ros.sim.layout import Layout
 from cloth_sim_ros.sim.scene import Scene
@@ -47,6 +48,15 @@ class Mode(Protocol):
         :param begin: simulated time at which the step begins [s]
         :param forcing_of: returns what accelerates the nodes between two times [s]
         """
+
+    def forget(self) -> None:
+        """Drop what was kept from earlier steps: the state is not the one they left."""
+
+    def report(self) -> dict[str, float]:
+        """Return what the Snapshot says of solver and constraints, where it is not 0."""
+
+    def limit_marks(self) -> Buffer | None:
+        """Return which edges are at their limit, as limit_mark.comp does; None if none are."""
 
     def delete(self) -> None:
         """Give back what the mode allocated."""

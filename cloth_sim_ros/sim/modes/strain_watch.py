@@ -1,0 +1,95 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Watch for edges that come near their limit, at a small share of the cost of stepping."""
+
+from cloth_sim_ros.sim.forcing import Forcing
+from cloth_sim_ros.sim.layout import Layout
+from cloth_sim_ros.sim.modes.mode import ForcingOf
+from cloth_sim_ros.sim.scene import Scene
+from cloth_sim_ros.sim.scene_program import SceneProgram
+from cloth_sim_ros.sim.state import State
+from cloth_sim_ros.sim.strips import Strips
+
+# Of the limit: a predicted strain above this makes an edge near it.
+_NEAR = 0.9
+_FEWEST, _MOST = 4, 64
+
+
+class StrainWatch:
+    """
+    Says for how many substeps no edge will come near its limit.
+
+    A look predicts every edge's length from velocities and applied accelerations. It holds for a
+    number of substeps, which doubles while the cloth stays calm, also beyond the end of a step,
+    as long as neither the state nor the pushes are changed from outside.
+    """
+
+    def __init__(self, scene: Scene, layout: Layout) -> None:
+        """Compile the pass and allocate its result."""
+        self._strips = Strips(layout, 2)
+        self._program = SceneProgram('strain_watch.comp', scene, layout, Strips.defines())
+        self._program.use()
+        self._near = _NEAR * scene['adaptive.threshold']
+        self.forget()
+
+    def forget(self) -> None:
+        """Start anew: the next answer needs a look."""
+        self._reach = _FEWEST
+        self._left = 0
+        self._until = 0.0
+        self._forcing: Forcing | None = None
+        self._edits = -1
+
+    def calm_substeps(
+            self, state: State, now: float, length: float, forcing_of: ForcingOf) -> int:
+        """Return how many substeps of ``length`` [s] can do without limits; 0 if none."""
+        if self._left == 0 or not self._holds(state, now, forcing_of):
+            self._look_ahead(state, now, length, forcing_of)
+        return self._left
+
+    def spend(self, substeps: int) -> None:
+        """Tell that ``substeps`` of the calm ones were made."""
+        self._left -= substeps
+
+    def strains(self, state: State, forcing: Forcing, ahead: float) -> tuple[float, float]:
+        """Return the largest strain now and the one predicted ``ahead`` [s] from now."""
+        program = self._program.use(forcing.has_regions)
+        forcing.apply(program)
+        forcing.bind()
+        program.set_float('ahead', ahead)
+        state.bind_in()
+        self._strips.dispatch(program)
+        now, then = self._strips.largest()
+        return float(now), float(then)
+
+    def delete(self) -> None:
+        """Give the result's buffer back."""
+        self._strips.delete()
+
+    def _holds(self, state: State, now: float, forcing_of: ForcingOf) -> bool:
+        return state.edits == self._edits and forcing_of(now, self._until).is_like(self._forcing)
+
+    def _look_ahead(
+            self, state: State, now: float, length: float, forcing_of: ForcingOf) -> None:
+        self._left = 0
+        for reach in (self._reach, 1):
+            self._until = now + reach * length
+            self._forcing = forcing_of(now, self._until)
+            self._edits = state.edits
+            if max(self.strains(state, self._forcing, reach * length)) < self._near:
+                self._left = reach
+                self._reach = min(2 * reach, _MOST)
+                return
+        self._reach = _FEWEST
