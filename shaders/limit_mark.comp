@@ -37,7 +37,7 @@ bool is_at_limit(int row, int col, int row2, int col2, int edge, int rest) {
     vec4 from = load_position(node_index(row, edge == EDGE_CROSSING ? col2 : col));
     vec4 to = load_position(node_index(row2, edge == EDGE_CROSSING ? col : col2));
     float now = length_and_inverse(to.xyz - from.xyz).x;
-    return from.w * to.w * beyond_limit(now, rest_length[rest]) != 0.0;
+    return from.w * to.w != 0.0 && is_beyond_limit(now, rest_length[rest]);
 #endif
 }
 

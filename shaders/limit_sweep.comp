@@ -18,6 +18,9 @@
 // velocities are changed in place. An edge's tension is what it took to hold its predicted
 // length; it never pushes where it should pull, so an edge that comes back is let go.
 // The impulse acts along the edge as it lies now, which keeps the angular momentum.
+// SWEEP_LAW:
+// LIMIT_LAW: the above.
+// PAPER_LAW: edges that are beyond the limit now are brought to their rest length, to first order.
 
 #include "lattice.glsl"
 #include "edges.glsl"
@@ -32,9 +35,15 @@ layout(std430, binding = TENSION) buffer Tension { vec4 tension_out[]; };
 
 uniform int colour;          // 0 to 3: parity of the block's column and row
 uniform float substep;       // [s]
+uniform float correction;    // share of what is beyond the limit that a substep takes back
 uniform float longest_next;  // [s] no later substep is longer
 uniform float inverse_mass;  // [1/kg]
 
+#define LIMIT_LAW 0
+#define PAPER_LAW 1
+// Of a multiplier, in units of what moves its edge: there are more constraints than nodes to move,
+// so without it they have no unique multipliers.
+#define COMPLIANCE 1e-3
 #define SIDE (CELLS + 1)
 // Share of its rest length that a kept tension may move an edge in one substep.
 #define MOST_KEPT 0.5
@@ -42,31 +51,40 @@ uniform float inverse_mass;  // [1/kg]
 vec4 position[SIDE][SIDE];
 vec4 velocity[SIDE][SIDE];
 
+// Without branches: lanes of different edges run together.
 float limit_edge(float old, int row, int col, int row2, int col2, int rest) {
     vec4 from = position[row][col];
     vec4 to = position[row2][col2];
     vec4 v_from = velocity[row][col];
     vec4 v_to = velocity[row2][col2];
-    float free = (v_from.w + v_to.w) * inverse_mass;
-    if (from.w * to.w * free == 0.0) {
-        return 0.0;
-    }
     vec3 d = to.xyz - from.xyz;
-    vec3 predicted = d + substep * (v_to.xyz - v_from.xyz);
-    float ahead = length_and_inverse(predicted).x;
+    vec3 dv = v_to.xyz - v_from.xyz;
+    vec2 now = length_and_inverse(d);
     float L0 = rest_length[rest];
-    float per_length = 1.0 / (substep * substep * free);
-    float pull = max(old + (ahead - L0 * (1.0 + limit)) * per_length, 0.0);
-    float press = min(old + (ahead - L0 * (1.0 - limit)) * per_length, 0.0);
-    float tension = (old >= 0.0 ? pull : 0.0) + (old <= 0.0 ? press : 0.0);
-    if (tension == old) {
-        return old;
-    }
-    vec3 change = ((tension - old) * substep * inverse_mass * length_and_inverse(d).y) * d;
+    float free = v_from.w + v_to.w;
+    // 0 where an end is a ghost or none can move.
+    float present = from.w * to.w * min(free, 1.0);
+    float per_length = present / (substep * substep * inverse_mass * max(free, 1.0));
+#if SWEEP_LAW == PAPER_LAW
+    // Phi = d.d - L0^2 and its change, over 2 l.
+    float ahead = (0.5 * (now.x * now.x - L0 * L0) + substep * dot(d, dv)) * now.y;
+    float tension = is_beyond_limit(now.x, L0)
+        ? (old + ahead * per_length) / (1.0 + COMPLIANCE) : 0.0;
+    float kept = tension;
+#else
+    float ahead = length_and_inverse(d + substep * dv).x;
+    // What is beyond the limit already comes back bit by bit.
+    float beyond = (1.0 - correction) * beyond_limit(now.x, L0);
+    float pull = max(old + (ahead - L0 * (1.0 + limit) - max(beyond, 0.0)) * per_length, 0.0);
+    float press = min(old + (ahead - L0 * (1.0 - limit) - min(beyond, 0.0)) * per_length, 0.0);
+    float tension = present * ((old >= 0.0 ? pull : 0.0) + (old <= 0.0 ? press : 0.0));
+    float most = MOST_KEPT * L0 / (longest_next * longest_next * inverse_mass * max(free, 1.0));
+    float kept = clamp(tension, -most, most);
+#endif
+    vec3 change = (present * (tension - old) * substep * inverse_mass * now.y) * d;
     velocity[row][col].xyz += v_from.w * change;
     velocity[row2][col2].xyz -= v_to.w * change;
-    float most = MOST_KEPT * L0 / (longest_next * longest_next * free);
-    return clamp(tension, -most, most);
+    return kept;
 }
 
 void main() {

@@ -64,7 +64,7 @@ void add_spring(int index, int row, int col, int drow, int dcol, int family, int
 #elif STRAIN_LIMIT == PENALTY_LIMIT
         f += (from.w * to.w * penalty * beyond_limit(l.x, rest_length[rest]) * l.y) * d;
 #else
-        f *= beyond_limit(l.x, rest_length[rest]) == 0.0 ? 1.0 : 0.0;
+        f *= is_beyond_limit(l.x, rest_length[rest]) ? 0.0 : 1.0;
 #endif
     }
 #endif

@@ -22,6 +22,9 @@ from cloth_sim_ros.sim.layout import Layout
 from cloth_sim_ros.sim.modes.limit_marks import LimitMarks
 from cloth_sim_ros.sim.modes.mode import ForcingOf
 from cloth_sim_ros.sim.modes.one_pass import OnePass
+from cloth_sim_ros.sim.modes.paper_limit import PaperLimit
+from cloth_sim_ros.sim.modes.penalty_limit import PenaltyLimit
+from cloth_sim_ros.sim.modes.strain_limit import StrainLimit
 from cloth_sim_ros.sim.modes.strain_watch import StrainWatch
 from cloth_sim_ros.sim.modes.tension_limit import TensionLimit
 from cloth_sim_ros.sim.scene import Scene
@@ -56,7 +59,7 @@ class Adaptive:
         longest = safe_substep(scene) if scene['auto_substeps'] else self._length
         self._springs = OnePass(scene, layout)
         self._watch = StrainWatch(scene, layout)
-        self._limit = TensionLimit(scene, layout, longest, fixed=not scene['auto_substeps'])
+        self._limit = _make_limit(scene, layout, longest, self._watch)
         self._marks = LimitMarks(scene, layout, self._limit)
 
     def step(self, state: State, begin: float, forcing_of: ForcingOf) -> None:
@@ -114,3 +117,13 @@ class Adaptive:
             f'{self.stability_limit:.3g} s of a substep in mode {self.name} '
             f'(node mass {scene.node_mass:.3g} kg): '
             f'set dt <= {most:.3g}, or auto_substeps: true')
+
+
+def _make_limit(
+        scene: Scene, layout: Layout, longest: float, watch: StrainWatch) -> StrainLimit:
+    fixed = not scene['auto_substeps']
+    if scene['adaptive.scheme'] == 'paper':
+        return PaperLimit(scene, layout, longest, watch)
+    if scene['adaptive.scheme'] == 'penalty':
+        return PenaltyLimit(scene, layout, longest, watch, fixed=fixed)
+    return TensionLimit(scene, layout, longest, fixed=fixed)
