@@ -14,8 +14,8 @@
 
 #version 430 core
 // Mark which edges are at their limit, four bits a cell, and keep the marks of the time before in
-// the next four bits. MARKS_TENSION: an edge is at its limit while it is held there; otherwise,
-// while it is beyond it.
+// the next four bits. An edge comes to its limit when it is held there (MARKS_TENSION) or beyond
+// it; it leaves when it is let go and has come back some way. So it does not flicker.
 
 #include "lattice.glsl"
 #include "edges.glsl"
@@ -30,19 +30,26 @@ layout(std430, binding = TENSION) readonly buffer Tension { vec4 tension[]; };
 #endif
 layout(std430, binding = AT_LIMIT) buffer AtLimit { uint at_limit[]; };
 
-bool is_at_limit(int row, int col, int row2, int col2, int edge, int rest) {
+uniform float release;  // of the limit: a marked edge keeps its mark above this strain
+
+float strain(int row, int col, int row2, int col2, int rest) {
+    vec4 from = load_position(node_index(row, col));
+    vec4 to = load_position(node_index(row2, col2));
+    float l = length_and_inverse(to.xyz - from.xyz).x;
+    return from.w * to.w * abs(l / rest_length[rest] - 1.0);
+}
+
+bool is_held(int row, int col, int edge, float strain) {
 #if MARKS_TENSION
     return tension[node_index(row, col)][edge] != 0.0;
 #else
-    vec4 from = load_position(node_index(row, edge == EDGE_CROSSING ? col2 : col));
-    vec4 to = load_position(node_index(row2, edge == EDGE_CROSSING ? col : col2));
-    float now = length_and_inverse(to.xyz - from.xyz).x;
-    return from.w * to.w != 0.0 && is_beyond_limit(now, rest_length[rest]);
+    return strain > limit;
 #endif
 }
 
-uint mark(int row, int col, int drow, int dcol, int edge, int rest) {
-    return is_at_limit(row, col, row + drow, col + dcol, edge, rest) ? 1u << edge : 0u;
+uint mark(uint before, int row, int col, int edge, float strain) {
+    bool was = (before >> edge & 1u) == 1u;
+    return is_held(row, col, edge, strain) || (was && strain > release * limit) ? 1u << edge : 0u;
 }
 
 void main() {
@@ -51,15 +58,18 @@ void main() {
     if (row >= ROWS || col >= COLS) {
         return;
     }
+    int index = node_index(row, col);
+    uint before = at_limit[index] & 15u;
     uint marks = 0u;
 #if HAS_STRUCTURAL
-    marks |= mark(row, col, 0, 1, EDGE_ROW, REST_ROW);
-    marks |= mark(row, col, 1, 0, EDGE_COLUMN, REST_COLUMN);
+    marks |= mark(before, row, col, EDGE_ROW, strain(row, col, row, col + 1, REST_ROW));
+    marks |= mark(before, row, col, EDGE_COLUMN, strain(row, col, row + 1, col, REST_COLUMN));
 #endif
 #if HAS_SHEAR
-    marks |= mark(row, col, 1, 1, EDGE_DIAGONAL, REST_DIAGONAL);
-    marks |= mark(row, col, 1, 1, EDGE_CROSSING, REST_DIAGONAL);
+    marks |= mark(
+        before, row, col, EDGE_DIAGONAL, strain(row, col, row + 1, col + 1, REST_DIAGONAL));
+    marks |= mark(
+        before, row, col, EDGE_CROSSING, strain(row, col + 1, row + 1, col, REST_DIAGONAL));
 #endif
-    int index = node_index(row, col);
-    at_limit[index] = (at_limit[index] & 15u) << 4 | marks;
+    at_limit[index] = before << 4 | marks;
 }

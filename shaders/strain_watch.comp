@@ -26,7 +26,7 @@ layout(local_size_x = LOCAL_X, local_size_y = LOCAL_Y) in;
 
 layout(std430, binding = PARTIAL_SUMS) writeonly buffer PartialSums { float partial_sums[]; };
 
-uniform float ahead;  // [s]
+uniform float substep;  // [s] of all substeps until the time ahead
 
 struct Node {
     vec4 now;
@@ -38,7 +38,7 @@ Node load_node(int row, int col) {
     vec4 x = load_position(index);
     vec4 v = load_velocity(index);
     vec3 a = v.w * applied_acceleration(index);
-    return Node(x, x.xyz + ahead * (v.xyz + ahead * a));
+    return Node(x, x.xyz + substep * (v.xyz + substep * a));
 }
 
 void look_at_edge(inout vec2 strain, Node from, Node to, int rest) {

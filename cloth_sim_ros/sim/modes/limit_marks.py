@@ -27,6 +27,8 @@ import numpy as np
 
 _LOCAL = (16, 2)
 _NOW, _BEFORE = 0x0F, 0xF0
+# Of the limit: above this strain an edge that was let go still counts as at its limit.
+_RELEASE = 0.9
 
 
 class LimitMarks:
@@ -66,7 +68,9 @@ class LimitMarks:
             self.buffer.bind_storage(bindings.AT_LIMIT)
             if self._limit.tensions is not None:
                 self._limit.tensions.bind_storage(bindings.TENSION)
-            self._program.use().dispatch(*self._groups)
+            program = self._program.use()
+            program.set_float('release', _RELEASE)
+            program.dispatch(*self._groups)
             shader_writes_visible()
 
     def count(self) -> dict[str, float]:

@@ -24,9 +24,6 @@ from cloth_sim_ros.sim.state import State
 from cloth_sim_ros.sim.strips import Strips
 import numpy as np
 
-# Of what is beyond the limit, taken back in a substep. All of it, in a substep that has just
-# become much shorter, throws the nodes apart and makes the next substep shorter still.
-_CORRECTION = 0.2
 _COLOURS = 4
 # Software devices gain from larger blocks. Mesa 22.3 miscompiles the paper's law on them.
 _SOFTWARE_CELLS, _OTHER_CELLS = 2, 1
@@ -54,7 +51,7 @@ class Sweeps:
             -(-nodes // (2 * cells * local))
             for nodes, local in zip((layout.cols, layout.rows), layout.local))
         self.tensions = Buffer(layout.stored * _TENSION_BYTES)
-        self._sweep.use().set_float('correction', _CORRECTION)
+        self._sweep.use()
         self._finish.use()
 
     def bind_tensions(self) -> None:
@@ -63,16 +60,19 @@ class Sweeps:
         if self._texture_loads:
             self.tensions.bind_texture(bindings.TENSION)
 
-    def run(self, count: int, length: float, longest_next: float) -> None:
+    def run(
+            self, count: int, length: float, longest_next: float, correction: float = 1.0) -> None:
         """
         Sweep ``count`` times over velocities that a pass has written but not made present.
 
         :param length: of the substep [s]
         :param longest_next: that the next substep can have [s]
+        :param correction: share of what is beyond the limit already that is taken back
         """
         sweep = self._sweep.use()
         sweep.set_float('substep', length)
         sweep.set_float('longest_next', longest_next)
+        sweep.set_float('correction', correction)
         for _ in range(count):
             for colour in range(_COLOURS):
                 sweep.set_int('colour', colour)

@@ -28,6 +28,9 @@ _GEOMETRIC_SHARE = 0.15
 # Below this limit [strain] the share falls, with this power, so that the overshoot does too.
 _WIDE_LIMIT, _SHARE_POWER = 0.1, 1 / 6
 _GROWTH = 1.1
+# The least share of what is beyond the limit that a substep takes back. All of it, in a substep
+# that has just become much shorter, throws the nodes apart, and the next one is shorter still.
+_LEAST_CORRECTION = 0.2
 _SHORTEST_SHARE = 1e-3
 
 
@@ -73,7 +76,9 @@ class TensionLimit:
         """Step ``state`` on by ``length`` [s]."""
         self._sweeps.bind_tensions()
         self._springs.run(state, forcing, length)
-        self._sweeps.run(self._count, length, _GROWTH * max(self._length, length))
+        self._sweeps.run(
+            self._count, length, _GROWTH * max(self._length, length),
+            max(_LEAST_CORRECTION, length / self._longest))
         self._pull = self._sweeps.finish(state, length)
 
     def forget(self) -> None:

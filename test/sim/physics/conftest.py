@@ -27,7 +27,7 @@ from cloth_sim_ros.sim.simulation import Simulation
 import pytest
 
 # Modes whose motion is that of the springs as long as none of them is at its limit.
-SPRING_MODES = ('mass_spring',)
+SPRING_MODES = ('mass_spring', 'adaptive')
 
 LAYOUTS = ('fused', 'paper')
 
