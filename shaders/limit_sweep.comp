@@ -13,9 +13,9 @@
 // limitations under the License.
 
 #version 430 core
-// Let no edge pass its limit at the end of the substep: Gauss-Seidel over the edges of CELLS x
-// CELLS cells an invocation. Blocks of one colour share no node, so the order is fixed and
-// velocities are changed in place. An edge's tension is what it took to hold its predicted
+// Let no edge pass its limit at the end of the substep: Gauss-Seidel over the four edges of a cell
+// an invocation. Cells of one colour share no node, so the order is fixed and velocities are
+// changed in place. An edge's tension is what it took to hold its predicted
 // length; it never pushes where it should pull, so an edge that comes back is let go.
 // The impulse acts along the edge as it lies now, which keeps the angular momentum.
 // SWEEP_LAW:
@@ -33,7 +33,7 @@ layout(local_size_x = LOCAL_X, local_size_y = LOCAL_Y) in;
 layout(std430, binding = VELOCITY_OUT) buffer Velocity { vec4 velocity_out[]; };
 layout(std430, binding = TENSION) buffer Tension { vec4 tension_out[]; };
 
-uniform int colour;          // 0 to 3: parity of the block's column and row
+uniform int colour;          // 0 to 3: parity of the cell's column and row
 uniform float substep;       // [s]
 uniform float correction;    // share of what is beyond the limit that a substep takes back
 uniform float longest_next;  // [s] no later substep is longer
@@ -44,26 +44,25 @@ uniform float inverse_mass;  // [1/kg]
 // Of a multiplier, in units of what moves its edge: there are more constraints than nodes to move,
 // so without it they have no unique multipliers.
 #define COMPLIANCE 1e-3
-#define SIDE (CELLS + 1)
 // Share of its rest length that a kept tension may move an edge in one substep.
 #define MOST_KEPT 0.5
 
-vec4 position[SIDE][SIDE];
-vec4 velocity[SIDE][SIDE];
+struct Node {
+    vec4 position;
+    vec4 velocity;
+};
+
+Node load_node(int index) { return Node(load_position(index), velocity_out[index]); }
 
 // Without branches: lanes of different edges run together.
-float limit_edge(float old, int row, int col, int row2, int col2, int rest) {
-    vec4 from = position[row][col];
-    vec4 to = position[row2][col2];
-    vec4 v_from = velocity[row][col];
-    vec4 v_to = velocity[row2][col2];
-    vec3 d = to.xyz - from.xyz;
-    vec3 dv = v_to.xyz - v_from.xyz;
+float limit_edge(float old, inout Node from, inout Node to, int rest) {
+    vec3 d = to.position.xyz - from.position.xyz;
+    vec3 dv = to.velocity.xyz - from.velocity.xyz;
     vec2 now = length_and_inverse(d);
     float L0 = rest_length[rest];
-    float free = v_from.w + v_to.w;
+    float free = from.velocity.w + to.velocity.w;
     // 0 where an end is a ghost or none can move.
-    float present = from.w * to.w * min(free, 1.0);
+    float present = from.position.w * to.position.w * min(free, 1.0);
     float per_length = present / (substep * substep * inverse_mass * max(free, 1.0));
 #if SWEEP_LAW == PAPER_LAW
     // Phi = d.d - L0^2 and its change, over 2 l.
@@ -82,47 +81,35 @@ float limit_edge(float old, int row, int col, int row2, int col2, int rest) {
     float kept = clamp(tension, -most, most);
 #endif
     vec3 change = (present * (tension - old) * substep * inverse_mass * now.y) * d;
-    velocity[row][col].xyz += v_from.w * change;
-    velocity[row2][col2].xyz -= v_to.w * change;
+    from.velocity.xyz += from.velocity.w * change;
+    to.velocity.xyz -= to.velocity.w * change;
     return kept;
 }
 
 void main() {
-    ivec2 block = 2 * ivec2(gl_GlobalInvocationID.xy) + ivec2(colour & 1, colour >> 1);
-    ivec2 first = block * CELLS;
-    if (first.x >= COLS || first.y >= ROWS) {
+    int col = 2 * int(gl_GlobalInvocationID.x) + (colour & 1);
+    int row = 2 * int(gl_GlobalInvocationID.y) + (colour >> 1);
+    if (row >= ROWS || col >= COLS) {
         return;
     }
-    for (int row = 0; row < SIDE; ++row) {
-        for (int col = 0; col < SIDE; ++col) {
-            int index = node_index(first.y + row, first.x + col);
-            position[row][col] = load_position(index);
-            velocity[row][col] = velocity_out[index];
-        }
-    }
-    for (int row = 0; row < CELLS; ++row) {
-        for (int col = 0; col < CELLS; ++col) {
-            int index = node_index(first.y + row, first.x + col);
-            vec4 t = tension_out[index];
+    int index = node_index(row, col);
+    Node corner = load_node(index);
+    Node right = load_node(index + 1);
+    Node below = load_node(index + PITCH);
+    Node across = load_node(index + PITCH + 1);
+    vec4 t = tension_out[index];
 #if HAS_STRUCTURAL
-            t[EDGE_ROW] = limit_edge(t[EDGE_ROW], row, col, row, col + 1, REST_ROW);
-            t[EDGE_COLUMN] = limit_edge(t[EDGE_COLUMN], row, col, row + 1, col, REST_COLUMN);
+    t[EDGE_ROW] = limit_edge(t[EDGE_ROW], corner, right, REST_ROW);
+    t[EDGE_COLUMN] = limit_edge(t[EDGE_COLUMN], corner, below, REST_COLUMN);
 #endif
 #if HAS_SHEAR
-            t[EDGE_DIAGONAL] =
-                limit_edge(t[EDGE_DIAGONAL], row, col, row + 1, col + 1, REST_DIAGONAL);
-            t[EDGE_CROSSING] =
-                limit_edge(t[EDGE_CROSSING], row, col + 1, row + 1, col, REST_DIAGONAL);
+    t[EDGE_DIAGONAL] = limit_edge(t[EDGE_DIAGONAL], corner, across, REST_DIAGONAL);
+    t[EDGE_CROSSING] = limit_edge(t[EDGE_CROSSING], right, below, REST_DIAGONAL);
 #endif
-            tension_out[index] = t;
-        }
-    }
-    for (int row = 0; row < SIDE; ++row) {
-        for (int col = 0; col < SIDE; ++col) {
-            int index = node_index(first.y + row, first.x + col);
-            if (first.y + row < ROWS && first.x + col < COLS) {
-                velocity_out[index] = velocity[row][col];
-            }
-        }
-    }
+    tension_out[index] = t;
+    // Ghosts are as they were, and no other invocation reads them now.
+    velocity_out[index] = corner.velocity;
+    velocity_out[index + 1] = right.velocity;
+    velocity_out[index + PITCH] = below.velocity;
+    velocity_out[index + PITCH + 1] = across.velocity;
 }

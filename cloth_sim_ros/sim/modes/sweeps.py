@@ -25,8 +25,6 @@ from cloth_sim_ros.sim.strips import Strips
 import numpy as np
 
 _COLOURS = 4
-# Software devices gain from larger blocks. Mesa 22.3 miscompiles the paper's law on them.
-_SOFTWARE_CELLS, _OTHER_CELLS = 2, 1
 _TENSION_BYTES = 16
 
 
@@ -40,15 +38,12 @@ class Sweeps:
     def __init__(self, scene: Scene, layout: Layout, law: str) -> None:
         """Compile the passes and allocate the tensions."""
         self._texture_loads = layout.texture_loads
-        has_blocks = layout.texture_loads and law == 'LIMIT_LAW'
-        cells = _SOFTWARE_CELLS if has_blocks else _OTHER_CELLS
-        self._sweep = SceneProgram(
-            'limit_sweep.comp', scene, layout, {'CELLS': cells, 'SWEEP_LAW': law})
+        self._sweep = SceneProgram('limit_sweep.comp', scene, layout, {'SWEEP_LAW': law})
         self._finish = SceneProgram('limit_finish.comp', scene, layout, Strips.defines())
         self._strips = Strips(layout, 1)
-        # Of a colour, blocks lie in every other column and row.
+        # Cells of a colour lie in every other column and row.
         self._groups = tuple(
-            -(-nodes // (2 * cells * local))
+            -(-nodes // (2 * local))
             for nodes, local in zip((layout.cols, layout.rows), layout.local))
         self.tensions = Buffer(layout.stored * _TENSION_BYTES)
         self._sweep.use()

@@ -52,11 +52,15 @@ def layout(request: pytest.FixtureRequest) -> str:
 
 @pytest.fixture
 def simulate() -> Iterator[Callable[..., Simulation]]:
-    """Return a function from scene values to a simulation, which ends with the test."""
+    """
+    Return a function from scene values to a simulation, which ends with the test.
+
+    The limit of mode adaptive is put where the springs of most tests don't come to it.
+    """
     opened = []
 
     def start(values: dict, **options) -> Simulation:
-        simulation = Simulation(Scene(values), **options)
+        simulation = Simulation(Scene({'adaptive.threshold': 0.5, **values}), **options)
         opened.append(simulation)
         return simulation
 
