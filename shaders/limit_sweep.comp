@@ -41,9 +41,13 @@ uniform float inverse_mass;  // [1/kg]
 
 #define LIMIT_LAW 0
 #define PAPER_LAW 1
-// Of a multiplier, in units of what moves its edge: there are more constraints than nodes to move,
-// so without it they have no unique multipliers.
+// Of a multiplier, in units of what moves its edge. There are more edges than nodes to move, so
+// rigid ones have no unique multipliers, and those kept from substep to substep grow.
+#if SWEEP_LAW == PAPER_LAW
 #define COMPLIANCE 1e-3
+#else
+#define COMPLIANCE 0.03
+#endif
 // Share of its rest length that a kept tension may move an edge in one substep.
 #define MOST_KEPT 0.5
 
@@ -74,8 +78,10 @@ float limit_edge(float old, inout Node from, inout Node to, int rest) {
     float ahead = length_and_inverse(d + substep * dv).x;
     // What is beyond the limit already comes back bit by bit.
     float beyond = (1.0 - correction) * beyond_limit(now.x, L0);
-    float pull = max(old + (ahead - L0 * (1.0 + limit) - max(beyond, 0.0)) * per_length, 0.0);
-    float press = min(old + (ahead - L0 * (1.0 - limit) - min(beyond, 0.0)) * per_length, 0.0);
+    float most_now = L0 * (1.0 + limit) + max(beyond, 0.0);
+    float least_now = L0 * (1.0 - limit) + min(beyond, 0.0);
+    float pull = max((old + (ahead - most_now) * per_length) / (1.0 + COMPLIANCE), 0.0);
+    float press = min((old + (ahead - least_now) * per_length) / (1.0 + COMPLIANCE), 0.0);
     float tension = present * ((old >= 0.0 ? pull : 0.0) + (old <= 0.0 ? press : 0.0));
     float most = MOST_KEPT * L0 / (longest_next * longest_next * inverse_mass * max(free, 1.0));
     float kept = clamp(tension, -most, most);

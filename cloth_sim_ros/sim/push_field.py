@@ -17,6 +17,7 @@
 from collections.abc import Callable
 from dataclasses import dataclass
 from dataclasses import field
+import math
 
 from cloth_sim_ros.gl.buffer import Buffer
 from cloth_sim_ros.sim.errors import ClothSimError
@@ -133,6 +134,15 @@ class PushField:
         return Forcing(
             tuple(everywhere), pushed_everywhere, regions,
             self._mask_buffer if regions else None)
+
+    def __call__(self, begin: float, end: float) -> Forcing:
+        """Return the acceleration of the step from ``begin`` to ``end`` [s]."""
+        return self.forcing(begin, end)
+
+    def next_begin(self) -> float:
+        """Return when the next push begins that has not begun yet [s]; infinite if none does."""
+        return min(
+            (entry.push.start for entry in self._entries if not entry.begun), default=math.inf)
 
     def delete(self) -> None:
         """Give the buffer back."""

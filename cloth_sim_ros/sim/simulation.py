@@ -214,8 +214,9 @@ class Simulation:
         measures, records = self._observer.record(
             self._state, self._forcing_now(), self._mode.limit_marks())
         return Snapshot(
-            **vars(measures), **self._mode.report(), records=records, mode=self.mode, time=self.time, steps=self.steps,
-            dt=self.dt, substeps=self.substeps, stability_margin=self.stability_margin)
+            **vars(measures), **self._mode.report(), records=records, mode=self.mode,
+            time=self.time, steps=self.steps, dt=self.dt,
+            substeps=self.substeps, stability_margin=self.stability_margin)
 
     def finish(self) -> None:
         """Wait until the device has done everything asked of it; for timing."""
@@ -244,7 +245,7 @@ class Simulation:
     def _make_steps(self, count: int) -> int:
         self._context.make_current()
         for _ in range(count):
-            self._mode.step(self._state, self.time, self._pushes.forcing)
+            self._mode.step(self._state, self.time, self._pushes)
             self.steps += 1
         return count
 

@@ -56,10 +56,9 @@ class Adaptive:
         if check_stability and self._length > self.stability_limit:
             raise ClothSimError(self._too_long(scene))
         self._fewest_substeps = self.substeps
-        longest = safe_substep(scene) if scene['auto_substeps'] else self._length
         self._springs = OnePass(scene, layout)
         self._watch = StrainWatch(scene, layout)
-        self._limit = _make_limit(scene, layout, longest, self._watch)
+        self._limit = _make_limit(scene, layout, self._length, self._watch)
         self._marks = LimitMarks(scene, layout, self._limit)
 
     def step(self, state: State, begin: float, forcing_of: ForcingOf) -> None:

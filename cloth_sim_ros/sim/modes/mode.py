@@ -14,7 +14,6 @@
 
 """What every mode offers."""
 
-from collections.abc import Callable
 from typing import Protocol
 
 from cloth_sim_ros.gl.buffer import Buffer
@@ -23,7 +22,15 @@ from cloth_sim_ros.sim.layout import Layout
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.state import State
 
-ForcingOf = Callable[[float, float], Forcing]
+
+class ForcingOf(Protocol):
+    """What accelerates the nodes, by time; pushes begin when a time they act in is asked for."""
+
+    def __call__(self, begin: float, end: float) -> Forcing:
+        """Return the acceleration of the step from ``begin`` to ``end`` [s]."""
+
+    def next_begin(self) -> float:
+        """Return when the next push begins that has not begun yet [s]; infinite if none does."""
 
 
 class Mode(Protocol):

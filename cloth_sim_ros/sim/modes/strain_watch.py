@@ -78,19 +78,24 @@ class StrainWatch:
         self._strips.delete()
 
     def _holds(self, state: State, now: float, forcing_of: ForcingOf) -> bool:
-        return state.edits == self._edits and forcing_of(now, self._until).is_like(self._forcing)
+        return (
+            state.edits == self._edits and self._until <= forcing_of.next_begin()
+            and forcing_of(now, self._until).is_like(self._forcing))
 
     def _look_ahead(
             self, state: State, now: float, length: float, forcing_of: ForcingOf) -> None:
-        self._until = now + self._reach * length
+        # A push takes the nodes of the time it begins, so no look goes beyond that.
+        calm_pushes = (forcing_of.next_begin() - now) / length
+        reach = max(1, int(min(self._reach, calm_pushes)))
+        self._until = now + reach * length
         self._forcing = forcing_of(now, self._until)
         self._edits = state.edits
-        present, ahead = self.strains(state, self._forcing, self._reach * length)
-        self._left = self._reach
+        present, ahead = self.strains(state, self._forcing, reach * length)
+        self._left = reach
         if not max(present, ahead) < self._near:
             # An edge's length is a convex function of time: until then it is below the chord.
             share = (self._near - present) / (ahead - present) if present < self._near else 0.0
-            self._left = int(share * self._reach) if math.isfinite(share) else 0
+            self._left = int(share * reach) if math.isfinite(share) else 0
             self._until = now + self._left * length
             self._forcing = forcing_of(now, self._until) if self._left else None
         self._reach = min(max(2 * self._left, _FEWEST), _MOST)

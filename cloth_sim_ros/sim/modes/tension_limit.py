@@ -25,12 +25,15 @@ from cloth_sim_ros.sim.state import State
 
 # Substep over the one at which the pull of the tensions across the edges would blow up.
 _GEOMETRIC_SHARE = 0.15
-# Below this limit [strain] the share falls, with this power, so that the overshoot does too.
-_WIDE_LIMIT, _SHARE_POWER = 0.1, 1 / 6
+# Below this limit [strain] the share falls with this power of it. The overshoot goes with the
+# square of the substep, so it stays the same part of the limit.
+_WIDE_LIMIT, _SHARE_POWER = 0.1, 0.5
 _GROWTH = 1.1
 # The least share of what is beyond the limit that a substep takes back. All of it, in a substep
 # that has just become much shorter, throws the nodes apart, and the next one is shorter still.
 _LEAST_CORRECTION = 0.2
+# Of the present substep, in the length that counts as usual.
+_USUAL_SHARE = 0.05
 _SHORTEST_SHARE = 1e-3
 
 
@@ -78,13 +81,15 @@ class TensionLimit:
         self._springs.run(state, forcing, length)
         self._sweeps.run(
             self._count, length, _GROWTH * max(self._length, length),
-            max(_LEAST_CORRECTION, length / self._longest))
+            max(_LEAST_CORRECTION * min(1.0, length / self._usual), length / self._longest))
+        self._usual += _USUAL_SHARE * (length - self._usual)
         self._pull = self._sweeps.finish(state, length)
 
     def forget(self) -> None:
         """Hold nothing, as at the start."""
         self._pull = 0.0
         self._length = self._longest
+        self._usual = self._longest
         self._sweeps.clear()
 
     def delete(self) -> None:

@@ -31,8 +31,8 @@ def _distance_to_border(positions, push):
 def test_spheres_take_the_nodes_that_are_there_when_they_begin(simulate, within, mode, layout):
     """A push in a sphere takes the nodes of the start pose, or other pushes' nodes."""
     pushes = [
-        Push((0.0, 0.15, 0.5), 0.2, 0.1, 'sphere', (0.1, 0.3, 0.85), 0.323),
-        Push((0.1, 0.0, -0.25), 0.215, 0.2, 'sphere', (-0.3, 0.2, 0.9), 0.305),
+        Push((0.0, 0.3, 1.0), 0.2, 0.1, 'sphere', (0.1, 0.3, 0.85), 0.323),
+        Push((0.2, 0.0, -0.5), 0.215, 0.2, 'sphere', (-0.3, 0.2, 0.9), 0.305),
         Push((0.0, 0.0, 0.4), 0.25, 0.021, 'all'),
     ]
     values = {
