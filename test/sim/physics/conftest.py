@@ -29,12 +29,21 @@ import pytest
 # Modes whose motion is that of the springs as long as none of them is at its limit.
 SPRING_MODES = ('mass_spring', 'adaptive')
 
+# Those of them in which a spring may stretch without a limit.
+UNLIMITED_MODES = ('mass_spring',)
+
 LAYOUTS = ('fused', 'paper')
 
 
 @pytest.fixture(scope='session', params=SPRING_MODES)
 def mode(request: pytest.FixtureRequest) -> str:
     """Return each mode that moves as its springs do."""
+    return request.param
+
+
+@pytest.fixture(scope='session', params=UNLIMITED_MODES)
+def unlimited_mode(request: pytest.FixtureRequest) -> str:
+    """Return each mode that moves as its springs do, however far they stretch."""
     return request.param
 
 
