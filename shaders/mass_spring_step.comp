@@ -15,15 +15,28 @@
 #version 430 core
 // One substep of the mass-spring mode: forces and update in one pass, BLOCK x BLOCK nodes an
 // invocation. A spring inside the block is evaluated once for both its ends.
+// STRAIN_LIMIT, for the adaptive mode:
+// NO_LIMIT
+// TENSION_LIMIT: add the tension each edge has from the substep before, and update the velocities
+//     only; limit_sweep.comp has the last word on them.
+// PENALTY_LIMIT: springs stretched beyond the limit are stiffer.
+// RIGID_LIMIT: springs beyond the limit give no force, and only the velocities are updated.
 
 #include "lattice.glsl"
 #include "state_in.glsl"
 #include "state_out.glsl"
 #include "spring_law.glsl"
+#include "strain_limit.glsl"
 #include "applied_acceleration.glsl"
 #include "symplectic_euler.glsl"
 
 layout(local_size_x = LOCAL_X, local_size_y = LOCAL_Y) in;
+
+#if STRAIN_LIMIT == TENSION_LIMIT
+#include "tension_in.glsl"
+#elif STRAIN_LIMIT == PENALTY_LIMIT
+uniform float penalty;  // [N/m] stiffness added beyond the limit
+#endif
 
 #define TILE (BLOCK + 2 * HALO)
 
@@ -33,7 +46,7 @@ vec3 velocity[TILE][TILE];
 #endif
 vec3 force[TILE][TILE];
 
-void add_spring(int row, int col, int drow, int dcol, int family, int rest) {
+void add_spring(int index, int row, int col, int drow, int dcol, int family, int rest) {
     vec4 from = position[row][col];
     vec4 to = position[row + drow][col + dcol];
 #if HAS_DAMPING
@@ -41,7 +54,20 @@ void add_spring(int row, int col, int drow, int dcol, int family, int rest) {
 #else
     vec3 dv = vec3(0.0);
 #endif
-    vec3 f = spring_force(to.xyz - from.xyz, dv, from.w * to.w, family, rest);
+    vec3 d = to.xyz - from.xyz;
+    vec3 f = spring_force(d, dv, from.w * to.w, family, rest);
+#if STRAIN_LIMIT != NO_LIMIT
+    if (family != BEND) {
+        vec2 l = length_and_inverse(d);
+#if STRAIN_LIMIT == TENSION_LIMIT
+        f += (load_tension(index, drow, dcol) * l.y) * d;
+#elif STRAIN_LIMIT == PENALTY_LIMIT
+        f += (from.w * to.w * penalty * beyond_limit(l.x, rest_length[rest]) * l.y) * d;
+#else
+        f *= is_beyond_limit(l.x, rest_length[rest]) ? 0.0 : 1.0;
+#endif
+    }
+#endif
     force[row][col] += f;
     force[row + drow][col + dcol] -= f;
 }
@@ -54,7 +80,8 @@ void add_spring(int row, int col, int drow, int dcol, int family, int rest) {
             bool ends = row + DROW >= HALO && row + DROW < HALO + BLOCK \
                 && col + DCOL >= HALO && col + DCOL < HALO + BLOCK; \
             if (starts || ends) { \
-                add_spring(row, col, DROW, DCOL, FAMILY, REST); \
+                int index = node_index(first.y + row - HALO, first.x + col - HALO); \
+                add_spring(index, row, col, DROW, DCOL, FAMILY, REST); \
             } \
         } \
     }
@@ -92,8 +119,10 @@ void main() {
             vec4 v = load_velocity(index);
             v.xyz = next_velocity(v, force[row][col], applied_acceleration(index));
             velocity_out[index] = v;
+#if STRAIN_LIMIT == NO_LIMIT || STRAIN_LIMIT == PENALTY_LIMIT
             position_out[index] =
                 vec4(next_position(position[row][col].xyz, v.xyz), position[row][col].w);
+#endif
         }
     }
 }

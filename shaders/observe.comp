@@ -28,13 +28,17 @@ layout(local_size_x = LOCAL_X, local_size_y = LOCAL_Y) in;
 uniform int first_row;         // of the slab of rows this dispatch looks at
 uniform int slab_rows;
 uniform int pushed_everywhere; // 1 while a push on the whole cloth acts
+uniform int has_limit_marks;   // 1 while there are edges at their limit
 uniform vec3 gravity;          // [m/s2]
 
 // The body of sensor_msgs/PointCloud2: x y z vx vy vz normal_x normal_y normal_z strain flags.
 #define RECORD_WORDS 11
 #define FLAG_PINNED 1u
+#define FLAG_AT_LIMIT 2u
 #define FLAG_PUSHED 4u
 #if RECORDS_WANTED
+#include "edges.glsl"
+layout(std430, binding = AT_LIMIT) readonly buffer AtLimit { uint at_limit[]; };
 layout(std430, binding = RECORDS) writeonly buffer Records { uint records[]; };
 #endif
 
@@ -106,6 +110,16 @@ void write_vector(int word, vec3 v) {
     records[word + 2] = floatBitsToUint(v.z);
 }
 
+// A node is at the limit when one of its 8 edges is.
+bool is_at_limit(int index) {
+    const uint from_left = 1u << EDGE_ROW | 1u << EDGE_CROSSING;
+    const uint from_above = 1u << EDGE_COLUMN | 1u << EDGE_CROSSING;
+    const uint own = 1u << EDGE_ROW | 1u << EDGE_COLUMN | 1u << EDGE_DIAGONAL;
+    return ((at_limit[index] & own) | (at_limit[index - 1] & from_left)
+        | (at_limit[index - PITCH] & from_above)
+        | (at_limit[index - PITCH - 1] & 1u << EDGE_DIAGONAL)) != 0u;
+}
+
 void write_record(int row, int col, vec4 x, vec4 v, float strain) {
     int word = ((row - first_row) * COLS + col) * RECORD_WORDS;
     uint flags = v.w == 0.0 ? FLAG_PINNED : 0u;
@@ -115,6 +129,9 @@ void write_record(int row, int col, vec4 x, vec4 v, float strain) {
 #endif
     if (pushed && v.w != 0.0) {
         flags |= FLAG_PUSHED;
+    }
+    if (has_limit_marks == 1 && is_at_limit(node_index(row, col))) {
+        flags |= FLAG_AT_LIMIT;
     }
     write_vector(word, x.xyz);
     write_vector(word + 3, v.xyz);

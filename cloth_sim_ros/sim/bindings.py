@@ -28,5 +28,7 @@ SOLVER_DISPATCHES = 3
 SOLVER_VECTORS = 5
 SOLVER_SYSTEM = 6
 SOLVER_SCALARS = 7
+TENSION = 5
+AT_LIMIT = 7
 
 DEFINES = {name: value for name, value in list(globals().items()) if name.isupper()}

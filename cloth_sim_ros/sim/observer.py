@@ -55,13 +55,19 @@ class Observer:
         """Return energies, largest strain and finiteness of ``state``."""
         return self._observe(state, forcing, None)
 
-    def record(self, state: State, forcing: Forcing) -> tuple[Measures, np.ndarray]:
-        """Return the measures and the (rows, cols) records of ``state``."""
+    def record(
+            self, state: State, forcing: Forcing,
+            limit_marks: Buffer | None = None) -> tuple[Measures, np.ndarray]:
+        """
+        Return the measures and the (rows, cols) records of ``state``.
+
+        :param limit_marks: which edges are at their limit, as limit_mark.comp leaves them
+        """
         if self._records_buffer is None:
             self._records_buffer = Buffer(
                 self._slab_rows * self._scene.cols * POINT_DTYPE.itemsize)
         records = np.empty((self._scene.rows, self._scene.cols), dtype=POINT_DTYPE)
-        return self._observe(state, forcing, records), records
+        return self._observe(state, forcing, records, limit_marks), records
 
     def delete(self) -> None:
         """Give the buffers back."""
@@ -70,7 +76,8 @@ class Observer:
             self._records_buffer.delete()
 
     def _observe(
-            self, state: State, forcing: Forcing, records: np.ndarray | None) -> Measures:
+            self, state: State, forcing: Forcing, records: np.ndarray | None,
+            limit_marks: Buffer | None = None) -> Measures:
         program = self._programs[records is not None].use(forcing.has_regions)
         forcing.apply(program)
         forcing.bind()
@@ -79,6 +86,9 @@ class Observer:
         self._sums_buffer.bind_storage(bindings.PARTIAL_SUMS)
         if records is not None:
             self._records_buffer.bind_storage(bindings.RECORDS)
+            # Without marks the shader reads none, but a driver may want something to be bound.
+            (limit_marks or self._records_buffer).bind_storage(bindings.AT_LIMIT)
+            program.set_int('has_limit_marks', int(limit_marks is not None))
         totals = np.zeros(_SUMS)
         for first in range(0, self._scene.rows, self._slab_rows):
             rows = min(self._slab_rows, self._scene.rows - first)

@@ -18,6 +18,7 @@ from collections.abc import Callable
 from collections.abc import Iterable
 from dataclasses import dataclass
 from dataclasses import field
+import math
 
 from cloth_sim_ros.gl.buffer import Buffer
 from cloth_sim_ros.sim.errors import ClothSimError
@@ -124,6 +125,11 @@ class PushField:
     def acting(self, now: float) -> Forcing:
         """Return what acts at the moment ``now`` [s], for looking only: nothing begins by it."""
         return self._compose((entry, 1.0) for entry in self._entries if entry.acts_at(now))
+
+    def quiet_until(self, now: float) -> float:
+        """Return how long from ``now`` no push acts [s]: ``now`` while one does, or infinite."""
+        starts = (entry.push.start for entry in self._entries if entry.push.end > now)
+        return max(min(starts, default=math.inf), now)
 
     def delete(self) -> None:
         """Give the buffer back."""

@@ -56,6 +56,13 @@ SCENE_FIELDS = (
           'stability limit, and is stable in any shape'),
     Field('substeps', int, 1, 'substeps in each dt when auto_substeps is false',
           low=1, high=MOST_SUBSTEPS),
+    Field('adaptive.scheme', str, 'constraint', 'what holds a spring at its limit: constraint '
+          '(impulses with memory), penalty (a stiffer spring), or paper (pulled to rest length)',
+          choices=('constraint', 'penalty', 'paper')),
+    Field('adaptive.threshold', float, 0.1, 'strain at which a structural or shear spring '
+          'becomes a constraint in mode adaptive', low=0.005, high=0.5),
+    Field('adaptive.sweeps', int, 3, 'sweeps over all constraints in each substep',
+          low=1, high=1000),
     Field('pushes.start', float, (), 'start of each timed push', 's', low=0.0, high=1e9,
           is_array=True),
     Field('pushes.duration', float, (), 'length of each timed push', 's', low=0.0, high=1e9,

@@ -69,6 +69,7 @@ def scene_defines(scene: Scene) -> dict[str, object]:
     """Return what the scene's shaders compile in."""
     has_damping = any(scene.damping(family) > 0.0 for family in FAMILIES)
     return {
+        'STRAIN_LIMIT': 'NO_LIMIT',
         'HAS_DAMPING': int(has_damping),
         **{f'HAS_{family.upper()}': int(scene.models(family)) for family in FAMILIES},
     }
@@ -85,4 +86,5 @@ def _set_springs(program: Program, scene: Scene) -> None:
     program.set_floats('damping', [scene.damping(family) for family in FAMILIES])
     program.set_floats('rest_length', rest_lengths(scene))
     program.set_float('inverse_mass', 1.0 / scene.node_mass)
+    program.set_float('limit', scene['adaptive.threshold'])
     program.set_vectors('gravity', scene['gravity'])

@@ -180,6 +180,8 @@ class Simulation:
         previous = self._mode.name
         self._context.make_current()
         self._mode = self._get_mode(name)
+        if name != previous:
+            self._mode.forget()
         return previous
 
     def set_state(self, positions: np.ndarray, velocities: np.ndarray) -> None:
@@ -192,6 +194,7 @@ class Simulation:
                     f'got {np.shape(values)}')
         self._context.make_current()
         self._state.write(np.asarray(positions), np.asarray(velocities))
+        self._mode.forget()
 
     def reset(self) -> None:
         """Go back to the start: pose, pins, time and the scene's pushes. The mode stays."""
@@ -199,6 +202,7 @@ class Simulation:
         self._state.pinned[:] = self.scene.pinned_nodes()
         start = self.scene.start_positions()
         self._state.write(start, np.zeros_like(start))
+        self._mode.forget()
         self._begin_run()
 
     def measure(self) -> Measures:
@@ -209,10 +213,12 @@ class Simulation:
     def snapshot(self) -> Snapshot:
         """Return everything there is to know of this instant."""
         self._context.make_current()
-        measures, records = self._observer.record(self._state, self._forcing_now())
+        measures, records = self._observer.record(
+            self._state, self._forcing_now(), self._mode.limit_marks())
         return Snapshot(
-            **vars(measures), records=records, mode=self.mode, time=self.time, steps=self.steps,
-            dt=self.dt, substeps=self.substeps, stability_margin=self.stability_margin)
+            **vars(measures), **self._mode.report(), records=records, mode=self.mode,
+            time=self.time, steps=self.steps, dt=self.dt,
+            substeps=self.substeps, stability_margin=self.stability_margin)
 
     def finish(self) -> None:
         """Wait until the device has done everything asked of it; for timing."""
@@ -241,7 +247,7 @@ class Simulation:
     def _make_steps(self, count: int) -> int:
         self._context.make_current()
         for _ in range(count):
-            self._mode.step(self._state, self.time, self._pushes.forcing)
+            self._mode.step(self._state, self.time, self._pushes)
             self.steps += 1
         return count
 

@@ -21,7 +21,11 @@ import numpy as np
 
 
 class State:
-    """Positions and velocities of all nodes on the device, and which nodes are pinned."""
+    """
+    Positions and velocities of all nodes on the device, and which nodes are pinned.
+
+    ``edits`` counts the changes made from outside, between steps.
+    """
 
     def __init__(self, layout: Layout, positions: np.ndarray, pinned: np.ndarray) -> None:
         """Upload ``positions`` (rows, cols, 3) [m] at rest; ``pinned`` is (rows, cols) bool."""
@@ -31,6 +35,7 @@ class State:
         self._positions = [Buffer(size), Buffer(size)]
         self._velocities = [Buffer(size), Buffer(size)]
         self._now = 0
+        self.edits = 0
         self.write(positions, np.zeros_like(positions))
 
     @property
@@ -40,6 +45,7 @@ class State:
 
     def write(self, positions: np.ndarray, velocities: np.ndarray) -> None:
         """Replace all positions [m] and velocities [m/s], both (rows, cols, 3)."""
+        self.edits += 1
         free = ~self.pinned
         position = self._layout.store(_with_fourth(positions, 1.0))
         velocity = self._layout.store(_with_fourth(velocities * free[..., None], free))
@@ -53,6 +59,7 @@ class State:
         """Hold one node where it is, or let it go from rest."""
         if self.pinned[row, col] == pinned:
             return
+        self.edits += 1
         self.pinned[row, col] = pinned
         entry = np.array([0.0, 0.0, 0.0, 0.0 if pinned else 1.0], dtype=np.float32)
         self._velocities[self._now].write(entry, self._layout.index(row, col) * entry.nbytes)

@@ -37,12 +37,16 @@ _SCENES = {
         'damping.shear': 0.0, 'damping.bend': 0.0},
 }
 _FORMS = {
-    'mass_spring_step.comp': {},
+    'limit_finish.comp': {'STRIP': 16},
+    'limit_mark.comp': {'MARKS_TENSION': 1},
+    'limit_sweep.comp': {'SWEEP_LAW': 'LIMIT_LAW'},
+    'mass_spring_step.comp': {'STRAIN_LIMIT': 'TENSION_LIMIT'},
     'observe.comp': {'RECORDS_WANTED': 1, 'STRIP': 16},
     'paper_force.comp': {},
     'paper_update.comp': {'UPDATE_LOCAL': 1024},
     'solver/coarsest.comp': {'COARSEST_ROWS': 4, 'COARSEST_COLS': 5, 'COARSEST_STEPS': 6},
     'solver/reduce.comp': {'GROUPS_COUNT': 2, 'GROUPS_OF_EACH': 'ivec2(1, 1), ivec2(3, 2)'},
+    'strain_watch.comp': {'STRIP': 16},
 }
 
 

@@ -14,11 +14,12 @@
 
 """Mass-spring: explicit springs to 12 neighbours, symplectic Euler (paper, section 4.1)."""
 
+from cloth_sim_ros.gl.buffer import Buffer
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.layout import Layout
-from cloth_sim_ros.sim.modes.mode import ForcingOf
 from cloth_sim_ros.sim.modes.one_pass import OnePass
 from cloth_sim_ros.sim.modes.two_pass import TwoPass
+from cloth_sim_ros.sim.push_field import PushField
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.scene_fields import MOST_SUBSTEPS
 from cloth_sim_ros.sim.stability import choose_substeps
@@ -44,11 +45,22 @@ class MassSpring:
             raise ClothSimError(self._too_long(scene))
         self._passes = OnePass(scene, layout) if layout.kind == 'fused' else TwoPass(scene, layout)
 
-    def step(self, state: State, begin: float, forcing_of: ForcingOf) -> None:
+    def step(self, state: State, begin: float, pushes: PushField) -> None:
         """Step ``state`` on by one dt, in substeps of equal length."""
         for substep in range(self.substeps):
             start = begin + substep * self._length
-            self._passes.substep(state, forcing_of(start, start + self._length), self._length)
+            forcing = pushes.forcing(start, start + self._length)
+            self._passes.substep(state, forcing, self._length)
+
+    def forget(self) -> None:
+        """Forget nothing: a step depends on the state alone."""
+
+    def report(self) -> dict[str, float]:
+        """Return nothing: there is no solver."""
+        return {}
+
+    def limit_marks(self) -> Buffer | None:
+        """Return None: springs have no limit."""
 
     def delete(self) -> None:
         """Give back what the passes allocated."""

@@ -14,15 +14,13 @@
 
 """What every mode offers."""
 
-from collections.abc import Callable
 from typing import Protocol
 
-from cloth_sim_ros.sim.forcing import Forcing
+from cloth_sim_ros.gl.buffer import Buffer
 from cloth_sim_ros.sim.layout import Layout
+from cloth_sim_ros.sim.push_field import PushField
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.state import State
-
-ForcingOf = Callable[[float, float], Forcing]
 
 
 class Mode(Protocol):
@@ -40,13 +38,22 @@ class Mode(Protocol):
     def __init__(self, scene: Scene, layout: Layout, *, check_stability: bool = True) -> None:
         """Compile and allocate what this mode needs and nothing else."""
 
-    def step(self, state: State, begin: float, forcing_of: ForcingOf) -> None:
+    def step(self, state: State, begin: float, pushes: PushField) -> None:
         """
         Step ``state`` on by one dt.
 
         :param begin: simulated time at which the step begins [s]
-        :param forcing_of: returns what accelerates the nodes between two times [s]
+        :param pushes: what accelerates the nodes besides the edges, by time
         """
+
+    def forget(self) -> None:
+        """Drop what was kept from earlier steps: the state is not the one they left."""
+
+    def report(self) -> dict[str, float]:
+        """Return what the Snapshot says of solver and constraints, where it is not 0."""
+
+    def limit_marks(self) -> Buffer | None:
+        """Return which edges are at their limit, as limit_mark.comp does; None if none are."""
 
     def delete(self) -> None:
         """Give back what the mode allocated."""

@@ -23,22 +23,35 @@ from cloth_sim_ros.sim.state import State
 
 
 class OnePass:
-    """The fused layout: mass_spring_step.comp."""
+    """
+    The fused layout: mass_spring_step.comp.
 
-    def __init__(self, scene: Scene, layout: Layout) -> None:
+    :param strain_limit: which form of the pass, as the shader names them
+    """
+
+    def __init__(self, scene: Scene, layout: Layout, strain_limit: str = 'NO_LIMIT') -> None:
         """Compile the pass."""
-        self._step = SceneProgram('mass_spring_step.comp', scene, layout)
+        self._step = SceneProgram(
+            'mass_spring_step.comp', scene, layout, {'STRAIN_LIMIT': strain_limit})
         self._groups = layout.groups
         self._step.use()
 
     def substep(self, state: State, forcing: Forcing, length: float) -> None:
         """Step ``state`` on by ``length`` [s]."""
+        self.run(state, forcing, length)
+        state.swap()
+
+    def run(
+            self, state: State, forcing: Forcing, length: float,
+            penalty: float | None = None) -> None:
+        """Write the state after ``length`` [s], without making it the present one."""
         state.bind_in()
         state.bind_out()
         step = self._step.use_for_step(forcing, length)
+        if penalty is not None:
+            step.set_float('penalty', penalty)
         step.dispatch(*self._groups)
         shader_writes_visible()
-        state.swap()
 
     def delete(self) -> None:
         """Give nothing back: the pass allocates nothing."""

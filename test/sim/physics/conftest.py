@@ -27,7 +27,10 @@ from cloth_sim_ros.sim.simulation import Simulation
 import pytest
 
 # Modes whose motion is that of the springs as long as none of them is at its limit.
-SPRING_MODES = ('mass_spring',)
+SPRING_MODES = ('mass_spring', 'adaptive')
+
+# Those of them in which a spring may stretch without a limit.
+UNLIMITED_MODES = ('mass_spring',)
 
 LAYOUTS = ('fused', 'paper')
 
@@ -35,6 +38,12 @@ LAYOUTS = ('fused', 'paper')
 @pytest.fixture(scope='session', params=SPRING_MODES)
 def mode(request: pytest.FixtureRequest) -> str:
     """Return each mode that moves as its springs do."""
+    return request.param
+
+
+@pytest.fixture(scope='session', params=UNLIMITED_MODES)
+def unlimited_mode(request: pytest.FixtureRequest) -> str:
+    """Return each mode that moves as its springs do, however far they stretch."""
     return request.param
 
 
@@ -52,11 +61,15 @@ def layout(request: pytest.FixtureRequest) -> str:
 
 @pytest.fixture
 def simulate() -> Iterator[Callable[..., Simulation]]:
-    """Return a function from scene values to a simulation, which ends with the test."""
+    """
+    Return a function from scene values to a simulation, which ends with the test.
+
+    The limit of mode adaptive is put where the springs of most tests don't come to it.
+    """
     opened = []
 
     def start(values: dict, **options) -> Simulation:
-        simulation = Simulation(Scene(values), **options)
+        simulation = Simulation(Scene({'adaptive.threshold': 0.5, **values}), **options)
         opened.append(simulation)
         return simulation
 

@@ -151,7 +151,7 @@ def _hold_to_reference(values):
 
 
 @pytest.mark.parametrize(('layout', 'loads', 'block', 'scenes'), PATHS)
-def test_random_scenes(within, mode, layout, loads, block, scenes):
+def test_random_scenes(within, unlimited_mode, layout, loads, block, scenes):
     """A spring, a pin, a push or the border is not what the oracle has in its place."""
     ratios = []
 
@@ -159,7 +159,7 @@ def test_random_scenes(within, mode, layout, loads, block, scenes):
     @given(values=scene_values())
     def check(values):
         ratios.append(_hold_to_reference({
-            **values, 'mode': mode, 'layout': layout, 'loads': loads, 'block': block}))
+            **values, 'mode': unlimited_mode, 'layout': layout, 'loads': loads, 'block': block}))
 
     check()
     within(f'random scenes against the oracle, {layout} {loads} {block}', max(ratios), 1.0)
@@ -183,8 +183,8 @@ def test_rounding_grows_as_it_does_in_any_cloth(
 @pytest.mark.long
 @settings(max_examples=300, deadline=None)
 @given(values=scene_values(), path=strategies.sampled_from(PATHS))
-def test_many_random_scenes(mode, path, values):
+def test_many_random_scenes(unlimited_mode, path, values):
     """The same, on other scenes each time."""
     layout, loads, block, _ = path
     _hold_to_reference({
-        **values, 'mode': mode, 'layout': layout, 'loads': loads, 'block': block})
+        **values, 'mode': unlimited_mode, 'layout': layout, 'loads': loads, 'block': block})

@@ -49,9 +49,9 @@ def _strain_after(simulate, values, over_limit, steps):
 
 @pytest.mark.parametrize('damping_ratio', [0.0, 0.05, 0.2, 1.0, 5.0])
 @pytest.mark.parametrize('nodes', [12, 24, 48, 64])
-def test_limit_separates_calm_from_blow_up(simulate, mode, nodes, damping_ratio):
+def test_limit_separates_calm_from_blow_up(simulate, unlimited_mode, nodes, damping_ratio):
     """The limit is too high, or so low that it costs steps for nothing."""
-    values = _values(mode, nodes, damping_ratio, shear=1.0, bend=1.0)
+    values = _values(unlimited_mode, nodes, damping_ratio, shear=1.0, bend=1.0)
     calm = _strain_after(simulate, values, 0.85, 2000)
     blown = _strain_after(simulate, values, 1.1, 2000)
     print(f'measured strain {calm:.1e} at 0.85, {blown:.1e} at 1.1 of the limit')
@@ -61,20 +61,20 @@ def test_limit_separates_calm_from_blow_up(simulate, mode, nodes, damping_ratio)
 
 @pytest.mark.parametrize(('shear', 'bend'), [(1.0, 0.1), (0.0, 0.0), (0.5, 4.0), (4.0, 0.0)])
 @pytest.mark.parametrize('damping_ratio', [0.0, 1.0])
-def test_limit_for_unlike_families(simulate, mode, shear, bend, damping_ratio):
+def test_limit_for_unlike_families(simulate, unlimited_mode, shear, bend, damping_ratio):
     """The limit is right only where all families are alike."""
-    values = _values(mode, 24, damping_ratio, shear, bend)
+    values = _values(unlimited_mode, 24, damping_ratio, shear, bend)
     values.update({'rows': 20, 'width': 1.3})
     assert _strain_after(simulate, values, 0.85, 2000) < CALM
     assert _strain_after(simulate, values, 1.1, 2000) > BLOWN_UP
 
 
-def test_a_hard_push_does_not_blow_up(simulate, within, mode):
+def test_a_hard_push_does_not_blow_up(simulate, within, unlimited_mode):
     """Automatic substeps hold for a cloth at rest only, not for one stretched to its double."""
     nodes = 32
     weight = 0.2 * 9.81 * (1.0 - 2.0 / nodes**2)
     simulation = simulate({
-        'mode': mode, 'rows': nodes, 'cols': nodes, 'dt': 0.02, 'pushes.start': [0.5],
+        'mode': unlimited_mode, 'rows': nodes, 'cols': nodes, 'dt': 0.02, 'pushes.start': [0.5],
         'pushes.duration': [0.2], 'pushes.force': [0.0, 0.0, 20.0 * weight]})
     simulation.advance(0.7)
     pushed = simulation.measure()

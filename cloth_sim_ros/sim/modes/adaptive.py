@@ -1,0 +1,128 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Adaptive: springs within a strain limit, constraints at it (paper, section 4.3)."""
+
+import math
+
+from cloth_sim_ros.gl.buffer import Buffer
+from cloth_sim_ros.sim.errors import ClothSimError
+from cloth_sim_ros.sim.layout import Layout
+from cloth_sim_ros.sim.modes.limit_marks import LimitMarks
+from cloth_sim_ros.sim.modes.one_pass import OnePass
+from cloth_sim_ros.sim.modes.paper_limit import PaperLimit
+from cloth_sim_ros.sim.modes.penalty_limit import PenaltyLimit
+from cloth_sim_ros.sim.modes.strain_limit import StrainLimit
+from cloth_sim_ros.sim.modes.strain_watch import StrainWatch
+from cloth_sim_ros.sim.modes.tension_limit import TensionLimit
+from cloth_sim_ros.sim.push_field import PushField
+from cloth_sim_ros.sim.scene import Scene
+from cloth_sim_ros.sim.stability import choose_substeps
+from cloth_sim_ros.sim.stability import safe_substep
+from cloth_sim_ros.sim.stability import stability_limit
+from cloth_sim_ros.sim.state import State
+
+# Of dt: a rest that is no substep any more.
+_NOTHING = 1e-9
+
+
+class Adaptive:
+    """
+    Mass-spring substeps while no edge comes near its limit, and limited ones while some do.
+
+    ``substeps`` are those of the last step: limited substeps may have to be shorter.
+    """
+
+    name = 'adaptive'
+
+    def __init__(self, scene: Scene, layout: Layout, *, check_stability: bool = True) -> None:
+        """Choose the substeps and compile the passes."""
+        self.stability_limit = stability_limit(scene)
+        self.substeps: int = (
+            choose_substeps(scene) if scene['auto_substeps'] else scene['substeps'])
+        self._dt: float = scene['dt']
+        self._length = self._dt / self.substeps
+        if check_stability and self._length > self.stability_limit:
+            raise ClothSimError(self._too_long(scene))
+        self._fewest_substeps = self.substeps
+        self._springs = OnePass(scene, layout)
+        self._watch = StrainWatch(scene, layout)
+        self._limit = _make_limit(scene, layout, self._length, self._watch)
+        self._marks = LimitMarks(scene, layout, self._limit)
+
+    def step(self, state: State, begin: float, pushes: PushField) -> None:
+        """Step ``state`` on by one dt."""
+        done, substeps = 0.0, 0
+        while self._dt - done > _NOTHING * self._dt:
+            left = self._dt - done
+            calm = 0
+            if self._limit.is_idle:
+                count = math.ceil(left / self._length - _NOTHING)
+                length = left / count
+                calm = min(count, self._watch.calm_substeps(
+                    state, begin + done, length, pushes))
+            for index in range(calm):
+                start = begin + done + index * length
+                self._springs.substep(state, pushes.forcing(start, start + length), length)
+            if calm:
+                self._watch.spend(calm)
+            else:
+                length = self._next_length(left)
+                start = begin + done
+                self._limit.substep(state, pushes.forcing(start, start + length), length)
+            done += max(calm, 1) * length
+            substeps += max(calm, 1)
+        self.substeps = substeps
+        self._marks.update(state, some=not self._limit.is_idle)
+
+    def forget(self) -> None:
+        """Hold no edge and expect nothing of the state."""
+        self.substeps = self._fewest_substeps
+        self._watch.forget()
+        self._limit.forget()
+        self._marks.forget()
+
+    def report(self) -> dict[str, float]:
+        """Return how many edges are at their limit, and how many changed in the last step."""
+        return self._marks.count()
+
+    def limit_marks(self) -> Buffer | None:
+        """Return which edges are at their limit; None if none are."""
+        return None if self._marks.are_empty else self._marks.buffer
+
+    def delete(self) -> None:
+        """Give everything back."""
+        for part in (self._springs, self._watch, self._limit, self._marks):
+            part.delete()
+
+    def _next_length(self, left: float) -> float:
+        return left / math.ceil(left / self._limit.next_length() - _NOTHING)
+
+    def _too_long(self, scene: Scene) -> str:
+        most = safe_substep(scene) * self.substeps
+        return (
+            f'dt {scene["dt"]:g} s in {self.substeps} substeps is above the stability limit '
+            f'{self.stability_limit:.3g} s of a substep in mode {self.name} '
+            f'(node mass {scene.node_mass:.3g} kg): '
+            f'set dt <= {most:.3g}, or auto_substeps: true')
+
+
+def _make_limit(
+        scene: Scene, layout: Layout, longest: float, watch: StrainWatch) -> StrainLimit:
+    fixed = not scene['auto_substeps']
+    if scene['adaptive.scheme'] == 'paper':
+        return PaperLimit(scene, layout, longest, watch)
+    if scene['adaptive.scheme'] == 'penalty':
+        return PenaltyLimit(scene, layout, longest, watch, fixed=fixed)
+    return TensionLimit(scene, layout, longest, fixed=fixed)

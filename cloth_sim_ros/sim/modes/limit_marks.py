@@ -1,0 +1,103 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Which edges are at their limit at the end of a step, and which were one step before."""
+
+from cloth_sim_ros.gl.buffer import Buffer
+from cloth_sim_ros.gl.buffer import shader_writes_visible
+from cloth_sim_ros.sim import bindings
+from cloth_sim_ros.sim.layout import Layout
+from cloth_sim_ros.sim.modes.strain_limit import StrainLimit
+from cloth_sim_ros.sim.scene import Scene
+from cloth_sim_ros.sim.scene_program import SceneProgram
+from cloth_sim_ros.sim.stability import OFFSETS
+from cloth_sim_ros.sim.state import State
+import numpy as np
+
+_LOCAL = (16, 2)
+_NOW, _BEFORE = 0x0F, 0xF0
+# Of the limit: above this strain an edge that was let go still counts as at its limit.
+_RELEASE = 0.9
+
+
+class LimitMarks:
+    """The marks of limit_mark.comp; nothing is done for a cloth that has none."""
+
+    def __init__(self, scene: Scene, layout: Layout, limit: StrainLimit) -> None:
+        """Allocate the marks; the pass is compiled when it is first needed."""
+        self._layout = layout
+        self._limit = limit
+        self._program = SceneProgram('limit_mark.comp', scene, layout, {
+            'LOCAL_X': _LOCAL[0], 'LOCAL_Y': _LOCAL[1],
+            'MARKS_TENSION': int(limit.tensions is not None)})
+        self._groups = -(-layout.cols // _LOCAL[0]), -(-layout.rows // _LOCAL[1])
+        self._edges = sum(
+            max(scene.rows - abs(drow), 0) * max(scene.cols - abs(dcol), 0)
+            for family in ('structural', 'shear') if scene.models(family)
+            for drow, dcol in OFFSETS[family])
+        self._marks = np.zeros(layout.stored, dtype=np.uint32)
+        self.buffer = Buffer(self._marks)
+        # Steps until the marks are all zero again.
+        self._fading = 0
+
+    @property
+    def are_empty(self) -> bool:
+        """Tell whether no edge is at its limit, nor was one a step before."""
+        return self._fading == 0
+
+    def update(self, state: State, *, some: bool) -> None:
+        """Mark the edges of ``state``; ``some`` is False when none can be at its limit."""
+        if self.are_empty and not some:
+            return
+        self._fading = 2 if some else self._fading - 1
+        if self.are_empty:
+            self._clear()
+        else:
+            state.bind_in()
+            self.buffer.bind_storage(bindings.AT_LIMIT)
+            if self._limit.tensions is not None:
+                self._limit.tensions.bind_storage(bindings.TENSION)
+            program = self._program.use()
+            program.set_float('release', _RELEASE)
+            program.dispatch(*self._groups)
+            shader_writes_visible()
+
+    def count(self) -> dict[str, float]:
+        """Return the Snapshot's figures of constraints."""
+        if self.are_empty:
+            return {}
+        self.buffer.read_into(self._marks)
+        now, before = self._marks & _NOW, (self._marks & _BEFORE) >> 4
+        active = _count_bits(now)
+        return {
+            'active_constraints': active,
+            'active_fraction': active / max(self._edges, 1),
+            'constraint_switches': _count_bits(now ^ before),
+        }
+
+    def forget(self) -> None:
+        """Mark nothing, as at the start."""
+        self._fading = 0
+        self._clear()
+
+    def delete(self) -> None:
+        """Give the marks back."""
+        self.buffer.delete()
+
+    def _clear(self) -> None:
+        self.buffer.write(np.zeros_like(self._marks))
+
+
+def _count_bits(values: np.ndarray) -> int:
+    return int(np.unpackbits(values.astype(np.uint8)).sum())

@@ -1,0 +1,98 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Watch for edges that come near their limit, at a small share of the cost of stepping."""
+
+import math
+
+from cloth_sim_ros.sim.forcing import Forcing
+from cloth_sim_ros.sim.layout import Layout
+from cloth_sim_ros.sim.push_field import PushField
+from cloth_sim_ros.sim.scene import Scene
+from cloth_sim_ros.sim.scene_program import SceneProgram
+from cloth_sim_ros.sim.state import State
+from cloth_sim_ros.sim.strips import Strips
+
+# Of the limit: a predicted strain above this makes an edge near it.
+_NEAR = 0.9
+_FEWEST, _MOST = 4, 64
+
+
+class StrainWatch:
+    """
+    Says for how many substeps no edge will come near its limit.
+
+    A look predicts every edge's length from velocities and applied accelerations. It holds for as
+    long as no edge passes 0.9 of the limit by that, also beyond the end of a step, while neither
+    the state is changed from outside nor a push acts. The next look is up to twice as far.
+    """
+
+    def __init__(self, scene: Scene, layout: Layout) -> None:
+        """Compile the pass and allocate its result."""
+        self._strips = Strips(layout, 2)
+        self._program = SceneProgram('strain_watch.comp', scene, layout, Strips.defines())
+        self._program.use()
+        self._near = _NEAR * scene['adaptive.threshold']
+        self.forget()
+
+    def forget(self) -> None:
+        """Start anew: the next answer needs a look."""
+        self._reach = _FEWEST
+        self._left = 0
+        self._until = 0.0
+        self._edits = -1
+
+    def calm_substeps(
+            self, state: State, now: float, length: float, pushes: PushField) -> int:
+        """Return how many substeps of ``length`` [s] can do without limits; 0 if none."""
+        if self._left == 0 or not self._holds(state, now, pushes):
+            self._look_ahead(state, now, length, pushes)
+        return self._left
+
+    def spend(self, substeps: int) -> None:
+        """Tell that ``substeps`` of the calm ones were made."""
+        self._left -= substeps
+
+    def strains(self, state: State, forcing: Forcing, ahead: float) -> tuple[float, float]:
+        """Return the largest strain now and the one predicted ``ahead`` [s] from now."""
+        program = self._program.use_for_step(forcing, ahead)
+        state.bind_in()
+        self._strips.dispatch(program)
+        now, then = self._strips.largest()
+        return float(now), float(then)
+
+    def delete(self) -> None:
+        """Give the result's buffer back."""
+        self._strips.delete()
+
+    def _holds(self, state: State, now: float, pushes: PushField) -> bool:
+        return state.edits == self._edits and pushes.quiet_until(now) >= self._until
+
+    def _look_ahead(
+            self, state: State, now: float, length: float, pushes: PushField) -> None:
+        # A push takes the nodes of the time it begins, so no look goes beyond that; and while one
+        # acts each look is for the next substep alone.
+        quiet = int(min(self._reach, (pushes.quiet_until(now) - now) / length))
+        reach = max(1, quiet)
+        forcing = pushes.still if quiet else pushes.forcing(now, now + length)
+        self._until = now + reach * length
+        self._edits = state.edits
+        present, ahead = self.strains(state, forcing, reach * length)
+        self._left = reach
+        if not max(present, ahead) < self._near:
+            # An edge's length is a convex function of time: until then it is below the chord.
+            share = (self._near - present) / (ahead - present) if present < self._near else 0.0
+            self._left = int(share * reach) if math.isfinite(share) else 0
+            self._until = now + self._left * length
+        self._reach = min(max(2 * self._left, _FEWEST), _MOST)

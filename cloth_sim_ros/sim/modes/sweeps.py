@@ -1,0 +1,92 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Gauss-Seidel sweeps over the edges, colour by colour, on the velocities of a substep."""
+
+from cloth_sim_ros.gl.buffer import Buffer
+from cloth_sim_ros.gl.buffer import shader_writes_visible
+from cloth_sim_ros.sim import bindings
+from cloth_sim_ros.sim.layout import Layout
+from cloth_sim_ros.sim.scene import Scene
+from cloth_sim_ros.sim.scene_program import SceneProgram
+from cloth_sim_ros.sim.state import State
+from cloth_sim_ros.sim.strips import Strips
+import numpy as np
+
+_COLOURS = 4
+_TENSION_BYTES = 16
+
+
+class Sweeps:
+    """
+    The passes limit_sweep.comp and limit_finish.comp, and the tensions they work on.
+
+    :param law: LIMIT_LAW or PAPER_LAW, as the shader names them
+    """
+
+    def __init__(self, scene: Scene, layout: Layout, law: str) -> None:
+        """Compile the passes and allocate the tensions."""
+        self._texture_loads = layout.texture_loads
+        self._sweep = SceneProgram('limit_sweep.comp', scene, layout, {'SWEEP_LAW': law})
+        self._finish = SceneProgram('limit_finish.comp', scene, layout, Strips.defines())
+        self._strips = Strips(layout, 1)
+        # Cells of a colour lie in every other column and row.
+        self._groups = tuple(
+            -(-nodes // (2 * local))
+            for nodes, local in zip((layout.cols, layout.rows), layout.local))
+        self.tensions = Buffer(layout.stored * _TENSION_BYTES)
+        self._sweep.use()
+        self._finish.use()
+
+    def bind_tensions(self) -> None:
+        """Let the next dispatches read and write the tensions."""
+        self.tensions.bind_storage(bindings.TENSION)
+        if self._texture_loads:
+            self.tensions.bind_texture(bindings.TENSION)
+
+    def run(
+            self, count: int, length: float, longest_next: float, correction: float = 1.0) -> None:
+        """
+        Sweep ``count`` times over velocities that a pass has written but not made present.
+
+        :param length: of the substep [s]
+        :param longest_next: that the next substep can have [s]
+        :param correction: share of what is beyond the limit already that is taken back
+        """
+        sweep = self._sweep.use()
+        sweep.set_float('substep', length)
+        sweep.set_float('longest_next', longest_next)
+        sweep.set_float('correction', correction)
+        for _ in range(count):
+            for colour in range(_COLOURS):
+                sweep.set_int('colour', colour)
+                sweep.dispatch(*self._groups)
+                shader_writes_visible()
+
+    def finish(self, state: State, length: float) -> float:
+        """Move the nodes; return the largest sum of tension over length at a free node [N/m]."""
+        finish = self._finish.use()
+        finish.set_float('substep', length)
+        self._strips.dispatch(finish)
+        state.swap()
+        return float(self._strips.largest()[0])
+
+    def clear(self) -> None:
+        """Make all tensions zero."""
+        self.tensions.write(np.zeros(self.tensions.bytes, dtype=np.uint8))
+
+    def delete(self) -> None:
+        """Give the buffers back."""
+        self.tensions.delete()
+        self._strips.delete()

@@ -1,0 +1,97 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Limit the strain by constraints with multipliers that are kept from substep to substep."""
+
+import math
+
+from cloth_sim_ros.sim.forcing import Forcing
+from cloth_sim_ros.sim.layout import Layout
+from cloth_sim_ros.sim.modes.one_pass import OnePass
+from cloth_sim_ros.sim.modes.sweeps import Sweeps
+from cloth_sim_ros.sim.scene import Scene
+from cloth_sim_ros.sim.state import State
+
+# Substep over the one at which the pull of the tensions across the edges would blow up.
+_GEOMETRIC_SHARE = 0.15
+# Below this limit [strain] the share falls with this power of it. The overshoot goes with the
+# square of the substep, so it stays the same part of the limit.
+_WIDE_LIMIT, _SHARE_POWER = 0.1, 0.5
+_GROWTH = 1.1
+# The least share of what is beyond the limit that a substep takes back. All of it, in a substep
+# that has just become much shorter, throws the nodes apart, and the next one is shorter still.
+_LEAST_CORRECTION = 0.2
+# Of the present substep, in the length that counts as usual.
+_USUAL_SHARE = 0.05
+_SHORTEST_SHARE = 1e-3
+
+
+class TensionLimit:
+    """
+    Coloured Gauss-Seidel on velocities, warm-started with each edge's tension.
+
+    :param longest: substep that the springs allow [s]
+    :param fixed: True to take the longest substep always
+    """
+
+    def __init__(self, scene: Scene, layout: Layout, longest: float, *, fixed: bool) -> None:
+        """Compile the passes and allocate the tensions."""
+        self._node_mass = scene.node_mass
+        self._longest = longest
+        self._fixed = fixed
+        tightness = min(1.0, scene['adaptive.threshold'] / _WIDE_LIMIT)
+        self._share = _GEOMETRIC_SHARE * tightness**_SHARE_POWER
+        self._count: int = scene['adaptive.sweeps']
+        self._springs = OnePass(scene, layout, 'TENSION_LIMIT')
+        self._sweeps = Sweeps(scene, layout, 'LIMIT_LAW')
+        self.tensions = self._sweeps.tensions
+        self.forget()
+
+    @property
+    def is_idle(self) -> bool:
+        """Tell whether no edge was held in the last substep."""
+        return self._pull == 0.0
+
+    def next_length(self) -> float:
+        """Return the longest substep that may come next [s]."""
+        if self._fixed:
+            return self._longest
+        allowed = math.inf
+        if self._pull > 0.0:
+            allowed = self._share * math.sqrt(2.0 * self._node_mass / self._pull)
+        self._length = max(
+            min(allowed, _GROWTH * self._length, self._longest),
+            _SHORTEST_SHARE * self._longest)
+        return self._length
+
+    def substep(self, state: State, forcing: Forcing, length: float) -> None:
+        """Step ``state`` on by ``length`` [s]."""
+        self._sweeps.bind_tensions()
+        self._springs.run(state, forcing, length)
+        self._sweeps.run(
+            self._count, length, _GROWTH * max(self._length, length),
+            max(_LEAST_CORRECTION * min(1.0, length / self._usual), length / self._longest))
+        self._usual += _USUAL_SHARE * (length - self._usual)
+        self._pull = self._sweeps.finish(state, length)
+
+    def forget(self) -> None:
+        """Hold nothing, as at the start."""
+        self._pull = 0.0
+        self._length = self._longest
+        self._usual = self._longest
+        self._sweeps.clear()
+
+    def delete(self) -> None:
+        """Give the tensions back."""
+        self._sweeps.delete()

@@ -1,0 +1,75 @@
+// Copyright 2026 the cloth_sim_ros authors
+//
+// Licensed under the Apache License, Version 2.0 (the "License");
+// you may not use this file except in compliance with the License.
+// You may obtain a copy of the License at
+//
+//     http://www.apache.org/licenses/LICENSE-2.0
+//
+// Unless required by applicable law or agreed to in writing, software
+// distributed under the License is distributed on an "AS IS" BASIS,
+// WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+// See the License for the specific language governing permissions and
+// limitations under the License.
+
+#version 430 core
+// Mark which edges are at their limit, four bits a cell, and keep the marks of the time before in
+// the next four bits. An edge comes to its limit when it is held there (MARKS_TENSION) or beyond
+// it; it leaves when it is let go and has come back some way. So it does not flicker.
+
+#include "lattice.glsl"
+#include "edges.glsl"
+#include "state_in.glsl"
+#include "spring_law.glsl"
+#include "strain_limit.glsl"
+
+layout(local_size_x = LOCAL_X, local_size_y = LOCAL_Y) in;
+
+#if MARKS_TENSION
+layout(std430, binding = TENSION) readonly buffer Tension { vec4 tension[]; };
+#endif
+layout(std430, binding = AT_LIMIT) buffer AtLimit { uint at_limit[]; };
+
+uniform float release;  // of the limit: a marked edge keeps its mark above this strain
+
+float strain(int row, int col, int row2, int col2, int rest) {
+    vec4 from = load_position(node_index(row, col));
+    vec4 to = load_position(node_index(row2, col2));
+    float l = length_and_inverse(to.xyz - from.xyz).x;
+    return from.w * to.w * abs(l / rest_length[rest] - 1.0);
+}
+
+bool is_held(int row, int col, int edge, float strain) {
+#if MARKS_TENSION
+    return tension[node_index(row, col)][edge] != 0.0;
+#else
+    return strain > limit;
+#endif
+}
+
+uint mark(uint before, int row, int col, int edge, float strain) {
+    bool was = (before >> edge & 1u) == 1u;
+    return is_held(row, col, edge, strain) || (was && strain > release * limit) ? 1u << edge : 0u;
+}
+
+void main() {
+    int col = int(gl_GlobalInvocationID.x);
+    int row = int(gl_GlobalInvocationID.y);
+    if (row >= ROWS || col >= COLS) {
+        return;
+    }
+    int index = node_index(row, col);
+    uint before = at_limit[index] & 15u;
+    uint marks = 0u;
+#if HAS_STRUCTURAL
+    marks |= mark(before, row, col, EDGE_ROW, strain(row, col, row, col + 1, REST_ROW));
+    marks |= mark(before, row, col, EDGE_COLUMN, strain(row, col, row + 1, col, REST_COLUMN));
+#endif
+#if HAS_SHEAR
+    marks |= mark(
+        before, row, col, EDGE_DIAGONAL, strain(row, col, row + 1, col + 1, REST_DIAGONAL));
+    marks |= mark(
+        before, row, col, EDGE_CROSSING, strain(row, col + 1, row + 1, col, REST_DIAGONAL));
+#endif
+    at_limit[index] = before << 4 | marks;
+}

@@ -1,0 +1,121 @@
+// Copyright 2026 the cloth_sim_ros authors
+//
+// Licensed under the Apache License, Version 2.0 (the "License");
+// you may not use this file except in compliance with the License.
+// You may obtain a copy of the License at
+//
+//     http://www.apache.org/licenses/LICENSE-2.0
+//
+// Unless required by applicable law or agreed to in writing, software
+// distributed under the License is distributed on an "AS IS" BASIS,
+// WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+// See the License for the specific language governing permissions and
+// limitations under the License.
+
+#version 430 core
+// Let no edge pass its limit at the end of the substep: Gauss-Seidel over the four edges of a cell
+// an invocation. Cells of one colour share no node, so the order is fixed and velocities are
+// changed in place. An edge's tension is what it took to hold its predicted
+// length; it never pushes where it should pull, so an edge that comes back is let go.
+// The impulse acts along the edge as it lies now, which keeps the angular momentum.
+// SWEEP_LAW:
+// LIMIT_LAW: the above.
+// PAPER_LAW: edges that are beyond the limit now are brought to their rest length, to first order.
+
+#include "lattice.glsl"
+#include "edges.glsl"
+#include "state_in.glsl"
+#include "spring_law.glsl"
+#include "strain_limit.glsl"
+
+layout(local_size_x = LOCAL_X, local_size_y = LOCAL_Y) in;
+
+layout(std430, binding = VELOCITY_OUT) buffer Velocity { vec4 velocity_out[]; };
+layout(std430, binding = TENSION) buffer Tension { vec4 tension_out[]; };
+
+uniform int colour;          // 0 to 3: parity of the cell's column and row
+uniform float substep;       // [s]
+uniform float correction;    // share of what is beyond the limit that a substep takes back
+uniform float longest_next;  // [s] no later substep is longer
+uniform float inverse_mass;  // [1/kg]
+
+#define LIMIT_LAW 0
+#define PAPER_LAW 1
+// Of a multiplier, in units of what moves its edge. There are more edges than nodes to move, so
+// rigid ones have no unique multipliers, and those kept from substep to substep grow.
+#if SWEEP_LAW == PAPER_LAW
+#define COMPLIANCE 1e-3
+#else
+#define COMPLIANCE 0.03
+#endif
+// Share of its rest length that a kept tension may move an edge in one substep.
+#define MOST_KEPT 0.5
+
+struct Node {
+    vec4 position;
+    vec4 velocity;
+};
+
+Node load_node(int index) { return Node(load_position(index), velocity_out[index]); }
+
+// Without branches: lanes of different edges run together.
+float limit_edge(float old, inout Node from, inout Node to, int rest) {
+    vec3 d = to.position.xyz - from.position.xyz;
+    vec3 dv = to.velocity.xyz - from.velocity.xyz;
+    vec2 now = length_and_inverse(d);
+    float L0 = rest_length[rest];
+    float free = from.velocity.w + to.velocity.w;
+    // 0 where an end is a ghost or none can move.
+    float present = from.position.w * to.position.w * min(free, 1.0);
+    float per_length = present / (substep * substep * inverse_mass * max(free, 1.0));
+#if SWEEP_LAW == PAPER_LAW
+    // Phi = d.d - L0^2 and its change, over 2 l.
+    float ahead = (0.5 * (now.x * now.x - L0 * L0) + substep * dot(d, dv)) * now.y;
+    float tension = is_beyond_limit(now.x, L0)
+        ? (old + ahead * per_length) / (1.0 + COMPLIANCE) : 0.0;
+    float kept = tension;
+#else
+    float ahead = length_and_inverse(d + substep * dv).x;
+    // What is beyond the limit already comes back bit by bit.
+    float beyond = (1.0 - correction) * beyond_limit(now.x, L0);
+    float most_now = L0 * (1.0 + limit) + max(beyond, 0.0);
+    float least_now = L0 * (1.0 - limit) + min(beyond, 0.0);
+    float pull = max((old + (ahead - most_now) * per_length) / (1.0 + COMPLIANCE), 0.0);
+    float press = min((old + (ahead - least_now) * per_length) / (1.0 + COMPLIANCE), 0.0);
+    float tension = present * ((old >= 0.0 ? pull : 0.0) + (old <= 0.0 ? press : 0.0));
+    float most = MOST_KEPT * L0 / (longest_next * longest_next * inverse_mass * max(free, 1.0));
+    float kept = clamp(tension, -most, most);
+#endif
+    vec3 change = (present * (tension - old) * substep * inverse_mass * now.y) * d;
+    from.velocity.xyz += from.velocity.w * change;
+    to.velocity.xyz -= to.velocity.w * change;
+    return kept;
+}
+
+void main() {
+    int col = 2 * int(gl_GlobalInvocationID.x) + (colour & 1);
+    int row = 2 * int(gl_GlobalInvocationID.y) + (colour >> 1);
+    if (row >= ROWS || col >= COLS) {
+        return;
+    }
+    int index = node_index(row, col);
+    Node corner = load_node(index);
+    Node right = load_node(index + 1);
+    Node below = load_node(index + PITCH);
+    Node across = load_node(index + PITCH + 1);
+    vec4 t = tension_out[index];
+#if HAS_STRUCTURAL
+    t[EDGE_ROW] = limit_edge(t[EDGE_ROW], corner, right, REST_ROW);
+    t[EDGE_COLUMN] = limit_edge(t[EDGE_COLUMN], corner, below, REST_COLUMN);
+#endif
+#if HAS_SHEAR
+    t[EDGE_DIAGONAL] = limit_edge(t[EDGE_DIAGONAL], corner, across, REST_DIAGONAL);
+    t[EDGE_CROSSING] = limit_edge(t[EDGE_CROSSING], right, below, REST_DIAGONAL);
+#endif
+    tension_out[index] = t;
+    // Ghosts are as they were, and no other invocation reads them now.
+    velocity_out[index] = corner.velocity;
+    velocity_out[index + 1] = right.velocity;
+    velocity_out[index + PITCH] = below.velocity;
+    velocity_out[index + PITCH + 1] = across.velocity;
+}

@@ -1,0 +1,77 @@
+// Copyright 2026 the cloth_sim_ros authors
+//
+// Licensed under the Apache License, Version 2.0 (the "License");
+// you may not use this file except in compliance with the License.
+// You may obtain a copy of the License at
+//
+//     http://www.apache.org/licenses/LICENSE-2.0
+//
+// Unless required by applicable law or agreed to in writing, software
+// distributed under the License is distributed on an "AS IS" BASIS,
+// WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+// See the License for the specific language governing permissions and
+// limitations under the License.
+
+#version 430 core
+// The largest strain now and the largest one predicted for a time ahead, for each invocation,
+// which looks at STRIP nodes of a column. The reader takes the largest of them: that needs no
+// barriers.
+
+#include "lattice.glsl"
+#include "state_in.glsl"
+#include "spring_law.glsl"
+#include "applied_acceleration.glsl"
+
+layout(local_size_x = LOCAL_X, local_size_y = LOCAL_Y) in;
+
+layout(std430, binding = PARTIAL_SUMS) writeonly buffer PartialSums { float partial_sums[]; };
+
+uniform float substep;  // [s] of all substeps until the time ahead
+
+struct Node {
+    vec4 now;
+    vec3 then;
+};
+
+Node load_node(int row, int col) {
+    int index = node_index(row, col);
+    vec4 x = load_position(index);
+    vec4 v = load_velocity(index);
+    vec3 a = v.w * applied_acceleration(index);
+    return Node(x, x.xyz + substep * (v.xyz + substep * a));
+}
+
+void look_at_edge(inout vec2 strain, Node from, Node to, int rest) {
+    float per_rest = from.now.w * to.now.w / rest_length[rest];
+    float now = length_and_inverse(to.now.xyz - from.now.xyz).x;
+    float then = length_and_inverse(to.then - from.then).x;
+    strain = max(strain, abs(vec2(now, then) - rest_length[rest]) * per_rest);
+}
+
+void main() {
+    int col = int(gl_GlobalInvocationID.x);
+    int strip = int(gl_GlobalInvocationID.y);
+    int first = strip * STRIP;
+    if (first >= ROWS || col >= COLS) {
+        return;
+    }
+    vec2 strain = vec2(0.0);
+    Node here = load_node(first, col);
+    Node right = load_node(first, col + 1);
+    for (int row = first; row < min(first + STRIP, ROWS); ++row) {
+        Node below = load_node(row + 1, col);
+        Node below_right = load_node(row + 1, col + 1);
+#if HAS_STRUCTURAL
+        look_at_edge(strain, here, right, REST_ROW);
+        look_at_edge(strain, here, below, REST_COLUMN);
+#endif
+#if HAS_SHEAR
+        look_at_edge(strain, here, below_right, REST_DIAGONAL);
+        look_at_edge(strain, right, below, REST_DIAGONAL);
+#endif
+        here = below;
+        right = below_right;
+    }
+    partial_sums[2 * (strip * COLS + col)] = strain.x;
+    partial_sums[2 * (strip * COLS + col) + 1] = strain.y;
+}
