@@ -20,6 +20,7 @@ import math
 from cloth_sim_ros.gl.context import Context
 from cloth_sim_ros.sim import modes
 from cloth_sim_ros.sim.errors import ClothSimError
+from cloth_sim_ros.sim.forces import with_forces
 from cloth_sim_ros.sim.forcing import Forcing
 from cloth_sim_ros.sim.layout import choose_layout
 from cloth_sim_ros.sim.observer import Observer
@@ -210,15 +211,23 @@ class Simulation:
         self._context.make_current()
         return self._observer.measure(self._state, self._forcing_now())
 
-    def snapshot(self) -> Snapshot:
-        """Return everything there is to know of this instant."""
+    def snapshot(self, *, tension: bool = False, pin_forces: bool = False) -> Snapshot:
+        """
+        Return everything there is to know of this instant.
+
+        :param tension: True to have the tension of every edge in it, and the forces at the pins
+        :param pin_forces: True to have these forces alone, which costs less on a large cloth
+        """
         self._context.make_current()
         measures, records = self._observer.record(
             self._state, self._forcing_now(), self._mode.limit_marks())
-        return Snapshot(
+        snapshot = Snapshot(
             **vars(measures), **self._mode.report(), records=records, mode=self.mode,
             time=self.time, steps=self.steps, dt=self.dt,
             substeps=self.substeps, stability_margin=self.stability_margin)
+        if tension or pin_forces:
+            return with_forces(snapshot, self.scene, self._mode, every_edge=tension)
+        return snapshot
 
     def finish(self) -> None:
         """Wait until the device has done everything asked of it; for timing."""

@@ -22,10 +22,12 @@ from cloth_sim_ros.sim.modes.two_pass import TwoPass
 from cloth_sim_ros.sim.push_field import PushField
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.scene_fields import MOST_SUBSTEPS
+from cloth_sim_ros.sim.spring_tension import spring_tension
 from cloth_sim_ros.sim.stability import choose_substeps
 from cloth_sim_ros.sim.stability import safe_substep
 from cloth_sim_ros.sim.stability import stability_limit
 from cloth_sim_ros.sim.state import State
+import numpy as np
 
 
 class MassSpring:
@@ -35,6 +37,7 @@ class MassSpring:
 
     def __init__(self, scene: Scene, layout: Layout, *, check_stability: bool = True) -> None:
         """Choose the substeps and compile the passes."""
+        self._scene = scene
         self.stability_limit = stability_limit(scene)
         self.substeps: int = (
             choose_substeps(scene) if scene['auto_substeps'] else scene['substeps'])
@@ -61,6 +64,12 @@ class MassSpring:
 
     def limit_marks(self) -> Buffer | None:
         """Return None: springs have no limit."""
+
+    def tension(
+            self, positions: np.ndarray, velocities: np.ndarray,
+            nodes: np.ndarray | None = None) -> np.ndarray:
+        """Return the tension of every spring at the present moment [N]."""
+        return spring_tension(self._scene, positions, velocities, nodes)
 
     def delete(self) -> None:
         """Give back what the passes allocated."""
