@@ -20,9 +20,12 @@ from cloth_sim_interfaces.msg import ClothState
 from cloth_sim_ros.messages.points import PointsMessage
 from cloth_sim_ros.messages.state import state_of
 from cloth_sim_ros.messages.stats import stats_message
+from cloth_sim_ros.messages.wrenches import too_many_pins
+from cloth_sim_ros.messages.wrenches import wrench_messages
 from cloth_sim_ros.node.opening import write_opening
 from cloth_sim_ros.node.recording_session import RecordingSession
 from cloth_sim_ros.sim.simulation import Simulation
+import numpy as np
 from rclpy.serialization import serialize_message
 
 _NODE_NAME = 'cloth_sim'
@@ -30,7 +33,7 @@ _NODE_NAME = 'cloth_sim'
 
 class BatchRecording:
     """
-    A recording of points, stats and inputs.
+    A recording of points, stats, wrenches and inputs.
 
     :param directory: folder that the recording's own folder is made in
     """
@@ -49,17 +52,24 @@ class BatchRecording:
         state = state_of(
             simulation, frame_id=self._frame_id, run_state=ClothState.RUNNING,
             recording_path=self.path)
+        reason = too_many_pins(np.count_nonzero(simulation.pinned_nodes()))
+        self._has_wrenches = node_values['publish.wrenches'] and not reason
+        if node_values['publish.wrenches'] and reason:
+            print(f'cloth_sim run: {reason}')
         self._session.write('state', serialize_message(state), simulation.time)
         self.write(0.0, 0.0)
 
     def write(self, step_wall_time: float, real_time_factor: float) -> None:
         """Write the present instant."""
-        snapshot = self._simulation.snapshot()
+        snapshot = self._simulation.snapshot(pin_forces=self._has_wrenches)
         stats = stats_message(
             snapshot, self._frame_id, step_wall_time=step_wall_time,
             real_time_factor=real_time_factor)
         self._session.write('points', self._points.serialise(snapshot), snapshot.time)
         self._session.write('stats', serialize_message(stats), snapshot.time)
+        if self._has_wrenches:
+            for message in wrench_messages(snapshot, self._frame_id):
+                self._session.write('pins/wrenches', serialize_message(message), snapshot.time)
 
     def close(self) -> None:
         """Finish the recording."""

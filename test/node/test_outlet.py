@@ -26,6 +26,7 @@ NAMES_AND_TYPES = {
     '~/markers': 'visualization_msgs/msg/MarkerArray',
     '~/topology': 'shape_msgs/msg/Mesh',
     '~/stats': 'cloth_sim_interfaces/msg/ClothStats',
+    '~/pins/wrenches': 'geometry_msgs/msg/WrenchStamped',
     '~/state': 'cloth_sim_interfaces/msg/ClothState',
     '/diagnostics': 'diagnostic_msgs/msg/DiagnosticArray',
     '~/inputs/push': 'cloth_sim_interfaces/msg/Push',
