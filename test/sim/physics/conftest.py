@@ -32,6 +32,15 @@ SPRING_MODES = ('mass_spring', 'adaptive')
 # Those of them in which a spring may stretch without a limit.
 UNLIMITED_MODES = ('mass_spring',)
 
+# Scenes that the forces of a cloth are tested in, by what each has to show. Every mode is here.
+# Sweeps enough for a limit at which a whole strip hangs: with few it goes on trembling.
+FORCE_SCENES = {
+    'mass_spring': {'mode': 'mass_spring'},
+    'adaptive within its limit': {'mode': 'adaptive'},
+    'adaptive at its limit': {
+        'mode': 'adaptive', 'adaptive.threshold': 0.02, 'adaptive.sweeps': 20},
+}
+
 LAYOUTS = ('fused', 'paper')
 
 
@@ -44,6 +53,12 @@ def mode(request: pytest.FixtureRequest) -> str:
 @pytest.fixture(scope='session', params=UNLIMITED_MODES)
 def unlimited_mode(request: pytest.FixtureRequest) -> str:
     """Return each mode that moves as its springs do, however far they stretch."""
+    return request.param
+
+
+@pytest.fixture(scope='session', params=FORCE_SCENES.values(), ids=FORCE_SCENES)
+def force_scene(request: pytest.FixtureRequest) -> dict:
+    """Return the values of each scene that forces are tested in."""
     return request.param
 
 
