@@ -45,7 +45,7 @@ class EdgeKind:
         dx, dy = scene.spacing
         return float(np.hypot(self.dcol * dx, self.drow * dy))
 
-    def all(self, rows: int, cols: int) -> tuple[Index, Index]:
+    def everywhere(self, rows: int, cols: int) -> tuple[Index, Index]:
         """Return the starts and the ends of all edges of a cloth."""
         height, width = max(rows - self.drow, 0), max(cols - abs(self.dcol), 0)
         left = max(-self.dcol, 0)

@@ -41,7 +41,7 @@ def spring_tension(
         if not scene.models(kind.family):
             continue
         starts, ends = (
-            kind.all(scene.rows, scene.cols) if nodes is None
+            kind.everywhere(scene.rows, scene.cols) if nodes is None
             else kind.touching(nodes, scene.rows, scene.cols))
         d = positions[ends].astype(float) - positions[starts]
         length = np.maximum(np.linalg.norm(d, axis=-1), _LEAST_LENGTH)

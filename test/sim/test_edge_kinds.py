@@ -38,7 +38,7 @@ def test_edges_are_the_springs_of_the_reference(rows, cols):
         (springs.family, springs.down, springs.right): springs
         for springs in spring_sets(scene, always=FAMILIES)}
     for kind in EDGE_KINDS:
-        starts, ends = kind.all(rows, cols)
+        starts, ends = kind.everywhere(rows, cols)
         key = (kind.family, kind.drow, kind.dcol)
         if key not in springs:
             assert nodes[starts].size == 0
@@ -58,7 +58,7 @@ def test_edges_at_a_node_are_those_with_an_end_there(rows, cols):
     for kind in EDGE_KINDS:
         every = {
             (int(a), int(b)) for a, b in zip(
-                *(nodes[index].ravel() for index in kind.all(rows, cols)))}
+                *(nodes[index].ravel() for index in kind.everywhere(rows, cols)))}
         found = zip(*(nodes[index] for index in kind.touching(chosen, rows, cols)))
         assert {(int(a), int(b)) for a, b in found} == {
             pair for pair in every if np.isin(pair, numbers).any()}

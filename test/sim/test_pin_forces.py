@@ -44,9 +44,9 @@ def test_an_accelerated_pin_speeds_up_its_own_mass():
     """A moved gripper would not feel the inertia of what it holds."""
     scene = Scene({'rows': 1, 'cols': 2, 'node_mass': 0.5})
     nodes = np.array([(0, 0), (0, 1)])
-    tension = np.zeros((1, 2, 6))
     held = pin_forces(
-        scene, scene.rest_positions(), tension, nodes, np.array([[0.0, 0.0, 2.0], [3.0, 0.0, 0.0]]))
+        scene, scene.rest_positions(), np.zeros((1, 2, 6)), nodes,
+        np.array([[0.0, 0.0, 2.0], [3.0, 0.0, 0.0]]))
     np.testing.assert_allclose(
         held.forces, [[0.0, 0.0, 0.5 * (2.0 + 9.81)], [1.5, 0.0, 0.5 * 9.81]])
 

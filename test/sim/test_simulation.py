@@ -72,6 +72,20 @@ def test_reset_is_the_start_again(simulation: Simulation):
     assert np.array_equal(simulation.pinned_nodes(), simulation.scene.pinned_nodes())
 
 
+def test_forces_are_there_when_asked_for(simulation: Simulation):
+    """Every look would pay for what few need, or the few would not get it."""
+    simulation.pin(4, 4)
+    simulation.step(5)
+    plain, pins, every = (
+        simulation.snapshot(), simulation.snapshot(pin_forces=True),
+        simulation.snapshot(tension=True))
+    assert (plain.tension, plain.pin_forces, pins.tension) == (None, None, None)
+    assert (every.tension.shape, every.tension.dtype) == ((5, 7, 6), np.float32)
+    assert every.pin_forces.nodes.tolist() == [[0, 0], [0, 6], [4, 4]]
+    assert np.array_equal(every.pin_forces.forces, pins.pin_forces.forces)
+    assert plain.state_sha256 == every.state_sha256
+
+
 def test_pins_hold_and_let_go(simulation: Simulation):
     """A held node would creep, or a released one hang in the air."""
     simulation.step(10)

@@ -52,7 +52,7 @@ def test_there_is_none_where_there_is_no_edge():
     scene = Scene({**SCENE, 'stiffness.shear': 0.0, 'damping.shear': 0.0})
     tension = spring_tension(scene, *make_state(scene))
     for kind in EDGE_KINDS:
-        starts, _ = kind.all(6, 5)
+        starts, _ = kind.everywhere(6, 5)
         outside = np.ones((6, 5), dtype=bool)
         outside[starts] = False
         assert not tension[outside, kind.number].any()

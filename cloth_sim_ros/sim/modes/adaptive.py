@@ -105,7 +105,7 @@ class Adaptive:
     def tension(
             self, positions: np.ndarray, velocities: np.ndarray,
             nodes: np.ndarray | None = None) -> np.ndarray:
-        """Return the tension of every edge, of its spring and of what holds it at the limit [N]."""
+        """Return the tension of every edge, of its spring and of what holds it [N]."""
         return self._limit.tension(positions, velocities, nodes)
 
     def delete(self) -> None:

@@ -35,7 +35,7 @@ def pull_on_nodes(positions, tension):
     """Return the sum of what the edges of each node pull it with [N]."""
     total = np.zeros((ROWS, COLS, 3))
     for kind in EDGE_KINDS:
-        starts, ends = kind.all(ROWS, COLS)
+        starts, ends = kind.everywhere(ROWS, COLS)
         d = positions[ends].astype(float) - positions[starts]
         pull = tension[(*starts, kind.number)] / np.linalg.norm(d, axis=-1)
         total[starts] += pull[..., None] * d

@@ -38,7 +38,7 @@ def test_edges_carry_the_weight_below_them(simulate, within, force_scene, cols):
     down = -snapshot.positions[..., 2].astype(float)
     carried = np.zeros(rows - 1)
     for kind in EDGE_KINDS:
-        starts, ends = kind.all(rows, cols)
+        starts, ends = kind.everywhere(rows, cols)
         length = np.linalg.norm(
             snapshot.positions[ends].astype(float) - snapshot.positions[starts], axis=-1)
         pull = snapshot.tension[(*starts, kind.number)] * (down[ends] - down[starts]) / length
