@@ -19,7 +19,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from cloth_sim_ros.messages.wrenches import too_many_pins
-from cloth_sim_ros.messages.wrenches import wrench_messages
+from cloth_sim_ros.messages.wrenches import WrenchMessages
 from cloth_sim_ros.node.outlet import Outlet
 from cloth_sim_ros.sim.simulation import Simulation
 from cloth_sim_ros.sim.snapshot import Snapshot
@@ -44,6 +44,7 @@ class WrenchTopic:
         self._outlet = outlet
         self._values = values
         self._warn = warn
+        self._messages = WrenchMessages(values['frame_id'])
         self._reason = ''
 
     def wanted(self, *, by_recording: bool = True) -> bool:
@@ -60,5 +61,6 @@ class WrenchTopic:
 
     def send(self, snapshot: Snapshot, *, to_recording: bool = True) -> None:
         """Send the messages of ``snapshot``, which has the forces at its pins."""
-        for message in wrench_messages(snapshot, self._values['frame_id']):
-            self._outlet.send_message(_KEY, message, snapshot.time, to_recording=to_recording)
+        for data in self._messages.serialise(snapshot):
+            self._outlet.send(
+                _KEY, lambda data=data: data, snapshot.time, to_recording=to_recording)

@@ -21,7 +21,7 @@ from cloth_sim_ros.messages.points import PointsMessage
 from cloth_sim_ros.messages.state import state_of
 from cloth_sim_ros.messages.stats import stats_message
 from cloth_sim_ros.messages.wrenches import too_many_pins
-from cloth_sim_ros.messages.wrenches import wrench_messages
+from cloth_sim_ros.messages.wrenches import WrenchMessages
 from cloth_sim_ros.node.opening import write_opening
 from cloth_sim_ros.node.recording_session import RecordingSession
 from cloth_sim_ros.sim.simulation import Simulation
@@ -45,6 +45,7 @@ class BatchRecording:
         self._frame_id = node_values['frame_id']
         self._points = PointsMessage(
             simulation.scene.rows, simulation.scene.cols, self._frame_id)
+        self._wrenches = WrenchMessages(self._frame_id)
         self._session = RecordingSession(directory, _NODE_NAME, self._say_lost)
         self.path = self._session.start(node_values['recording.name'])
         values = {**simulation.scene.values, **node_values}
@@ -68,8 +69,8 @@ class BatchRecording:
         self._session.write('points', self._points.serialise(snapshot), snapshot.time)
         self._session.write('stats', serialize_message(stats), snapshot.time)
         if self._has_wrenches:
-            for message in wrench_messages(snapshot, self._frame_id):
-                self._session.write('pins/wrenches', serialize_message(message), snapshot.time)
+            for data in self._wrenches.serialise(snapshot):
+                self._session.write('pins/wrenches', data, snapshot.time)
 
     def close(self) -> None:
         """Finish the recording."""

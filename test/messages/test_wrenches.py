@@ -16,22 +16,24 @@
 
 from cloth_sim_ros.messages.wrenches import MOST_PINS
 from cloth_sim_ros.messages.wrenches import too_many_pins
-from cloth_sim_ros.messages.wrenches import wrench_messages
+from cloth_sim_ros.messages.wrenches import WrenchMessages
 from cloth_sim_ros.sim.pin_forces import PinForces
 from geometry_msgs.msg import WrenchStamped
 from made_snapshot import make_snapshot
 import numpy as np
 import pytest
 from rclpy.serialization import deserialize_message
-from rclpy.serialization import serialize_message
 
 
 def decode(nodes, forces):
     """Return the messages of a snapshot with these forces at these nodes."""
     held = PinForces(np.array(nodes, dtype=int).reshape(-1, 2), np.reshape(forces, (-1, 3)))
+    messages = WrenchMessages('world')
+    # Whatever was sent before must not be left in them.
+    messages.serialise(make_snapshot(3, 4, pin_forces=PinForces(held.nodes, 7.0 + held.forces)))
     return [
-        deserialize_message(serialize_message(message), WrenchStamped)
-        for message in wrench_messages(make_snapshot(3, 4, pin_forces=held), 'world')]
+        deserialize_message(data, WrenchStamped)
+        for data in messages.serialise(make_snapshot(3, 4, pin_forces=held))]
 
 
 def test_each_pin_has_its_own_message():
