@@ -74,7 +74,8 @@ def main() -> None:
     parser.add_argument('--sweeps', nargs='+', type=int, default=[3, 5, 10, 20])
     parser.add_argument('--seconds', type=float, default=10.0, help='simulated before the look')
     args = parser.parse_args()
-    print('| scene | sweeps | mean force / weight | standard deviation / weight | nodes move [m] |')
+    print('| scene | sweeps | mean force / weight | standard deviation / weight '
+          '| nodes move [m] |')
     print('|---|---|---|---|---|')
     for name, values in SCENES.items():
         for sweeps in args.sweeps:
