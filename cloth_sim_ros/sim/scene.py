@@ -23,10 +23,9 @@ from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.field import Field
 from cloth_sim_ros.sim.pins import pinned_nodes
 from cloth_sim_ros.sim.push import Push
+from cloth_sim_ros.sim.scene_fields import FAMILIES
 from cloth_sim_ros.sim.scene_fields import SCENE_FIELDS
 import numpy as np
-
-FAMILIES = ('structural', 'shear', 'bend')
 
 
 class Scene:
@@ -51,6 +50,11 @@ class Scene:
         if len(self['gravity']) != 3:
             raise ClothSimError(
                 f'gravity needs 3 components, got {len(self["gravity"])}: write [x, y, z]')
+        for family in FAMILIES:
+            if family in self['constraint.hard'] and family in self['constraint.springs']:
+                raise ClothSimError(
+                    f'{family} edges are in constraint.hard and in constraint.springs: '
+                    'take them out of one')
         pinned_nodes(self['pins'], self.rows, self.cols)
         self.timed_pushes()
 

@@ -35,6 +35,11 @@ class SolverPass:
         self._level = level
         self._offset = 0
 
+    def set_int(self, name: str, value: int) -> None:
+        """Set an int uniform of the program."""
+        self._program.use()
+        self._program.set_int(name, value)
+
     def switch(self, dispatches: list[tuple[int, int]]) -> None:
         """Take the pass's place in ``dispatches``, the workgroup counts that can be switched."""
         if self.groups not in dispatches:

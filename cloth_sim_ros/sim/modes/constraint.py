@@ -1,0 +1,123 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Constraint enforcement: edges keep their length by tensions solved for in each substep."""
+
+import math
+
+from cloth_sim_ros.gl.buffer import Buffer
+from cloth_sim_ros.sim.forcing import Forcing
+from cloth_sim_ros.sim.layout import Layout
+from cloth_sim_ros.sim.modes.turn_watch import TurnWatch
+from cloth_sim_ros.sim.push_field import PushField
+from cloth_sim_ros.sim.scene import FAMILIES
+from cloth_sim_ros.sim.scene import Scene
+from cloth_sim_ros.sim.solver.edge_law import edge_law
+from cloth_sim_ros.sim.solver.edge_law import EdgeLaw
+from cloth_sim_ros.sim.solver.solver import Solver
+from cloth_sim_ros.sim.state import State
+import numpy as np
+
+# Of a substep: rounding that is no reason for another one.
+_NOTHING = 1e-9
+
+
+class Constraint:
+    """
+    The linearised step of docs/numerics_implicit.md; ``substeps`` are those of the last dt.
+
+    ``stability_limit`` [s] follows from the tensions of the last dt; it is a bound on the safe
+    side, infinite without any.
+    """
+
+    name = 'constraint'
+
+    def __init__(self, scene: Scene, layout: Layout, *, check_stability: bool = True) -> None:
+        """Compile the solver for the edges the scene asks for."""
+        self._scene = scene
+        self._dt: float = scene['dt']
+        self._solves: int = scene['constraint.newton_iterations']
+        families = tuple(
+            family for family in FAMILIES if family in scene['constraint.hard']
+            or (family in scene['constraint.springs'] and scene.models(family)))
+        self._solver = Solver(
+            scene, layout, families=families, preconditioner=scene['solver.preconditioner'],
+            tolerance=scene['solver.tolerance'],
+            max_iterations=scene['solver.max_iterations'],
+            foresees_turn=self._solves > 1, keeps_tension=True,
+            has_damping=any(
+                scene.damping(family) > 0.0 for family in scene['constraint.springs']))
+        self._watch = TurnWatch(scene, layout, families, self._solver.tensions)
+        self.forget()
+
+    def step(self, state: State, begin: float, pushes: PushField) -> None:
+        """Step ``state`` on by one dt."""
+        self._solver.clear_tally()
+        self._choose_substeps(state, pushes.forcing(begin, begin + self._dt))
+        length = self._dt / self.substeps
+        self._solver.set_law(self._law(length))
+        for substep in range(self.substeps):
+            start = begin + substep * length
+            self._substep(state, pushes.forcing(start, start + length))
+
+    def forget(self) -> None:
+        """Drop the tensions, which only serve to choose the next substeps."""
+        self.substeps = 1 if self._scene['auto_substeps'] else self._scene['substeps']
+        self.stability_limit = math.inf
+        self._solver.tensions.clear()
+        self._solver.clear_tally()
+
+    def report(self) -> dict[str, float]:
+        """Return how the solves of the last dt ended."""
+        tally = self._solver.tally()
+        return {
+            'solver_iterations': tally.most_iterations,
+            'solver_residual': tally.worst_residual,
+        }
+
+    def limit_marks(self) -> Buffer | None:
+        """Return None: all edges are constraints, and none is at a limit."""
+
+    def tension(self) -> np.ndarray:
+        """Return the tension of each edge in the last substep [N], as Tensions.read has it."""
+        return self._solver.tensions.read()
+
+    def delete(self) -> None:
+        """Give everything back."""
+        self._solver.delete()
+        self._watch.delete()
+
+    def _choose_substeps(self, state: State, forcing: Forcing) -> None:
+        turning, self.stability_limit = self._watch.longest_substeps(state, forcing, self._dt)
+        if self._scene['auto_substeps']:
+            wanted = self._dt / min(turning, self.stability_limit) - _NOTHING
+            most = self._scene['constraint.max_substeps']
+            # What is no number becomes the most, too.
+            self.substeps = max(1, math.ceil(wanted)) if wanted < most else most
+
+    def _law(self, length: float) -> EdgeLaw:
+        return edge_law(
+            self._scene, length, hard=self._scene['constraint.hard'],
+            springs=self._scene['constraint.springs'], delta=self._scene['constraint.delta'])
+
+    def _substep(self, state: State, forcing: Forcing) -> None:
+        self._solver.assemble(state)
+        self._solver.make_right_side(state, forcing)
+        self._solver.solve()
+        self._solver.apply(state)
+        for _ in range(self._solves - 1):
+            self._solver.assemble(state)
+            self._solver.make_later_right_side(state)
+            self._solver.solve()
+            self._solver.apply(state, further=True)
