@@ -69,7 +69,7 @@ SCENE_FIELDS = (
           'there', low=1, high=MOST_SUBSTEPS),
     Field('solver.tolerance', float, 1e-2, 'residual at which the linear solver stops, over '
           'that at its start', low=1e-6, high=0.5),
-    Field('solver.max_iterations', int, 20, 'iterations after which it stops in any case',
+    Field('solver.max_iterations', int, 60, 'iterations after which it stops in any case',
           low=1, high=10000),
     Field('solver.preconditioner', str, 'multigrid', 'multigrid, or block_jacobi, which needs '
           'many more iterations', choices=('multigrid', 'block_jacobi')),

@@ -19,6 +19,7 @@ import math
 from cloth_sim_ros.gl.buffer import Buffer
 from cloth_sim_ros.sim.forcing import Forcing
 from cloth_sim_ros.sim.layout import Layout
+from cloth_sim_ros.sim.modes.free_motion import FreeMotion
 from cloth_sim_ros.sim.modes.turn_watch import TurnWatch
 from cloth_sim_ros.sim.push_field import PushField
 from cloth_sim_ros.sim.scene import FAMILIES
@@ -31,6 +32,8 @@ import numpy as np
 
 # Of a substep: rounding that is no reason for another one.
 _NOTHING = 1e-9
+# Iterations submitted in a dt, for each that a solve of the last dt has needed, and besides.
+_MORE, _AT_LEAST = 2, 10
 
 
 class Constraint:
@@ -47,6 +50,7 @@ class Constraint:
         """Compile the solver for the edges the scene asks for."""
         self._scene = scene
         self._dt: float = scene['dt']
+        self._most_iterations: int = scene['solver.max_iterations']
         self._solves: int = scene['constraint.newton_iterations']
         families = tuple(
             family for family in FAMILIES if family in scene['constraint.hard']
@@ -54,29 +58,39 @@ class Constraint:
         self._solver = Solver(
             scene, layout, families=families, preconditioner=scene['solver.preconditioner'],
             tolerance=scene['solver.tolerance'],
-            max_iterations=scene['solver.max_iterations'],
+            max_iterations=self._most_iterations,
             foresees_turn=self._solves > 1, keeps_tension=True,
             has_damping=any(
                 scene.damping(family) > 0.0 for family in scene['constraint.springs']))
         self._watch = TurnWatch(scene, layout, families, self._solver.tensions)
+        self._free_motion = FreeMotion(scene, layout)
         self.forget()
 
     def step(self, state: State, begin: float, pushes: PushField) -> None:
         """Step ``state`` on by one dt."""
-        self._solver.clear_tally()
+        self._submit_enough()
         self._choose_substeps(state, pushes.forcing(begin, begin + self._dt))
         length = self._dt / self.substeps
         self._solver.set_law(self._law(length))
+        is_held = bool(state.pinned.any())
         for substep in range(self.substeps):
             start = begin + substep * length
-            self._substep(state, pushes.forcing(start, start + length))
+            forcing = pushes.forcing(start, start + length)
+            if is_held:
+                self._substep(state, forcing)
+            else:
+                self._free_motion.aim_at(state, forcing, pushes.still, length)
+                self._substep(state, forcing)
+                self._free_motion.restore(state, pushes.still, length)
 
     def forget(self) -> None:
         """Drop the tensions, which only serve to choose the next substeps."""
         self.substeps = 1 if self._scene['auto_substeps'] else self._scene['substeps']
         self.stability_limit = math.inf
         self._solver.tensions.clear()
+        self._free_motion.forget()
         self._solver.clear_tally()
+        self._solver.submit(self._most_iterations)
 
     def report(self) -> dict[str, float]:
         """Return how the solves of the last dt ended."""
@@ -97,6 +111,16 @@ class Constraint:
         """Give everything back."""
         self._solver.delete()
         self._watch.delete()
+        self._free_motion.delete()
+
+    def _submit_enough(self) -> None:
+        # Iterations that the device then leaves out cost the host some time each, so there are
+        # not many more of them than the last dt has needed.
+        needed = self._solver.tally().most_iterations
+        if needed > 0:
+            self._solver.submit(
+                min(_MORE * needed + _AT_LEAST, self._most_iterations))
+        self._solver.clear_tally()
 
     def _choose_substeps(self, state: State, forcing: Forcing) -> None:
         turning, self.stability_limit = self._watch.longest_substeps(state, forcing, self._dt)

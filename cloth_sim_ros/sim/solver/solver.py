@@ -79,7 +79,7 @@ class Solver:
             scene, self._programs, levels, has_lag=has_damping) if keeps_tension else None
         self._tally = Tally(self._programs, tolerance)
         self._preconditioner = kind(self._programs, levels)
-        self._max_iterations = max_iterations
+        self._iterations = max_iterations
         self._tolerance = tolerance
         self._law: EdgeLaw | None = None
         self._compile(levels)
@@ -90,6 +90,10 @@ class Solver:
             self._law = law
             self._programs.set_law(law)
             self._preconditioner.set_law(law)
+
+    def submit(self, iterations: int) -> None:
+        """Let solves from now on stop after ``iterations`` in any case."""
+        self._iterations = iterations
 
     def assemble(self, state: State) -> None:
         """Take up positions and pins, and prepare the preconditioner."""
@@ -132,7 +136,7 @@ class Solver:
         self._buffers.clear_scalars()
         self._begin.run()
         self._iterate(SolverPass.run)
-        for _ in range(self._max_iterations - 1):
+        for _ in range(self._iterations - 1):
             self._update.run_if_going()
             self._iterate(SolverPass.run_if_going)
         self._update.run()
