@@ -98,13 +98,16 @@ class Constraint:
         return {
             'solver_iterations': tally.most_iterations,
             'solver_residual': tally.worst_residual,
+            'solver_reached': tally.unreached == 0,
         }
 
     def limit_marks(self) -> Buffer | None:
         """Return None: all edges are constraints, and none is at a limit."""
 
-    def tension(self) -> np.ndarray:
-        """Return the tension of each edge in the last substep [N], as Tensions.read has it."""
+    def tension(
+            self, positions: np.ndarray, velocities: np.ndarray,
+            nodes: np.ndarray | None = None) -> np.ndarray:
+        """Return what holds each edge in the last substep [N], the Lagrange multipliers."""
         return self._solver.tensions.read()
 
     def delete(self) -> None:

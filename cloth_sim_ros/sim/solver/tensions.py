@@ -16,7 +16,7 @@
 
 from cloth_sim_ros.gl.buffer import Buffer
 from cloth_sim_ros.sim import bindings
-from cloth_sim_ros.sim.layout import HALO
+from cloth_sim_ros.sim.edge_kinds import EDGE_KINDS
 from cloth_sim_ros.sim.layout import Layout
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.scene_program import rest_lengths
@@ -27,7 +27,6 @@ import numpy as np
 
 # Room for 8 at a node, of which 6 are used, shaders/include/solver/tension.glsl.
 _ROOM = 8
-_EDGES = 6
 
 
 class Tensions:
@@ -59,17 +58,10 @@ class Tensions:
         self.buffer.write(self._zeros)
 
     def read(self) -> np.ndarray:
-        """
-        Return the tension of the six edges that begin at each node [N], (rows, cols, 6) float32.
-
-        They lead along the row, along the column, diagonally to the right, diagonally to the
-        left, two along the row and two along the column; 0 where there is no such edge.
-        """
+        """Return the tension of every edge [N], (rows, cols, 6) float32 as in Snapshot."""
         found = np.empty(self._zeros.shape[1:], dtype=np.float32)
         self.buffer.read_into(found)
-        lattice = found.reshape(-1, self.cloth.pitch, _ROOM)
-        here = lattice[HALO:HALO + self.cloth.rows, HALO:HALO + self.cloth.cols, :_EDGES]
-        return np.float32(self._node_mass) * here
+        return np.float32(self._node_mass) * self.cloth.load(found)[..., :len(EDGE_KINDS)]
 
     def delete(self) -> None:
         """Give the tensions back."""

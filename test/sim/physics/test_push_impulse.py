@@ -30,11 +30,11 @@ def _values(mode, layout, dt):
 
 
 @pytest.mark.parametrize('dt', [0.03, 0.007, 0.5])
-def test_timed_push(simulate, within, mode, layout, dt):
+def test_timed_push(simulate, within, any_mode, layout, dt):
     """The impulse of a push in the scene depends on how its times fall between the steps."""
     force, duration = np.array([0.3, -0.2, 1.5]), 0.2
     simulation = simulate({
-        **_values(mode, layout, dt), 'pushes.start': [0.11], 'pushes.duration': [duration],
+        **_values(any_mode, layout, dt), 'pushes.start': [0.11], 'pushes.duration': [duration],
         'pushes.force': force.tolist()})
     simulation.advance(1.5)
     velocities = simulation.snapshot().velocities.astype(float)
@@ -44,9 +44,9 @@ def test_timed_push(simulate, within, mode, layout, dt):
 
 
 @pytest.mark.parametrize('dt', [0.03, 0.007])
-def test_push_in_a_sphere_while_running(simulate, within, mode, layout, dt):
+def test_push_in_a_sphere_while_running(simulate, within, any_mode, layout, dt):
     """A push given between steps reaches other nodes than those in its sphere, or not fully."""
-    simulation = simulate(_values(mode, layout, dt))
+    simulation = simulate(_values(any_mode, layout, dt))
     simulation.step(3)
     applied = simulation.push(
         (0.0, 0.0, 2.0), region='sphere', center=(0.5, 0.5, 1.0), radius=0.3, duration=0.1)

@@ -44,29 +44,29 @@ def _hash_of_a_process(values, **environment):
 
 
 @pytest.mark.parametrize('loads_and_block', [('auto', 0), ('texture', 1), ('storage', 2)])
-def test_two_processes_give_one_state(mode, loads_and_block):
+def test_two_processes_give_one_state(any_mode, loads_and_block):
     """A run depends on thread timing or on memory nobody wrote."""
     loads, block = loads_and_block
-    values = {**SCENE, 'mode': mode, 'loads': loads, 'block': block}
+    values = {**SCENE, 'mode': any_mode, 'loads': loads, 'block': block}
     assert _hash_of_a_process(values) == _hash_of_a_process(values)
 
 
-def test_paper_layout_too(mode):
+def test_paper_layout_too(any_mode):
     """The paper's layout depends on thread timing or on memory nobody wrote."""
-    values = {**SCENE, 'mode': mode, 'layout': 'paper'}
+    values = {**SCENE, 'mode': any_mode, 'layout': 'paper'}
     assert _hash_of_a_process(values) == _hash_of_a_process(values)
 
 
-def test_threads_do_not_show(mode):
+def test_threads_do_not_show(any_mode):
     """The number of the driver's threads changes the result."""
-    values = {**SCENE, 'mode': mode}
+    values = {**SCENE, 'mode': any_mode}
     assert _hash_of_a_process(values, LP_NUM_THREADS='0') == _hash_of_a_process(
         values, LP_NUM_THREADS='2')
 
 
-def test_reset_starts_the_same_run(simulate, mode, layout):
+def test_reset_starts_the_same_run(simulate, any_mode, layout):
     """Something of the run before a reset is left over."""
-    simulation = simulate({**SCENE, 'mode': mode, 'layout': layout})
+    simulation = simulate({**SCENE, 'mode': any_mode, 'layout': layout})
     start = simulation.snapshot().state_sha256
     simulation.advance(0.5)
     first = simulation.snapshot().state_sha256
@@ -80,11 +80,11 @@ def test_reset_starts_the_same_run(simulate, mode, layout):
     assert first != start
 
 
-def test_pieces_make_the_same_run(simulate, mode, layout):
+def test_pieces_make_the_same_run(simulate, any_mode, layout):
     """Looking at the state, or advancing in pieces, changes it."""
-    whole = simulate({**SCENE, 'mode': mode, 'layout': layout})
+    whole = simulate({**SCENE, 'mode': any_mode, 'layout': layout})
     whole.advance(0.5)
-    pieces = simulate({**SCENE, 'mode': mode, 'layout': layout})
+    pieces = simulate({**SCENE, 'mode': any_mode, 'layout': layout})
     for _ in range(8):
         pieces.advance(0.0625)
         pieces.snapshot()
