@@ -282,7 +282,3 @@ class Simulation:
 def _check_mode(name: str) -> None:
     if name not in MODES:
         raise ClothSimError(f'there is no mode {name!r}: choose one of {", ".join(MODES)}')
-    if name not in modes.AVAILABLE:
-        raise ClothSimError(
-            f'mode {name} is not in this version yet: choose one of '
-            f'{", ".join(modes.AVAILABLE)}')

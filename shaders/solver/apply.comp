@@ -26,6 +26,7 @@ layout(local_size_x = LOCAL_X, local_size_y = LOCAL_Y) in;
 
 uniform float substep;  // [s]
 uniform int is_further;
+uniform vec3 common_change;  // [m/s] of all nodes, besides the solution
 
 void main() {
     int row = int(gl_GlobalInvocationID.y);
@@ -37,6 +38,7 @@ void main() {
     vec4 velocity = load_velocity(index);
     vec4 position = load_position(index);
     vec3 change = load_vector(cloth_entry(SOLUTION, level_index(0, row, col)));
+    change += common_change;
     velocity.xyz += change;
     vec3 moved = substep * (is_further == 1 ? change : velocity.xyz);
     velocity_out[index] = velocity;

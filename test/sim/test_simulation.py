@@ -122,19 +122,7 @@ def test_only_modes_that_exist_are_taken(simulation: Simulation):
     assert simulation.set_mode('mass_spring') == 'mass_spring'
     with pytest.raises(ClothSimError, match="there is no mode 'rigid': choose one of"):
         simulation.set_mode('rigid')
-    missing = {'constraint', 'adaptive'} - set(simulation.available_modes)
-    for name in missing:
-        with pytest.raises(ClothSimError, match=f'mode {name} is not in this version yet'):
-            simulation.set_mode(name)
     assert simulation.mode == 'mass_spring'
-
-
-def test_a_mode_that_is_missing_is_refused_at_the_start():
-    """A scene would run in another mode than it says."""
-    missing = {'constraint', 'adaptive'} - set(Simulation(Scene(_SMALL)).available_modes)
-    for name in missing:
-        with pytest.raises(ClothSimError, match=f'mode {name} is not in this version yet'):
-            Simulation(Scene({**_SMALL, 'mode': name}))
 
 
 def test_a_dt_above_the_limit_is_refused_with_the_way_out():

@@ -14,6 +14,7 @@
 
 """Constraint enforcement: edges keep their length by tensions solved for in each substep."""
 
+from dataclasses import replace
 import math
 
 from cloth_sim_ros.gl.buffer import Buffer
@@ -80,7 +81,7 @@ class Constraint:
                 self._substep(state, forcing)
             else:
                 self._free_motion.aim_at(state, forcing, pushes.still, length)
-                self._substep(state, forcing)
+                self._substep(state, *_split(forcing, length))
                 self._free_motion.restore(state, pushes.still, length)
 
     def forget(self) -> None:
@@ -102,7 +103,7 @@ class Constraint:
         }
 
     def limit_marks(self) -> Buffer | None:
-        """Return None: all edges are constraints, and none is at a limit."""
+        """Return None: an edge has no limit to come to, it is a constraint always."""
 
     def tension(
             self, positions: np.ndarray, velocities: np.ndarray,
@@ -138,13 +139,27 @@ class Constraint:
             self._scene, length, hard=self._scene['constraint.hard'],
             springs=self._scene['constraint.springs'], delta=self._scene['constraint.delta'])
 
-    def _substep(self, state: State, forcing: Forcing) -> None:
+    def _substep(
+            self, state: State, forcing: Forcing,
+            common_change: tuple[float, float, float] = (0.0, 0.0, 0.0)) -> None:
         self._solver.assemble(state)
         self._solver.make_right_side(state, forcing)
         self._solver.solve()
-        self._solver.apply(state)
+        self._solver.apply(state, common_change=common_change)
         for _ in range(self._solves - 1):
             self._solver.assemble(state)
             self._solver.make_later_right_side(state)
             self._solver.solve()
             self._solver.apply(state, further=True)
+
+
+def _split(forcing: Forcing, length: float) -> tuple[Forcing, tuple[float, float, float]]:
+    """
+    Return what accelerates some nodes only, and what all velocities change by [m/s].
+
+    What moves a free cloth as a whole leaves its edges as they are, so the solver, which stops at
+    a residual, need not find it.
+    """
+    return (
+        replace(forcing, everywhere=(0.0, 0.0, 0.0)),
+        tuple(length * part for part in forcing.everywhere))

@@ -145,16 +145,20 @@ class Solver:
             self._tensions.bind()
             self._tensions.find.run()
 
-    def apply(self, state: State, *, further: bool = False) -> None:
+    def apply(
+            self, state: State, *, further: bool = False,
+            common_change: tuple[float, float, float] = (0.0, 0.0, 0.0)) -> None:
         """
         Add the solution to the velocities and move the nodes for the length of the step.
 
         :param further: True after ``make_later_right_side``: the nodes have moved before
+        :param common_change: of all velocities, besides the solution [m/s]
         """
         self._buffers.bind()
         state.bind_in()
         state.bind_out()
         self._apply.set_int('is_further', int(further))
+        self._apply.set_vectors('common_change', common_change)
         self._apply.run()
         state.swap()
 

@@ -12,7 +12,7 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""The constraint mode on chains: where they hang, how tight they are, how long a step they stand."""
+"""The constraint mode on chains: where they hang, how tight, how long a step they stand."""
 
 import numpy as np
 import pytest
