@@ -45,6 +45,8 @@ SCENE_FIELDS = (
     Field('pins', str, ('top_left', 'top_right'),
           'nodes held in place: none, all, top_left, top_right, bottom_left, bottom_right, '
           'top_edge, bottom_edge, or "row,col"', is_array=True),
+    Field('pin_speed', float, 1.0, 'speed of a moving pin where none is given', 'm/s',
+          low=1e-6, high=1e6),
     Field('start.pose', str, 'horizontal', 'horizontal: flat at start.z; hanging: upright, '
           'row 0 on top', choices=('horizontal', 'hanging')),
     Field('start.z', float, 1.0, 'height of the cloth centre at the start', 'm',
@@ -90,6 +92,14 @@ SCENE_FIELDS = (
           'used where the radius is above 0', 'm', low=-1e6, high=1e6, is_array=True),
     Field('pushes.radius', float, (), 'radius of each timed push; 0 pushes the whole cloth',
           'm', low=0.0, high=1e6, is_array=True),
+    Field('pin_moves.start', float, (), 'start of each timed move of a pin', 's', low=0.0,
+          high=1e9, is_array=True),
+    Field('pin_moves.node', str, (), 'the pinned node of each timed move: a corner or "row,col"',
+          is_array=True),
+    Field('pin_moves.target', float, (), 'the point each timed move leads to in a straight line, '
+          'x y z one after the other', 'm', low=-1e6, high=1e6, is_array=True),
+    Field('pin_moves.speed', float, (), 'speed of each timed move; left out, all have pin_speed',
+          'm/s', low=1e-6, high=1e6, is_array=True),
     Field('layout', str, 'fused', 'fused: force and update in one pass; paper: the two passes '
           'of the paper, a baseline for benchmarks', choices=('fused', 'paper')),
     Field('loads', str, 'auto', 'how shaders read the state: texture, storage, or the faster '

@@ -23,8 +23,10 @@ from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.forces import with_forces
 from cloth_sim_ros.sim.forcing import Forcing
 from cloth_sim_ros.sim.layout import choose_layout
+from cloth_sim_ros.sim.nearest import nearest
 from cloth_sim_ros.sim.observer import Observer
-from cloth_sim_ros.sim.pins import check_node
+from cloth_sim_ros.sim.pin_motion import PinMotion
+from cloth_sim_ros.sim.pin_move import PinMove
 from cloth_sim_ros.sim.push import Push
 from cloth_sim_ros.sim.push_field import AppliedPush
 from cloth_sim_ros.sim.push_field import PushField
@@ -155,12 +157,38 @@ class Simulation:
         return self._pushes.clear()
 
     def pin(self, row: int, col: int) -> None:
-        """Hold the node (row, col) where it is."""
-        self._set_pinned(row, col, True)
+        """Hold the node (row, col) where it is; a pin that moves stops."""
+        self._context.make_current()
+        self._pin_motion.hold(row, col)
 
     def release(self, row: int, col: int) -> None:
-        """Let the node (row, col) move."""
-        self._set_pinned(row, col, False)
+        """Let the node (row, col) go, with the velocity its pin has."""
+        self._context.make_current()
+        self._pin_motion.release(row, col)
+
+    def move_pin(
+            self, row: int, col: int, target: Sequence[float],
+            speed: float | None = None) -> float:
+        """
+        Move the pinned node (row, col) in a straight line to ``target`` [m], where it rests.
+
+        A new target takes the place of the one before, from where the pin is by then.
+
+        :param speed: [m/s] in simulated time; the scene's pin_speed by default
+        :return: simulated time at which it arrives [s]
+        :raises ClothSimError: when the node is not pinned or a value is wrong
+        """
+        self._context.make_current()
+        return self._pin_motion.move(row, col, target, speed, self.time)
+
+    @property
+    def pin_moves(self) -> tuple[PinMove, ...]:
+        """Return the moves of pins that are under way."""
+        return self._pin_motion.under_way
+
+    def pin_velocity_changes(self) -> np.ndarray:
+        """Return the velocity of pins in the last step less that before, (rows, cols, 3) [m/s]."""
+        return self._pin_motion.velocity_changes()
 
     def pinned_nodes(self) -> np.ndarray:
         """Return which nodes are held now, (rows, cols) bool."""
@@ -168,12 +196,11 @@ class Simulation:
 
     def nearest_node(self, point: Sequence[float]) -> tuple[int, int]:
         """Return row and col of the node nearest to ``point`` [m]."""
-        if len(point) != 3 or not all(math.isfinite(part) for part in point):
-            raise ClothSimError(f'a point needs 3 finite numbers [m], got {tuple(point)}')
-        away = self.snapshot().positions - np.array(point, dtype=np.float32)
-        nearest = int(np.argmin(np.einsum('rci,rci->rc', away, away)))
-        row, col = np.unravel_index(nearest, away.shape[:2])
-        return int(row), int(col)
+        return nearest(self.snapshot().positions, point)
+
+    def nearest_pin(self, point: Sequence[float]) -> tuple[int, int]:
+        """Return row and col of the pinned node nearest to ``point`` [m]."""
+        return nearest(self.snapshot().positions, point, self._state.pinned)
 
     def set_mode(self, name: str) -> str:
         """Step with the mode ``name`` from now on, keeping the state; return the one before."""
@@ -186,7 +213,11 @@ class Simulation:
         return previous
 
     def set_state(self, positions: np.ndarray, velocities: np.ndarray) -> None:
-        """Replace positions [m] and velocities [m/s], both (rows, cols, 3); pins stay still."""
+        """
+        Replace positions [m] and velocities [m/s], both (rows, cols, 3).
+
+        Pins are at rest then: moves under way end, those of the scene that are to come don't.
+        """
         shape = (self.scene.rows, self.scene.cols, 3)
         for name, values in (('positions', positions), ('velocities', velocities)):
             if np.shape(values) != shape or not np.all(np.abs(values) < _LARGEST):
@@ -195,10 +226,11 @@ class Simulation:
                     f'got {np.shape(values)}')
         self._context.make_current()
         self._state.write(np.asarray(positions), np.asarray(velocities))
+        self._pin_motion.drop()
         self._mode.forget()
 
     def reset(self) -> None:
-        """Go back to the start: pose, pins, time and the scene's pushes. The mode stays."""
+        """Go back to the start: pose, pins, time, the scene's pushes and moves of pins."""
         self._context.make_current()
         self._state.pinned[:] = self.scene.pinned_nodes()
         start = self.scene.start_positions()
@@ -252,11 +284,15 @@ class Simulation:
             self._state.pinned)
         for push in self.scene.timed_pushes():
             self._pushes.add(push, -math.inf)
+        self._pin_motion = PinMotion(self.scene, self._state)
 
     def _make_steps(self, count: int) -> int:
         self._context.make_current()
         for _ in range(count):
+            span = self.time, (self.steps + 1) * self.dt
+            self._pin_motion.begin_step(*span)
             self._mode.step(self._state, self.time, self._pushes)
+            self._pin_motion.end_step(*span)
             self.steps += 1
         return count
 
@@ -272,11 +308,6 @@ class Simulation:
             self._modes[name] = modes.AVAILABLE[name](
                 self.scene, self.layout, check_stability=self._check_stability)
         return self._modes[name]
-
-    def _set_pinned(self, row: int, col: int, pinned: bool) -> None:
-        check_node(row, col, self.scene.rows, self.scene.cols)
-        self._context.make_current()
-        self._state.set_pinned(row, col, pinned)
 
 
 def _check_mode(name: str) -> None:

@@ -36,7 +36,7 @@ class Measures:
     """
     The state in a few numbers.
 
-    :param kinetic_energy: [J]
+    :param kinetic_energy: of the free nodes [J]
     :param elastic_energy: [J]
     :param gravitational_energy: [J], zero at the origin
     :param max_strain: largest abs(l / L0 - 1) of structural and shear springs
@@ -102,7 +102,7 @@ class Snapshot(Measures):
 
     @property
     def velocities(self) -> np.ndarray:
-        """Return velocities [m/s], (rows, cols, 3) float32."""
+        """Return velocities [m/s], (rows, cols, 3) float32; a pinned node has its pin's."""
         return self._vectors(3)
 
     @property
