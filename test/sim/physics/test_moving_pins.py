@@ -166,17 +166,17 @@ def test_a_sudden_move_keeps_the_limit(simulate, within):
     """A mode that expects a calm cloth to stay calm does not see that a pin sets off."""
     simulation = simulate({
         'mode': 'adaptive', 'adaptive.threshold': 0.05, 'rows': 12, 'cols': 12,
-        'start.pose': 'hanging', 'pins': ['top_edge'], 'dt': 0.01})
-    simulation.advance(1.0)
-    assert simulation.snapshot().max_strain < 0.03
+        'gravity': [0.0, 0.0, 0.0], 'pins': ['top_edge'], 'dt': 0.01})
+    simulation.advance(2.0)
+    assert simulation.snapshot().max_strain < 1e-5
     for col, (x, y, z) in enumerate(simulation.snapshot().positions[0].tolist()):
-        simulation.move_pin(0, col, (x, y + 0.2, z + 0.2), 3.0)
+        simulation.move_pin(0, col, (x, y + 0.4, z), 3.0)
     strains = []
     for _ in range(30):
         simulation.step()
         strains.append(simulation.snapshot().max_strain)
     assert max(strains) > 0.045
-    within('strain behind pins that set off at 3 m/s', max(strains), 0.06)
+    within('strain behind pins that set off at 3 m/s', max(strains), 0.0625)
 
 
 def test_a_shaken_towel_does_not_stretch(simulate, within):
