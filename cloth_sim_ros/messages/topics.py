@@ -19,6 +19,7 @@ from cloth_sim_interfaces.msg import ClothStats
 from cloth_sim_interfaces.msg import Command
 from cloth_sim_interfaces.msg import ModeChange
 from cloth_sim_interfaces.msg import PinChange
+from cloth_sim_interfaces.msg import PinTarget
 from cloth_sim_interfaces.msg import Push
 from cloth_sim_ros.messages.topic import Topic
 from cloth_sim_ros.messages.wrenches import MOST_PINS
@@ -44,6 +45,7 @@ TOPICS = {
         Topic('diagnostics', DiagnosticArray, depth=10, is_global=True),
         Topic('inputs/push', Push, depth=100),
         Topic('inputs/pin', PinChange, depth=100),
+        Topic('inputs/pin_target', PinTarget, depth=100),
         Topic('inputs/mode', ModeChange, depth=100),
         Topic('inputs/command', Command, depth=100),
         Topic('inputs/parameters', ParameterEvent, depth=100),

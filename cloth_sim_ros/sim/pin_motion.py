@@ -73,12 +73,12 @@ class PinMotion:
 
     def move(
             self, row: int, col: int, target: Sequence[float], speed: float | None,
-            now: float) -> float:
+            now: float) -> PinPath:
         """
         Begin to move the pin (row, col) ``now`` [s], in place of a move under way.
 
         :param speed: [m/s]; None for the scene's pin_speed
-        :return: simulated time at which it arrives [s]
+        :return: its way, which tells when it arrives
         :raises ClothSimError: when the node is not pinned or a value is wrong
         """
         self._check_node(row, col)
@@ -116,9 +116,9 @@ class PinMotion:
         """Put the pins where they are at ``end`` [s]; those at their target come to rest."""
         nothing = _NOTHING * (end - begin)
         for node, path in list(self._paths.items()):
-            arrives = path.end <= end + nothing
+            arrives = path.arrival <= end + nothing
             # Each substep has rounded its position to float32.
-            self._state.place_pin(*node, path.position(path.end if arrives else end))
+            self._state.place_pin(*node, path.position(path.arrival if arrives else end))
             if arrives:
                 self._stop(node)
 
@@ -134,12 +134,12 @@ class PinMotion:
     def _check_node(self, row: int, col: int) -> None:
         check_node(row, col, self._scene.rows, self._scene.cols)
 
-    def _start(self, move: PinMove) -> float:
+    def _start(self, move: PinMove) -> PinPath:
         path = self._paths.get(move.node)
         origin = self._state.read_position(*move.node) if path is None else (
             path.position(move.start))
         self._paths[move.node] = PinPath(move, origin)
-        return self._paths[move.node].end
+        return self._paths[move.node]
 
     def _stop(self, node: Node) -> None:
         self._paths.pop(node, None)

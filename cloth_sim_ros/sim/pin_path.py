@@ -23,6 +23,8 @@ class PinPath:
     """
     The way of one pin, in float64: nothing adds up, so it ends exactly at its target.
 
+    ``begin`` and ``arrival`` are simulated times [s].
+
     :param move: what is to be done
     :param origin: where the pin is when it begins [m], (3,)
     """
@@ -35,12 +37,12 @@ class PinPath:
         way = self._target - self._origin
         length = float(np.linalg.norm(way))
         self.begin = move.start
-        self.end = move.start + length / move.speed
+        self.arrival = move.start + length / move.speed
         self._velocity = way * (move.speed / length) if length > 0.0 else np.zeros(3)
 
     def position(self, time: float) -> np.ndarray:
         """Return where the pin is at ``time`` [s], (3,) [m]."""
-        if time >= self.end:
+        if time >= self.arrival:
             return self._target
         return self._origin + self._velocity * max(time - self.begin, 0.0)
 
@@ -51,6 +53,6 @@ class PinPath:
         :param at_begin: where it is at ``begin`` [m]; on another way, if this one begins later
         """
         # On the way the velocity has the same bits in each step: only then has nothing changed.
-        if self.begin <= begin and end <= self.end:
+        if self.begin <= begin and end <= self.arrival:
             return self._velocity
         return (self.position(end) - at_begin) / (end - begin)

@@ -127,7 +127,8 @@ class Scene:
         """Return the pushes that are part of the scene, in the order given."""
         columns = zip(
             self['pushes.start'], self._timed('pushes.duration'), self._timed('pushes.force', 3),
-            self._timed('pushes.center', 3, default=0.0), self._timed('pushes.radius', default=0.0))
+            self._timed('pushes.center', 3, default=0.0),
+            self._timed('pushes.radius', default=0.0))
         return tuple(
             Push.checked(
                 force=force, start=start, duration=duration,

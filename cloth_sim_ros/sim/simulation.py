@@ -27,6 +27,7 @@ from cloth_sim_ros.sim.nearest import nearest
 from cloth_sim_ros.sim.observer import Observer
 from cloth_sim_ros.sim.pin_motion import PinMotion
 from cloth_sim_ros.sim.pin_move import PinMove
+from cloth_sim_ros.sim.pin_path import PinPath
 from cloth_sim_ros.sim.push import Push
 from cloth_sim_ros.sim.push_field import AppliedPush
 from cloth_sim_ros.sim.push_field import PushField
@@ -168,14 +169,14 @@ class Simulation:
 
     def move_pin(
             self, row: int, col: int, target: Sequence[float],
-            speed: float | None = None) -> float:
+            speed: float | None = None) -> PinPath:
         """
         Move the pinned node (row, col) in a straight line to ``target`` [m], where it rests.
 
         A new target takes the place of the one before, from where the pin is by then.
 
         :param speed: [m/s] in simulated time; the scene's pin_speed by default
-        :return: simulated time at which it arrives [s]
+        :return: its way, which tells when it arrives
         :raises ClothSimError: when the node is not pinned or a value is wrong
         """
         self._context.make_current()

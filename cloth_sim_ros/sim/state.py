@@ -73,7 +73,7 @@ class State:
         self._write(self._velocities, row, col, velocity)
 
     def place_pin(self, row: int, col: int, position: np.ndarray) -> None:
-        """Put the pinned node (row, col) at ``position`` [m], (3,), where it is but for rounding."""
+        """Put the pinned node (row, col), which is close by, at ``position`` [m], (3,)."""
         self._write(self._positions, row, col, position)
 
     def read_position(self, row: int, col: int) -> np.ndarray:

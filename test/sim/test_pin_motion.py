@@ -54,7 +54,7 @@ def test_a_pin_goes_straight_and_arrives_exactly(simulation: Simulation):
     origin = simulation.snapshot().positions[0, 0].astype(float)
     target = np.array((-0.123456789, 0.61, 1.3))
     way = target - origin
-    arrival = simulation.move_pin(0, 0, target, 0.7)
+    arrival = simulation.move_pin(0, 0, target, 0.7).arrival
     assert arrival == pytest.approx(np.linalg.norm(way) / 0.7)
     assert [move.target for move in simulation.pin_moves] == [tuple(target)]
     while simulation.time < arrival - simulation.dt:
@@ -88,14 +88,14 @@ def test_slow_pins_arrive_as_well():
 def test_the_scenes_speed_is_taken_where_none_is_given():
     """A pin would go at another speed than the parameter says."""
     with closing(Simulation(Scene({**_SMALL, 'pin_speed': 0.25}))) as simulation:
-        assert simulation.move_pin(0, 0, (-0.5, 0.6, 1.0)) == pytest.approx(0.4)
+        assert simulation.move_pin(0, 0, (-0.5, 0.6, 1.0)).arrival == pytest.approx(0.4)
 
 
 def test_a_new_target_takes_the_place_of_the_old(simulation: Simulation):
     """A stream of targets would be followed late, or with jumps."""
     simulation.move_pin(0, 0, (-0.5, 0.7, 1.0), 1.0)
     run_until(simulation, 0.1)
-    arrival = simulation.move_pin(0, 0, (-0.5, 0.6, 1.2), 0.5)
+    arrival = simulation.move_pin(0, 0, (-0.5, 0.6, 1.2), 0.5).arrival
     assert arrival == pytest.approx(0.1 + 0.2 / 0.5)
     assert len(simulation.pin_moves) == 1
     before = simulation.snapshot().positions[0, 0]
@@ -182,7 +182,7 @@ def test_nonsense_is_refused(simulation: Simulation, node, target, speed, messag
 def test_a_move_to_where_the_pin_is_ends_at_once(simulation: Simulation):
     """A way of no length would be divided by."""
     x, y, z = simulation.snapshot().positions[0, 0].tolist()
-    assert simulation.move_pin(0, 0, (x, y, z), 1.0) == 0.0
+    assert simulation.move_pin(0, 0, (x, y, z), 1.0).arrival == 0.0
     simulation.step(2)
     assert not simulation.pin_moves
     assert simulation.snapshot().finite
