@@ -15,14 +15,18 @@
 
 """Pins that are moved by service and by a stream of targets."""
 
+from pathlib import Path
+
 from cloth_sim_interfaces.msg import PinTarget
 from cloth_sim_interfaces.srv import MovePin
 from cloth_sim_interfaces.srv import SetPin
+from cloth_sim_interfaces.srv import StartRecording
 from cloth_sim_interfaces.srv import Step
 from cloth_sim_ros.sim.snapshot import FLAG_PINNED
 from geometry_msgs.msg import Point
 import numpy as np
 import pytest
+from recorded import Recorded
 from std_msgs.msg import Header
 from std_srvs.srv import Trigger
 
@@ -108,6 +112,33 @@ def test_a_stream_of_targets_is_followed(cloth, simulation):
         simulation.step(2)
     assert cloth.frame(20).tobytes() == simulation.snapshot().records.tobytes()
     cloth.client.node.destroy_publisher(publisher)
+
+
+def test_a_recorded_run_can_be_made_again(cloth, simulation):
+    """A recording would not have all that moved the pins, or not when."""
+    path = Path(cloth.call(StartRecording, 'start_recording').path)
+    for step, (col, z) in enumerate([(0, 1.2), (9, 0.9), (0, 1.0), (5, 1.4), (9, 1.3)]):
+        if col == 5:
+            cloth.call(SetPin, 'set_pin', row=0, col=col)
+        assert cloth.call(
+            MovePin, 'move_pin', row=0, col=col, target=Point(x=0.1 * col - 0.45, z=z),
+            speed=1.0 + 0.3 * step).success
+        cloth.call(Step, 'step', steps=7)
+    cloth.call(Trigger, 'stop_recording')
+    bag = Recorded(path)
+    targets, pins = bag.messages('inputs/pin_target'), bag.messages('inputs/pin')
+    assert len(targets) == 5
+    for step in range(35):
+        for pin in pins:
+            if cloth.steps_of(pin) == step:
+                simulation.pin(pin.row, pin.col)
+        for told in targets:
+            if cloth.steps_of(told) == step:
+                simulation.move_pin(
+                    told.row, told.col, (told.target.x, told.target.y, told.target.z),
+                    told.speed)
+        simulation.step()
+    assert cloth.frame(35).tobytes() == simulation.snapshot().records.tobytes()
 
 
 def test_a_reset_ends_the_moves(cloth, simulation):

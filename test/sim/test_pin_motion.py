@@ -135,6 +135,22 @@ def test_holding_a_pin_stops_it(simulation: Simulation):
     np.testing.assert_array_equal(simulation.snapshot().velocities[0, 0], np.zeros(3))
 
 
+def test_a_switch_of_the_mode_leaves_the_pin_on_its_way(simulation: Simulation):
+    """A gripper would stop, or jump, because another mode steps the cloth."""
+    simulation.move_pin(0, 0, (-0.5, 0.6, 1.1), 2.0)
+    simulation.step(8)
+    before = simulation.snapshot()
+    simulation.set_mode('adaptive')
+    assert simulation.snapshot().state_sha256 == before.state_sha256
+    simulation.step(9)
+    np.testing.assert_allclose(
+        simulation.snapshot().positions[0, 0] - before.positions[0, 0],
+        np.array((0.0, 1.0, 1.0)) * 2.0 / np.sqrt(2.0) * 9 * simulation.dt, atol=2e-7)
+    simulation.step(1)
+    np.testing.assert_array_equal(
+        simulation.snapshot().positions[0, 0], np.array((-0.5, 0.6, 1.1), np.float32))
+
+
 def test_a_new_state_ends_the_moves(simulation: Simulation):
     """A pin would jump back to the way it was on in the state before."""
     start = simulation.snapshot()
