@@ -18,17 +18,21 @@ from dataclasses import replace
 
 from cloth_sim_ros.sim.modes.mode import Mode
 from cloth_sim_ros.sim.pin_forces import pin_forces
+from cloth_sim_ros.sim.pin_motion import PinMotion
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.snapshot import FLAG_PINNED
 from cloth_sim_ros.sim.snapshot import Snapshot
 import numpy as np
 
 
-def with_forces(snapshot: Snapshot, scene: Scene, mode: Mode, *, every_edge: bool) -> Snapshot:
+def with_forces(
+        snapshot: Snapshot, scene: Scene, mode: Mode, pins: PinMotion, *,
+        every_edge: bool) -> Snapshot:
     """
     Return ``snapshot`` with the forces at its pins.
 
     :param mode: that made its last step
+    :param pins: whose velocities were changed for that step
     :param every_edge: True to add the tension of every edge too, at a cost that grows with the
         cloth
     """
@@ -39,4 +43,5 @@ def with_forces(snapshot: Snapshot, scene: Scene, mode: Mode, *, every_edge: boo
         tension = mode.tension(positions, velocities, None if every_edge else nodes)
         return replace(
             snapshot, tension=tension if every_edge else None,
-            pin_forces=pin_forces(scene, positions, tension, nodes))
+            pin_forces=pin_forces(
+                scene, positions, tension, nodes, pins.velocity_changes(nodes) / snapshot.dt))

@@ -122,13 +122,17 @@ class PinMotion:
             if arrives:
                 self._stop(node)
 
-    def velocity_changes(self) -> np.ndarray:
-        """Return the velocity of pins in the last step less that before, (rows, cols, 3) [m/s]."""
-        changes = np.zeros((self._scene.rows, self._scene.cols, 3))
-        for node, velocity in self._latest.items():
-            changes[node] += velocity
-        for node, velocity in self._earlier.items():
-            changes[node] -= velocity
+    def velocity_changes(self, nodes: np.ndarray) -> np.ndarray:
+        """
+        Return the velocity of pins in the last step less that in the step before [m/s].
+
+        :param nodes: their rows and columns, (pins, 2) int
+        :return: (pins, 3)
+        """
+        changes = np.zeros((len(nodes), 3))
+        if self._latest or self._earlier:
+            for change, node in zip(changes, map(tuple, nodes.tolist())):
+                change += self._latest.get(node, _REST) - self._earlier.get(node, _REST)
         return changes
 
     def _check_node(self, row: int, col: int) -> None:

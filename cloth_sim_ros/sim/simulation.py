@@ -187,10 +187,6 @@ class Simulation:
         """Return the moves of pins that are under way."""
         return self._pin_motion.under_way
 
-    def pin_velocity_changes(self) -> np.ndarray:
-        """Return the velocity of pins in the last step less that before, (rows, cols, 3) [m/s]."""
-        return self._pin_motion.velocity_changes()
-
     def pinned_nodes(self) -> np.ndarray:
         """Return which nodes are held now, (rows, cols) bool."""
         return self._state.pinned.copy()
@@ -259,7 +255,8 @@ class Simulation:
             time=self.time, steps=self.steps, dt=self.dt,
             substeps=self.substeps, stability_margin=self.stability_margin)
         if tension or pin_forces:
-            return with_forces(snapshot, self.scene, self._mode, every_edge=tension)
+            return with_forces(
+                snapshot, self.scene, self._mode, self._pin_motion, every_edge=tension)
         return snapshot
 
     def finish(self) -> None:

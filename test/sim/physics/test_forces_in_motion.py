@@ -24,6 +24,23 @@ def test_pins_give_what_the_momentum_gets(simulate, within, force_scene):
     """A robot would feel another force than the cloth does."""
     simulation = simulate({**SWINGING, **force_scene})
     simulation.advance(0.15)
+    check_momentum(simulation, within)
+
+
+def test_pins_that_move_give_what_the_momentum_gets(simulate, within, force_scene):
+    """A robot would not feel that it sets its node in motion."""
+    simulation = simulate({**SWINGING, **force_scene})
+    simulation.advance(0.15)
+    positions = simulation.snapshot().positions.astype(float)
+    # All at once: cloth that can't stretch leaves one of them nowhere to go.
+    for row, col in np.argwhere(simulation.pinned_nodes()).tolist():
+        simulation.move_pin(row, col, positions[row, col] + (1.0, 0.0, 0.0), 0.1)
+    check_momentum(simulation, within)
+    assert simulation.pin_moves
+
+
+def check_momentum(simulation, within):
+    """Step on, and hold what the pins give to what the momentum gets."""
     looks = [simulation.snapshot(pin_forces=True)]
     for _ in range(200):
         simulation.step()
