@@ -49,5 +49,5 @@ void main() {
     int index = level_index(level, row, col);
     store_vector(vector_entry(level, RESIDUAL, index), residual);
     store_vector(
-        vector_entry(level, SMOOTHED, index), DAMPING * times_inverse(level, index, residual));
+        vector_entry(level, SMOOTHED, index), FIRST_STEP * times_inverse(level, index, residual));
 }

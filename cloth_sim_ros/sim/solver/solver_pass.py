@@ -25,14 +25,17 @@ class SolverPass:
     A program with the workgroups it always runs on.
 
     :param level: what the program's uniform ``level`` is set to; None leaves it alone
+    :param step_size: what the program's uniform ``step_size`` is set to; None leaves it alone
     """
 
     def __init__(
-            self, program: Program, groups: tuple[int, int], level: int | None = None) -> None:
+            self, program: Program, groups: tuple[int, int], level: int | None = None,
+            step_size: float | None = None) -> None:
         """Remember how to run ``program``."""
         self.groups = groups
         self._program = program
         self._level = level
+        self._step_size = step_size
         self._offset = 0
 
     def switch(self, dispatches: list[tuple[int, int]]) -> None:
@@ -57,3 +60,5 @@ class SolverPass:
         self._program.use()
         if self._level is not None:
             self._program.set_int('level', self._level)
+        if self._step_size is not None:
+            self._program.set_float('step_size', self._step_size)

@@ -27,5 +27,5 @@
 
 void smooth_residual(int index, vec3 residual) {
     store_vector(
-        cloth_entry(SMOOTHED_INTO, index), DAMPING * times(load_cloth_inverse(index), residual));
+        cloth_entry(SMOOTHED_INTO, index), FIRST_STEP * times(load_cloth_inverse(index), residual));
 }
