@@ -19,7 +19,7 @@ from cloth_sim_ros.sim.layout import Layout
 import numpy as np
 
 # A coarsest level of up to this many nodes a side is solved in one workgroup.
-COARSEST_SIDE = 8
+COARSEST_SIDE = 16
 _CLOTH_VECTORS = 6
 _CLOTH_SYSTEM = 3
 _COARSE_VECTORS = 3
