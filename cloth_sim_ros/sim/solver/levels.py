@@ -14,12 +14,14 @@
 
 """The lattices of the solver, from the cloth down to a few nodes, and where each is stored."""
 
+import math
+
 from cloth_sim_ros.gl.program import Program
 from cloth_sim_ros.sim.layout import Layout
 import numpy as np
 
 # A coarsest level of up to this many nodes a side is solved in one workgroup.
-COARSEST_SIDE = 16
+COARSEST_SIDE = 8
 _CLOTH_VECTORS = 6
 _CLOTH_SYSTEM = 3
 _COARSE_VECTORS = 3
@@ -74,6 +76,16 @@ class Levels:
         return max(self.layouts[-1].rows, self.layouts[-1].cols)
 
 
+class _InLine(Layout):
+    """Counts blocks row by row, see solver/block_of_invocation.glsl."""
+
+    @property
+    def groups(self) -> tuple[int, int]:
+        across, down = (-(-nodes // self.block) for nodes in (self.cols, self.rows))
+        return -(-across * down // math.prod(self.local)), 1
+
+
 def _layout(state: Layout, rows: int, cols: int) -> Layout:
-    block, local = _ON_SOFTWARE if state.texture_loads else _ON_GPU
-    return Layout(rows, cols, 'fused', state.texture_loads, block, local)
+    if state.texture_loads:
+        return _InLine(rows, cols, 'fused', True, *_ON_SOFTWARE)
+    return Layout(rows, cols, 'fused', False, *_ON_GPU)

@@ -57,7 +57,7 @@ class Solver:
     def __init__(
             self, scene: Scene, state: Layout, *, families: tuple[str, ...] | None = None,
             preconditioner: str = 'multigrid', tolerance: float = 1e-2,
-            max_iterations: int = 20) -> None:
+            max_iterations: int = 12) -> None:
         """Compile the passes and allocate the buffers."""
         if families is None:
             families = tuple(family for family in FAMILIES if scene.models(family))

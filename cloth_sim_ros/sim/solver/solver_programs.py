@@ -77,6 +77,7 @@ def solver_defines(
         'MULTIGRID': int(is_multigrid),
         'FIRST_STEP': FIRST_STEP if is_multigrid else 1.0,
         'SECOND_STEP': SECOND_STEP,
+        'BLOCKS_IN_LINE': int(state.texture_loads),
         'SUMS_BY_GROUP': int(not state.texture_loads),
         'POINT_LOCAL': POINT_LOCAL,
         'POINTS': POINTS,
