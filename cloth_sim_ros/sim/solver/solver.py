@@ -27,6 +27,7 @@ from cloth_sim_ros.sim.solver.levels import Levels
 from cloth_sim_ros.sim.solver.multigrid import Multigrid
 from cloth_sim_ros.sim.solver.preconditioner import Preconditioner
 from cloth_sim_ros.sim.solver.right_side import RightSide
+from cloth_sim_ros.sim.solver.solve_report import report_of
 from cloth_sim_ros.sim.solver.solve_report import SolveReport
 from cloth_sim_ros.sim.solver.solver_buffers import PRECONDITIONED
 from cloth_sim_ros.sim.solver.solver_buffers import PRODUCT
@@ -137,8 +138,7 @@ class Solver:
     def report(self) -> SolveReport:
         """Return how the last solve ended."""
         _, _, _, start, after, iterations = (float(value) for value in self._buffers.scalars())
-        residual = (after / start)**0.5 if start > 0.0 else after
-        return SolveReport(int(iterations), residual, residual <= self._tolerance)
+        return report_of(start, after, int(iterations), self._tolerance)
 
     def delete(self) -> None:
         """Give the buffers back."""
