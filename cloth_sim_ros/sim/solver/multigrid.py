@@ -22,7 +22,7 @@ from cloth_sim_ros.sim.solver.solver_programs import SECOND_STEP
 from cloth_sim_ros.sim.solver.solver_programs import SolverPrograms
 
 # Chebyshev steps on the coarsest level, and the spread of eigenvalues they are made for.
-_COARSEST_STEPS = 6
+_COARSEST_STEPS = 10
 _LEAST_SPREAD = 4.0
 _MOST_SPREAD = 60.0
 # The largest eigenvalue of an edge system over its diagonal blocks: an edge ties two nodes.
