@@ -86,7 +86,7 @@ def test_no_vendor_extension_and_no_float_atomics(path: Path):
     """Other GPUs could not run it, or two runs would differ."""
     text = path.read_text()
     assert not re.search(r'#extension|_NV\b|_AMD\b|_INTEL\b', text)
-    # The paper's solver, which only a benchmark runs, counts the entries of a row as the paper does.
+    # The solver of the paper, which only a benchmark runs, counts entries as the paper does.
     if path.relative_to(shader_directory()) == Path('paper_solver/spmm.comp'):
         text = text.replace('atomicAdd(row_count[i], 1u)', '')
     assert not re.search(r'\batomic\w+\(', text)
