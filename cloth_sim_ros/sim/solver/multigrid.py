@@ -14,6 +14,7 @@
 
 """Geometric multigrid: smooth, solve what is left on a lattice half as fine, smooth again."""
 
+from cloth_sim_ros.sim.layout import Layout
 from cloth_sim_ros.sim.solver.edge_law import EdgeLaw
 from cloth_sim_ros.sim.solver.levels import Levels
 from cloth_sim_ros.sim.solver.solver_pass import SolverPass
@@ -74,9 +75,14 @@ class Multigrid:
             smoothing = of_level if level else of_cloth
             passes = [
                 *smoothing.down(level, layouts[level].groups),
-                SolverPass(restrict, layouts[level + 1].node_groups, level + 1), *passes,
+                SolverPass(restrict, _restrict_groups(layouts[level + 1]), level + 1), *passes,
                 *smoothing.up(level, layouts[level].groups)]
         return passes
+
+
+def _restrict_groups(layout: Layout) -> tuple[int, int]:
+    # Two nodes along each side an invocation.
+    return tuple(-(-groups // 2) for groups in layout.node_groups)
 
 
 class _Smoothing:
