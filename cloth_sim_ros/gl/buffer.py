@@ -16,11 +16,15 @@
 
 import ctypes
 
+from cloth_sim_ros.gl.quick_calls import Call
 from cloth_sim_ros.gl.quick_calls import memory_barrier
 import numpy as np
 from OpenGL import GL
 
 _WRITES = GL.GL_SHADER_STORAGE_BARRIER_BIT | GL.GL_TEXTURE_FETCH_BARRIER_BIT
+# What shader_writes_visible and shader_dispatches_visible do.
+WRITES_VISIBLE: Call = (memory_barrier, (_WRITES,))
+DISPATCHES_VISIBLE: Call = (memory_barrier, (_WRITES | GL.GL_COMMAND_BARRIER_BIT,))
 
 
 class Buffer:

@@ -19,6 +19,7 @@ import re
 
 from cloth_sim_ros.gl import quick_calls
 from cloth_sim_ros.gl.errors import ShaderError
+from cloth_sim_ros.gl.quick_calls import Call
 from cloth_sim_ros.gl.shader_source import ShaderSource
 import numpy as np
 from OpenGL import GL
@@ -89,9 +90,18 @@ class Program:
                 'are allowed a side: use fewer nodes')
         quick_calls.dispatch(groups_x, groups_y, 1)
 
-    def dispatch_indirect(self, offset: int) -> None:
-        """Run the program in use on the workgroups that stand at ``offset`` [bytes]."""
-        quick_calls.dispatch_indirect(offset)
+    def indirect_calls(self, offset: int, **uniforms: float) -> list[Call]:
+        """
+        Return the calls that run the program on the workgroups that stand at ``offset`` [bytes].
+
+        :param uniforms: set before, each by its type as an int or a float
+        """
+        setters = {int: quick_calls.set_uniform_int, float: quick_calls.set_uniform_float}
+        return [
+            (quick_calls.use_program, (self._program,)),
+            *((setters[type(value)], (self._location(name), value))
+              for name, value in uniforms.items()),
+            (quick_calls.dispatch_indirect, (offset,))]
 
     def _location(self, name: str) -> int:
         if name not in self._locations:

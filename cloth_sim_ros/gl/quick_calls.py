@@ -25,6 +25,9 @@ from collections.abc import Callable
 from OpenGL.platform import PLATFORM
 from OpenGL.raw.GL import _types as gl_type
 
+# A call to be made over and over, and its arguments.
+Call = tuple[Callable[..., None], tuple[float, ...]]
+
 
 def _quick(name: str, *types: type) -> Callable[..., None]:
     return PLATFORM.constructFunction(name, PLATFORM.GL, None, types)

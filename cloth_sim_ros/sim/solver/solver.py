@@ -14,8 +14,7 @@
 
 """Preconditioned conjugate gradients on the device, which decides itself when to stop."""
 
-from collections.abc import Callable
-
+from cloth_sim_ros.gl.buffer import DISPATCHES_VISIBLE
 from cloth_sim_ros.gl.buffer import shader_dispatches_visible
 from cloth_sim_ros.sim.forcing import Forcing
 from cloth_sim_ros.sim.layout import Layout
@@ -113,10 +112,12 @@ class Solver:
         self._buffers.bind()
         self._buffers.clear_scalars()
         self._begin.run()
-        self._iterate(SolverPass.run)
-        for _ in range(self._max_iterations - 1):
-            self._update.run_if_going()
-            self._iterate(SolverPass.run_if_going)
+        for each in self._iteration:
+            each.run()
+        shader_dispatches_visible()
+        # Most of these run nothing: what they cost is the calls.
+        for call, arguments in (self._max_iterations - 1) * self._further_calls:
+            call(*arguments)
         self._update.run()
 
     def apply(self, state: State) -> None:
@@ -152,13 +153,6 @@ class Solver:
         """Give the buffers back."""
         self._buffers.delete()
 
-    def _iterate(self, run: Callable[[SolverPass], None]) -> None:
-        for each in self._preconditioner.cycle:
-            run(each)
-        run(self._multiply)
-        run(self._reduce)
-        shader_dispatches_visible()
-
     def _compile(self, levels: Levels) -> None:
         cloth = levels.cloth
         points = (-(-cloth.stored // (POINTS * POINT_LOCAL)), 1)
@@ -171,12 +165,16 @@ class Solver:
         self._update = SolverPass(programs.make('update.comp'), points)
         self._apply = SolverPass(programs.make('apply.comp'), nodes)
         dispatches = [(1, 1)]
-        for each in (*self._preconditioner.cycle, self._multiply, self._update):
+        self._iteration = [*self._preconditioner.cycle, self._multiply]
+        for each in (*self._iteration, self._update):
             each.switch(dispatches)
         reduce = programs.make(
             'reduce.comp', GROUPS_COUNT=len(dispatches),
             GROUPS_OF_EACH=', '.join(f'ivec2({x}, {y})' for x, y in dispatches))
-        self._reduce = SolverPass(reduce, (1, 1))
+        self._iteration.append(SolverPass(reduce, (1, 1)))
+        self._further_calls = [
+            call for each in (self._update, *self._iteration) for call in each.calls_if_going()]
+        self._further_calls.append(DISPATCHES_VISIBLE)
         self._buffers = SolverBuffers(levels, len(dispatches))
         reduce.set_int('sum_count', self._buffers.sum_count)
         reduce.set_float('tolerance_square', (_AIM * self._tolerance)**2)

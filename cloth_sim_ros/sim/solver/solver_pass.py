@@ -15,7 +15,9 @@
 """One pass of the solver, and the list of workgroup counts that reduce.comp switches off."""
 
 from cloth_sim_ros.gl.buffer import shader_writes_visible
+from cloth_sim_ros.gl.buffer import WRITES_VISIBLE
 from cloth_sim_ros.gl.program import Program
+from cloth_sim_ros.gl.quick_calls import Call
 
 _BYTES_PER_DISPATCH = 12
 
@@ -34,8 +36,9 @@ class SolverPass:
         """Remember how to run ``program``."""
         self.groups = groups
         self._program = program
-        self._level = level
-        self._step_size = step_size
+        uniforms = {'level': level, 'step_size': step_size}
+        self._uniforms = {
+            name: value for name, value in uniforms.items() if value is not None}
         self._offset = 0
 
     def switch(self, dispatches: list[tuple[int, int]]) -> None:
@@ -50,15 +53,11 @@ class SolverPass:
         self._program.dispatch(*self.groups)
         shader_writes_visible()
 
-    def run_if_going(self) -> None:
-        """Run the pass unless the device has decided to stop."""
-        self._use()
-        self._program.dispatch_indirect(self._offset)
-        shader_writes_visible()
+    def calls_if_going(self) -> list[Call]:
+        """Return what runs the pass unless the device has decided to stop."""
+        return [*self._program.indirect_calls(self._offset, **self._uniforms), WRITES_VISIBLE]
 
     def _use(self) -> None:
         self._program.use()
-        if self._level is not None:
-            self._program.set_int('level', self._level)
-        if self._step_size is not None:
-            self._program.set_float('step_size', self._step_size)
+        for name, value in self._uniforms.items():
+            (self._program.set_int if name == 'level' else self._program.set_float)(name, value)
