@@ -16,8 +16,15 @@
 
 import ctypes
 
+from cloth_sim_ros.gl.quick_calls import Call
+from cloth_sim_ros.gl.quick_calls import memory_barrier
 import numpy as np
 from OpenGL import GL
+
+_WRITES = GL.GL_SHADER_STORAGE_BARRIER_BIT | GL.GL_TEXTURE_FETCH_BARRIER_BIT
+# What shader_writes_visible and shader_dispatches_visible do.
+WRITES_VISIBLE: Call = (memory_barrier, (_WRITES,))
+DISPATCHES_VISIBLE: Call = (memory_barrier, (_WRITES | GL.GL_COMMAND_BARRIER_BIT,))
 
 
 class Buffer:
@@ -84,12 +91,9 @@ def most_bytes() -> int:
 
 def shader_writes_visible() -> None:
     """Order all reads by later dispatches after the writes of earlier ones."""
-    GL.glMemoryBarrier(
-        GL.GL_SHADER_STORAGE_BARRIER_BIT | GL.GL_TEXTURE_FETCH_BARRIER_BIT)
+    memory_barrier(_WRITES)
 
 
 def shader_dispatches_visible() -> None:
     """Order all indirect dispatches to come after the writes of earlier ones, too."""
-    GL.glMemoryBarrier(
-        GL.GL_SHADER_STORAGE_BARRIER_BIT | GL.GL_TEXTURE_FETCH_BARRIER_BIT
-        | GL.GL_COMMAND_BARRIER_BIT)
+    memory_barrier(_WRITES | GL.GL_COMMAND_BARRIER_BIT)

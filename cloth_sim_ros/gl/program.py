@@ -17,7 +17,9 @@
 from collections.abc import Sequence
 import re
 
+from cloth_sim_ros.gl import quick_calls
 from cloth_sim_ros.gl.errors import ShaderError
+from cloth_sim_ros.gl.quick_calls import Call
 from cloth_sim_ros.gl.shader_source import ShaderSource
 import numpy as np
 from OpenGL import GL
@@ -54,15 +56,15 @@ class Program:
 
     def use(self) -> None:
         """Make this the program that ``set`` and ``dispatch`` act on."""
-        GL.glUseProgram(self._program)
+        quick_calls.use_program(self._program)
 
     def set_float(self, name: str, value: float) -> None:
         """Set a float uniform of the program in use."""
-        GL.glUniform1f(self._location(name), value)
+        quick_calls.set_uniform_float(self._location(name), value)
 
     def set_int(self, name: str, value: int) -> None:
         """Set an int uniform of the program in use."""
-        GL.glUniform1i(self._location(name), value)
+        quick_calls.set_uniform_int(self._location(name), value)
 
     def set_floats(self, name: str, values: Sequence[float]) -> None:
         """Set the first floats of an array uniform of the program in use."""
@@ -86,11 +88,19 @@ class Program:
             raise ShaderError(
                 f'{self.name} needs {groups_x} x {groups_y} workgroups, at most {_MOST_GROUPS} '
                 'are allowed a side: use fewer nodes')
-        GL.glDispatchCompute(groups_x, groups_y, 1)
+        quick_calls.dispatch(groups_x, groups_y, 1)
 
-    def dispatch_indirect(self, offset: int) -> None:
-        """Run the program in use on the workgroups that stand at ``offset`` [bytes]."""
-        GL.glDispatchComputeIndirect(offset)
+    def indirect_calls(self, offset: int, **uniforms: int) -> list[Call]:
+        """
+        Return the calls that run the program on the workgroups that stand at ``offset`` [bytes].
+
+        :param uniforms: int uniforms to set before
+        """
+        return [
+            (quick_calls.use_program, (self._program,)),
+            *((quick_calls.set_uniform_int, (self._location(name), value))
+              for name, value in uniforms.items()),
+            (quick_calls.dispatch_indirect, (offset,))]
 
     def _location(self, name: str) -> int:
         if name not in self._locations:

@@ -19,10 +19,15 @@ Variants are measured in turn, so that their ratio holds on a machine whose spee
 is compared with the last one, by default the paper's layout. LP_NUM_THREADS sets the worker
 threads of llvmpipe.
 
+--solver measures the implicit step instead: solves a second, set-up included, with the iterations
+to a residual of 1e-2 and the error against a direct float64 solve beside them.
+
 For example:
   cloth_sim bench
   cloth_sim bench --sizes 512 1024 --rounds 9 --json
   cloth_sim bench --variants block=4 block=2 block=1,loads=storage
+  cloth_sim bench --solver
+  cloth_sim bench --solver --baseline paper
   cloth_sim bench --start-up config/drape.yaml
 """
 
@@ -31,17 +36,25 @@ from argparse import Namespace
 import json
 import statistics
 
+from cloth_sim_ros.study.solver_speed import compare_solvers
+from cloth_sim_ros.study.solver_speed import SolverComparison
 from cloth_sim_ros.study.speed import compare_variants
 from cloth_sim_ros.study.speed import Comparison
+from cloth_sim_ros.study.timed_solver import BASELINES
 from cloth_sim_ros.verb.scene_arguments import parse_change
 
 _START_UP_TIMEOUT = 60.0
+_SIZES = [128, 512, 1024]
+_SOLVER_SIZES = [52, 128]
+# The paper's matrix takes time and memory with the square of the edges.
+_PAPER_SOLVER_SIZES = [20]
 
 
 def add_arguments(parser: ArgumentParser) -> None:
     """Add the arguments of this verb."""
-    parser.add_argument('--sizes', type=int, nargs='+', default=[128, 512, 1024], metavar='N',
-                        help='nodes along each side (default: 128 512 1024)')
+    parser.add_argument('--sizes', type=int, nargs='+', metavar='N',
+                        help='nodes along each side (default: 128 512 1024; with --solver 52 128, '
+                             'with --baseline paper 20)')
     parser.add_argument('--variants', nargs='+', metavar='name=value,...',
                         default=['layout=fused', 'layout=paper'],
                         help='scene parameters of each variant (default: %(default)s)')
@@ -49,6 +62,10 @@ def add_arguments(parser: ArgumentParser) -> None:
                         help='rounds of each layout (default: %(default)s)')
     parser.add_argument('--round-seconds', type=float, default=0.4, metavar='T',
                         help='wall time of a round (default: %(default)s)')
+    parser.add_argument('--solver', action='store_true',
+                        help='measure the solver of the implicit step instead')
+    parser.add_argument('--baseline', choices=('paper', 'block_jacobi'),
+                        help='measure this solver in turn with it, and their ratio')
     parser.add_argument('--start-up', metavar='SCENE.yaml',
                         help='measure the time of a node to its first cloud instead; needs ROS')
     parser.add_argument('--set', action='append', default=[], metavar='name=value',
@@ -69,11 +86,42 @@ def main(args: Namespace) -> int:
               if args.json else f'first cloud after {statistics.median(times):.2f} s '
               f'(median of {len(times)}, {min(times):.2f} to {max(times):.2f})')
         return 0
+    if args.solver:
+        return _measure_solver(args)
     variants = {text: dict(map(parse_change, text.split(','))) for text in args.variants}
-    for comparison in compare_variants(variants, args.sizes, args.rounds, args.round_seconds):
+    for comparison in compare_variants(
+            variants, args.sizes or _SIZES, args.rounds, args.round_seconds):
         print(json.dumps(comparison.as_dict()) if args.json else _in_words(comparison),
               flush=True)
     return 0
+
+
+def _measure_solver(args: Namespace) -> int:
+    sizes = args.sizes or (
+        _PAPER_SOLVER_SIZES if args.baseline == 'paper' else _SOLVER_SIZES)
+    baseline = BASELINES[args.baseline] if args.baseline else None
+    for comparison in compare_solvers(
+            sizes, args.rounds, args.round_seconds, baseline=baseline):
+        print(json.dumps(comparison.as_dict()) if args.json
+              else _solver_in_words(comparison), flush=True)
+    return 0
+
+
+def _solver_in_words(comparison: SolverComparison) -> str:
+    lines = [f'{comparison.rows} x {comparison.cols} on {comparison.device}']
+    for speed in comparison.speeds:
+        lines.append(
+            f'  {speed.solver:12} {speed.step:17} after {speed.drape_time} s: '
+            f'{speed.median:7.1f} solves/s ({min(speed.rounds):.1f} to {max(speed.rounds):.1f}), '
+            f'{speed.iterations:3} iterations to {speed.residual:.1e}, '
+            f'dv off by {100.0 * speed.velocity_error:.1f} %'
+            + ('' if speed.reached else ', NOT REACHED'))
+    if comparison.ratios:
+        lines.append(
+            f'  {comparison.speeds[0].solver} over {comparison.speeds[1].solver}: '
+            f'{statistics.median(comparison.ratios):.1f} x ({min(comparison.ratios):.1f} to '
+            f'{max(comparison.ratios):.1f})')
+    return '\n'.join(lines)
 
 
 def _in_words(comparison: Comparison) -> str:

@@ -13,7 +13,7 @@
 // limitations under the License.
 
 #version 430 core
-// What the first smoothing of the cloth leaves of the residual.
+// What smoothing leaves of the residual of the cloth.
 
 #include "solver/levels.glsl"
 #include "solver/vectors.glsl"
@@ -28,7 +28,7 @@ void main() {
         return;
     }
     load_nodes(first);
-    load_values(first, SMOOTHED);
+    load_values(first, SMOOTHED_TWICE);
     make_product();
     FOR_BLOCK {
         int index = tile_index(first, row, col);

@@ -13,15 +13,18 @@
 // limitations under the License.
 
 #version 430 core
-// Add the correction of level 1 to the smoothed residual of the cloth, and smooth once more.
+// One more step of smoothing the cloth: from SMOOTHED to SMOOTHED_TWICE on the way down, from
+// CORRECTED to PRECONDITIONED on the way up, which are the same fields.
 
 #include "solver/levels.glsl"
 #include "solver/vectors.glsl"
 #include "solver/system.glsl"
+#include "solver/smoothing_steps.glsl"
 #include "solver/cloth_product.glsl"
-#include "solver/correction.glsl"
 
 layout(local_size_x = LOCAL_X, local_size_y = LOCAL_Y) in;
+
+uniform bool goes_up;
 
 void main() {
     ivec2 first = first_of_block();
@@ -30,18 +33,13 @@ void main() {
     }
     load_nodes(first);
     load_values(first, SMOOTHED);
-    load_correction(1, first);
-    FOR_TILE {
-        if (is_free(node[row][col])) {
-            value[row][col] += correction[row][col];
-        }
-    }
     make_product();
+    float step_size = goes_up ? first_step : second_step;
     FOR_BLOCK {
         int index = tile_index(first, row, col);
         vec3 left = load_vector(cloth_entry(RESIDUAL, index)) - product[row][col];
         store_vector(
             cloth_entry(PRECONDITIONED, index),
-            value[row][col] + DAMPING * times(load_cloth_inverse(index), left));
+            value[row][col] + step_size * times(load_cloth_inverse(index), left));
     }
 }

@@ -13,7 +13,7 @@
 // limitations under the License.
 
 #version 430 core
-// What the first smoothing of a coarse level leaves of the residual.
+// What smoothing leaves of the residual of a coarse level.
 
 #include "solver/levels.glsl"
 #include "solver/vectors.glsl"
@@ -27,7 +27,7 @@ void main() {
     if (!in_level(first)) {
         return;
     }
-    load_values(first, SMOOTHED);
+    load_values(first, SMOOTHED_TWICE);
     make_product(first);
     FOR_BLOCK {
         if (tile_inside(first, row, col)) {

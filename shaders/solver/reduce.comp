@@ -51,8 +51,9 @@ void decide(float now, float curvature) {
     measure = now;
     measure_start = start;
     iterations += first && !sound ? 0.0 : 1.0;
-    // The step just found is made in any case, and reduces the measure as the last one did.
-    measure_after = first ? now : now * min(keep, 1.0);
+    // The step just found is made, and reduces the measure as the last one did. What is not sound
+    // makes no step, and stays what it is: a NaN, for one.
+    measure_after = first || !sound ? now : now * min(keep, 1.0);
     uint another = sound && measure_after > tolerance_square * start ? 1u : 0u;
     for (int i = 0; i < GROUPS_COUNT; ++i) {
         dispatches[3 * i] = another * uint(GROUPS[i].x);

@@ -13,15 +13,18 @@
 // limitations under the License.
 
 #version 430 core
-// Add the correction of the level below to the smoothed residual, and smooth once more.
+// One more step of smoothing a coarse level: from SMOOTHED to SMOOTHED_TWICE on the way down, from
+// CORRECTED to PRECONDITIONED on the way up, which are the same fields.
 
 #include "solver/levels.glsl"
 #include "solver/vectors.glsl"
 #include "solver/system.glsl"
+#include "solver/smoothing_steps.glsl"
 #include "solver/level_product.glsl"
-#include "solver/correction.glsl"
 
 layout(local_size_x = LOCAL_X, local_size_y = LOCAL_Y) in;
+
+uniform bool goes_up;
 
 void main() {
     ivec2 first = first_of_block();
@@ -29,18 +32,15 @@ void main() {
         return;
     }
     load_values(first, SMOOTHED);
-    load_correction(level + 1, first);
-    FOR_TILE {
-        value[row][col] += correction[row][col];
-    }
     make_product(first);
+    float step_size = goes_up ? first_step : second_step;
     FOR_BLOCK {
         if (tile_inside(first, row, col)) {
             int index = tile_index(first, row, col);
             vec3 left = load_vector(vector_entry(level, RESIDUAL, index)) - product[row][col];
             store_vector(
                 vector_entry(level, PRECONDITIONED, index),
-                value[row][col] + DAMPING * times_inverse(level, index, left));
+                value[row][col] + step_size * times_inverse(level, index, left));
         }
     }
 }

@@ -30,9 +30,10 @@ uniform float tolerance_square;
 
 void main() {
     most_iterations = max(most_iterations, iterations);
-    float residual = measure_start > 0.0 ? measure_after / measure_start : measure_after;
+    // Rounding alone makes it negative.
+    float residual = abs(measure_start > 0.0 ? measure_after / measure_start : measure_after);
     // Written so that what is no number counts as not reached, and stays.
-    bool reached = residual <= tolerance_square;
+    bool reached = measure_start >= 0.0 && residual <= tolerance_square;
     unreached += reached ? 0.0 : 1.0;
     worst_residual = residual <= worst_residual ? worst_residual : residual;
 }

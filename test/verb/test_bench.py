@@ -48,3 +48,28 @@ def test_variants_are_scene_parameters():
     first, second = json.loads(done.stdout)['speeds']
     assert (first['block'], first['loads']) == (2, 'storage')
     assert second['ratio'] == 1.0
+
+
+def test_the_solver_is_measured_with_its_error():
+    """The speed of a solve would be told without what it is worth."""
+    done = subprocess.run(
+        [sys.executable, '-m', 'cloth_sim_ros.verb', 'bench', '--solver', '--rounds', '1',
+         '--round-seconds', '0.001', '--sizes', '10'],
+        capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    device, *lines = done.stdout.splitlines()
+    assert device.startswith('10 x 10 on ')
+    assert len(lines) == 12
+    assert all('solves/s' in line and 'dv off by' in line for line in lines)
+
+
+def test_the_paper_solver_is_a_named_baseline():
+    """The ratio to the paper could not be measured again."""
+    done = subprocess.run(
+        [sys.executable, '-m', 'cloth_sim_ros.verb', 'bench', '--solver', '--baseline', 'paper',
+         '--json', '--rounds', '1', '--round-seconds', '0.001', '--sizes', '10'],
+        capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    comparison = json.loads(done.stdout)
+    assert {speed['solver'] for speed in comparison['speeds']} == {'multigrid', 'paper'}
+    assert len(comparison['ratios']) == 6

@@ -14,6 +14,8 @@
 
 """The lattices of the solver, from the cloth down to a few nodes, and where each is stored."""
 
+import math
+
 from cloth_sim_ros.gl.program import Program
 from cloth_sim_ros.sim.layout import Layout
 import numpy as np
@@ -74,6 +76,16 @@ class Levels:
         return max(self.layouts[-1].rows, self.layouts[-1].cols)
 
 
+class _InLine(Layout):
+    """Counts blocks row by row, see solver/block_of_invocation.glsl."""
+
+    @property
+    def groups(self) -> tuple[int, int]:
+        across, down = (-(-nodes // self.block) for nodes in (self.cols, self.rows))
+        return -(-across * down // math.prod(self.local)), 1
+
+
 def _layout(state: Layout, rows: int, cols: int) -> Layout:
-    block, local = _ON_SOFTWARE if state.texture_loads else _ON_GPU
-    return Layout(rows, cols, 'fused', state.texture_loads, block, local)
+    if state.texture_loads:
+        return _InLine(rows, cols, 'fused', True, *_ON_SOFTWARE)
+    return Layout(rows, cols, 'fused', False, *_ON_GPU)

@@ -14,13 +14,14 @@
 
 """Geometric multigrid: smooth, solve what is left on a lattice half as fine, smooth again."""
 
+from cloth_sim_ros.sim.layout import Layout
 from cloth_sim_ros.sim.solver.edge_law import EdgeLaw
 from cloth_sim_ros.sim.solver.levels import Levels
 from cloth_sim_ros.sim.solver.solver_pass import SolverPass
 from cloth_sim_ros.sim.solver.solver_programs import SolverPrograms
 
 # Chebyshev steps on the coarsest level, and the spread of eigenvalues they are made for.
-_COARSEST_STEPS = 6
+_COARSEST_STEPS = 10
 _LEAST_SPREAD = 4.0
 _MOST_SPREAD = 60.0
 # The largest eigenvalue of an edge system over its diagonal blocks: an edge ties two nodes.
@@ -28,7 +29,7 @@ _LARGEST_EIGENVALUE = 2.0
 
 
 class Multigrid:
-    """A V-cycle with one damped block-Jacobi step before and after each coarser level."""
+    """A V-cycle with two Chebyshev steps of block-Jacobi before and after each coarser level."""
 
     is_multigrid = True
 
@@ -66,14 +67,34 @@ class Multigrid:
     def _cycle(self, programs: SolverPrograms) -> list[SolverPass]:
         layouts, last = self._levels.layouts, self._levels.coarsest
         restrict = programs.make('restrict.comp')
-        defect = programs.make('defect.comp')
-        smooth = programs.make('smooth.comp')
-        down = [SolverPass(programs.make('cloth_defect.comp'), layouts[0].groups)]
-        up = [SolverPass(programs.make('cloth_smooth.comp'), layouts[0].groups)]
-        for level in range(1, last):
-            down.append(SolverPass(restrict, layouts[level].node_groups, level))
-            down.append(SolverPass(defect, layouts[level].groups, level))
-            up.append(SolverPass(smooth, layouts[level].groups, level))
-        down.append(SolverPass(restrict, layouts[last].node_groups, last))
-        down.append(SolverPass(self._coarsest, (1, 1), last))
-        return down + up[::-1]
+        of_cloth, of_level = _Smoothing(programs, 'cloth_'), _Smoothing(programs, '')
+        passes = [SolverPass(self._coarsest, (1, 1), last)]
+        for level in reversed(range(last)):
+            smoothing = of_level if level else of_cloth
+            passes = [
+                *smoothing.down(level, layouts[level].groups),
+                SolverPass(restrict, _restrict_groups(layouts[level + 1]), level + 1), *passes,
+                *smoothing.up(level, layouts[level].groups)]
+        return passes
+
+
+def _restrict_groups(layout: Layout) -> tuple[int, int]:
+    # Two nodes along each side an invocation.
+    return tuple(-(-groups // 2) for groups in layout.node_groups)
+
+
+class _Smoothing:
+    """The smoothing of the cloth or of the coarse levels; restrict.comp makes its first step."""
+
+    def __init__(self, programs: SolverPrograms, prefix: str) -> None:
+        self._smooth = programs.make(f'{prefix}smooth.comp')
+        self._defect = programs.make(f'{prefix}defect.comp')
+        self._correct = programs.make(f'{prefix}correct.comp')
+
+    def down(self, level: int, groups: tuple[int, int]) -> list[SolverPass]:
+        return [SolverPass(self._smooth, groups, level, False),
+                SolverPass(self._defect, groups, level)]
+
+    def up(self, level: int, groups: tuple[int, int]) -> list[SolverPass]:
+        return [SolverPass(self._correct, groups, level),
+                SolverPass(self._smooth, groups, level, True)]

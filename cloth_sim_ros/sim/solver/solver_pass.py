@@ -17,7 +17,9 @@
 from collections.abc import Sequence
 
 from cloth_sim_ros.gl.buffer import shader_writes_visible
+from cloth_sim_ros.gl.buffer import WRITES_VISIBLE
 from cloth_sim_ros.gl.program import Program
+from cloth_sim_ros.gl.quick_calls import Call
 
 _BYTES_PER_DISPATCH = 12
 
@@ -27,14 +29,18 @@ class SolverPass:
     A program with the workgroups it always runs on.
 
     :param level: what the program's uniform ``level`` is set to; None leaves it alone
+    :param goes_up: what the program's uniform ``goes_up`` is set to; None leaves it alone
     """
 
     def __init__(
-            self, program: Program, groups: tuple[int, int], level: int | None = None) -> None:
+            self, program: Program, groups: tuple[int, int], level: int | None = None,
+            goes_up: bool | None = None) -> None:
         """Remember how to run ``program``."""
         self.groups = groups
         self._program = program
-        self._level = level
+        uniforms = {'level': level, 'goes_up': goes_up}
+        self._uniforms = {
+            name: int(value) for name, value in uniforms.items() if value is not None}
         self._offset = 0
 
     def set_int(self, name: str, value: int) -> None:
@@ -59,13 +65,11 @@ class SolverPass:
         self._program.dispatch(*self.groups)
         shader_writes_visible()
 
-    def run_if_going(self) -> None:
-        """Run the pass unless the device has decided to stop."""
-        self._use()
-        self._program.dispatch_indirect(self._offset)
-        shader_writes_visible()
+    def calls_if_going(self) -> list[Call]:
+        """Return what runs the pass unless the device has decided to stop."""
+        return [*self._program.indirect_calls(self._offset, **self._uniforms), WRITES_VISIBLE]
 
     def _use(self) -> None:
         self._program.use()
-        if self._level is not None:
-            self._program.set_int('level', self._level)
+        for name, value in self._uniforms.items():
+            self._program.set_int(name, value)

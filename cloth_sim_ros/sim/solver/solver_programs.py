@@ -22,13 +22,12 @@ from cloth_sim_ros.sim.layout import Layout
 from cloth_sim_ros.sim.scene import FAMILIES
 from cloth_sim_ros.sim.solver.edge_law import EdgeLaw
 from cloth_sim_ros.sim.solver.levels import Levels
+from cloth_sim_ros.sim.solver.smoothing_steps import smoothing_steps
 
 POINT_LOCAL = 64
 # Entries of one invocation where entries stand alone.
 POINTS = 4
 REDUCE_LOCAL = 16
-# Of block-Jacobi as a smoother; undamped it amplifies what it should smooth.
-_DAMPING = 0.8
 
 
 class SolverPrograms:
@@ -45,6 +44,7 @@ class SolverPrograms:
         """Gather the choices made at compile time."""
         self.defines = solver_defines(state, levels, families, is_multigrid=is_multigrid)
         self._levels = levels
+        self._is_multigrid = is_multigrid
         self._compiled: list[Program] = []
 
     def make(self, name: str, **defines: object) -> Program:
@@ -57,8 +57,11 @@ class SolverPrograms:
 
     def set_law(self, law: EdgeLaw) -> None:
         """Set the weights of the edges in all programs."""
+        steps = smoothing_steps(law) if self._is_multigrid else (1.0, 1.0)
         for program in self._compiled:
             program.use()
+            program.set_float('first_step', steps[0])
+            program.set_float('second_step', steps[1])
             program.set_floats('edge_weights', law.weights)
             program.set_floats('pinned_weights', law.pinned_weights)
             program.set_floats('edge_keeps', law.keeps)
@@ -75,7 +78,7 @@ def solver_defines(
         'STATE_PITCH': state.pitch,
         'STORED': levels.cloth.stored,
         'MULTIGRID': int(is_multigrid),
-        'DAMPING': _DAMPING if is_multigrid else 1.0,
+        'BLOCKS_IN_LINE': int(state.texture_loads),
         'SUMS_BY_GROUP': int(not state.texture_loads),
         'POINT_LOCAL': POINT_LOCAL,
         'POINTS': POINTS,

@@ -16,6 +16,7 @@
 
 #include "solver/edge_weight.glsl"
 #include "block_edges.glsl"
+#include "solver/block_of_invocation.glsl"
 
 #if HAS_BEND
 #define REACH 2
@@ -26,7 +27,7 @@
 
 vec4 node[TILE][TILE];
 
-ivec2 first_of_block() { return ivec2(gl_GlobalInvocationID.xy) * BLOCK; }
+ivec2 first_of_block() { return BLOCK * block_of_invocation(COLS); }
 
 bool in_cloth(ivec2 first) { return first.x < COLS && first.y < ROWS; }
 

@@ -15,6 +15,7 @@
 // The matrix of a coarse level times a vector, for a block: value in, product out.
 
 #include "block_edges.glsl"
+#include "solver/block_of_invocation.glsl"
 #include "solver/edge_tensors.glsl"
 
 #define REACH 1
@@ -23,7 +24,7 @@
 vec3 value[TILE][TILE];
 vec3 product[TILE][TILE];
 
-ivec2 first_of_block() { return ivec2(gl_GlobalInvocationID.xy) * BLOCK; }
+ivec2 first_of_block() { return BLOCK * block_of_invocation(level_shape[level].y); }
 
 bool in_level(ivec2 first) { return inside(level, first.y, first.x); }
 

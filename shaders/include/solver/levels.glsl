@@ -26,10 +26,12 @@ uniform int level;
 
 // Vectors, one an entry. A field serves two purposes where one is over before the other begins.
 #define RESIDUAL 0
-#define SMOOTHED 1        // after the first smoothing
+#define SMOOTHED 1        // after the first step of smoothing
+#define SMOOTHED_TWICE 2  // after the second
+#define DEFECT 1          // what that left of RESIDUAL
+#define CORRECTED 1       // with the correction of the level below, and smoothed again
+#define PRECONDITIONED 2  // smoothed a last time: what the preconditioner makes of RESIDUAL
 #define PRODUCT 1         // level 0: the matrix times PRECONDITIONED
-#define DEFECT 2          // what the first smoothing left over
-#define PRECONDITIONED 2  // what the preconditioner makes of RESIDUAL
 #define DIRECTION 3       // level 0 only, as those that follow
 #define IMAGE 4           // the matrix times DIRECTION
 #define SOLUTION 5

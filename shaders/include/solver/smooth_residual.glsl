@@ -14,6 +14,8 @@
 
 // The first smoothing of the cloth, or the whole preconditioner when that is block-Jacobi.
 
+#include "solver/smoothing_steps.glsl"
+
 #if MULTIGRID
 #define SMOOTHED_INTO SMOOTHED
 #else
@@ -27,5 +29,5 @@
 
 void smooth_residual(int index, vec3 residual) {
     store_vector(
-        cloth_entry(SMOOTHED_INTO, index), DAMPING * times(load_cloth_inverse(index), residual));
+        cloth_entry(SMOOTHED_INTO, index), first_step * times(load_cloth_inverse(index), residual));
 }

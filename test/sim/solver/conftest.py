@@ -62,9 +62,13 @@ class SolverCase:
         self.solver = Solver(self.scene, self.layout, families=families, **options)
         self.solver.set_law(law)
         self.solver.assemble(self.state)
-        self.solver.make_right_side(self.state, Forcing(GRAVITY))
+        self.make_right_side()
         self.system = ImplicitSystem(
             self.scene, law, self.positions, self.velocities, GRAVITY)
+
+    def make_right_side(self) -> None:
+        """Make the right side of the state that is on the device."""
+        self.solver.make_right_side(self.state, Forcing(GRAVITY))
 
     def solve(self) -> np.ndarray:
         """Return the solution of the step."""

@@ -73,17 +73,17 @@ def test_solution_for_a_given_right_side(make_case, preconditioner, loads):
 def test_the_device_stops_at_the_tolerance(make_case, preconditioner):
     """The solve would go on to the cap, or stop early and not say so."""
     case = make_case(
-        {'rows': 30, 'cols': 30}, preconditioner=preconditioner, tolerance=1e-2,
+        {'rows': 30, 'cols': 30}, preconditioner=preconditioner, tolerance=1e-4,
         max_iterations=300)
     case.solve()
     report = case.solver.report()
-    assert report.reached and report.residual <= 1e-2
+    assert report.reached and report.residual <= 1e-4
     loose = make_case(
-        {'rows': 30, 'cols': 30}, preconditioner=preconditioner, tolerance=1e-1,
+        {'rows': 30, 'cols': 30}, preconditioner=preconditioner, tolerance=1e-2,
         max_iterations=300)
     loose.solve()
     assert loose.solver.report().iterations < report.iterations < 300
-    assert loose.solver.report().residual > 1e-2
+    assert 1e-4 < loose.solver.report().residual <= 1e-2
 
 
 def test_a_solve_cut_short_says_so(make_case, preconditioner):

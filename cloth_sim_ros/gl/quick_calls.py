@@ -1,0 +1,41 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+
+"""
+The GL calls that make up a step, without PyOpenGL's look for errors after each.
+
+That look costs as much as the call. What goes wrong in these calls is a fault of the program, and
+shows in the next call that is looked at.
+"""
+
+from collections.abc import Callable
+
+from OpenGL.platform import PLATFORM
+from OpenGL.raw.GL import _types as gl_type
+
+# A call to be made over and over, and its arguments.
+Call = tuple[Callable[..., None], tuple[int, ...]]
+
+
+def _quick(name: str, *types: type) -> Callable[..., None]:
+    return PLATFORM.constructFunction(name, PLATFORM.GL, None, types)
+
+
+use_program = _quick('glUseProgram', gl_type.GLuint)
+set_uniform_int = _quick('glUniform1i', gl_type.GLint, gl_type.GLint)
+set_uniform_float = _quick('glUniform1f', gl_type.GLint, gl_type.GLfloat)
+dispatch = _quick('glDispatchCompute', *3 * (gl_type.GLuint,))
+dispatch_indirect = _quick('glDispatchComputeIndirect', gl_type.GLintptr)
+memory_barrier = _quick('glMemoryBarrier', gl_type.GLbitfield)

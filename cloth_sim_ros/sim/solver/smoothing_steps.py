@@ -1,0 +1,40 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+
+"""How long the two steps of smoothing are."""
+
+from cloth_sim_ros.sim.solver.edge_law import EdgeLaw
+
+# What smoothing leaves to the coarser levels lies below this, with an eigenvalue of 2 at most.
+_LEAST = 0.25
+# On coarse levels a bend edge counts with those of four nodes.
+_EDGES_OF_A_NODE = (4.0, 4.0, 16.0)
+
+
+def smoothing_steps(law: EdgeLaw) -> tuple[float, float]:
+    """
+    Return the two Chebyshev steps, as shares of a whole step of block-Jacobi.
+
+    They are made for the eigenvalues of the system over its diagonal blocks. With edges that
+    weigh d around a node of mass 1 none is below 1 / (1 + d) nor, as an edge ties two nodes, above
+    (1 + 2 d) / (1 + d). Without edges both steps are whole ones, and the first is exact.
+    """
+    around = sum(
+        count * weight * max(factor, 1.0)
+        for count, weight, factor in zip(_EDGES_OF_A_NODE, law.weights, law.pinned_weights))
+    least = max(_LEAST, 1.0 / (1.0 + around))
+    most = (1.0 + 2.0 * around) / (1.0 + around)
+    middle, reach = 0.5 * (most + least), 0.5 * (most - least) * 0.5**0.5
+    return 1.0 / (middle + reach), 1.0 / (middle - reach)

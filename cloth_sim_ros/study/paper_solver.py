@@ -1,0 +1,174 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+
+"""
+The paper's own solver, as a baseline: J J^T formed pair by pair, then plain conjugate gradients.
+
+Va et al. 2021, Tab. 3 to 6. Different from the print: unit rows, the inverse mass inside, and the
+same regularisation as ``hard_edges``, without which the matrix is singular (docs/numerics.md).
+"""
+
+from cloth_sim_ros.gl.buffer import Buffer
+from cloth_sim_ros.gl.buffer import shader_writes_visible
+from cloth_sim_ros.gl.program import Program
+from cloth_sim_ros.gl.shader_source import ShaderSource
+from cloth_sim_ros.reference.edges import Edges
+from cloth_sim_ros.reference.edges import edges_of
+from cloth_sim_ros.sim.scene import Scene
+from cloth_sim_ros.sim.solver.edge_law import DELTA
+from cloth_sim_ros.sim.solver.solve_report import SolveReport
+import numpy as np
+
+_BUFFERS = ('EDGES', 'NODES', 'VALUES', 'COLUMNS', 'MATRIX', 'COUNTS', 'VECTORS', 'SCALARS')
+_FAMILIES = ('structural', 'shear')
+_VALUES = 6
+_ROW_SLOTS = 16
+_VECTORS = 4
+_LAMBDA, _RESIDUAL, _DIRECTION, _IMAGE = range(_VECTORS)
+_SCALARS = 4
+_AT_START, _AFTER_PRODUCT, _AFTER_UPDATE = range(3)
+_LOCAL = 1024
+_PAIR_LOCAL = 16
+
+
+class PaperSolver:
+    """
+    Solves (J W J^T + E) lambda = C / h^2 + J (v / h + g) for hard edges of one state.
+
+    :param positions: (rows, cols, 3) [m]
+    :param velocities: (rows, cols, 3) [m/s]
+    :param step: h [s]
+    :param tolerance: norm of the residual over that at the start
+    """
+
+    def __init__(
+            self, scene: Scene, positions: np.ndarray, velocities: np.ndarray, step: float, *,
+            tolerance: float = 1e-2, max_iterations: int = 2000) -> None:
+        """Compile the shaders and upload the state."""
+        edges = edges_of(scene, _FAMILIES)
+        free = ~scene.pinned_nodes().ravel()
+        self._kept = edges.of(_FAMILIES) & (free[edges.first] | free[edges.second])
+        self._edges = edges
+        self._count = int(np.count_nonzero(self._kept))
+        self._shape = positions.shape
+        self._inverse_mass = free / scene.node_mass
+        self._step = step
+        self._acceleration = free[:, None] * np.asarray(scene['gravity'])
+        self._positions = positions.reshape(-1, 3)
+        self._tolerance = tolerance
+        self._max_iterations = max_iterations
+        self._iterations = 0
+        self._groups = -(-self._count // _LOCAL)
+        self._make_buffers(velocities.reshape(-1, 3))
+        self._compile(scene)
+
+    def solve(self) -> None:
+        """Form the matrix and find lambda; the host looks at the residual in each iteration."""
+        for binding, buffer in enumerate(self._buffers.values()):
+            buffer.bind_storage(binding)
+        self._run('constraint')
+        pairs = -(-self._count // _PAIR_LOCAL)
+        self._run('spmm', groups=(pairs, pairs))
+        self._sum(_RESIDUAL, _RESIDUAL, _AT_START)
+        self._iterations = 0
+        while self._iterations < self._max_iterations and self._residual() > self._tolerance:
+            self._run('spmv')
+            self._sum(_DIRECTION, _IMAGE, _AFTER_PRODUCT)
+            self._run('update')
+            self._sum(_RESIDUAL, _RESIDUAL, _AFTER_UPDATE)
+            self._run('direction')
+            self._iterations += 1
+
+    def report(self) -> SolveReport:
+        """Return how the last solve ended; its residual is the plain norm over the start's."""
+        residual = self._residual()
+        return SolveReport(self._iterations, residual, bool(residual <= self._tolerance))
+
+    def tensions(self) -> np.ndarray:
+        """Return lambda [N] of each edge between nodes that are not both pinned."""
+        values = np.empty(self._count, dtype=np.float32)
+        self._buffers['VECTORS'].read_into(values, _LAMBDA * values.nbytes)
+        return values
+
+    def solution(self) -> np.ndarray:
+        """Return dv [m/s], (rows, cols, 3): gravity and tensions over the step."""
+        tension = np.zeros(len(self._edges))
+        tension[self._kept] = self.tensions()
+        pull = self._edges.scatter(
+            tension[:, None] * self._edges.directions(self._positions.astype(float)),
+            len(self._positions))
+        change = self._step * (self._acceleration - self._inverse_mass[:, None] * pull)
+        return change.reshape(self._shape)
+
+    def delete(self) -> None:
+        """Give the buffers back."""
+        for buffer in self._buffers.values():
+            buffer.delete()
+
+    def _make_buffers(self, velocities: np.ndarray) -> None:
+        def of(entries: int, kind: type = np.float32) -> np.ndarray:
+            return np.zeros(entries, dtype=kind)
+
+        nodes = np.zeros((2, len(velocities), 4), dtype=np.float32)
+        nodes[0, :, :3], nodes[0, :, 3] = self._positions, self._inverse_mass
+        nodes[1, :, :3] = velocities + self._step * self._acceleration
+        self._buffers = {name: Buffer(data) for name, data in zip(_BUFFERS, (
+            _edge_entries(self._edges, self._kept), nodes, of(_VALUES * self._count),
+            of(_VALUES * self._count, np.int32), of(4 * _ROW_SLOTS * self._count),
+            of(self._count, np.uint32), of(_VECTORS * self._count), of(_SCALARS + self._groups)))}
+
+    def _compile(self, scene: Scene) -> None:
+        defines = paper_solver_defines(self._count, scene.node_count)
+        self._programs = {
+            name: Program(ShaderSource(f'paper_solver/{name}.comp', defines))
+            for name in (
+                'constraint', 'spmm', 'spmv', 'dot', 'scalars', 'update', 'direction')}
+        for name, uniform, value in (
+                ('constraint', 'substep', self._step), ('spmm', 'regularisation', DELTA)):
+            self._programs[name].use()
+            self._programs[name].set_float(uniform, value)
+        self._programs['scalars'].use()
+        self._programs['scalars'].set_int('group_count', self._groups)
+
+    def _run(
+            self, name: str, groups: tuple[int, int] | None = None, **uniforms: int) -> None:
+        program = self._programs[name]
+        program.use()
+        for uniform, value in uniforms.items():
+            program.set_int(uniform, value)
+        program.dispatch(*(groups or (self._groups, 1)))
+        shader_writes_visible()
+
+    def _sum(self, first: int, second: int, stage: int) -> None:
+        self._run('dot', first_field=first, second_field=second)
+        self._run('scalars', (1, 1), stage=stage)
+
+    def _residual(self) -> float:
+        squares = np.empty(2, dtype=np.float32)
+        self._buffers['SCALARS'].read_into(squares)
+        return float(np.sqrt(squares[0] / squares[1]))
+
+
+def paper_solver_defines(constraints: int, nodes: int) -> dict[str, object]:
+    """Return what every shader of the paper's solver compiles in."""
+    return {
+        'CONSTRAINTS': constraints, 'NODES': nodes,
+        **{f'PAPER_{name}': binding for binding, name in enumerate(_BUFFERS)}}
+
+
+def _edge_entries(edges: Edges, kept: np.ndarray) -> np.ndarray:
+    # Node numbers are exact in float32 up to 2^24, far beyond what this solver can do.
+    columns = (edges.first, edges.second, edges.rest_length, np.zeros(len(edges)))
+    return np.stack(columns, axis=1)[kept].astype(np.float32)

@@ -1,0 +1,153 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+
+"""The solvers that can be timed side by side, each with its set-up, for one state and step."""
+
+from dataclasses import dataclass
+from typing import Protocol
+
+from cloth_sim_ros.gl.context import Context
+from cloth_sim_ros.sim.forcing import Forcing
+from cloth_sim_ros.sim.layout import choose_layout
+from cloth_sim_ros.sim.scene import FAMILIES
+from cloth_sim_ros.sim.scene import Scene
+from cloth_sim_ros.sim.solver.edge_law import EdgeLaw
+from cloth_sim_ros.sim.solver.edge_law import hard_edges
+from cloth_sim_ros.sim.solver.edge_law import implicit_springs
+from cloth_sim_ros.sim.solver.solve_report import SolveReport
+from cloth_sim_ros.sim.solver.solver import Solver
+from cloth_sim_ros.sim.state import State
+from cloth_sim_ros.study.paper_solver import PaperSolver
+import numpy as np
+
+Fields = tuple[np.ndarray, np.ndarray]
+
+
+@dataclass(frozen=True)
+class Step:
+    """
+    A step to solve.
+
+    :param hard: edges that keep their length, in place of springs
+    :param dt: its length [s]
+    """
+
+    hard: bool
+    dt: float
+
+    def law(self, scene: Scene) -> EdgeLaw:
+        """Return what edges weigh in it."""
+        return hard_edges(self.dt) if self.hard else implicit_springs(scene, self.dt)
+
+    def __str__(self) -> str:
+        """Return it in words."""
+        return f'{"hard" if self.hard else "springs"}, dt {self.dt} s'
+
+
+STEPS = tuple(Step(hard, dt) for hard in (False, True) for dt in (0.01, 0.005))
+
+
+class TimedSolver(Protocol):
+    """What is measured: ``solve`` does all that a new state asks for."""
+
+    name: str
+    step: Step
+
+    def __init__(self, context: Context, scene: Scene, state: Fields, step: Step) -> None:
+        """Compile and upload what stays."""
+
+    @classmethod
+    def can_solve(cls, step: Step) -> bool:
+        """Return whether ``step`` is of its kind."""
+
+    def solve(self) -> None:
+        """Set up and solve the step."""
+
+    def report(self) -> SolveReport:
+        """Return how the last solve ended."""
+
+    def solution(self) -> np.ndarray:
+        """Return dv [m/s], (rows, cols, 3)."""
+
+    def delete(self) -> None:
+        """Give the buffers back."""
+
+
+class _SolverStep:
+    name: str
+    options: dict[str, int] = {}
+
+    def __init__(self, context: Context, scene: Scene, state: Fields, step: Step) -> None:
+        """Write the state and compile the passes."""
+        self.step = step
+        layout = choose_layout(scene, context)
+        self._state = State(layout, state[0], scene.pinned_nodes())
+        self._state.write(*state)
+        self._forcing = Forcing(scene['gravity'])
+        self._solver = Solver(
+            scene, layout, families=('structural', 'shear') if step.hard else FAMILIES,
+            preconditioner=self.name, **self.options)
+        self._solver.set_law(step.law(scene))
+        self.report = self._solver.report
+        self.solution = self._solver.solution
+
+    @classmethod
+    def can_solve(cls, step: Step) -> bool:
+        """Return that it solves any step."""
+        return True
+
+    def solve(self) -> None:
+        """Set up and solve the step."""
+        self._solver.assemble(self._state)
+        self._solver.make_right_side(self._state, self._forcing)
+        self._solver.solve()
+
+    def delete(self) -> None:
+        """Give the buffers back."""
+        self._solver.delete()
+        self._state.delete()
+
+
+class MultigridStep(_SolverStep):
+    """The solver of the modes, as they use it."""
+
+    name = 'multigrid'
+
+
+class BlockJacobiStep(_SolverStep):
+    """The same without coarser levels, which takes hundreds of iterations."""
+
+    name = 'block_jacobi'
+    options = {'max_iterations': 1000}
+
+
+class PaperStep(PaperSolver):
+    """The solver of the paper."""
+
+    name = 'paper'
+
+    def __init__(self, context: Context, scene: Scene, state: Fields, step: Step) -> None:
+        """Compile its shaders and upload the state."""
+        self.step = step
+        super().__init__(scene, *state, step.dt)
+
+    @classmethod
+    def can_solve(cls, step: Step) -> bool:
+        """Return whether the edges keep their length: the paper has no others in its system."""
+        return step.hard
+
+
+BASELINES: dict[str, type[TimedSolver]] = {
+    kind.name: kind for kind in (PaperStep, BlockJacobiStep)}

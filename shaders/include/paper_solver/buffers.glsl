@@ -1,0 +1,46 @@
+// Copyright 2026 the cloth_sim_ros authors
+//
+// Licensed under the Apache License, Version 2.0 (the "License");
+// you may not use this file except in compliance with the License.
+// You may obtain a copy of the License at
+//
+//     http://www.apache.org/licenses/LICENSE-2.0
+//
+// Unless required by applicable law or agreed to in writing, software
+// distributed under the License is distributed on an "AS IS" BASIS,
+// WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+// See the License for the specific language governing permissions and
+// limitations under the License.
+
+// The buffers of the paper's solver, its Tab. 3. CONSTRAINTS: edges between nodes of which one at
+// least is free. Every row of J has six values, so that the row pointers IA and JB need not be
+// stored, and the columns of J^T are the rows of J: A and JA are B and IB as well.
+
+#define VALUES 6    // of a row of J
+#define ROW_SLOTS 16  // entries of COO kept for a row: an edge meets 14 others and itself
+
+layout(std430, binding = PAPER_EDGES) readonly buffer Edges { vec4 edges[]; };  // ends, length
+layout(std430, binding = PAPER_NODES) readonly buffer Nodes { vec4 nodes[]; };
+layout(std430, binding = PAPER_VALUES) buffer Values { float a[]; };
+layout(std430, binding = PAPER_COLUMNS) buffer Columns { int ja[]; };
+layout(std430, binding = PAPER_MATRIX) buffer Matrix { vec4 coo[]; };  // row, column, value
+layout(std430, binding = PAPER_COUNTS) buffer Counts { uint row_count[]; };
+layout(std430, binding = PAPER_VECTORS) buffer Vectors { float vectors[]; };
+layout(std430, binding = PAPER_SCALARS) buffer Scalars { float scalars[]; };
+
+// Nodes: positions and inverse masses, then the velocities after the step without constraints.
+float inverse_mass(int node) { return nodes[node].w; }
+
+// Vectors, one value a constraint each.
+#define LAMBDA 0
+#define RESIDUAL 1
+#define DIRECTION 2
+#define IMAGE 3
+#define ENTRY(FIELD, i) vectors[(FIELD) * CONSTRAINTS + (i)]
+
+// Scalars; the sums of the workgroups follow.
+#define SQUARE 0        // of the residual
+#define SQUARE_START 1
+#define STEP_LENGTH 2
+#define KEEP 3
+#define GROUP_SUMS 4

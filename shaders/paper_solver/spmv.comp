@@ -1,0 +1,33 @@
+// Copyright 2026 the cloth_sim_ros authors
+//
+// Licensed under the Apache License, Version 2.0 (the "License");
+// you may not use this file except in compliance with the License.
+// You may obtain a copy of the License at
+//
+//     http://www.apache.org/licenses/LICENSE-2.0
+//
+// Unless required by applicable law or agreed to in writing, software
+// distributed under the License is distributed on an "AS IS" BASIS,
+// WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+// See the License for the specific language governing permissions and
+// limitations under the License.
+
+#version 430 core
+// The system matrix times the direction.
+
+#include "paper_solver/buffers.glsl"
+
+layout(local_size_x = 1024) in;
+
+void main() {
+    int i = int(gl_GlobalInvocationID.x);
+    if (i >= CONSTRAINTS) {
+        return;
+    }
+    float sum = 0.0;
+    int count = int(row_count[i]);
+    for (int k = ROW_SLOTS * i; k < ROW_SLOTS * i + count; ++k) {
+        sum += coo[k].z * ENTRY(DIRECTION, int(coo[k].y));
+    }
+    ENTRY(IMAGE, i) = sum;
+}

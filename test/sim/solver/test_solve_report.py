@@ -1,0 +1,75 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+
+"""The report of a solve never takes what is not finite, or was not reached, for an answer."""
+
+import math
+
+from cloth_sim_ros.sim.solver.solve_report import report_of
+import numpy as np
+import pytest
+
+
+@pytest.mark.parametrize(('start', 'after', 'residual'), [
+    (4.0, 1.0, 0.5), (4.0, 0.0, 0.0), (1.0, 4.0, 2.0), (0.0, 0.0, 0.0), (1.0, -1e-4, 1e-2)])
+def test_residual_is_the_root_of_the_quotient(start, after, residual):
+    """A residual would be told that is none, or a rounded one would raise an error."""
+    report = report_of(start, after, 3, 0.5)
+    assert (report.iterations, report.residual) == (3, pytest.approx(residual))
+    assert report.reached == (residual <= 0.5)
+
+
+@pytest.mark.parametrize(('start', 'after'), [
+    (math.nan, math.nan), (math.inf, math.inf), (1.0, math.nan), (1.0, math.inf),
+    (math.inf, math.nan), (-1.0, -1.0), (-1.0, -math.inf)])
+def test_what_is_not_finite_was_not_reached(start, after):
+    """A step that is no step would pass as good."""
+    assert not report_of(start, after, 1, 0.5).reached
+
+
+@pytest.mark.parametrize('value', [math.nan, math.inf, -math.inf, 1e30])
+@pytest.mark.parametrize('where', ['right side', 'positions', 'velocities'])
+def test_a_solve_from_what_is_not_finite(make_case, preconditioner, where, value):
+    """The device would call a NaN a solution."""
+    case = make_case({'rows': 12, 'cols': 9}, preconditioner=preconditioner)
+    fields = {
+        'positions': case.positions, 'velocities': case.velocities,
+        'right side': case.solver.right_side()}
+    fields[where][5, 4] = value
+    case.state.write(fields['positions'], fields['velocities'])
+    case.solver.assemble(case.state)
+    if where == 'right side':
+        case.solver.set_right_side(fields[where])
+    else:
+        case.make_right_side()
+    solution = case.solve()
+    report = case.solver.report()
+    print(f'{report}, finite {np.all(np.isfinite(solution))}')
+    if not np.all(np.isfinite(solution)) or not math.isfinite(report.residual):
+        assert not report.reached
+    if not math.isfinite(value):
+        assert not report.reached
+
+
+def test_a_solver_gets_over_what_was_not_finite(make_case, preconditioner):
+    """One bad step would leave something behind in the buffers, and spoil those that follow."""
+    case = make_case({'rows': 12, 'cols': 9}, preconditioner=preconditioner, max_iterations=300)
+    right = case.solver.right_side()
+    expected = case.solve()
+    case.solver.set_right_side(np.full_like(right, math.nan))
+    case.solve()
+    case.solver.set_right_side(right)
+    assert np.array_equal(case.solve(), expected)
+    assert case.solver.report().reached
