@@ -35,6 +35,7 @@ layout(std430, binding = TENSION) buffer Tension { vec4 tension_out[]; };
 
 uniform int colour;          // 0 to 3: parity of the cell's column and row
 uniform float substep;       // [s]
+uniform float kick;          // [s] what tensions act for, as the springs' forces
 uniform float correction;    // share of what is beyond the limit that a substep takes back
 uniform float longest_next;  // [s] no later substep is longer
 uniform float inverse_mass;  // [1/kg]
@@ -67,7 +68,7 @@ float limit_edge(float old, inout Node from, inout Node to, int rest) {
     float free = from.velocity.w + to.velocity.w;
     // 0 where an end is a ghost or none can move.
     float present = from.position.w * to.position.w * min(free, 1.0);
-    float per_length = present / (substep * substep * inverse_mass * max(free, 1.0));
+    float per_length = present / (substep * kick * inverse_mass * max(free, 1.0));
 #if SWEEP_LAW == PAPER_LAW
     // Phi = d.d - L0^2 and its change, over 2 l.
     float ahead = (0.5 * (now.x * now.x - L0 * L0) + substep * dot(d, dv)) * now.y;
@@ -86,7 +87,7 @@ float limit_edge(float old, inout Node from, inout Node to, int rest) {
     float most = MOST_KEPT * L0 / (longest_next * longest_next * inverse_mass * max(free, 1.0));
     float kept = clamp(tension, -most, most);
 #endif
-    vec3 change = (present * (tension - old) * substep * inverse_mass * now.y) * d;
+    vec3 change = (present * (tension - old) * kick * inverse_mass * now.y) * d;
     from.velocity.xyz += from.velocity.w * change;
     to.velocity.xyz -= to.velocity.w * change;
     return kept;

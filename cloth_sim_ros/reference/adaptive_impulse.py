@@ -20,8 +20,8 @@ from cloth_sim_ros.reference.substeps import geometric_substep
 from cloth_sim_ros.sim.scene import Scene
 import numpy as np
 
-# Of the geometric bound, at limits of 0.1 and more; below it goes with this power of the limit.
-_GEOMETRIC, _WIDE_LIMIT, _POWER = 0.15, 0.1, 0.5
+# Of the geometric bound, at this limit; it goes with this power of the limit.
+_GEOMETRIC, _USUAL_LIMIT, _POWER = 0.15, 0.1, 0.5
 _GROWTH = 1.1
 _SHORTEST = 1e-3
 _COMPLIANCE = 0.03
@@ -53,7 +53,7 @@ class ImpulseAdaptiveReference(LimitedCloth):
         self.groups = [
             group[self.limited[group]] for group in coloured_edges(scene, self.edges)]
         self.tension = np.zeros(len(self.edges))
-        self._share = _GEOMETRIC * min(1.0, self.limit / _WIDE_LIMIT)**_POWER
+        self._share = _GEOMETRIC * (self.limit / _USUAL_LIMIT)**_POWER
         self._length = self._usual = self.spring_substep
         # Of the edges at the start of the substep.
         self._differences = self._directions = np.zeros((len(self.edges), 3))
@@ -84,7 +84,7 @@ class ImpulseAdaptiveReference(LimitedCloth):
         self._differences = self.edges.differences(self._flat_positions)
         self._directions = self.edges.directions(self._flat_positions)
         self._lengths = self.edges.lengths(self._flat_positions)
-        velocities -= h * self.inverse_masses[:, None] * self.edges.scatter(
+        velocities -= self._kick * self.inverse_masses[:, None] * self.edges.scatter(
             self.tension[:, None] * self._directions, len(velocities))
         correction = max(
             _LEAST_CORRECTION * min(1.0, h / self._usual), h / self.spring_substep)
@@ -115,12 +115,12 @@ class ImpulseAdaptiveReference(LimitedCloth):
         beyond = (1.0 - correction) * (stretch - np.clip(stretch, -reach, reach))
         most = rest + reach + np.maximum(beyond, 0.0)
         least = rest - reach + np.minimum(beyond, 0.0)
-        per_length = 1.0 / (h * h * self.weight_sums[group])
+        per_length = 1.0 / (h * self._kick * self.weight_sums[group])
         old = self.tension[group]
         pull = np.maximum((old + (ahead - most) * per_length) / (1.0 + _COMPLIANCE), 0.0)
         press = np.minimum((old + (ahead - least) * per_length) / (1.0 + _COMPLIANCE), 0.0)
         new = (old >= 0.0) * pull + (old <= 0.0) * press
-        change = (h * (new - old))[:, None] * self._directions[group]
+        change = (self._kick * (new - old))[:, None] * self._directions[group]
         velocities[first] -= self.inverse_masses[first, None] * change
         velocities[second] += self.inverse_masses[second, None] * change
         most_kept = _MOST_KEPT * rest / (longest_next**2 * self.weight_sums[group])

@@ -57,6 +57,8 @@ class LimitedCloth(ReferenceCloth):
         self.active = np.zeros(len(self.edges), bool)
         self.switched = 0.0
         self.substeps = 0
+        # Of the last substep, 0 before the first, and for how long forces act in this one [s].
+        self._before = self._kick = 0.0
 
     def max_strain(self) -> float:
         """Return the largest |l / L0 - 1| of the limited edges."""
@@ -89,16 +91,23 @@ class LimitedCloth(ReferenceCloth):
             left, now = self.dt - done, begin + done
             if self._is_calm(now, left):
                 h = split_evenly(left, self.spring_substep)
+                self._kick = self._kick_of(h)
                 self.velocities = self._spring_velocities(now, now + h)
                 self.positions = self.positions + h * self.velocities
                 self._watch.spend(1)
             else:
                 h = split_evenly(left, self._next_length())
+                self._kick = self._kick_of(h)
                 self._limited_substep(now, now + h)
+            self._before = h
             done += h
             count += 1
         self.substeps = count
         self._note_active(self._held())
+
+    def _kick_of(self, h: float) -> float:
+        # A velocity belongs to the middle of its substep.
+        return 0.5 * ((self._before or h) + h)
 
     def _is_calm(self, now: float, left: float) -> bool:
         length = split_evenly(left, self.spring_substep)
@@ -128,8 +137,10 @@ class LimitedCloth(ReferenceCloth):
         """Return the velocities after the explicit springs and what is applied [m/s]."""
         forces = total_forces(self.springs, self.positions, self.velocities)
         accelerations = forces / self.scene.node_mass * self.free[..., None]
-        accelerations += self._applied_accelerations(begin, end)
-        return self.velocities + (end - begin) * accelerations
+        accelerations += self.gravity * self.free[..., None]
+        # Forces act for the kick, but a push keeps its impulse.
+        return (self.velocities + self._kick * accelerations
+                + (end - begin) * self._push_accelerations(begin, end))
 
 
 def split_evenly(remaining: float, longest: float) -> float:

@@ -13,12 +13,15 @@
 // limitations under the License.
 
 // Symplectic Euler (paper, Eq. 3 and 4): v+ = v + h (a + F / m), x+ = x + h v+; still where pinned.
+// A velocity belongs to the middle of its substep. Where the one before had another length, the
+// kick is what lies between their middles; with h instead each change of h would add energy.
 
 uniform float substep;       // [s]
+uniform float kick;          // [s] what forces act for: mean of this substep and the one before
 uniform float inverse_mass;  // [1/kg]
 
 vec3 next_velocity(vec4 velocity, vec3 force, vec3 applied) {
-    return velocity.w * (velocity.xyz + substep * (applied + inverse_mass * force));
+    return velocity.w * (velocity.xyz + kick * (applied + inverse_mass * force));
 }
 
 vec3 next_position(vec3 position, vec3 velocity) {

@@ -75,11 +75,11 @@ class PenaltyLimit:
         """Return the longest substep that may come next [s]."""
         return self._length
 
-    def substep(self, state: State, forcing: Forcing, length: float) -> None:
-        """Step ``state`` on by ``length`` [s]."""
+    def substep(self, state: State, forcing: Forcing, length: float, kick: float) -> None:
+        """Step ``state`` on by ``length`` [s], with forces that act for ``kick`` [s]."""
         if self.is_idle:
             self._penalty = self._first
-        self._springs.run(state, forcing, length, self._penalty)
+        self._springs.run(state, forcing, length, kick, penalty=self._penalty)
         state.swap()
         self._adjust(*self._watch.strains(state, forcing, _AHEAD * length))
 

@@ -37,8 +37,8 @@ class StrainLimit(Protocol):
     def next_length(self) -> float:
         """Return the longest substep that may come next [s]."""
 
-    def substep(self, state: State, forcing: Forcing, length: float) -> None:
-        """Step ``state`` on by ``length`` [s]."""
+    def substep(self, state: State, forcing: Forcing, length: float, kick: float) -> None:
+        """Step ``state`` on by ``length`` [s], with forces that act for ``kick`` [s]."""
 
     def forget(self) -> None:
         """Hold nothing, as at the start."""
