@@ -33,6 +33,16 @@ layout(local_size_x = LOCAL_X, local_size_y = LOCAL_Y) in;
 layout(std430, binding = VELOCITY_OUT) buffer Velocity { vec4 velocity_out[]; };
 layout(std430, binding = TENSION) buffer Tension { vec4 tension_out[]; };
 
+// What an invocation reads no other one of the dispatch writes, so textures may have it.
+#if LOADS_TEXTURE
+#define LOAD_VELOCITY(index) load_velocity(index)
+#define LOAD_TENSIONS(index) load_tensions(index)
+#include "tension_in.glsl"
+#else
+#define LOAD_VELOCITY(index) velocity_out[index]
+#define LOAD_TENSIONS(index) tension_out[index]
+#endif
+
 uniform int colour;          // 0 to 3: parity of the cell's column and row
 uniform float substep;       // [s]
 uniform float kick;          // [s] what tensions act for, as the springs' forces
@@ -57,7 +67,7 @@ struct Node {
     vec4 velocity;
 };
 
-Node load_node(int index) { return Node(load_position(index), velocity_out[index]); }
+Node load_node(int index) { return Node(load_position(index), LOAD_VELOCITY(index)); }
 
 // Without branches: lanes of different edges run together.
 float limit_edge(float old, inout Node from, inout Node to, int rest) {
@@ -104,7 +114,7 @@ void main() {
     Node right = load_node(index + 1);
     Node below = load_node(index + PITCH);
     Node across = load_node(index + PITCH + 1);
-    vec4 t = tension_out[index];
+    vec4 t = LOAD_TENSIONS(index);
 #if HAS_STRUCTURAL
     t[EDGE_ROW] = limit_edge(t[EDGE_ROW], corner, right, REST_ROW);
     t[EDGE_COLUMN] = limit_edge(t[EDGE_COLUMN], corner, below, REST_COLUMN);

@@ -62,7 +62,7 @@ class PaperLimit:
         self._sweeps.clear()
         self._springs.run(state, forcing, length, kick)
         self._sweeps.bind_tensions()
-        self._sweeps.run(_SWEEPS, length, kick, length)
+        self._sweeps.run(state, _SWEEPS, length, kick, length)
         self._sweeps.finish(state, length)
         self._some_beyond = self._watch.strains(state, forcing, 0.0)[0] > self._limit
 

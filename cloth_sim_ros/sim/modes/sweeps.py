@@ -56,7 +56,7 @@ class Sweeps:
             self.tensions.bind_texture(bindings.TENSION)
 
     def run(
-            self, count: int, length: float, kick: float, longest_next: float,
+            self, state: State, count: int, length: float, kick: float, longest_next: float,
             correction: float = 1.0) -> None:
         """
         Sweep ``count`` times over velocities that a pass has written but not made present.
@@ -66,6 +66,8 @@ class Sweeps:
         :param longest_next: that the next substep can have [s]
         :param correction: share of what is beyond the limit already that is taken back
         """
+        if self._texture_loads:
+            state.bind_out_for_reading()
         sweep = self._sweep.use()
         sweep.set_float('substep', length)
         sweep.set_float('kick', kick)

@@ -79,7 +79,7 @@ class TensionLimit:
         self._sweeps.bind_tensions()
         self._springs.run(state, forcing, length, kick)
         self._sweeps.run(
-            self._count, length, kick, _GROWTH * max(self._length, length),
+            state, self._count, length, kick, _GROWTH * max(self._length, length),
             max(_LEAST_CORRECTION * min(1.0, length / self._usual), length / self._longest))
         self._usual += _USUAL_SHARE * (length - self._usual)
         self._pull = self._sweeps.finish(state, length)
