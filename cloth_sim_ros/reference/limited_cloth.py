@@ -119,8 +119,11 @@ class LimitedCloth(ReferenceCloth):
         starts = (push.start for push in pushes if push.start + push.duration > now)
         return max(min(starts, default=math.inf), now)
 
-    def _foresee(self, now: float, ahead: float, length: float) -> tuple[float, float]:
-        acceleration = self._applied_accelerations(now, now + length)
+    def _foresee(
+            self, now: float, ahead: float, length: float,
+            kick: float | None = None) -> tuple[float, float]:
+        acceleration = self.gravity * self.free[..., None] + length / (
+            kick or length) * self._push_accelerations(now, now + length)
         then = self.positions + ahead * (self.velocities + ahead * acceleration)
         return self.max_strain(), self._max_strain_at(then.reshape(-1, 3))
 
