@@ -27,7 +27,7 @@ _SHORTEST = 1e-3
 _COMPLIANCE = 0.03
 # The least share of what is beyond the limit that a substep takes back.
 _LEAST_CORRECTION = 0.2
-_USUAL_SHARE = 0.05
+_USUAL_SHARE = 0.02
 # A kept tension moves an edge by at most this part of its rest length within a substep.
 _MOST_KEPT = 0.5
 

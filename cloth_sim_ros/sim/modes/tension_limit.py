@@ -32,7 +32,7 @@ _GROWTH = 1.1
 # that has just become much shorter, throws the nodes apart, and the next one is shorter still.
 _LEAST_CORRECTION = 0.2
 # Of the present substep, in the length that counts as usual.
-_USUAL_SHARE = 0.05
+_USUAL_SHARE = 0.02
 _SHORTEST_SHARE = 1e-3
 
 
