@@ -14,6 +14,8 @@
 
 """The adaptive scheme `constraint`: Gauss-Seidel impulses hold edges at the limit."""
 
+import math
+
 from cloth_sim_ros.reference.coloured import coloured_edges
 from cloth_sim_ros.reference.limited_cloth import LimitedCloth
 from cloth_sim_ros.reference.substeps import geometric_substep
@@ -30,6 +32,9 @@ _LEAST_CORRECTION = 0.2
 _USUAL_SHARE = 0.02
 # A kept tension moves an edge by at most this part of its rest length within a substep.
 _MOST_KEPT = 0.5
+# A cloth that is farther beyond its limit than this, of the limit, is brought to it with this
+# time constant [s].
+_FAR, _SLACK_TIME, _NO_SLACK = 0.5, 0.3, 1e-3
 
 
 class ImpulseAdaptiveReference(LimitedCloth):
@@ -55,6 +60,8 @@ class ImpulseAdaptiveReference(LimitedCloth):
         self.tension = np.zeros(len(self.edges))
         self._share = _GEOMETRIC * (self.limit / _USUAL_LIMIT)**_POWER
         self._length = self._usual = self.spring_substep
+        # What is added to the limit: at first, and for how long already, in time constants.
+        self._slack = self._slack_age = 0.0
         # Of the edges at the start of the substep.
         self._differences = self._directions = np.zeros((len(self.edges), 3))
         self._lengths = np.zeros(len(self.edges))
@@ -63,6 +70,15 @@ class ImpulseAdaptiveReference(LimitedCloth):
     def is_idle(self) -> bool:
         """Tell whether no edge was held in the last substep."""
         return not self.tension.any()
+
+    @property
+    def limit_now(self) -> float:
+        """Return the limit, with what is added for a cloth that was far beyond it."""
+        return self.limit + self._slack * (1.0 + self._slack_age) * math.exp(-self._slack_age)
+
+    def _see(self, strain: float) -> None:
+        if strain > self.limit_now + _FAR * self.limit:
+            self._slack, self._slack_age = strain - self.limit, 0.0
 
     def _held(self) -> np.ndarray:
         return self.tension != 0.0
@@ -93,6 +109,9 @@ class ImpulseAdaptiveReference(LimitedCloth):
         for _ in range(self.sweeps):
             for group in self.groups:
                 self._sweep(group, velocities, h, correction, longest_next)
+        self._slack_age += h / _SLACK_TIME
+        if self.limit_now - self.limit < _NO_SLACK * self.limit:
+            self._slack = 0.0
         self.velocities = velocities.reshape(self.positions.shape)
         self.positions = self.positions + h * self.velocities
 
@@ -110,7 +129,7 @@ class ImpulseAdaptiveReference(LimitedCloth):
             self._differences[group] + h * (velocities[first] - velocities[second]), axis=1)
         rest = self.edges.rest_length[group]
         stretch = self._lengths[group] - rest
-        reach = self.limit * rest
+        reach = self.limit_now * rest
         # What is beyond the limit already comes back bit by bit.
         beyond = (1.0 - correction) * (stretch - np.clip(stretch, -reach, reach))
         most = rest + reach + np.maximum(beyond, 0.0)

@@ -38,6 +38,8 @@ class CalmWatch:
         self._reach = _FEWEST
         self._left = 0
         self._until = 0.0
+        # The largest strain at the last look.
+        self.seen = 0.0
 
     def calm_substeps(self, now: float, length: float, quiet_until: float) -> int:
         """
@@ -57,6 +59,7 @@ class CalmWatch:
         quiet = int(min(self._reach, (quiet_until - now) / length))
         reach = max(1, quiet)
         present, ahead = self._foresee(now, reach * length, length)
+        self.seen = present
         share = 1.0
         if not max(present, ahead) < self._near:
             share = (self._near - present) / (ahead - present) if present < self._near else 0.0

@@ -69,6 +69,9 @@ class LimitedCloth(ReferenceCloth):
         """Tell whether nothing is held, so that a mass-spring substep does the same."""
         raise NotImplementedError
 
+    def _see(self, strain: float) -> None:
+        """Take the largest strain at the last look of the watch, when nothing is held."""
+
     @abstractmethod
     def _next_length(self) -> float:
         """Return the longest limited substep that may come next [s]."""
@@ -96,6 +99,8 @@ class LimitedCloth(ReferenceCloth):
                 self.positions = self.positions + h * self.velocities
                 self._watch.spend(1)
             else:
+                if self.is_idle:
+                    self._see(self._watch.seen)
                 h = split_evenly(left, self._next_length())
                 self._kick = self._kick_of(h)
                 self._limited_substep(now, now + h)

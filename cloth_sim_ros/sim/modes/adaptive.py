@@ -74,6 +74,8 @@ class Adaptive:
                 length = left / count
                 calm = min(count, self._watch.calm_substeps(
                     state, begin + done, length, pushes))
+                if not calm:
+                    self._limit.see(self._watch.seen)
             if calm:
                 for index in range(calm):
                     self._substep(

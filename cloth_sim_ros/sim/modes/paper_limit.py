@@ -53,6 +53,9 @@ class PaperLimit:
         """Tell whether no edge is beyond the limit."""
         return not self._some_beyond
 
+    def see(self, strain: float) -> None:
+        """Take no notice: the limit is where it is."""
+
     def next_length(self) -> float:
         """Return the longest substep that may come next [s]."""
         return self._length
@@ -62,7 +65,7 @@ class PaperLimit:
         self._sweeps.clear()
         self._springs.run(state, forcing, length, kick)
         self._sweeps.bind_tensions()
-        self._sweeps.run(state, _SWEEPS, length, kick, length)
+        self._sweeps.run(state, _SWEEPS, length, kick, length, self._limit)
         self._sweeps.finish(state, length)
         self._some_beyond = self._watch.strains(state, forcing, 0.0)[0] > self._limit
 

@@ -71,6 +71,9 @@ class PenaltyLimit:
         """Tell whether the springs have their own stiffness."""
         return self._penalty == 0.0
 
+    def see(self, strain: float) -> None:
+        """Take no notice: the stiffness follows the strain."""
+
     def next_length(self) -> float:
         """Return the longest substep that may come next [s]."""
         return self._length

@@ -34,6 +34,9 @@ class StrainLimit(Protocol):
     def is_idle(self) -> bool:
         """Tell whether it has nothing to hold, so that a mass-spring substep does the same."""
 
+    def see(self, strain: float) -> None:
+        """Take the largest strain, when it is idle and may not be any more."""
+
     def next_length(self) -> float:
         """Return the longest substep that may come next [s]."""
 

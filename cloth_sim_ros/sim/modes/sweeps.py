@@ -57,13 +57,14 @@ class Sweeps:
 
     def run(
             self, state: State, count: int, length: float, kick: float, longest_next: float,
-            correction: float = 1.0) -> None:
+            limit: float, correction: float = 1.0) -> None:
         """
         Sweep ``count`` times over velocities that a pass has written but not made present.
 
         :param length: of the substep [s]
         :param kick: what tensions act for in it [s]
         :param longest_next: that the next substep can have [s]
+        :param limit: strain that holds in this substep
         :param correction: share of what is beyond the limit already that is taken back
         """
         if self._texture_loads:
@@ -71,6 +72,7 @@ class Sweeps:
         sweep = self._sweep.use()
         sweep.set_float('substep', length)
         sweep.set_float('kick', kick)
+        sweep.set_float('limit', limit)
         sweep.set_float('longest_next', longest_next)
         sweep.set_float('correction', correction)
         for _ in range(count):

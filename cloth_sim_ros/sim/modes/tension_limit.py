@@ -19,6 +19,7 @@ import math
 from cloth_sim_ros.sim.forcing import Forcing
 from cloth_sim_ros.sim.layout import Layout
 from cloth_sim_ros.sim.modes.one_pass import OnePass
+from cloth_sim_ros.sim.modes.slack import Slack
 from cloth_sim_ros.sim.modes.sweeps import Sweeps
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.state import State
@@ -51,6 +52,7 @@ class TensionLimit:
         self._fixed = fixed
         self._share = _GEOMETRIC_SHARE * (
             scene['adaptive.threshold'] / _USUAL_LIMIT)**_SHARE_POWER
+        self._slack = Slack(scene['adaptive.threshold'])
         self._count: int = scene['adaptive.sweeps']
         self._springs = OnePass(scene, layout, 'TENSION_LIMIT')
         self._sweeps = Sweeps(scene, layout, 'LIMIT_LAW')
@@ -61,6 +63,10 @@ class TensionLimit:
     def is_idle(self) -> bool:
         """Tell whether no edge was held in the last substep."""
         return self._pull == 0.0
+
+    def see(self, strain: float) -> None:
+        """Take the largest strain, for a cloth that comes from beyond the limit."""
+        self._slack.see(strain)
 
     def next_length(self) -> float:
         """Return the longest substep that may come next [s]."""
@@ -80,8 +86,10 @@ class TensionLimit:
         self._springs.run(state, forcing, length, kick)
         self._sweeps.run(
             state, self._count, length, kick, _GROWTH * max(self._length, length),
+            self._slack.limit,
             max(_LEAST_CORRECTION * min(1.0, length / self._usual), length / self._longest))
         self._usual += _USUAL_SHARE * (length - self._usual)
+        self._slack.spend(length)
         self._pull = self._sweeps.finish(state, length)
 
     def forget(self) -> None:
@@ -89,6 +97,7 @@ class TensionLimit:
         self._pull = 0.0
         self._length = self._longest
         self._usual = self._longest
+        self._slack.forget()
         self._sweeps.clear()
 
     def delete(self) -> None:
