@@ -69,7 +69,7 @@ class Snapshot(Measures):
     :param solver_residual: relative, where the solver stopped
     :param active_constraints: springs at their limit
     :param active_fraction: of all springs
-    :param constraint_switches: activations and deactivations since the step before (docs/adaptive.md)
+    :param constraint_switches: activations and deactivations in the last step (docs/adaptive.md)
     """
 
     records: np.ndarray

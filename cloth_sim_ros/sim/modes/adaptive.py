@@ -77,9 +77,10 @@ class Adaptive:
                 if not calm:
                     self._limit.see(self._watch.seen)
             if calm:
-                for index in range(calm):
-                    self._substep(
-                        self._springs, state, begin + done + index * length, length, pushes)
+                self._substep(self._springs, state, begin + done, length, pushes)
+                for index in range(1, calm):
+                    start = begin + done + index * length
+                    self._springs.substep(state, pushes.forcing(start, start + length), length)
                 self._watch.spend(calm)
             else:
                 length = self._next_length(left)
@@ -113,9 +114,10 @@ class Adaptive:
     def _substep(
             self, part: OnePass | StrainLimit, state: State, start: float, length: float,
             pushes: PushField) -> None:
+        # A velocity belongs to the middle of its substep, so forces act from there to the next.
         kick = length
-        if abs(self._before - length) > _NOTHING * length:
-            kick = 0.5 * ((self._before or length) + length)
+        if self._before and abs(self._before - length) > _NOTHING * length:
+            kick = 0.5 * (self._before + length)
         part.substep(state, pushes.forcing(start, start + length, kick), length, kick)
         self._before = length
 
