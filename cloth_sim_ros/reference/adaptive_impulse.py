@@ -62,6 +62,7 @@ class ImpulseAdaptiveReference(LimitedCloth):
         self._length = self._usual = self.spring_substep
         # What is added to the limit: at first, and for how long already, in time constants.
         self._slack = self._slack_age = 0.0
+        self._is_new = True
         # Of the edges at the start of the substep.
         self._differences = self._directions = np.zeros((len(self.edges), 3))
         self._lengths = np.zeros(len(self.edges))
@@ -77,8 +78,9 @@ class ImpulseAdaptiveReference(LimitedCloth):
         return self.limit + self._slack * (1.0 + self._slack_age) * math.exp(-self._slack_age)
 
     def _see(self, strain: float) -> None:
-        if strain > self.limit_now + _FAR * self.limit:
-            self._slack, self._slack_age = strain - self.limit, 0.0
+        if self._is_new and strain > (1.0 + _FAR) * self.limit:
+            self._slack = strain - self.limit
+        self._is_new = False
 
     def _held(self) -> np.ndarray:
         return self.tension != 0.0

@@ -70,7 +70,7 @@ class LimitedCloth(ReferenceCloth):
         raise NotImplementedError
 
     def _see(self, strain: float) -> None:
-        """Take the largest strain at the last look of the watch, when nothing is held."""
+        """Take the largest strain at the last look of the watch."""
 
     @abstractmethod
     def _next_length(self) -> float:
@@ -99,8 +99,6 @@ class LimitedCloth(ReferenceCloth):
                 self.positions = self.positions + h * self.velocities
                 self._watch.spend(1)
             else:
-                if self.is_idle:
-                    self._see(self._watch.seen)
                 h = split_evenly(left, self._next_length())
                 self._kick = self._kick_of(h)
                 self._limited_substep(now, now + h)
@@ -116,8 +114,11 @@ class LimitedCloth(ReferenceCloth):
 
     def _is_calm(self, now: float, left: float) -> bool:
         length = split_evenly(left, self.spring_substep)
-        return self.is_idle and self._watch.calm_substeps(
-            now, length, self._quiet_until(now)) > 0
+        if not self.is_idle:
+            return False
+        calm = self._watch.calm_substeps(now, length, self._quiet_until(now)) > 0
+        self._see(self._watch.seen)
+        return calm
 
     def _quiet_until(self, now: float) -> float:
         pushes = self._waiting + [push for push, _ in self._acting]

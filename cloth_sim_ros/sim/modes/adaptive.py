@@ -74,8 +74,7 @@ class Adaptive:
                 length = left / count
                 calm = min(count, self._watch.calm_substeps(
                     state, begin + done, length, pushes))
-                if not calm:
-                    self._limit.see(self._watch.seen)
+                self._limit.see(self._watch.seen)
             if calm:
                 self._substep(self._springs, state, begin + done, length, pushes)
                 for index in range(1, calm):

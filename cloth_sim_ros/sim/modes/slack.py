@@ -16,7 +16,7 @@
 
 import math
 
-# Of the limit: more beyond the limit that holds now than an overshoot is.
+# Of the limit: more beyond it than an overshoot is.
 _FAR = 0.5
 # [s] of the decay.
 _TIME = 0.3
@@ -45,17 +45,19 @@ class Slack:
         return self._limit + self._first * (1.0 + self._age) * math.exp(-self._age)
 
     def see(self, strain: float) -> None:
-        """Take the largest ``strain`` of a cloth that nothing holds."""
-        if strain > self.limit + _FAR * self._limit:
-            self._first, self._age = strain - self._limit, 0.0
+        """Take the largest ``strain`` of a cloth; only the first one counts."""
+        if self._is_new and strain > (1.0 + _FAR) * self._limit:
+            self._first = strain - self._limit
+        self._is_new = False
 
     def spend(self, length: float) -> None:
         """Go on by ``length`` [s]."""
         if self._first:
             self._age += length / _TIME
             if self.limit - self._limit < _NOTHING * self._limit:
-                self.forget()
+                self._first = 0.0
 
     def forget(self) -> None:
-        """Have none."""
+        """Have none, until the next strain is seen."""
         self._first = self._age = 0.0
+        self._is_new = True

@@ -35,7 +35,7 @@ class StrainLimit(Protocol):
         """Tell whether it has nothing to hold, so that a mass-spring substep does the same."""
 
     def see(self, strain: float) -> None:
-        """Take the largest strain, when it is idle and may not be any more."""
+        """Take the largest strain, when it is idle; the first one says what cloth has come."""
 
     def next_length(self) -> float:
         """Return the longest substep that may come next [s]."""

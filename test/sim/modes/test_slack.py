@@ -27,7 +27,9 @@ def test_slack_begins_where_the_cloth_is_and_goes():
     """The limit jumps, never comes to its place, or begins anew at each look."""
     slack = Slack(0.1)
     slack.see(0.14)
+    slack.see(0.6)
     assert slack.limit == 0.1
+    slack.forget()
     slack.see(0.6)
     assert slack.limit == pytest.approx(0.6)
     limits = []
