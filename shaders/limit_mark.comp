@@ -13,15 +13,18 @@
 // limitations under the License.
 
 #version 430 core
-// Mark which edges are at their limit, four bits a cell, and keep the marks of the time before in
-// the next four bits. An edge comes to its limit when it is held there (MARKS_TENSION) or beyond
-// it; it leaves when it is let go and has come back some way. So it does not flicker.
+// Mark the edges of each cell, four bits a mark: which are held at their limit now (MARKS_TENSION,
+// else those beyond it), which are engaged, and which were the time before. An edge is engaged
+// when it is held, and until it has been let go and has come back some way.
 
 #include "lattice.glsl"
 #include "edges.glsl"
 #include "state_in.glsl"
 #include "spring_law.glsl"
 #include "strain_limit.glsl"
+
+#define ENGAGED 4
+#define ENGAGED_BEFORE 8
 
 layout(local_size_x = LOCAL_X, local_size_y = LOCAL_Y) in;
 
@@ -30,7 +33,7 @@ layout(std430, binding = TENSION) readonly buffer Tension { vec4 tension[]; };
 #endif
 layout(std430, binding = AT_LIMIT) buffer AtLimit { uint at_limit[]; };
 
-uniform float release;  // of the limit: a marked edge keeps its mark above this strain
+uniform float release;  // of the limit: an edge stays engaged above this strain
 
 float strain(int row, int col, int row2, int col2, int rest) {
     vec4 from = load_position(node_index(row, col));
@@ -48,8 +51,11 @@ bool is_held(int row, int col, int edge, float strain) {
 }
 
 uint mark(uint before, int row, int col, int edge, float strain) {
-    bool was = (before >> edge & 1u) == 1u;
-    return is_held(row, col, edge, strain) || (was && strain > release * limit) ? 1u << edge : 0u;
+    uint bit = 1u << edge;
+    if (is_held(row, col, edge, strain)) {
+        return bit | bit << ENGAGED;
+    }
+    return strain > release * limit ? before & bit << ENGAGED : 0u;
 }
 
 void main() {
@@ -59,7 +65,7 @@ void main() {
         return;
     }
     int index = node_index(row, col);
-    uint before = at_limit[index] & 15u;
+    uint before = at_limit[index];
     uint marks = 0u;
 #if HAS_STRUCTURAL
     marks |= mark(before, row, col, EDGE_ROW, strain(row, col, row, col + 1, REST_ROW));
@@ -71,5 +77,5 @@ void main() {
     marks |= mark(
         before, row, col, EDGE_CROSSING, strain(row, col + 1, row + 1, col, REST_DIAGONAL));
 #endif
-    at_limit[index] = before << 4 | marks;
+    at_limit[index] = marks | (before >> ENGAGED & 15u) << ENGAGED_BEFORE;
 }

@@ -33,8 +33,19 @@ layout(local_size_x = LOCAL_X, local_size_y = LOCAL_Y) in;
 layout(std430, binding = VELOCITY_OUT) buffer Velocity { vec4 velocity_out[]; };
 layout(std430, binding = TENSION) buffer Tension { vec4 tension_out[]; };
 
+// What an invocation reads no other one of the dispatch writes, so textures may have it.
+#if LOADS_TEXTURE
+#define LOAD_VELOCITY(index) load_velocity(index)
+#define LOAD_TENSIONS(index) load_tensions(index)
+#include "tension_in.glsl"
+#else
+#define LOAD_VELOCITY(index) velocity_out[index]
+#define LOAD_TENSIONS(index) tension_out[index]
+#endif
+
 uniform int colour;          // 0 to 3: parity of the cell's column and row
 uniform float substep;       // [s]
+uniform float kick;          // [s] what tensions act for, as the springs' forces
 uniform float correction;    // share of what is beyond the limit that a substep takes back
 uniform float longest_next;  // [s] no later substep is longer
 uniform float inverse_mass;  // [1/kg]
@@ -56,7 +67,7 @@ struct Node {
     vec4 velocity;
 };
 
-Node load_node(int index) { return Node(load_position(index), velocity_out[index]); }
+Node load_node(int index) { return Node(load_position(index), LOAD_VELOCITY(index)); }
 
 // Without branches: lanes of different edges run together.
 float limit_edge(float old, inout Node from, inout Node to, int rest) {
@@ -67,7 +78,7 @@ float limit_edge(float old, inout Node from, inout Node to, int rest) {
     float free = from.velocity.w + to.velocity.w;
     // 0 where an end is a ghost or none can move.
     float present = from.position.w * to.position.w * min(free, 1.0);
-    float per_length = present / (substep * substep * inverse_mass * max(free, 1.0));
+    float per_length = present / (substep * kick * inverse_mass * max(free, 1.0));
 #if SWEEP_LAW == PAPER_LAW
     // Phi = d.d - L0^2 and its change, over 2 l.
     float ahead = (0.5 * (now.x * now.x - L0 * L0) + substep * dot(d, dv)) * now.y;
@@ -86,7 +97,7 @@ float limit_edge(float old, inout Node from, inout Node to, int rest) {
     float most = MOST_KEPT * L0 / (longest_next * longest_next * inverse_mass * max(free, 1.0));
     float kept = clamp(tension, -most, most);
 #endif
-    vec3 change = (present * (tension - old) * substep * inverse_mass * now.y) * d;
+    vec3 change = (present * (tension - old) * kick * inverse_mass * now.y) * d;
     from.velocity.xyz += from.velocity.w * change;
     to.velocity.xyz -= to.velocity.w * change;
     return kept;
@@ -103,7 +114,7 @@ void main() {
     Node right = load_node(index + 1);
     Node below = load_node(index + PITCH);
     Node across = load_node(index + PITCH + 1);
-    vec4 t = tension_out[index];
+    vec4 t = LOAD_TENSIONS(index);
 #if HAS_STRUCTURAL
     t[EDGE_ROW] = limit_edge(t[EDGE_ROW], corner, right, REST_ROW);
     t[EDGE_COLUMN] = limit_edge(t[EDGE_COLUMN], corner, below, REST_COLUMN);

@@ -30,7 +30,7 @@ uniform float substep;  // [s] of all substeps until the time ahead
 
 struct Node {
     vec4 now;
-    vec3 then;
+    vec4 then;
 };
 
 Node load_node(int row, int col) {
@@ -38,13 +38,15 @@ Node load_node(int row, int col) {
     vec4 x = load_position(index);
     vec4 v = load_velocity(index);
     vec3 a = v.w * applied_acceleration(index);
-    return Node(x, x.xyz + substep * (v.xyz + substep * a));
+    return Node(x, vec4(x.xyz + substep * (v.xyz + substep * a), v.w));
 }
 
 void look_at_edge(inout vec2 strain, Node from, Node to, int rest) {
-    float per_rest = from.now.w * to.now.w / rest_length[rest];
+    // 0 where an end is a ghost or none can move.
+    float present = from.now.w * to.now.w * min(from.then.w + to.then.w, 1.0);
+    float per_rest = present / rest_length[rest];
     float now = length_and_inverse(to.now.xyz - from.now.xyz).x;
-    float then = length_and_inverse(to.then - from.then).x;
+    float then = length_and_inverse(to.then.xyz - from.then.xyz).x;
     strain = max(strain, abs(vec2(now, then) - rest_length[rest]) * per_rest);
 }
 

@@ -12,24 +12,29 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""The adaptive scheme `impulse`: Gauss-Seidel impulses hold edges at the limit."""
+"""The adaptive scheme `constraint`: Gauss-Seidel impulses hold edges at the limit."""
 
 import math
 
 from cloth_sim_ros.reference.coloured import coloured_edges
 from cloth_sim_ros.reference.limited_cloth import LimitedCloth
-from cloth_sim_ros.reference.limited_cloth import split_evenly
 from cloth_sim_ros.reference.substeps import geometric_substep
 from cloth_sim_ros.sim.scene import Scene
-from cloth_sim_ros.sim.stability import safe_substep
 import numpy as np
 
-# Of the geometric bound; at 0.25 the energy spikes.
-_GEOMETRIC = 0.2
+# Of the geometric bound, at this limit; it goes with this power of the limit.
+_GEOMETRIC, _USUAL_LIMIT, _POWER = 0.15, 0.1, 0.5
 _GROWTH = 1.1
-_SHORTEST = 5e-5
-# A warm start moves an edge by at most this part of its rest length within a substep.
-_WARM_REACH = 0.5
+_SHORTEST = 1e-3
+_COMPLIANCE = 0.03
+# The least share of what is beyond the limit that a substep takes back.
+_LEAST_CORRECTION = 0.2
+_USUAL_SHARE = 0.02
+# A kept tension moves an edge by at most this part of its rest length within a substep.
+_MOST_KEPT = 0.5
+# A cloth that is farther beyond its limit than this, of the limit, is brought to it with this
+# time constant [s].
+_FAR, _SLACK_TIME, _NO_SLACK = 0.5, 0.3, 1e-3
 
 
 class ImpulseAdaptiveReference(LimitedCloth):
@@ -38,91 +43,106 @@ class ImpulseAdaptiveReference(LimitedCloth):
 
     The impulse is the multiplier of a one-sided constraint at the limit: it may pull an edge
     at its upper limit and push one at its lower, and it goes when the edge leaves the limit.
-    Impulses are kept as the start of the next substep.
+    Multipliers are kept as the start of the next substep, as tensions [N].
 
     :param scene: what is modelled; its timed pushes act at their times
-    :param limit: the strain at which edges are held
-    :param sweeps: through all colours in a substep
+    :param limit: the strain at which edges are held, if not the scene's
+    :param sweeps: through all colours in a substep, if not the scene's
     """
 
-    def __init__(self, scene: Scene, limit: float = 0.1, sweeps: int = 4) -> None:
+    def __init__(
+            self, scene: Scene, limit: float | None = None, sweeps: int | None = None) -> None:
         """Start at rest in the scene's start pose."""
         super().__init__(scene, limit)
-        self.sweeps = sweeps
-        self.colours = [
-            colour[self.limited[colour]] for colour in coloured_edges(scene, self.edges)]
-        self.base_substep = safe_substep(scene)
-        # Of the last substep: the impulse of each edge [N s], and its length [s].
-        self.impulse = np.zeros(len(self.edges))
-        self._last_substep = 0.0
-        self._substep_now = self.base_substep
+        self.sweeps: int = scene['adaptive.sweeps'] if sweeps is None else sweeps
+        self.groups = [
+            group[self.limited[group]] for group in coloured_edges(scene, self.edges)]
+        self.tension = np.zeros(len(self.edges))
+        self._share = _GEOMETRIC * (self.limit / _USUAL_LIMIT)**_POWER
+        self._length = self._usual = self.spring_substep
+        # What is added to the limit: at first, and for how long already, in time constants.
+        self._slack = self._slack_age = 0.0
+        self._is_new = True
         # Of the edges at the start of the substep.
         self._differences = self._directions = np.zeros((len(self.edges), 3))
+        self._lengths = np.zeros(len(self.edges))
 
-    def _step_of_dt(self) -> None:
-        end = (self.steps + 1) * self.dt
-        now = self.time
-        count = 0
-        while end - now > 1e-9 * self.dt:
-            self._substep_now = max(
-                min(self.base_substep, self._geometric_substep(),
-                    self._substep_now * _GROWTH), _SHORTEST)
-            h = split_evenly(end - now, self._substep_now)
-            self._substep(now, now + h)
-            now += h
-            count += 1
-        self.substeps = count
-        self._note_active(self.impulse != 0.0)
+    @property
+    def is_idle(self) -> bool:
+        """Tell whether no edge was held in the last substep."""
+        return not self.tension.any()
 
-    def _geometric_substep(self) -> float:
-        if self._last_substep == 0.0:
-            return math.inf
-        tension = np.abs(self.impulse) / self._last_substep
-        return _GEOMETRIC * geometric_substep(self.edges, tension, self.inverse_masses)
+    @property
+    def limit_now(self) -> float:
+        """Return the limit, with what is added for a cloth that was far beyond it."""
+        return self.limit + self._slack * (1.0 + self._slack_age) * math.exp(-self._slack_age)
 
-    def _substep(self, begin: float, end: float) -> None:
+    def _see(self, strain: float) -> None:
+        if self._is_new and strain > (1.0 + _FAR) * self.limit:
+            self._slack = strain - self.limit
+        self._is_new = False
+
+    def _held(self) -> np.ndarray:
+        return self.tension != 0.0
+
+    def _next_length(self) -> float:
+        if self.fixed:
+            return self.spring_substep
+        # A node may be pulled and pushed.
+        allowed = self._share * geometric_substep(
+            self.edges, np.abs(self.tension), self.inverse_masses)
+        self._length = max(
+            min(allowed, _GROWTH * self._length, self.spring_substep),
+            _SHORTEST * self.spring_substep)
+        return self._length
+
+    def _limited_substep(self, begin: float, end: float) -> None:
         h = end - begin
         velocities = self._spring_velocities(begin, end).reshape(-1, 3)
         self._differences = self.edges.differences(self._flat_positions)
         self._directions = self.edges.directions(self._flat_positions)
-        if self._last_substep > 0.0:
-            self._warm_start(velocities, h)
+        self._lengths = self.edges.lengths(self._flat_positions)
+        velocities -= self._kick * self.inverse_masses[:, None] * self.edges.scatter(
+            self.tension[:, None] * self._directions, len(velocities))
+        correction = max(
+            _LEAST_CORRECTION * min(1.0, h / self._usual), h / self.spring_substep)
+        self._usual += _USUAL_SHARE * (h - self._usual)
+        longest_next = _GROWTH * max(self._length, h)
         for _ in range(self.sweeps):
-            for colour in self.colours:
-                self._sweep(colour, velocities, h)
-        self._last_substep = h
+            for group in self.groups:
+                self._sweep(group, velocities, h, correction, longest_next)
+        self._slack_age += h / _SLACK_TIME
+        if self.limit_now - self.limit < _NO_SLACK * self.limit:
+            self._slack = 0.0
         self.velocities = velocities.reshape(self.positions.shape)
         self.positions = self.positions + h * self.velocities
 
-    def _warm_start(self, velocities: np.ndarray, h: float) -> None:
-        """Apply the impulses of the last substep again, along the edges as they are now."""
-        held = self.impulse != 0.0
-        most = np.full(len(self.edges), 0.0)
-        most[held] = _WARM_REACH * self.edges.rest_length[held] / (h * self.weight_sums[held])
-        self.impulse = np.clip(self.impulse * (h / self._last_substep), -most, most)
-        velocities -= self.inverse_masses[:, None] * self.edges.scatter(
-            self.impulse[:, None] * self._directions, len(velocities))
-
-    def _sweep(self, colour: np.ndarray, velocities: np.ndarray, h: float) -> None:
+    def _sweep(
+            self, group: np.ndarray, velocities: np.ndarray, h: float, correction: float,
+            longest_next: float) -> None:
         """
-        Bring the edges of one colour, which share no node, to the limit or let them go.
+        Bring the edges of one group, which share no node, to the limit or let them go.
 
         The length is the foreseen one. The impulse acts along the edge as it is now: along the
         foreseen edge it would turn the cloth.
         """
-        first, second = self.edges.first[colour], self.edges.second[colour]
-        foreseen = self._differences[colour] + h * (velocities[first] - velocities[second])
-        length = np.linalg.norm(foreseen, axis=1)
-        rest = self.edges.rest_length[colour]
-        upper, lower = rest * (1.0 + self.limit), rest * (1.0 - self.limit)
-        old = self.impulse[colour]
-        at_upper = (old > 0.0) | ((old == 0.0) & (length > upper))
-        at_lower = (old < 0.0) | ((old == 0.0) & (length < lower))
-        per_length = 1.0 / (h * self.weight_sums[colour])
-        new = np.where(
-            at_upper, np.maximum(old + (length - upper) * per_length, 0.0),
-            np.where(at_lower, np.minimum(old + (length - lower) * per_length, 0.0), 0.0))
-        self.impulse[colour] = new
-        change = (new - old)[:, None] * self._directions[colour]
+        first, second = self.edges.first[group], self.edges.second[group]
+        ahead = np.linalg.norm(
+            self._differences[group] + h * (velocities[first] - velocities[second]), axis=1)
+        rest = self.edges.rest_length[group]
+        stretch = self._lengths[group] - rest
+        reach = self.limit_now * rest
+        # What is beyond the limit already comes back bit by bit.
+        beyond = (1.0 - correction) * (stretch - np.clip(stretch, -reach, reach))
+        most = rest + reach + np.maximum(beyond, 0.0)
+        least = rest - reach + np.minimum(beyond, 0.0)
+        per_length = 1.0 / (h * self._kick * self.weight_sums[group])
+        old = self.tension[group]
+        pull = np.maximum((old + (ahead - most) * per_length) / (1.0 + _COMPLIANCE), 0.0)
+        press = np.minimum((old + (ahead - least) * per_length) / (1.0 + _COMPLIANCE), 0.0)
+        new = (old >= 0.0) * pull + (old <= 0.0) * press
+        change = (self._kick * (new - old))[:, None] * self._directions[group]
         velocities[first] -= self.inverse_masses[first, None] * change
         velocities[second] += self.inverse_masses[second, None] * change
+        most_kept = _MOST_KEPT * rest / (longest_next**2 * self.weight_sums[group])
+        self.tension[group] = np.clip(new, -most_kept, most_kept)

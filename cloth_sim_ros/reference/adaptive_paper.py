@@ -28,30 +28,41 @@ class PaperAdaptiveReference(LimitedCloth):
     pulled all the way to rest length within one step.
 
     :param scene: what is modelled; its timed pushes act at their times
-    :param limit: the strain beyond which an edge is a constraint
+    :param limit: the strain beyond which an edge is a constraint, if not the scene's
     :param delta: regularisation of the constraints, over the sum of their inverse masses
     """
 
-    def __init__(self, scene: Scene, limit: float = 0.1, delta: float = 1e-3) -> None:
+    def __init__(self, scene: Scene, limit: float | None = None, delta: float = 1e-3) -> None:
         """Start at rest in the scene's start pose."""
         super().__init__(scene, limit)
         self.delta = delta
-        self.substeps = 1
 
-    def _step_of_dt(self) -> None:
-        h = self.dt
+    @property
+    def is_idle(self) -> bool:
+        """Tell whether no edge is beyond the limit."""
+        return not self._held().any()
+
+    def _held(self) -> np.ndarray:
+        error = self.edges.lengths(self._flat_positions) - self.edges.rest_length
+        return self.limited & (np.abs(error) > self.limit * self.edges.rest_length)
+
+    def _next_length(self) -> float:
+        return self.spring_substep
+
+    def _limited_substep(self, begin: float, end: float) -> None:
+        h = end - begin
         edges = self.edges
         start = self._flat_positions
         directions = edges.directions(start)
         lengths = edges.lengths(start)
         error = lengths - edges.rest_length
-        active = self.limited & (np.abs(error) > self.limit * edges.rest_length)
+        active = self._held()
         springs = ~active
         rate = np.sum(edges.differences(self.velocities.reshape(-1, 3)) * directions, axis=1)
         tension = springs * (edges.stiffness * error + edges.damping * rate)
         forces = -edges.scatter(tension[:, None] * directions, len(start))
         velocities = self.velocities + h * (
-            self._applied_accelerations(self.time, self.time + h)
+            self._applied_accelerations(begin, end)
             + (self.inverse_masses[:, None] * forces).reshape(self.positions.shape))
         if active.any():
             # Of Phi = |d|^2 - L0^2, over |J| = 2 l: the paper's constraint, with unit rows.
@@ -65,4 +76,3 @@ class PaperAdaptiveReference(LimitedCloth):
             velocities = velocities + change.reshape(velocities.shape)
         self.velocities = velocities
         self.positions = self.positions + h * velocities
-        self._note_active(active)

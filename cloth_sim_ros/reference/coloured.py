@@ -12,27 +12,29 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""Structural and shear edges in eight colours: edges of one colour share no node."""
+"""Structural and shear edges in the order in which the sweeps of limit_sweep.comp take them."""
 
 from cloth_sim_ros.reference.edges import Edges
 from cloth_sim_ros.reference.limited_cloth import LIMITED
 from cloth_sim_ros.sim.scene import Scene
 import numpy as np
 
+_COLOURS = 4
+# Of the edges of a cell, in their order: along the row, along the column, the two diagonals.
+_STEPS = ((0, 1), (1, 0), (1, 1), (1, -1))
+
 
 def coloured_edges(scene: Scene, edges: Edges) -> list[np.ndarray]:
     """
-    Return the numbers of the limited edges, colour by colour.
+    Return the numbers of the limited edges, in groups that share no node, in their order.
 
-    Edges along a row are told apart by the column of their first end, all others by its row.
+    A colour has the cells of one parity of column and row, and its groups one edge of each cell.
     """
     row, col = np.divmod(edges.first, scene.cols)
     down, right = edges.second // scene.cols - row, edges.second % scene.cols - col
+    # The cell of an edge is at its upper left.
+    cell_colour = np.minimum(col, col + right) % 2 + 2 * (row % 2)
     limited = edges.of(LIMITED)
-    colours = []
-    for step in ((0, 1), (1, 0), (1, 1), (1, -1)):
-        here = limited & (down == step[0]) & (right == step[1])
-        along = col if step == (0, 1) else row
-        for odd in (0, 1):
-            colours.append(np.flatnonzero(here & (along % 2 == odd)))
-    return colours
+    return [
+        np.flatnonzero(limited & (cell_colour == colour) & (down == step[0]) & (right == step[1]))
+        for colour in range(_COLOURS) for step in _STEPS]

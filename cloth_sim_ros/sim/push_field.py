@@ -111,12 +111,19 @@ class PushField:
         self._entries.clear()
         return count
 
-    def forcing(self, begin: float, end: float) -> Forcing:
-        """Return the acceleration of the step from ``begin`` to ``end`` [s]; begin its pushes."""
+    def forcing(self, begin: float, end: float, kick: float | None = None) -> Forcing:
+        """
+        Return the acceleration of the step from ``begin`` to ``end`` [s]; begin its pushes.
+
+        :param kick: how long it acts in the step [s], if not for all of it; pushes keep their
+            impulse
+        """
         if not self._entries:
             return self.still
         self._entries = [entry for entry in self._entries if entry.push.end > begin]
-        shares = [(entry, entry.push.overlap(begin, end)) for entry in self._entries]
+        scale = 1.0 if kick is None else (end - begin) / kick
+        shares = [
+            (entry, scale * entry.push.overlap(begin, end)) for entry in self._entries]
         for entry, share in shares:
             if share > 0.0 and entry.inside is None:
                 self._begin(entry)

@@ -39,17 +39,24 @@ class SceneProgram:
         self._scene = scene
         self._defines = {**layout.defines(), **scene_defines(scene), **(defines or {})}
         self._forms: dict[bool, Program] = {}
-        self._set: dict[bool, tuple[Forcing, float]] = {}
+        self._set: dict[bool, tuple[Forcing, float, float | None]] = {}
 
-    def use_for_step(self, forcing: Forcing, length: float) -> Program:
-        """Return the form ``forcing`` needs, in use and set to a substep of ``length`` [s]."""
+    def use_for_step(
+            self, forcing: Forcing, length: float, kick: float | None = None) -> Program:
+        """
+        Return the form ``forcing`` needs, in use and set to a substep of ``length`` [s].
+
+        :param kick: what forces act for [s], in shaders that tell it from the length
+        """
         program = self.use(forcing.has_regions)
         forcing.bind()
         # Most steps are like the one before, and a uniform costs as much as a small dispatch.
-        if self._set.get(forcing.has_regions) != (forcing, length):
+        if self._set.get(forcing.has_regions) != (forcing, length, kick):
             program.set_float('substep', length)
+            if kick is not None:
+                program.set_float('kick', kick)
             forcing.apply(program)
-            self._set[forcing.has_regions] = (forcing, length)
+            self._set[forcing.has_regions] = (forcing, length, kick)
         return program
 
     def use(self, has_region_pushes: bool = False) -> Program:

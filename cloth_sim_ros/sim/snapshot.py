@@ -73,6 +73,7 @@ class Snapshot(Measures):
     :param active_constraints: springs at their limit
     :param active_fraction: of all springs
     :param constraint_switches: activations and deactivations in the last step
+        (docs/adaptive.md)
     :param tension: when asked for, of the edges that start at each node [N], (rows, cols, 6)
         float32, above 0 where it pulls: of node (r, c) to (r, c + 1), (r + 1, c), (r + 1, c + 1),
         (r + 1, c - 1), (r, c + 2) and (r + 2, c); 0 where there is no such edge

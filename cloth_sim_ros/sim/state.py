@@ -96,6 +96,10 @@ class State:
         self._positions[1 - self._now].bind_storage(bindings.POSITION_OUT)
         self._velocities[1 - self._now].bind_storage(bindings.VELOCITY_OUT)
 
+    def bind_out_for_reading(self) -> None:
+        """Let the next dispatches read the velocities to come in place of the present ones."""
+        self._velocities[1 - self._now].bind_texture(bindings.VELOCITY_IN)
+
     def swap(self) -> None:
         """Make what was written the present state."""
         self._now = 1 - self._now

@@ -14,12 +14,15 @@
 
 // Symplectic Euler (paper, Eq. 3 and 4): v+ = v + h (a + F / m), x+ = x + h v+. A pinned node keeps
 // its velocity, which is that of the pin.
+// A velocity belongs to the middle of its substep. Where the one before had another length, the
+// kick is what lies between their middles; with h instead each change of h would add energy.
 
 uniform float substep;       // [s]
+uniform float kick;          // [s] what forces act for: mean of this substep and the one before
 uniform float inverse_mass;  // [1/kg]
 
 vec3 next_velocity(vec4 velocity, vec3 force, vec3 applied) {
-    return velocity.xyz + velocity.w * substep * (applied + inverse_mass * force);
+    return velocity.xyz + velocity.w * kick * (applied + inverse_mass * force);
 }
 
 vec3 next_position(vec3 position, vec3 velocity) {

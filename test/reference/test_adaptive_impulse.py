@@ -36,10 +36,13 @@ def test_a_hanging_weight_rests_at_the_limit():
     for _ in range(500):
         cloth.velocities *= 0.97
         cloth.step()
-    assert cloth.max_strain() == pytest.approx(0.1, abs=1e-6)
     assert cloth.active.all()
-    force = cloth.impulse[0] / (cloth.dt / cloth.substeps)
-    assert force == pytest.approx(0.981 - 5.0 * 0.1, rel=1e-6)
+    tension = cloth.tension[0]
+    assert tension == pytest.approx(0.981 - 5.0 * 0.1, rel=1e-3)
+    # The compliance lets go of 0.03 of what the tension moves the weight in a substep.
+    assert cloth.substeps == 1
+    beyond = 0.03 * tension * cloth.dt**2 / 0.1
+    assert cloth.max_strain() == pytest.approx(0.1 + beyond, rel=1e-6)
 
 
 @pytest.mark.parametrize('side', [1.0, -1.0])
@@ -48,15 +51,18 @@ def test_the_limit_is_one_sided(side):
     cloth = _hanging(gravity=[0.0, 0.0, 0.0])
     cloth.velocities[1, 0] = [0.0, 0.0, -20.0 * side]
     cloth.step()
-    assert cloth.max_strain() == pytest.approx(0.1, abs=1e-9)
-    assert np.sign(cloth.impulse[0]) == side
+    # Of the overshoot to come, 0.1, the compliance leaves 0.03 / 1.03.
+    assert cloth.max_strain() == pytest.approx(0.1 + 0.1 * 0.03 / 1.03, abs=5e-5)
+    assert np.sign(cloth.tension[0]) == side
     cloth.step(4)
-    assert cloth.impulse[0] == 0.0
-    # The spring alone brings it back: 5 N/m x 0.1 m on 0.1 kg for four steps.
+    assert cloth.tension[0] == 0.0
+    # The spring alone brings it back, 5 N/m x 0.1 m on 0.1 kg for four steps, besides what the
+    # compliance had left to be taken back within a step.
     returning = side * cloth.velocities[1, 0, 2]
-    assert 0.0 < returning < 5.0 * 0.04
+    assert 0.0 < returning < 5.0 * 0.04 + 0.1 * 0.03 / 1.03 / 0.01
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ('strength', 'sweeps', 'strain'),
     [(5, 2, 0.115), (20, 2, 0.127), (5, 4, 0.11), (20, 4, 0.125)])

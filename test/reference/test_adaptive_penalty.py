@@ -29,16 +29,16 @@ def test_substeps_are_stable_with_the_extra_stiffness():
     scene = unit_scene(12, 0.01, 20)
     cloth = PenaltyAdaptiveReference(scene)
     extra = []
-    while cloth.time < 1.3:
+    while cloth.time < 0.6:
         cloth.step()
         if cloth.extra_stiffness > 0.0:
             stiffer = Scene({**scene.values, **{
                 f'stiffness.{family}': 5.0 + cloth.extra_stiffness
                 for family in ('structural', 'shear')}})
-            longest = cloth._longest_substep()
+            longest = cloth._next_length()
             assert 0.8 * safe_substep(stiffer) < longest <= safe_substep(stiffer) * (1.0 + 1e-9)
             extra.append(cloth.extra_stiffness)
-    assert max(extra) > 100.0
+    assert max(extra) > 50.0
 
 
 def test_a_hanging_weight_stretches_its_spring_to_the_limit():
@@ -55,6 +55,7 @@ def test_a_hanging_weight_stretches_its_spring_to_the_limit():
     assert pull == pytest.approx(0.981, rel=0.02)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(('strength', 'strain'), [(5, 0.125), (20, 0.13)])
 def test_paper_scene(strength, strain):
     """Strain or peak energy depend on the frame's dt, or the strain is above the table's."""

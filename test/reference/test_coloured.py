@@ -27,7 +27,7 @@ def test_no_node_twice_and_no_edge_left_out(rows, cols):
     scene = Scene({'rows': rows, 'cols': cols})
     edges = edges_of(scene)
     colours = coloured_edges(scene, edges)
-    assert len(colours) == 8
+    assert len(colours) == 16
     for colour in colours:
         nodes = np.concatenate((edges.first[colour], edges.second[colour]))
         assert len(np.unique(nodes)) == len(nodes)

@@ -61,6 +61,8 @@ class Adaptive:
         self._watch = StrainWatch(scene, layout)
         self._limit = _make_limit(scene, layout, self._length, self._watch)
         self._marks = LimitMarks(scene, layout, self._limit)
+        # Length of the last substep [s]; 0 where none was.
+        self._before = 0.0
 
     def step(self, state: State, begin: float, pushes: PushField) -> None:
         """Step ``state`` on by one dt."""
@@ -73,15 +75,16 @@ class Adaptive:
                 length = left / count
                 calm = min(count, self._watch.calm_substeps(
                     state, begin + done, length, pushes))
-            for index in range(calm):
-                start = begin + done + index * length
-                self._springs.substep(state, pushes.forcing(start, start + length), length)
+                self._limit.see(self._watch.seen)
             if calm:
+                self._substep(self._springs, state, begin + done, length, pushes)
+                for index in range(1, calm):
+                    start = begin + done + index * length
+                    self._springs.substep(state, pushes.forcing(start, start + length), length)
                 self._watch.spend(calm)
             else:
                 length = self._next_length(left)
-                start = begin + done
-                self._limit.substep(state, pushes.forcing(start, start + length), length)
+                self._substep(self._limit, state, begin + done, length, pushes)
             done += max(calm, 1) * length
             substeps += max(calm, 1)
         self.substeps = substeps
@@ -90,6 +93,7 @@ class Adaptive:
     def forget(self) -> None:
         """Hold no edge and expect nothing of the state."""
         self.substeps = self._fewest_substeps
+        self._before = 0.0
         self._watch.forget()
         self._limit.forget()
         self._marks.forget()
@@ -112,6 +116,16 @@ class Adaptive:
         """Give everything back."""
         for part in (self._springs, self._watch, self._limit, self._marks):
             part.delete()
+
+    def _substep(
+            self, part: OnePass | StrainLimit, state: State, start: float, length: float,
+            pushes: PushField) -> None:
+        # A velocity belongs to the middle of its substep, so forces act from there to the next.
+        kick = length
+        if self._before and abs(self._before - length) > _NOTHING * length:
+            kick = 0.5 * (self._before + length)
+        part.substep(state, pushes.forcing(start, start + length, kick), length, kick)
+        self._before = length
 
     def _next_length(self, left: float) -> float:
         return left / math.ceil(left / self._limit.next_length() - _NOTHING)

@@ -14,6 +14,8 @@
 
 """Which edges are at their limit at the end of a step, and which were one step before."""
 
+import math
+
 from cloth_sim_ros.gl.buffer import Buffer
 from cloth_sim_ros.gl.buffer import shader_writes_visible
 from cloth_sim_ros.sim import bindings
@@ -26,9 +28,13 @@ from cloth_sim_ros.sim.state import State
 import numpy as np
 
 _LOCAL = (16, 2)
-_NOW, _BEFORE = 0x0F, 0xF0
-# Of the limit: above this strain an edge that was let go still counts as at its limit.
-_RELEASE = 0.9
+# Where in a mark the bits of the edges are that are held, engaged, and engaged before.
+_HELD, _ENGAGED, _BEFORE = 0, 4, 8
+_EDGES = 0xF
+# Of the limit: an edge that is let go is engaged until it has come back to this strain.
+_RELEASE = 0.5
+# Steps without a held edge, after which no edge is engaged any more.
+_FADING_STEPS = 8
 
 
 class LimitMarks:
@@ -48,19 +54,19 @@ class LimitMarks:
             for drow, dcol in OFFSETS[family])
         self._marks = np.zeros(layout.stored, dtype=np.uint32)
         self.buffer = Buffer(self._marks)
-        # Steps until the marks are all zero again.
+        # Steps until the marks are all zero again. In the last but one all edges are let go.
         self._fading = 0
 
     @property
     def are_empty(self) -> bool:
-        """Tell whether no edge is at its limit, nor was one a step before."""
+        """Tell whether no edge is engaged, nor was one a step before."""
         return self._fading == 0
 
     def update(self, state: State, *, some: bool) -> None:
         """Mark the edges of ``state``; ``some`` is False when none can be at its limit."""
         if self.are_empty and not some:
             return
-        self._fading = 2 if some else self._fading - 1
+        self._fading = _FADING_STEPS if some else self._fading - 1
         if self.are_empty:
             self._clear()
         else:
@@ -69,7 +75,7 @@ class LimitMarks:
             if self._limit.tensions is not None:
                 self._limit.tensions.bind_storage(bindings.TENSION)
             program = self._program.use()
-            program.set_float('release', _RELEASE)
+            program.set_float('release', _RELEASE if self._fading > 1 else math.inf)
             program.dispatch(*self._groups)
             shader_writes_visible()
 
@@ -78,8 +84,9 @@ class LimitMarks:
         if self.are_empty:
             return {}
         self.buffer.read_into(self._marks)
-        now, before = self._marks & _NOW, (self._marks & _BEFORE) >> 4
-        active = _count_bits(now)
+        held, now, before = (
+            self._marks >> first & _EDGES for first in (_HELD, _ENGAGED, _BEFORE))
+        active = _count_bits(held)
         return {
             'active_constraints': active,
             'active_fraction': active / max(self._edges, 1),

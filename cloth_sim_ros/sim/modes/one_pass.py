@@ -36,18 +36,24 @@ class OnePass:
         self._groups = layout.groups
         self._step.use()
 
-    def substep(self, state: State, forcing: Forcing, length: float) -> None:
-        """Step ``state`` on by ``length`` [s]."""
-        self.run(state, forcing, length)
+    def substep(
+            self, state: State, forcing: Forcing, length: float,
+            kick: float | None = None) -> None:
+        """
+        Step ``state`` on by ``length`` [s].
+
+        :param kick: what forces act for [s], where the substep before had another length
+        """
+        self.run(state, forcing, length, kick)
         state.swap()
 
     def run(
-            self, state: State, forcing: Forcing, length: float,
+            self, state: State, forcing: Forcing, length: float, kick: float | None = None, *,
             penalty: float | None = None) -> None:
         """Write the state after ``length`` [s], without making it the present one."""
         state.bind_in()
         state.bind_out()
-        step = self._step.use_for_step(forcing, length)
+        step = self._step.use_for_step(forcing, length, length if kick is None else kick)
         if penalty is not None:
             step.set_float('penalty', penalty)
         step.dispatch(*self._groups)

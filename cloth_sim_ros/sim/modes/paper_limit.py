@@ -58,16 +58,19 @@ class PaperLimit:
         """Tell whether no edge is beyond the limit."""
         return not self._some_beyond
 
+    def see(self, strain: float) -> None:
+        """Take no notice: the limit is where it is."""
+
     def next_length(self) -> float:
         """Return the longest substep that may come next [s]."""
         return self._length
 
-    def substep(self, state: State, forcing: Forcing, length: float) -> None:
-        """Step ``state`` on by ``length`` [s]."""
+    def substep(self, state: State, forcing: Forcing, length: float, kick: float) -> None:
+        """Step ``state`` on by ``length`` [s], with forces that act for ``kick`` [s]."""
         self._sweeps.clear()
-        self._springs.run(state, forcing, length)
+        self._springs.run(state, forcing, length, kick)
         self._sweeps.bind_tensions()
-        self._sweeps.run(_SWEEPS, length, length)
+        self._sweeps.run(state, _SWEEPS, length, kick, length, self._limit)
         self._sweeps.finish(state, length)
         self._some_beyond = self._watch.strains(state, forcing, 0.0)[0] > self._limit
 

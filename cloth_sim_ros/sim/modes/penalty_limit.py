@@ -73,15 +73,18 @@ class PenaltyLimit:
         """Tell whether the springs have their own stiffness."""
         return self._penalty == 0.0
 
+    def see(self, strain: float) -> None:
+        """Take no notice: the stiffness follows the strain."""
+
     def next_length(self) -> float:
         """Return the longest substep that may come next [s]."""
         return self._length
 
-    def substep(self, state: State, forcing: Forcing, length: float) -> None:
-        """Step ``state`` on by ``length`` [s]."""
+    def substep(self, state: State, forcing: Forcing, length: float, kick: float) -> None:
+        """Step ``state`` on by ``length`` [s], with forces that act for ``kick`` [s]."""
         if self.is_idle:
             self._penalty = self._first
-        self._springs.run(state, forcing, length, self._penalty)
+        self._springs.run(state, forcing, length, kick, penalty=self._penalty)
         state.swap()
         self._adjust(*self._watch.strains(state, forcing, _AHEAD * length))
 

@@ -35,11 +35,14 @@ class StrainLimit(Protocol):
     def is_idle(self) -> bool:
         """Tell whether it has nothing to hold, so that a mass-spring substep does the same."""
 
+    def see(self, strain: float) -> None:
+        """Take the largest strain, when it is idle; the first one says what cloth has come."""
+
     def next_length(self) -> float:
         """Return the longest substep that may come next [s]."""
 
-    def substep(self, state: State, forcing: Forcing, length: float) -> None:
-        """Step ``state`` on by ``length`` [s]."""
+    def substep(self, state: State, forcing: Forcing, length: float, kick: float) -> None:
+        """Step ``state`` on by ``length`` [s], with forces that act for ``kick`` [s]."""
 
     def tension(
             self, positions: np.ndarray, velocities: np.ndarray,

@@ -56,16 +56,23 @@ class Sweeps:
             self.tensions.bind_texture(bindings.TENSION)
 
     def run(
-            self, count: int, length: float, longest_next: float, correction: float = 1.0) -> None:
+            self, state: State, count: int, length: float, kick: float, longest_next: float,
+            limit: float, correction: float = 1.0) -> None:
         """
         Sweep ``count`` times over velocities that a pass has written but not made present.
 
         :param length: of the substep [s]
+        :param kick: what tensions act for in it [s]
         :param longest_next: that the next substep can have [s]
+        :param limit: strain that holds in this substep
         :param correction: share of what is beyond the limit already that is taken back
         """
+        if self._texture_loads:
+            state.bind_out_for_reading()
         sweep = self._sweep.use()
         sweep.set_float('substep', length)
+        sweep.set_float('kick', kick)
+        sweep.set_float('limit', limit)
         sweep.set_float('longest_next', longest_next)
         sweep.set_float('correction', correction)
         for _ in range(count):

@@ -20,23 +20,23 @@ from cloth_sim_ros.sim.forcing import Forcing
 from cloth_sim_ros.sim.layout import Layout
 from cloth_sim_ros.sim.modes.held_tension import read_held_tension
 from cloth_sim_ros.sim.modes.one_pass import OnePass
+from cloth_sim_ros.sim.modes.slack import Slack
 from cloth_sim_ros.sim.modes.sweeps import Sweeps
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.spring_tension import spring_tension
 from cloth_sim_ros.sim.state import State
 import numpy as np
 
-# Substep over the one at which the pull of the tensions across the edges would blow up.
-_GEOMETRIC_SHARE = 0.15
-# Below this limit [strain] the share falls with this power of it. The overshoot goes with the
-# square of the substep, so it stays the same part of the limit.
-_WIDE_LIMIT, _SHARE_POWER = 0.1, 0.5
+# Substep over the one at which the pull of the tensions across the edges would blow up, at this
+# limit [strain]. It goes with this power of the limit: the overshoot goes with the square of the
+# substep, so it stays the same part of the limit.
+_GEOMETRIC_SHARE, _USUAL_LIMIT, _SHARE_POWER = 0.15, 0.1, 0.5
 _GROWTH = 1.1
 # The least share of what is beyond the limit that a substep takes back. All of it, in a substep
 # that has just become much shorter, throws the nodes apart, and the next one is shorter still.
 _LEAST_CORRECTION = 0.2
 # Of the present substep, in the length that counts as usual.
-_USUAL_SHARE = 0.05
+_USUAL_SHARE = 0.02
 _SHORTEST_SHARE = 1e-3
 
 
@@ -55,8 +55,9 @@ class TensionLimit:
         self._node_mass = scene.node_mass
         self._longest = longest
         self._fixed = fixed
-        tightness = min(1.0, scene['adaptive.threshold'] / _WIDE_LIMIT)
-        self._share = _GEOMETRIC_SHARE * tightness**_SHARE_POWER
+        self._share = _GEOMETRIC_SHARE * (
+            scene['adaptive.threshold'] / _USUAL_LIMIT)**_SHARE_POWER
+        self._slack = Slack(scene['adaptive.threshold'])
         self._count: int = scene['adaptive.sweeps']
         self._springs = OnePass(scene, layout, 'TENSION_LIMIT')
         self._sweeps = Sweeps(scene, layout, 'LIMIT_LAW')
@@ -67,6 +68,10 @@ class TensionLimit:
     def is_idle(self) -> bool:
         """Tell whether no edge was held in the last substep."""
         return self._pull == 0.0
+
+    def see(self, strain: float) -> None:
+        """Take the largest strain, for a cloth that comes from beyond the limit."""
+        self._slack.see(strain)
 
     def next_length(self) -> float:
         """Return the longest substep that may come next [s]."""
@@ -80,14 +85,16 @@ class TensionLimit:
             _SHORTEST_SHARE * self._longest)
         return self._length
 
-    def substep(self, state: State, forcing: Forcing, length: float) -> None:
-        """Step ``state`` on by ``length`` [s]."""
+    def substep(self, state: State, forcing: Forcing, length: float, kick: float) -> None:
+        """Step ``state`` on by ``length`` [s], with forces that act for ``kick`` [s]."""
         self._sweeps.bind_tensions()
-        self._springs.run(state, forcing, length)
+        self._springs.run(state, forcing, length, kick)
         self._sweeps.run(
-            self._count, length, _GROWTH * max(self._length, length),
+            state, self._count, length, kick, _GROWTH * max(self._length, length),
+            self._slack.limit,
             max(_LEAST_CORRECTION * min(1.0, length / self._usual), length / self._longest))
         self._usual += _USUAL_SHARE * (length - self._usual)
+        self._slack.spend(length)
         self._pull = self._sweeps.finish(state, length)
 
     def tension(
@@ -104,6 +111,7 @@ class TensionLimit:
         self._pull = 0.0
         self._length = self._longest
         self._usual = self._longest
+        self._slack.forget()
         self._sweeps.clear()
 
     def delete(self) -> None:

@@ -70,10 +70,13 @@ def test_a_pushed_cloth_keeps_its_limit_for_long(kind, nodes, push, strain, ener
     check_limit(kind, nodes, push, strain, energy, 10.0, (0.01, 0.015, 0.02, 0.03, 0.04, 0.05))
 
 
-@pytest.mark.parametrize(('push', 'dt'), [(5.0, 0.01), (5.0, 0.05), (20.0, 0.01), (20.0, 0.03)])
+@pytest.mark.parametrize('push', [5.0, 20.0])
+@pytest.mark.parametrize('dt', [0.01, 0.03, 0.05])
 def test_constraints_do_not_chatter(push, dt):
     """Constraints go on and off in turn, which is noise and heats the cloth."""
-    assert limit_run(paper_scene(push, dt), 10.0).switching <= 0.02
+    switching = limit_run(paper_scene(push, dt), 10.0).switching
+    print(f'measured {100.0 * switching:.2f} of 2 % allowed: switches a frame, push {push}')
+    assert switching <= 0.02
 
 
 def test_the_papers_scheme_fails_as_it_reports():
@@ -116,14 +119,43 @@ def test_a_tumbling_cloth_keeps_its_momentum_at_the_limit(scheme):
         simulation.set_state(start, spin + 0.5 * random.standard_normal(start.shape))
         before = momenta(simulation.snapshot())
         substeps, active = 0, 0
-        while substeps < 10_000 and simulation.time < 40.0:
-            simulation.step(10)
-            substeps += 10 * simulation.substeps
-            active += simulation.snapshot().active_constraints
+        while substeps < 10_000 and simulation.time < 60.0:
+            simulation.step()
+            substeps += simulation.substeps
+            active += simulation.snapshot().active_constraints > 0
         after = momenta(simulation.snapshot())
-    assert active > 100
+        steps = simulation.steps
+    print(f'measured {np.abs(after[0] - before[0]).max() / before[2]:.1e} of 1e-6 and '
+          f'{np.abs(after[1] - before[1]).max() / before[3]:.1e} of 5e-6 allowed: momentum after '
+          f'{substeps} substeps, edges at the limit after {active} of {steps} steps')
+    assert substeps >= 10_000
+    assert active > 0.2 * steps
     assert np.abs(after[0] - before[0]).max() <= 1e-6 * before[2]
     assert np.abs(after[1] - before[1]).max() <= 5e-6 * before[3]
+
+
+@pytest.mark.parametrize('scheme', ['constraint', 'penalty'])
+def test_a_push_gives_its_impulse_at_the_limit(scheme):
+    """A push is given more or less as the substeps become shorter while it acts."""
+    scene = Scene({
+        **LIMP, 'rows': 12, 'cols': 12, 'pins': ['none'], 'gravity': [0.0, 0.0, 0.0],
+        'mode': 'adaptive', 'adaptive.scheme': scheme, 'dt': 0.02})
+    impulse = np.array([0.3, -0.2, 0.5])
+    with closing(Simulation(scene)) as simulation:
+        start = simulation.snapshot().positions.astype(float)
+        simulation.set_state(start, np.cross([0.0, 0.0, 4.0], start) + 6.0 * start)
+        before = simulation.snapshot().velocities.astype(float).sum(axis=(0, 1))
+        simulation.push(impulse / 0.137, duration=0.137)
+        counts = []
+        while simulation.time < 0.2:
+            simulation.step()
+            counts.append(simulation.substeps)
+        after = simulation.snapshot().velocities.astype(float).sum(axis=(0, 1))
+    assert len(set(counts)) > 3
+    given = scene.node_mass * (after - before)
+    miss = np.abs(given - impulse).max() / np.abs(impulse).max()
+    print(f'measured {miss:.1e} of 1e-5 allowed: impulse of a push, over its own')
+    assert miss <= 1e-5
 
 
 def momenta(snapshot):
@@ -174,23 +206,6 @@ def test_a_calm_cloth_is_mass_spring_to_the_bit():
         assert len(cost.ratios) == 2
 
 
-def test_switching_there_and_back_keeps_the_energy():
-    """The switch moves nodes, or a mode goes on with what it remembers of another time."""
-    with closing(Simulation(Scene(unit_scene(12, 5.0, 0.005)))) as simulation:
-        simulation.advance(0.8)
-        for mode in ('mass_spring', 'adaptive', 'mass_spring', 'adaptive'):
-            before = simulation.snapshot()
-            simulation.set_mode(mode)
-            after = simulation.snapshot()
-            assert after.state_sha256 == before.state_sha256
-            assert after.active_constraints == 0
-            assert after.total_energy == before.total_energy
-            simulation.step()
-            moved = simulation.snapshot()
-            scale = before.kinetic_energy + before.elastic_energy
-            assert abs(moved.total_energy - before.total_energy) <= 0.01 * scale
-
-
 def test_edges_at_the_limit_are_shown_and_counted():
     """People would not see where constraints act, or see them where there are none."""
     with closing(Simulation(Scene(unit_scene(12, 5.0, 0.01)))) as simulation:
@@ -201,8 +216,8 @@ def test_edges_at_the_limit_are_shown_and_counted():
         assert 0 < snapshot.active_constraints < 506
         assert snapshot.active_fraction == snapshot.active_constraints / 506
         assert at_limit[0, 0] and at_limit[0, -1]
-        # Each node with a mark has an edge there, within what a mark outlasts.
-        assert snapshot.strain[at_limit].min() > 0.085
+        # Each node with a mark has an edge that is held there.
+        assert snapshot.strain[at_limit].min() > 0.095
         assert snapshot.strain[~at_limit].max() < 0.105
         simulation.set_mode('mass_spring')
         assert not (simulation.snapshot().flags & FLAG_AT_LIMIT).any()

@@ -1,0 +1,49 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""A change of the mode while running keeps the state, and with it the energy."""
+
+from contextlib import closing
+from itertools import permutations
+
+from cloth_sim_ros.sim.modes import AVAILABLE
+from cloth_sim_ros.sim.scene import Scene
+from cloth_sim_ros.sim.simulation import Simulation
+from cloth_sim_ros.study.limit_scenes import paper_scene
+from cloth_sim_ros.study.limit_scenes import unit_scene
+import pytest
+
+
+@pytest.mark.parametrize('values', [
+    paper_scene(5.0, 0.005, node_mass=0.3), unit_scene(12, 5.0, 0.005)], ids=['paper', 'unit'])
+@pytest.mark.parametrize(('before', 'after'), permutations(AVAILABLE, 2))
+def test_a_switch_keeps_the_state_and_its_energy(before, after, values):
+    """The switch moves nodes, or a mode goes on with what it remembers of another time."""
+    with closing(Simulation(Scene({**values, 'mode': before}))) as simulation:
+        simulation.advance(0.6)
+        # There, back after a while, and there again: a mode must not remember the first time.
+        for name in (after, before, after):
+            state = simulation.snapshot()
+            simulation.set_mode(name)
+            same = simulation.snapshot()
+            assert same.state_sha256 == state.state_sha256
+            assert same.total_energy == state.total_energy
+            assert same.active_constraints == 0
+            simulation.step()
+            moved = simulation.snapshot()
+            scale = state.kinetic_energy + state.elastic_energy
+            change = abs(moved.total_energy - state.total_energy) / scale
+            print(f'measured {change:.1e} of 0.01 allowed: energy, one step of {name} later')
+            assert change <= 0.01
+            simulation.advance(0.05)
