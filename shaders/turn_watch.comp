@@ -13,8 +13,8 @@
 // limitations under the License.
 
 #version 430 core
-// How fast edges turn and how hard their tensions pull at a node: the largest of each, for each
-// invocation, which looks at STRIP nodes of a column. The reader takes the largest of them.
+// How fast edges turn, how hard their tensions pull at a node, and by what length structural and
+// shear edges are too long or too short: the largest of each, for each invocation, which looks at STRIP nodes of a column. The reader takes the largest of them.
 
 #include "lattice.glsl"
 #include "state_in.glsl"
@@ -42,14 +42,17 @@ Node load_node(int row, int col) {
     return Node(load_position(index), v.xyz + v.w * substep * applied_acceleration(index));
 }
 
-// Square of the angular velocity, as if the edge had its rest length [1/s2].
-float turn(Node here, int row, int col, int drow, int dcol, int rest) {
+// Square of the angular velocity, as if the edge had its rest length [1/s2], and how much
+// too long or too short it is [m].
+vec2 turn_and_misfit(Node here, int row, int col, int drow, int dcol, int rest) {
     Node there = load_node(row + drow, col + dcol);
     vec3 d = there.position.xyz - here.position.xyz;
     vec3 u = there.velocity - here.velocity;
     vec3 across = u - (dot(u, d) / max(dot(d, d), 1e-20)) * d;
     float present = there.position.w;
-    return present * dot(across, across) / (rest_length[rest] * rest_length[rest]);
+    return present * vec2(
+        dot(across, across) / (rest_length[rest] * rest_length[rest]),
+        rest < 3 ? abs(length(d) - rest_length[rest]) : 0.0);
 }
 
 // Tension over the rest length of the edge that begins here and of the one that ends here [1/s2].
@@ -62,7 +65,7 @@ float pull(int row, int col, int drow, int dcol, int rest) {
 }
 
 #define LOOK(DROW, DCOL, REST) \
-    turns = max(turns, turn(here, row, col, DROW, DCOL, REST)); \
+    most = max(most, turn_and_misfit(here, row, col, DROW, DCOL, REST)); \
     pulls += pull(row, col, DROW, DCOL, REST);
 
 void main() {
@@ -72,7 +75,7 @@ void main() {
     if (first >= ROWS || col >= COLS) {
         return;
     }
-    float turns = 0.0;
+    vec2 most = vec2(0.0);
     float most_pulls = 0.0;
     for (int row = first; row < min(first + STRIP, ROWS); ++row) {
         Node here = load_node(row, col);
@@ -91,6 +94,8 @@ void main() {
 #endif
         most_pulls = max(most_pulls, load_velocity(node_index(row, col)).w * pulls);
     }
-    partial_sums[2 * (strip * COLS + col)] = turns;
-    partial_sums[2 * (strip * COLS + col) + 1] = most_pulls;
+    int entry = 3 * (strip * COLS + col);
+    partial_sums[entry] = most.x;
+    partial_sums[entry + 1] = most_pulls;
+    partial_sums[entry + 2] = most.y;
 }

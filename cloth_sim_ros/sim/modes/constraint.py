@@ -21,6 +21,7 @@ from cloth_sim_ros.gl.buffer import Buffer
 from cloth_sim_ros.sim.forcing import Forcing
 from cloth_sim_ros.sim.layout import Layout
 from cloth_sim_ros.sim.modes.free_motion import FreeMotion
+from cloth_sim_ros.sim.modes.hardening import Hardening
 from cloth_sim_ros.sim.modes.turn_watch import TurnWatch
 from cloth_sim_ros.sim.push_field import PushField
 from cloth_sim_ros.sim.scene import FAMILIES
@@ -34,7 +35,7 @@ import numpy as np
 # Of a substep: rounding that is no reason for another one.
 _NOTHING = 1e-9
 # Iterations submitted in a dt, for each that a solve of the last dt has needed, and besides.
-_MORE, _AT_LEAST = 2, 10
+_MORE, _AT_LEAST = 3, 15
 
 
 class Constraint:
@@ -65,13 +66,15 @@ class Constraint:
                 scene.damping(family) > 0.0 for family in scene['constraint.springs']))
         self._watch = TurnWatch(scene, layout, families, self._solver.tensions)
         self._free_motion = FreeMotion(scene, layout)
+        self._hardening = Hardening(scene['constraint.hardening_time'])
         self.forget()
 
     def step(self, state: State, begin: float, pushes: PushField) -> None:
         """Step ``state`` on by one dt."""
         self._submit_enough()
-        self._choose_substeps(state, pushes.forcing(begin, begin + self._dt))
+        misfit = self._choose_substeps(state, pushes.forcing(begin, begin + self._dt))
         length = self._dt / self.substeps
+        self._hardening.see(misfit / length)
         self._solver.set_law(self._law(length))
         is_held = bool(state.pinned.any())
         for substep in range(self.substeps):
@@ -83,13 +86,15 @@ class Constraint:
                 self._free_motion.aim_at(state, forcing, pushes.still, length)
                 self._substep(state, *_split(forcing, length))
                 self._free_motion.restore(state, pushes.still, length)
+        self._hardening.spend(self._dt)
 
     def forget(self) -> None:
-        """Drop the tensions, which only serve to choose the next substeps."""
+        """Take the next state as it comes, stretched or not."""
         self.substeps = 1 if self._scene['auto_substeps'] else self._scene['substeps']
         self.stability_limit = math.inf
         self._solver.tensions.clear()
         self._free_motion.forget()
+        self._hardening.forget()
         self._solver.clear_tally()
         self._solver.submit(self._most_iterations)
 
@@ -120,24 +125,27 @@ class Constraint:
     def _submit_enough(self) -> None:
         # Iterations that the device then leaves out cost the host some time each, so there are
         # not many more of them than the last dt has needed.
-        needed = self._solver.tally().most_iterations
-        if needed > 0:
-            self._solver.submit(
-                min(_MORE * needed + _AT_LEAST, self._most_iterations))
+        tally = self._solver.tally()
+        enough = _MORE * tally.most_iterations + _AT_LEAST
+        if tally.unreached or tally.most_iterations == 0:
+            enough = self._most_iterations
+        self._solver.submit(min(enough, self._most_iterations))
         self._solver.clear_tally()
 
-    def _choose_substeps(self, state: State, forcing: Forcing) -> None:
-        turning, self.stability_limit = self._watch.longest_substeps(state, forcing, self._dt)
+    def _choose_substeps(self, state: State, forcing: Forcing) -> float:
+        turning, self.stability_limit, misfit = self._watch.look(state, forcing, self._dt)
         if self._scene['auto_substeps']:
             wanted = self._dt / min(turning, self.stability_limit) - _NOTHING
             most = self._scene['constraint.max_substeps']
             # What is no number becomes the most, too.
             self.substeps = max(1, math.ceil(wanted)) if wanted < most else most
+        return misfit
 
     def _law(self, length: float) -> EdgeLaw:
         return edge_law(
             self._scene, length, hard=self._scene['constraint.hard'],
-            springs=self._scene['constraint.springs'], delta=self._scene['constraint.delta'])
+            springs=self._scene['constraint.springs'], delta=self._scene['constraint.delta'],
+            hardness=self._hardening.hardness)
 
     def _substep(
             self, state: State, forcing: Forcing,

@@ -42,7 +42,7 @@ class TurnWatch:
             tensions: Tensions) -> None:
         """Allocate room for the result; nothing is compiled yet."""
         self._tensions = tensions
-        self._strips = Strips(layout, 2)
+        self._strips = Strips(layout, 3)
         self._program = SceneProgram('turn_watch.comp', scene, layout, {
             **Strips.defines(),
             **{f'HAS_{family.upper()}': int(family in families) for family in FAMILIES},
@@ -50,10 +50,12 @@ class TurnWatch:
             'SOLVER_INDEX(row, col)':
                 f'(((row) + {HALO}) * {tensions.cloth.pitch} + (col) + {HALO})'})
 
-    def longest_substeps(
-            self, state: State, forcing: Forcing, dt: float) -> tuple[float, float]:
+    def look(
+            self, state: State, forcing: Forcing, dt: float) -> tuple[float, float, float]:
         """
-        Return the longest substep [s] in which no edge turns too far, and the stable one.
+        Return the longest substep [s] in which no edge turns too far, the stable one, and a misfit.
+
+        The misfit is the largest abs(l - L0) of structural and shear edges [m].
 
         :param forcing: that acts for ``dt`` [s] from now
         """
@@ -61,11 +63,12 @@ class TurnWatch:
         state.bind_in()
         self._tensions.bind()
         self._strips.dispatch(program)
-        turns, pulls = (float(largest) for largest in self._strips.largest())
+        turns, pulls, misfit = (float(largest) for largest in self._strips.largest())
         # Of the pulls 2 T / L0 at a node, which bound the largest eigenvalue of M^-1 K_geo.
         return (
             math.sqrt(2.0 * _TURN / turns) if turns > 0.0 else math.inf,
-            2.0 / math.sqrt(2.0 * pulls) if pulls > 0.0 else math.inf)
+            2.0 / math.sqrt(2.0 * pulls) if pulls > 0.0 else math.inf,
+            misfit)
 
     def delete(self) -> None:
         """Give the room back."""

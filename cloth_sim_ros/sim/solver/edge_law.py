@@ -22,6 +22,8 @@ from cloth_sim_ros.sim.scene import Scene
 
 # Of the unregularised constraint, which is singular: docs/numerics.md.
 DELTA = 1e-3
+# Of a hard edge's weight: that with which an edge without a spring begins to harden.
+_SOFTEST = 1e-5
 
 
 @dataclass(frozen=True)
@@ -56,17 +58,21 @@ class EdgeLaw:
 
 def edge_law(
         scene: Scene, length: float, *, hard: Collection[str] = (),
-        springs: Collection[str] = FAMILIES, delta: float = DELTA) -> EdgeLaw:
+        springs: Collection[str] = FAMILIES, delta: float = DELTA,
+        hardness: float = 1.0) -> EdgeLaw:
     """
     Return the law of a step in which families of edges are hard, springs, or left out.
 
     :param hard: keep their rest length: a = 1 / (delta (w_i + w_j))
     :param springs: have the scene's stiffness and damping, taken implicitly: a = k h^2 + k_d h
     :param delta: regularisation; 1 / delta is about the condition of the system
+    :param hardness: below 1 hard edges are springs yet, from the scene's stiffness at 0 to hard
     """
     edges = []
     for family in FAMILIES:
-        if family in hard:
+        if family in hard and hardness < 1.0:
+            edges.append(_hardening(scene, family, length, delta, hardness))
+        elif family in hard:
             edges.append(_hard(length, delta))
         elif family in springs:
             edges.append(_spring(scene, family, length))
@@ -94,6 +100,15 @@ _NO_EDGE = (0.0, 0.0, 1.0, 0.0, 0.0)
 
 def _hard(length: float, delta: float) -> tuple[float, ...]:
     return 0.5 / delta, 0.5 / (delta * length), 2.0, 1.0, 0.0
+
+
+def _hardening(
+        scene: Scene, family: str, length: float, delta: float,
+        hardness: float) -> tuple[float, ...]:
+    last = 0.5 / delta
+    first = max(length**2 * scene.stiffness(family) / scene.node_mass, _SOFTEST * last)
+    weight = min(first**(1.0 - hardness) * last**hardness, last)
+    return weight, weight / length, 1.0, 0.0, 0.0
 
 
 def _spring(scene: Scene, family: str, length: float) -> tuple[float, ...]:
