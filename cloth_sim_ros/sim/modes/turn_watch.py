@@ -53,7 +53,7 @@ class TurnWatch:
     def look(
             self, state: State, forcing: Forcing, dt: float) -> tuple[float, float, float]:
         """
-        Return the longest substep [s] in which no edge turns too far, the stable one, and a misfit.
+        Return the longest substep [s] in which no edge turns too far, the stable one, and misfit.
 
         The misfit is the largest abs(l - L0) of structural and shear edges [m].
 

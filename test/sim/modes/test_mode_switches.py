@@ -27,7 +27,7 @@ import pytest
 
 @pytest.mark.parametrize('values', [
     paper_scene(5.0, 0.005, node_mass=0.3), unit_scene(12, 5.0, 0.005)], ids=['paper', 'unit'])
-@pytest.mark.parametrize(('before', 'after'), permutations(AVAILABLE, 2))
+@pytest.mark.parametrize(('before', 'after'), list(permutations(AVAILABLE, 2)))
 def test_a_switch_keeps_the_state_and_its_energy(before, after, values):
     """The switch moves nodes, or a mode goes on with what it remembers of another time."""
     with closing(Simulation(Scene({**values, 'mode': before}))) as simulation:
