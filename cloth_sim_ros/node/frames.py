@@ -50,9 +50,9 @@ class Frames:
 
     def send(
             self, *, worked: float = 0.0, steps: int = 0, real_time_factor: float = 0.0,
-            to_recording: bool = True) -> bool:
+            to_recording: bool = True) -> None:
         """
-        Send what is wanted of the moment, and return False when its state is not finite.
+        Send what is wanted of the moment.
 
         :param worked: wall time the steps of this frame took [s]
         :param steps: of dt in this frame, 0 when the moment has been there before
@@ -67,7 +67,7 @@ class Frames:
             part for part in _PARTS if self._values[f'publish.{part}']
             and self._outlet.wanted(part, by_recording=to_recording)]
         if not made:
-            return simulation.measure().finite
+            return
         begin = time.monotonic()
         snapshot = simulation.snapshot()
         # The device may still be at work when the steps return: the read-back waits for it.
@@ -81,7 +81,4 @@ class Frames:
                 real_time_factor=real_time_factor)),
         }
         for part in made:
-            # Nothing can be drawn of a state that is not finite, but its numbers tell.
-            if snapshot.finite or part == 'stats':
-                self._outlet.send(part, makers[part], now, to_recording=to_recording)
-        return snapshot.finite
+            self._outlet.send(part, makers[part], now, to_recording=to_recording)

@@ -46,10 +46,7 @@ class BatchRecording:
         self.path = self._session.start(node_values['recording.name'])
         values = {**simulation.scene.values, **node_values}
         write_opening(self._session, simulation, values, f'/{_NODE_NAME}')
-        state = state_of(
-            simulation, frame_id=self._frame_id, run_state=ClothState.RUNNING,
-            recording_path=self.path)
-        self._session.write('state', serialize_message(state), simulation.time)
+        self._write_state(ClothState.RUNNING)
         self.write(0.0, 0.0)
 
     def write(self, step_wall_time: float, real_time_factor: float) -> None:
@@ -61,9 +58,19 @@ class BatchRecording:
         self._session.write('points', self._points.serialise(snapshot), snapshot.time)
         self._session.write('stats', serialize_message(stats), snapshot.time)
 
+    def write_stop(self) -> None:
+        """Write that the run has stopped before its end."""
+        self._write_state(ClothState.STOPPED)
+
     def close(self) -> None:
         """Finish the recording."""
         self._session.close()
+
+    def _write_state(self, run_state: str) -> None:
+        state = state_of(
+            self._simulation, frame_id=self._frame_id, run_state=run_state,
+            recording_path=self.path)
+        self._session.write('state', serialize_message(state), self._simulation.time)
 
     @staticmethod
     def _say_lost(reason: str) -> None:
