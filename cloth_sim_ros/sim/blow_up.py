@@ -22,67 +22,68 @@ import numpy as np
 
 # Of the shortest spacing: a node that moves further in a substep has left what its springs know.
 _FAR = 0.5
-# A strain beyond what any cloth takes, and springs were laid out for.
-_OVERSTRETCHED = 1.0
+# A strain that no cloth was laid out for.
+_OVERSTRETCHED = 10.0
 
 
 def explain(
         scene: Scene, lost: np.ndarray, records: np.ndarray, *, mode: str, substeps: int,
-        stability_limit: float, time: float, steps: int, strain: float,
-        push: float) -> NonFiniteStateError:
+        longest_substep: float, stability_limit: float, steps: int,
+        gained_speed: float) -> NonFiniteStateError:
     """
     Return the error that tells when, where, why, and what to change.
 
     :param lost: records of the state that is not finite
     :param records: of the last finite one, which is kept
     :param substeps: of the step that led from one to the other
-    :param time: of the state that is kept [s]
-    :param steps: that were made of those asked for
-    :param strain: the largest of the state that is kept
-    :param push: the strongest acceleration by a push in that step [m/s2]
+    :param longest_substep: that the mode takes of a cloth at rest [s]
+    :param steps: made until the state that is kept
+    :param gained_speed: by pushes in the step after it [m/s]
     """
     speeds = _lengths(records, 'vx', 'vy', 'vz')
+    # Of the nodes that were lost, the fastest: a blow-up spreads from node to node.
     row, col = (int(at) for at in np.unravel_index(
         np.argmax(np.where(_is_lost(lost), speeds, -1.0)), speeds.shape))
+    time = steps * scene['dt']
     cause, way_out = _cause(
-        scene, scene['dt'] / substeps, stability_limit, float(speeds.max()), strain, push)
+        scene, longest_substep, stability_limit, float(speeds.max()),
+        float(records['strain'].max()), gained_speed)
     return NonFiniteStateError(
         f'the state became non-finite in the step from t = {time:.6g} s, first at node '
         f'({row}, {col}), in mode {mode} with substeps of {scene["dt"] / substeps:.3g} s: '
         f'positions and velocities must stay below {MOST_MAGNITUDE:g} m and m/s, but {cause}; '
-        f'the state at {time:.6g} s is kept: {way_out}',
-        time=time, steps=steps, node=(row, col))
+        f'the state at {time:.6g} s is kept: {way_out}', steps=steps, node=(row, col))
 
 
 def _cause(
         scene: Scene, substep: float, stability_limit: float, speed: float, strain: float,
-        push: float) -> tuple[str, str]:
+        gained_speed: float) -> tuple[str, str]:
     reach = _FAR * min(scene.spacing)
+    safe_dt = f'{safe_substep(scene) * scene["substeps"]:.3g}'
     if substep > stability_limit:
         return (
             f'the substep is {substep / stability_limit:.3g} times the stability limit',
-            f'set dt <= {safe_substep(scene) * scene["substeps"]:.3g}, or auto_substeps: true')
-    if push * substep**2 > reach:
+            f'set dt <= {safe_dt}, or auto_substeps: true')
+    if gained_speed * substep > reach:
         return (
-            f'a push accelerates nodes by {push:.3g} m/s2, beyond the {reach:.3g} m that they can '
-            'move in a substep',
-            'push with less force, or set a node mass or areal density that suits it')
+            f'a push made nodes faster by up to {gained_speed:.3g} m/s, while in a substep they '
+            f'can follow {reach:.3g} m', 'push with less force, or take a larger mass')
     if speed * substep > reach:
         return (
-            f'the fastest node moved at {speed:.3g} m/s, beyond the {reach:.3g} m that it can move '
-            f'in a substep, at a largest strain of {strain:.3g}',
-            f'push or start it more gently, or set dt <= {_shorter(scene, reach / speed)}')
+            f'the fastest node moved at {speed:.3g} m/s, while in a substep it can follow '
+            f'{reach:.3g} m', 'push or start it more gently, or set a smaller dt')
+    if strain > _OVERSTRETCHED:
+        return (
+            f'a spring had the strain {strain:.3g}',
+            'stretch it less, or take stiffer springs or more damping')
     if substep > safe_substep(scene):
         return (
             'substeps of that length are stable in a flat cloth, not in a folded one',
-            f'set dt <= {safe_substep(scene) * scene["substeps"]:.3g}, or auto_substeps: true')
+            f'set dt <= {safe_dt}, or auto_substeps: true')
     return (
-        f'the largest strain was {strain:.3g} and the fastest node moved at {speed:.3g} m/s',
-        f'set dt <= {_shorter(scene, substep / 2.0)}, softer springs or more node mass')
-
-
-def _shorter(scene: Scene, substep: float) -> str:
-    return f'{min(substep, scene["dt"] / 2.0):.3g}'
+        f'the fastest node moved at {speed:.3g} m/s and the largest strain was {strain:.3g}',
+        f'set dt <= {min(substep, scene["dt"]) / 2.0:.3g}, or take softer springs or a larger '
+        'mass')
 
 
 def _is_lost(records: np.ndarray) -> np.ndarray:

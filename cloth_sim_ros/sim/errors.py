@@ -26,17 +26,14 @@ class NonFiniteStateError(ClothSimError):
     The simulation keeps the last finite state, and can be looked at, changed, reset or tried
     again.
 
-    :param time: of the state that is kept [s]
-    :param steps: that were made of those asked for
+    :param steps: made since the start or the last reset until the state that is kept
     :param node: row and col of the node that was fastest among those that were lost; None where
         that can't be told
     """
 
     def __init__(
-            self, message: str, *, time: float, steps: int,
-            node: tuple[int, int] | None = None) -> None:
+            self, message: str, *, steps: int, node: tuple[int, int] | None = None) -> None:
         """Keep what the message says."""
         super().__init__(message)
-        self.time = time
         self.steps = steps
         self.node = node

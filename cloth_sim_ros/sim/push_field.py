@@ -148,11 +148,15 @@ class PushField:
         # They may hold nodes and accelerations of pushes that begin anew.
         self._in_buffer, self._latest = (), ((), self.still)
 
-    def strongest(self, begin: float, end: float) -> float:
-        """Return the largest acceleration from ``begin`` to ``end`` by one push [m/s2], or 0."""
-        return max((
-            float(np.linalg.norm(entry.acceleration)) for entry in self._entries
-            if entry.push.overlap(begin, end) > 0.0), default=0.0)
+    def speed_gained(self, begin: float, end: float) -> float:
+        """
+        Return by how much pushes make a node faster from ``begin`` to ``end`` [m/s].
+
+        Those that were still to come count with the nodes they had when they last began.
+        """
+        return sum(
+            entry.push.overlap(begin, end) * (end - begin)
+            * float(np.linalg.norm(entry.acceleration)) for entry in self._entries)
 
     def delete(self) -> None:
         """Give the buffer back."""

@@ -69,7 +69,8 @@ class Simulation:
         self.layout = choose_layout(scene, self._context)
         self._state = State(self.layout, scene.start_positions(), scene.pinned_nodes())
         self._observer = Observer(scene, self.layout)
-        self._steps = GuardedSteps(scene, self.layout, self._observer, stop_at_non_finite)
+        self._guard = GuardedSteps(
+            scene, self.layout, self._observer, self._state, stop_at_non_finite)
         self._modes: dict[str, modes.Mode] = {}
         self._mode = self._get_mode(scene['mode'])
         self._pushes: PushField | None = None
@@ -233,7 +234,7 @@ class Simulation:
         """Give everything on the device back."""
         self._context.make_current()
         for part in (
-                self._state, self._observer, self._steps, self._pushes, *self._modes.values()):
+                self._state, self._observer, self._guard, self._pushes, *self._modes.values()):
             part.delete()
         if self._owns_context:
             self._context.close()
@@ -253,13 +254,16 @@ class Simulation:
     def _make_steps(self, count: int) -> int:
         self._context.make_current()
         try:
-            self._steps.make(count, self._mode, self._state, self._pushes, self.steps)
+            self._guard.make(self.steps, count, self._make_step, self._mode, self._pushes)
         except NonFiniteStateError as error:
-            self.steps += error.steps
+            self.steps = error.steps
             self._target = self.time
             raise
         self.steps += count
         return count
+
+    def _make_step(self, number: int) -> None:
+        self._mode.step(self._state, number * self.dt, self._pushes)
 
     def _read_positions(self) -> np.ndarray:
         records = self._observer.record(self._state, self._pushes.still)[1]

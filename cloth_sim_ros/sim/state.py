@@ -95,7 +95,7 @@ class State:
         self._kept = self._now
         self._next = self._spare()
 
-    def restore(self) -> None:
+    def restore(self, _: None = None) -> None:
         """Go back to the state that was kept; pins set since then are not undone."""
         self.edits += 1
         self._now = self._kept
