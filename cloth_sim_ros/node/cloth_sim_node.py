@@ -14,7 +14,6 @@
 
 """The ROS node: puts the parts together, and holds no physics."""
 
-from cloth_sim_interfaces.msg import ClothState
 from cloth_sim_interfaces.msg import Command
 from cloth_sim_ros.messages.diagnostics import diagnostics_message
 from cloth_sim_ros.messages.topology import serialise_topology

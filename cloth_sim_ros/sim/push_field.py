@@ -140,7 +140,7 @@ class PushField:
         return tuple((entry, entry.inside is None) for entry in self._entries)
 
     def restore(self, kept: KeptPushes) -> None:
-        """Go back to the moment of ``keep``: what ended since acts again, what began is to come."""
+        """Go back to the moment of ``keep``: what ended acts again, what began is to come."""
         self._entries = [entry for entry, _ in kept]
         for entry, is_to_come in kept:
             if is_to_come:

@@ -19,6 +19,7 @@ import os
 import subprocess
 import sys
 
+from cloth_sim_ros.sim import modes
 import pytest
 
 SCENE = {
@@ -26,20 +27,38 @@ SCENE = {
     'pushes.duration': [0.1, 0.05], 'pushes.force': [0.0, 0.0, 4.0, 1.0, 0.0, 0.0],
     'pushes.center': [0.0, 0.0, 0.0, 0.0, 0.0, 1.0], 'pushes.radius': [0.0, 0.4]}
 
+# Its pushes take some edges to their limit and let them go again.
+LIMITED = {**SCENE, 'rows': 17, 'cols': 13, 'adaptive.threshold': 0.02}
+
 IN_A_PROCESS = """
 import json, sys
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.simulation import Simulation
 simulation = Simulation(Scene(json.loads(sys.argv[1])))
-simulation.advance(0.5)
+for seconds, mode in json.loads(sys.argv[2]):
+    simulation.set_mode(mode)
+    simulation.push((0.0, 0.3, 0.5), start=simulation.time + 0.013, duration=0.04,
+                    region='sphere', center=(0.1, 0.0, 1.0), radius=0.3)
+    simulation.pin(5, 5)
+    simulation.advance(seconds)
+    simulation.release(5, 5)
+simulation.advance(0.1)
 print(simulation.snapshot().state_sha256)
 """
 
 
-def _hash_of_a_process(values, **environment):
+@pytest.fixture(params=modes.AVAILABLE)
+def mode(request: pytest.FixtureRequest) -> str:
+    """Return each mode there is."""
+    return request.param
+
+
+def _hash_of_a_process(values, spans=None, **environment):
+    """Return the hash after ``spans`` of seconds and mode; by default 0.4 s as it begins."""
+    spans = spans or [(0.4, values['mode'])]
     done = subprocess.run(
-        [sys.executable, '-c', IN_A_PROCESS, json.dumps(values)], check=True, text=True,
-        capture_output=True, env={**os.environ, **environment})
+        [sys.executable, '-c', IN_A_PROCESS, json.dumps(values), json.dumps(spans)], check=True,
+        text=True, capture_output=True, env={**os.environ, **environment})
     return done.stdout.strip()
 
 
@@ -55,6 +74,17 @@ def test_paper_layout_too(mode):
     """The paper's layout depends on thread timing or on memory nobody wrote."""
     values = {**SCENE, 'mode': mode, 'layout': 'paper'}
     assert _hash_of_a_process(values) == _hash_of_a_process(values)
+
+
+def test_switches_and_pushes_at_fixed_times_too(mode):
+    """A mode keeps something of an earlier run or reads memory nobody wrote."""
+    values = {**LIMITED, 'mode': mode}
+    spans = [(0.12, mode)] + [(0.08, other) for other in (*modes.AVAILABLE, mode)]
+    first = _hash_of_a_process(values, spans)
+    assert first == _hash_of_a_process(values, spans)
+    # The times of the switches are what counts.
+    spans[0] = (0.2, mode)
+    assert first != _hash_of_a_process(values, spans)
 
 
 def test_threads_do_not_show(mode):
@@ -78,6 +108,38 @@ def test_reset_starts_the_same_run(simulate, mode, layout):
     simulation.advance(0.5)
     assert simulation.snapshot().state_sha256 == first
     assert first != start
+
+
+def test_reset_forgets_what_a_mode_remembers(simulate, mode):
+    """Warm starts of the run before would be left over, of this mode or another."""
+    simulation = simulate({**LIMITED, 'mode': mode})
+    hashes = []
+    for _ in range(2):
+        simulation.set_mode(mode)
+        simulation.advance(0.28)
+        hashes.append(simulation.snapshot().state_sha256)
+        for other in modes.AVAILABLE:
+            simulation.set_mode(other)
+            simulation.advance(0.05)
+        simulation.reset()
+    assert hashes[0] == hashes[1]
+
+
+def test_a_switch_and_back_is_the_same_each_time(simulate, mode):
+    """What a mode kept from before it was left would come back with it."""
+    hashes = []
+    for _ in range(2):
+        simulation = simulate({**LIMITED, 'mode': mode})
+        simulation.advance(0.2)
+        start = simulation.snapshot()
+        for other in modes.AVAILABLE:
+            simulation.set_mode(other)
+        simulation.set_mode(mode)
+        # The state is the same to the bit, and the mode knows nothing but it.
+        assert simulation.snapshot().state_sha256 == start.state_sha256
+        simulation.advance(0.1)
+        hashes.append(simulation.snapshot().state_sha256)
+    assert hashes[0] == hashes[1]
 
 
 def test_pieces_make_the_same_run(simulate, mode, layout):
