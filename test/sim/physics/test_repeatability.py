@@ -28,7 +28,7 @@ SCENE = {
     'pushes.center': [0.0, 0.0, 0.0, 0.0, 0.0, 1.0], 'pushes.radius': [0.0, 0.4]}
 
 # Its pushes take some edges to their limit and let them go again.
-LIMITED = {**SCENE, 'rows': 17, 'cols': 13, 'adaptive.threshold': 0.02}
+LIMITED = {**SCENE, 'rows': 17, 'cols': 13, 'adaptive.threshold': 0.01}
 
 IN_A_PROCESS = """
 import json, sys
@@ -116,8 +116,10 @@ def test_reset_forgets_what_a_mode_remembers(simulate, mode):
     hashes = []
     for _ in range(2):
         simulation.set_mode(mode)
-        simulation.advance(0.28)
-        hashes.append(simulation.snapshot().state_sha256)
+        simulation.advance(0.2)
+        end = simulation.snapshot()
+        hashes.append(end.state_sha256)
+        assert mode != 'adaptive' or end.active_constraints > 0, 'there is nothing to remember'
         for other in modes.AVAILABLE:
             simulation.set_mode(other)
             simulation.advance(0.05)
@@ -125,18 +127,19 @@ def test_reset_forgets_what_a_mode_remembers(simulate, mode):
     assert hashes[0] == hashes[1]
 
 
-def test_a_switch_and_back_is_the_same_each_time(simulate, mode):
+def test_a_switch_and_back_leaves_the_state_alone(simulate, mode):
     """What a mode kept from before it was left would come back with it."""
     hashes = []
-    for _ in range(2):
+    for switches in (True, False):
         simulation = simulate({**LIMITED, 'mode': mode})
         simulation.advance(0.2)
-        start = simulation.snapshot()
-        for other in modes.AVAILABLE:
-            simulation.set_mode(other)
-        simulation.set_mode(mode)
-        # The state is the same to the bit, and the mode knows nothing but it.
-        assert simulation.snapshot().state_sha256 == start.state_sha256
+        if switches:
+            for other in (*modes.AVAILABLE, mode):
+                simulation.set_mode(other)
+        else:
+            # The mode knows nothing but the state, and not how it came to it.
+            now = simulation.snapshot()
+            simulation.set_state(now.positions, now.velocities)
         simulation.advance(0.1)
         hashes.append(simulation.snapshot().state_sha256)
     assert hashes[0] == hashes[1]
