@@ -51,6 +51,10 @@ uniform float inverse_mass;  // [1/kg]
 // Share of its rest length that a kept tension may move an edge in one substep.
 #define MOST_KEPT 0.5
 
+// Share of its rest length that a substep takes back at most. Nodes far beyond their limit, as in
+// a scrambled cloth, would else be thrown about faster than anything stops them.
+#define MOST_BACK 0.05
+
 struct Node {
     vec4 position;
     vec4 velocity;
@@ -77,7 +81,8 @@ float limit_edge(float old, inout Node from, inout Node to, int rest) {
 #else
     float ahead = length_and_inverse(d + substep * dv).x;
     // What is beyond the limit already comes back bit by bit.
-    float beyond = (1.0 - correction) * beyond_limit(now.x, L0);
+    float beyond = beyond_limit(now.x, L0);
+    beyond -= clamp(correction * beyond, -MOST_BACK * L0, MOST_BACK * L0);
     float most_now = L0 * (1.0 + limit) + max(beyond, 0.0);
     float least_now = L0 * (1.0 - limit) + min(beyond, 0.0);
     float pull = max((old + (ahead - most_now) * per_length) / (1.0 + COMPLIANCE), 0.0);

@@ -24,7 +24,7 @@ import numpy as np
 import pytest
 
 ROWS, COLS, SUBSTEP, SWEEPS, LIMIT = 7, 10, 1e-3, 4, 0.1
-COMPLIANCE = 0.03
+COMPLIANCE, MOST_BACK = 0.03, 0.05
 # From and to corner of each edge in its cell, and which rest length is its own.
 EDGES = (((0, 0), (0, 1), 0), ((0, 0), (1, 0), 1), ((0, 0), (1, 1), 2), ((0, 1), (1, 0), 2))
 
@@ -57,8 +57,11 @@ def limit_edge(positions, velocities, free, i, j, rest, old):
     length = np.linalg.norm(d)
     ahead = np.linalg.norm(d + SUBSTEP * (velocities[j] - velocities[i]))
     per_length = 1.0 / (SUBSTEP**2 * movable)
-    pull = max((old + (ahead - 1.1 * rest) * per_length) / (1.0 + COMPLIANCE), 0.0)
-    press = min((old + (ahead - 0.9 * rest) * per_length) / (1.0 + COMPLIANCE), 0.0)
+    # A substep as long as this takes all back that is beyond the limit, but for much of it.
+    most = max((1.0 + LIMIT) * rest, length - MOST_BACK * rest)
+    least = min((1.0 - LIMIT) * rest, length + MOST_BACK * rest)
+    pull = max((old + (ahead - most) * per_length) / (1.0 + COMPLIANCE), 0.0)
+    press = min((old + (ahead - least) * per_length) / (1.0 + COMPLIANCE), 0.0)
     tension = (pull if old >= 0.0 else 0.0) + (press if old <= 0.0 else 0.0)
     change = (tension - old) * SUBSTEP * d / length
     velocities[i] += free[i] * change

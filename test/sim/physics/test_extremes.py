@@ -29,13 +29,17 @@ from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.errors import NonFiniteStateError
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.simulation import Simulation
+from cloth_sim_ros.sim.snapshot import Measures
+from cloth_sim_ros.sim.snapshot import Snapshot
 import numpy as np
 import pytest
 
 FAMILIES = ('structural', 'shear', 'bend')
 _STEPS = 20
+# Of what the adaptive mode takes thousands of substeps for.
+_FEW = 3
 # What a way out begins with.
-WAYS_OUT = ('set ', 'take ', 'push ', 'stretch ', 'give ', 'go on ')
+WAYS_OUT = ('set ', 'take ', 'push ', 'stretch ', 'give ', 'use ', 'go on ')
 
 
 def _of_all(name: str, value: float) -> dict[str, float]:
@@ -100,6 +104,8 @@ PUSHES = {
 STARTS = {
     'scrambled': lambda rest, random: random.uniform(-0.5, 0.5, rest.shape),
     'all in one point': lambda rest, random: np.zeros_like(rest),
+    'each off by 0.7 of the spacing': lambda rest, random: rest + random.uniform(
+        -0.1, 0.1, rest.shape),
     'all on one line': lambda rest, random: rest * (1.0, 0.0, 0.0),
     'inside out': lambda rest, random: rest[:, ::-1],
     'stretched 1e5 times': lambda rest, random: 1e5 * rest,
@@ -125,11 +131,16 @@ def mode(request: pytest.FixtureRequest) -> str:
 @pytest.fixture
 def outcome(
         request: pytest.FixtureRequest, context: Context, mode: str) -> Callable[..., str]:
-    """Return a function that runs a scene, checks and prints what came out, and returns it."""
+    """
+    Return a function that runs a scene, checks and prints what came out, and returns it.
+
+    It takes the scene's name and values, what to do before the first step, the steps to make, and
+    whether there must not be more energy at the end than at the start.
+    """
 
     def run(
             name: str, values: dict, prepare: Callable[[Simulation], None] | None = None,
-            steps: int = _STEPS) -> str:
+            steps: int = _STEPS, *, conserves: bool = False) -> str:
         scene = {'rows': 8, 'cols': 8, 'mode': mode, **values}
         try:
             simulation = Simulation(Scene(scene), context=context)
@@ -148,9 +159,8 @@ def outcome(
             _check_numbers(simulation)
             return _tell(name, mode, 'stops', str(error))
         seen = _check_numbers(simulation)
-        if not simulation.pushes and not name.startswith('push'):
-            gained = seen.total_energy - begin.total_energy
-            print('GAIN %s %s %.3g of %.3g: %.3f' % (name, mode, gained, seen.kinetic_energy+seen.elastic_energy, gained/(1e-30+max(seen.kinetic_energy+seen.elastic_energy, begin.kinetic_energy+begin.elastic_energy))))
+        if conserves:
+            _check_energy(simulation.scene, begin, seen)
         return _tell(name, mode, 'runs', f'strain {seen.max_strain:.2g}')
 
     return run
@@ -163,7 +173,7 @@ def _check_message(message: str) -> None:
     assert '\n' not in message
 
 
-def _check_numbers(simulation: Simulation):
+def _check_numbers(simulation: Simulation) -> Snapshot:
     seen = simulation.snapshot()
     assert seen.finite
     for name in ('kinetic_energy', 'elastic_energy', 'gravitational_energy', 'max_strain'):
@@ -175,6 +185,15 @@ def _check_numbers(simulation: Simulation):
     return seen
 
 
+def _check_energy(scene: Scene, begin: Measures, end: Measures) -> None:
+    """Fail where there is more energy than at the start, but for what the scheme and float32 add."""
+    stiffest = max(scene.stiffness(family) for family in FAMILIES)
+    rounding = stiffest * 12 * scene.node_count * (2e-7 * np.abs(scene.rest_positions()).max())**2
+    rounding += 1e-6 * abs(begin.gravitational_energy)
+    most = max(seen.kinetic_energy + seen.elastic_energy for seen in (begin, end))
+    assert end.total_energy <= begin.total_energy + 0.1 * most + rounding
+
+
 def _tell(name: str, mode: str, what: str, detail: str) -> str:
     print(f'| {name} | {mode} | {what} | {detail} |')
     return what
@@ -183,32 +202,32 @@ def _tell(name: str, mode: str, what: str, detail: str) -> str:
 @pytest.mark.parametrize('name', RUNNING)
 def test_runs(outcome, name):
     """A scene that is asked for could not be run."""
-    assert outcome(name, RUNNING[name]) == 'runs'
+    assert outcome(name, RUNNING[name], conserves=True) == 'runs'
 
 
 @pytest.mark.parametrize('name', CORNERS)
 def test_corners_run_or_are_refused(outcome, name):
     """A cloth would turn into NaN, or a step never end."""
-    assert outcome(name, CORNERS[name], steps=2) in ('runs', 'refused')
+    assert outcome(name, CORNERS[name], steps=2, conserves=True) in ('runs', 'refused')
 
 
 @pytest.mark.long
 @pytest.mark.parametrize('name', GRID)
 def test_the_grid_runs_or_is_refused(outcome, name):
     """The same, between the corners."""
-    assert outcome(name, GRID[name], steps=3) in ('runs', 'refused')
+    assert outcome(name, GRID[name], steps=3, conserves=True) in ('runs', 'refused')
 
 
 @pytest.mark.parametrize('name', VIOLENT)
 def test_a_violent_scene_is_never_nan(outcome, name):
     """A cloth would turn into NaN without a word."""
-    assert outcome(name, VIOLENT[name])
+    assert outcome(name, VIOLENT[name], conserves=True)
 
 
 @pytest.mark.parametrize('name', PUSHES)
 def test_a_violent_push_is_never_nan(outcome, name):
     """A push would turn the cloth into NaN without a word."""
-    assert outcome(name, {}, lambda simulation: simulation.push(**PUSHES[name]))
+    assert outcome(name, {}, lambda simulation: simulation.push(**PUSHES[name]), _FEW)
 
 
 @pytest.mark.parametrize('name', STARTS)
@@ -220,7 +239,7 @@ def test_a_wild_start_is_never_nan(outcome, name):
         positions = STARTS[name](rest, np.random.default_rng(3))
         simulation.set_state(positions, np.zeros_like(positions))
 
-    assert outcome(name, {}, prepare)
+    assert outcome(name, {}, prepare, _FEW)
 
 
 @pytest.mark.parametrize('name', SPEEDS)
@@ -233,7 +252,7 @@ def test_a_fast_start_is_never_nan(outcome, name):
         simulation.set_state(
             positions, random.uniform(-SPEEDS[name], SPEEDS[name], positions.shape))
 
-    assert outcome(name, {}, prepare)
+    assert outcome(name, {}, prepare, _FEW)
 
 
 @pytest.mark.long
