@@ -17,11 +17,19 @@
 from collections.abc import Callable
 from collections.abc import Iterator
 
+from cloth_sim_ros.gl.context import Context
 from cloth_sim_ros.sim import modes
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.errors import NonFiniteStateError
+from cloth_sim_ros.sim.forcing import Forcing
+from cloth_sim_ros.sim.guarded_steps import GuardedSteps
+from cloth_sim_ros.sim.layout import choose_layout
+from cloth_sim_ros.sim.modes.mass_spring import MassSpring
+from cloth_sim_ros.sim.observer import Observer
+from cloth_sim_ros.sim.push_field import PushField
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.simulation import Simulation
+from cloth_sim_ros.sim.state import State
 import numpy as np
 import pytest
 
@@ -182,6 +190,46 @@ def test_normals_do_not_depend_on_the_size(simulate, scale):
     simulation.set_state(scale * tilted, np.zeros_like(tilted))
     np.testing.assert_allclose(
         simulation.snapshot().normals, np.broadcast_to((0.0, -0.8, 0.6), tilted.shape), atol=1e-5)
+
+
+class _Remembering(MassSpring):
+    """Springs that throw the nodes off by what they remember, until they forget it."""
+
+    name = 'remembering'
+    remembers = True
+
+    def step(self, state: State, begin: float, pushes: PushField) -> None:
+        """Step ``state`` on by one dt."""
+        super().step(state, begin, pushes)
+        if self.remembers:
+            self._passes.substep(state, Forcing(_ABSURD), 1.0)
+
+    def forget(self) -> None:
+        """Remember nothing."""
+        self.remembers = False
+
+
+def test_a_blow_up_by_memory_alone_is_told():
+    """A run that was mended by forgetting would go on as if nothing had happened."""
+    scene, context = Scene(_SMALL), Context(single_thread=True)
+    layout = choose_layout(scene, context)
+    state = State(layout, scene.start_positions(), scene.pinned_nodes())
+    observer = Observer(scene, layout)
+    pushes = PushField(
+        layout, scene.node_mass, scene['gravity'], scene.start_positions, state.pinned)
+    guard, mode = GuardedSteps(scene, layout, observer, state), _Remembering(scene, layout)
+
+    def step(number: int) -> None:
+        mode.step(state, number * scene['dt'], pushes)
+
+    with pytest.raises(NonFiniteStateError, match='without what the mode had kept') as caught:
+        guard.make(0, 3, step, mode, pushes)
+    assert caught.value.steps == 3
+    assert observer.measure(state, pushes.still).finite
+    guard.make(3, 3, step, mode, pushes)
+    for part in (guard, mode, pushes, observer, state):
+        part.delete()
+    context.close()
 
 
 def test_it_can_be_turned_off(simulate):
