@@ -44,7 +44,7 @@ layout(std430, binding = RECORDS) writeonly buffer Records { uint records[]; };
 #endif
 
 // An invocation's kinetic and gravitational energy over the node mass, elastic energy, largest
-// strain, and how many of its nodes are out of bounds.
+// strain, and how many of its nodes are out of bounds. The kinetic energy is that of the free nodes.
 #define SUMS 5
 layout(std430, binding = PARTIAL_SUMS) writeonly buffer PartialSums { float partial_sums[]; };
 
@@ -164,7 +164,7 @@ void main() {
         vec4 x = load_position(index);
         vec4 v = load_velocity(index);
         Springs springs = look_at_springs(x, row, col);
-        kinetic += 0.5 * dot(v.xyz, v.xyz);
+        kinetic += 0.5 * v.w * dot(v.xyz, v.xyz);
         elastic += springs.energy;
         gravitational -= dot(gravity, x.xyz);
         strain = max(strain, springs.strain);

@@ -14,7 +14,7 @@
 
 #version 430 core
 // The paper's second pass (Tab. 2): velocity and position of each node from force and mass, in
-// place. Pinned nodes stay, which the paper leaves out.
+// place. Pinned nodes keep the velocity of their pin, which the paper leaves out.
 
 #include "lattice.glsl"
 #include "applied_acceleration.glsl"
@@ -35,7 +35,7 @@ void main() {
     }
     int i = node_index(node / COLS, node % COLS);
     vec3 a = applied_acceleration(i) + force[i].xyz / mass[i];
-    velocity[i].xyz = velocity[i].w * (velocity[i].xyz + substep * a);
+    velocity[i].xyz += velocity[i].w * substep * a;
     position[i].xyz += substep * velocity[i].xyz;
     force[i] = vec4(0.0);
 }

@@ -82,11 +82,16 @@ def _solver(snapshot: Snapshot) -> tuple[bytes, str, dict]:
         'mode': snapshot.mode,
         'iterations': int(snapshot.solver_iterations),
         'residual': float(snapshot.solver_residual),
+        'reached what was asked for': bool(snapshot.solver_reached),
         'active constraints': int(snapshot.active_constraints),
     }
     if snapshot.solver_iterations == 0:
         return OK, f'{snapshot.mode} has nothing to solve', values
     text = f'residual {snapshot.solver_residual:.2g} in {snapshot.solver_iterations} iterations'
+    if not snapshot.solver_reached:
+        return WARN, (
+            f'{text} is not what was asked for: raise solver.max_iterations, or take a shorter '
+            'dt'), values
     # Written so that a residual that is not a number warns.
     if not snapshot.solver_residual <= LOOSE_RESIDUAL:
         return WARN, f'{text} is above {LOOSE_RESIDUAL:g}: take a shorter dt', values

@@ -21,10 +21,12 @@ from typing import Any
 from cloth_sim_interfaces.msg import Command
 from cloth_sim_interfaces.msg import ModeChange
 from cloth_sim_interfaces.msg import PinChange
+from cloth_sim_interfaces.msg import PinTarget
 from cloth_sim_interfaces.msg import Push as PushMessage
 from cloth_sim_ros.messages.parameter_value import parameter_value
 from cloth_sim_ros.messages.stamp import stamp
 from cloth_sim_ros.sim.field import Field
+from cloth_sim_ros.sim.pin_move import PinMove
 from cloth_sim_ros.sim.push import Push
 from geometry_msgs.msg import Point
 from geometry_msgs.msg import Vector3
@@ -49,6 +51,14 @@ def pin_message(row: int, col: int, pinned: bool, sim_time: float, frame_id: str
     """Return the pinning, or the release, of one node at ``sim_time`` [s]."""
     return PinChange(
         header=Header(stamp=stamp(sim_time), frame_id=frame_id), row=row, col=col, pinned=pinned)
+
+
+def pin_target_message(move: PinMove, sim_time: float, frame_id: str) -> PinTarget:
+    """Return ``move``, which was given at ``sim_time`` [s] or goes on from there."""
+    x, y, z = move.target
+    return PinTarget(
+        header=Header(stamp=stamp(sim_time), frame_id=frame_id), row=move.row, col=move.col,
+        target=Point(x=x, y=y, z=z), speed=move.speed)
 
 
 def mode_message(mode: str, previous_mode: str, sim_time: float, frame_id: str) -> ModeChange:

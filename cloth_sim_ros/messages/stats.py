@@ -43,6 +43,7 @@ def stats_message(
         max_strain=float(snapshot.max_strain),
         solver_iterations=int(snapshot.solver_iterations),
         solver_residual=float(snapshot.solver_residual),
+        solver_reached=bool(snapshot.solver_reached),
         active_constraints=int(snapshot.active_constraints),
         active_fraction=float(snapshot.active_fraction),
         constraint_switches=int(snapshot.constraint_switches),

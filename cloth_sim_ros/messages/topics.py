@@ -19,9 +19,12 @@ from cloth_sim_interfaces.msg import ClothStats
 from cloth_sim_interfaces.msg import Command
 from cloth_sim_interfaces.msg import ModeChange
 from cloth_sim_interfaces.msg import PinChange
+from cloth_sim_interfaces.msg import PinTarget
 from cloth_sim_interfaces.msg import Push
 from cloth_sim_ros.messages.topic import Topic
+from cloth_sim_ros.messages.wrenches import MOST_PINS
 from diagnostic_msgs.msg import DiagnosticArray
+from geometry_msgs.msg import WrenchStamped
 from rcl_interfaces.msg import ParameterEvent
 from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import PointCloud2
@@ -35,11 +38,14 @@ TOPICS = {
         Topic('markers', MarkerArray, depth=1, recorded=False),
         Topic('topology', Mesh, depth=1, transient_local=True),
         Topic('stats', ClothStats, depth=10),
+        # A message a pin: a whole frame of them must have room.
+        Topic('pins/wrenches', WrenchStamped, depth=MOST_PINS),
         Topic('state', ClothState, depth=1, transient_local=True),
         Topic('clock', Clock, depth=10, is_global=True),
         Topic('diagnostics', DiagnosticArray, depth=10, is_global=True),
         Topic('inputs/push', Push, depth=100),
         Topic('inputs/pin', PinChange, depth=100),
+        Topic('inputs/pin_target', PinTarget, depth=100),
         Topic('inputs/mode', ModeChange, depth=100),
         Topic('inputs/command', Command, depth=100),
         Topic('inputs/parameters', ParameterEvent, depth=100),

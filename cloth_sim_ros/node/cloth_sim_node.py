@@ -27,6 +27,7 @@ from cloth_sim_ros.node.outlet import Outlet
 from cloth_sim_ros.node.pacing import Pacing
 from cloth_sim_ros.node.parameters import declare_fields
 from cloth_sim_ros.node.pin_service import PinService
+from cloth_sim_ros.node.pin_targets import PinTargets
 from cloth_sim_ros.node.push_requests import PushRequests
 from cloth_sim_ros.node.recording_services import RecordingServices
 from cloth_sim_ros.node.recording_session import RecordingSession
@@ -50,16 +51,16 @@ class ClothSimNode(Node):
     A cloth that ROS can watch and push. ~ stands for the node's name.
 
     Publishes: ~/points (PointCloud2), ~/markers (MarkerArray), ~/topology (Mesh), ~/stats
-    (ClothStats), ~/state (ClothState), /diagnostics (DiagnosticArray), /clock (Clock, when
-    publish.clock is true), and what was done to the cloth: ~/inputs/push (Push), ~/inputs/pin
-    (PinChange), ~/inputs/mode (ModeChange), ~/inputs/command (Command), ~/inputs/parameters
-    (ParameterEvent).
+    (ClothStats), ~/pins/wrenches (WrenchStamped), ~/state (ClothState), /diagnostics
+    (DiagnosticArray), /clock (Clock, when publish.clock is true), and what was done to the cloth:
+    ~/inputs/push (Push), ~/inputs/pin (PinChange), ~/inputs/pin_target (PinTarget),
+    ~/inputs/mode (ModeChange), ~/inputs/command (Command), ~/inputs/parameters (ParameterEvent).
 
-    Listens to: ~/push (Push), /clicked_point (PointStamped).
+    Listens to: ~/push (Push), ~/pins/target (PinTarget), /clicked_point (PointStamped).
 
     Serves: ~/set_mode (SetMode), ~/apply_push (ApplyPush), ~/clear_pushes (Trigger), ~/set_pin
-    (SetPin), ~/reset (Trigger), ~/pause (SetBool), ~/step (Step), ~/start_recording
-    (StartRecording), ~/stop_recording (Trigger).
+    (SetPin), ~/move_pin (MovePin), ~/reset (Trigger), ~/pause (SetBool), ~/step (Step),
+    ~/start_recording (StartRecording), ~/stop_recording (Trigger).
 
     Parameters: those of sim/scene_fields.py and node/node_fields.py.
 
@@ -80,7 +81,8 @@ class ClothSimNode(Node):
         self._recording_error = ''
         self._outlet = Outlet(self, self._recording)
         self._inputs = Inputs(self._outlet, self._simulation, values['frame_id'], name)
-        self._frames = Frames(self._simulation, self._outlet, values)
+        self._frames = Frames(
+            self._simulation, self._outlet, values, self.get_logger().warning)
         self._pacing = Pacing(values['real_time_factor'])
         self._run_loop = RunLoop(
             self, self._simulation, frame_seconds=1.0 / values['publish.rate'],
@@ -124,6 +126,7 @@ class ClothSimNode(Node):
         ModeService(self, self._simulation)
         PushRequests(self, self._simulation, self._inputs, self._values)
         PinService(self, self._simulation, self._inputs)
+        PinTargets(self, self._simulation, self._inputs, self._values['frame_id'])
         RunServices(
             self, self._simulation, self._run_loop, reset=self._reset, changed=self._state.send)
         RecordingServices(

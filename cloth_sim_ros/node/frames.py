@@ -12,8 +12,9 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""What a frame is made of: the cloud, markers and plain numbers of one moment."""
+"""What a frame is made of: the cloud, markers, plain numbers and wrenches of one moment."""
 
+from collections.abc import Callable
 from collections.abc import Mapping
 import time
 from typing import Any
@@ -23,6 +24,7 @@ from cloth_sim_ros.messages.points import PointsMessage
 from cloth_sim_ros.messages.stamp import stamp
 from cloth_sim_ros.messages.stats import stats_message
 from cloth_sim_ros.node.outlet import Outlet
+from cloth_sim_ros.node.wrench_topic import WrenchTopic
 from cloth_sim_ros.sim.simulation import Simulation
 from rclpy.serialization import serialize_message
 from rosgraph_msgs.msg import Clock
@@ -35,10 +37,12 @@ class Frames:
     Send the topics that show the cloth.
 
     :param values: the node's parameter values, read at each frame
+    :param warn: called with what a user should know
     """
 
     def __init__(
-            self, simulation: Simulation, outlet: Outlet, values: Mapping[str, Any]) -> None:
+            self, simulation: Simulation, outlet: Outlet, values: Mapping[str, Any],
+            warn: Callable[[str], None]) -> None:
         """Prepare the messages of this cloth."""
         scene = simulation.scene
         self._simulation = simulation
@@ -47,6 +51,7 @@ class Frames:
         self._frame_id = values['frame_id']
         self._points = PointsMessage(scene.rows, scene.cols, self._frame_id)
         self._markers = MarkersMessage(scene.rows, scene.cols, self._frame_id)
+        self._wrenches = WrenchTopic(simulation, outlet, values, warn)
 
     def send(
             self, *, worked: float = 0.0, steps: int = 0, real_time_factor: float = 0.0,
@@ -66,10 +71,11 @@ class Frames:
         made = [
             part for part in _PARTS if self._values[f'publish.{part}']
             and self._outlet.wanted(part, by_recording=to_recording)]
-        if not made:
+        wrenches = self._wrenches.wanted(by_recording=to_recording)
+        if not made and not wrenches:
             return
         begin = time.monotonic()
-        snapshot = simulation.snapshot()
+        snapshot = simulation.snapshot(pin_forces=wrenches)
         # The device may still be at work when the steps return: the read-back waits for it.
         worked += time.monotonic() - begin
         makers = {
@@ -82,3 +88,5 @@ class Frames:
         }
         for part in made:
             self._outlet.send(part, makers[part], now, to_recording=to_recording)
+        if wrenches:
+            self._wrenches.send(snapshot, to_recording=to_recording)

@@ -20,10 +20,12 @@ from cloth_sim_ros.messages.inputs import command_message
 from cloth_sim_ros.messages.inputs import mode_message
 from cloth_sim_ros.messages.inputs import parameters_message
 from cloth_sim_ros.messages.inputs import pin_message
+from cloth_sim_ros.messages.inputs import pin_target_message
 from cloth_sim_ros.messages.inputs import push_message
 from cloth_sim_ros.node.outlet import Outlet
 from cloth_sim_ros.node.parameters import FIELDS
 from cloth_sim_ros.node.parameters import plain_value
+from cloth_sim_ros.sim.pin_move import PinMove
 from cloth_sim_ros.sim.push import Push
 from cloth_sim_ros.sim.simulation import Simulation
 from rclpy.parameter import Parameter
@@ -54,6 +56,12 @@ class Inputs:
         now = self._simulation.time
         self._outlet.send_message(
             'inputs/pin', pin_message(row, col, pinned, now, self._frame_id), now)
+
+    def pin_target(self, move: PinMove) -> None:
+        """Tell that a pin sets off."""
+        now = self._simulation.time
+        self._outlet.send_message(
+            'inputs/pin_target', pin_target_message(move, now, self._frame_id), now)
 
     def mode(self, mode: str, previous: str) -> None:
         """Tell that the mode was switched."""

@@ -20,6 +20,7 @@ from typing import Any
 from cloth_sim_ros.messages.inputs import mode_message
 from cloth_sim_ros.messages.inputs import parameters_message
 from cloth_sim_ros.messages.inputs import pin_message
+from cloth_sim_ros.messages.inputs import pin_target_message
 from cloth_sim_ros.messages.inputs import push_message
 from cloth_sim_ros.messages.topology import serialise_topology
 from cloth_sim_ros.node.parameters import FIELDS
@@ -35,7 +36,8 @@ def write_opening(
     """
     Record the rest shape, and as inputs all that holds now.
 
-    Pins are written where they differ from the parameter; pushes where they act or will act.
+    Pins are written where they differ from the parameter, and their targets where they are under
+    way; pushes where they act or will act.
 
     :param values: parameter values by name
     :param node_name: with its namespace
@@ -50,6 +52,8 @@ def write_opening(
     for row, col in np.argwhere(pinned != simulation.scene.pinned_nodes()).tolist():
         inputs.append(
             ('inputs/pin', pin_message(row, col, bool(pinned[row, col]), now, frame_id)))
+    for move in simulation.pin_moves:
+        inputs.append(('inputs/pin_target', pin_target_message(move, now, frame_id)))
     for applied in simulation.pushes:
         inputs.append(('inputs/push', push_message(applied.push, now, frame_id)))
     for key, message in inputs:

@@ -21,6 +21,7 @@ from cloth_sim_interfaces.msg import Command
 from cloth_sim_interfaces.msg import Push
 from cloth_sim_interfaces.srv import ApplyPush
 from cloth_sim_ros.node.answer import answer
+from cloth_sim_ros.node.frame_check import check_frame
 from cloth_sim_ros.node.inputs import Inputs
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.simulation import AppliedPush
@@ -76,12 +77,8 @@ class PushRequests:
             self._node.get_logger().warning(f'a message on ~/push is ignored: {error}')
 
     def _on_click(self, message: PointStamped) -> None:
-        frame = self._values['frame_id']
         try:
-            if message.header.frame_id not in ('', frame):
-                raise ClothSimError(
-                    f'its frame is {message.header.frame_id!r} and the cloth is in {frame!r}: '
-                    f'choose {frame!r} as the fixed frame')
+            check_frame(message.header.frame_id, self._values['frame_id'])
             self._push(
                 force=self._values['clicked_point.force'], region=Push.SPHERE,
                 center=_parts(message.point), radius=self._values['clicked_point.radius'],

@@ -35,6 +35,8 @@ class ReferenceCloth(ABC):
     """
     One cloth and its state; a mode adds how a step of dt is made.
 
+    Pins move as ``move_pin`` says: the timed moves of a scene are left to the caller.
+
     :param scene: what is modelled; its timed pushes act at their times
     """
 

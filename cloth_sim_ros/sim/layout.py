@@ -78,6 +78,11 @@ class Layout:
         stored[HALO:HALO + self.rows, HALO:HALO + self.cols] = values
         return stored
 
+    def load(self, stored: np.ndarray) -> np.ndarray:
+        """Return the (rows, cols, ...) part of ``stored`` values that belongs to nodes."""
+        lattice = stored.reshape(-1, self.pitch, *stored.shape[1:])
+        return lattice[HALO:HALO + self.rows, HALO:HALO + self.cols]
+
     def _groups_of(self, block: int) -> tuple[int, int]:
         return tuple(
             -(-nodes // (block * local))

@@ -32,11 +32,13 @@ _REGIONS = {
 }
 
 
-def pinned_nodes(names: Sequence[str], rows: int, cols: int) -> np.ndarray:
+def pinned_nodes(
+        names: Sequence[str], rows: int, cols: int, parameter: str = 'pins') -> np.ndarray:
     """
     Return which nodes ``names`` hold, (rows, cols) bool.
 
     :param names: corners, edges, all, none, or 'row,col'
+    :param parameter: where the names stand, for the error
     :raises ClothSimError: for a name that is none of these or a node outside the cloth
     """
     pinned = np.zeros((rows, cols), dtype=bool)
@@ -48,10 +50,20 @@ def pinned_nodes(names: Sequence[str], rows: int, cols: int) -> np.ndarray:
             pinned[row, col] = True
         elif name not in _REGIONS:
             raise ClothSimError(
-                f'pins has {name!r}: give {", ".join(_REGIONS)}, or a node as "row,col"')
+                f'{parameter} has {name!r}: give {", ".join(_REGIONS)}, or a node as "row,col"')
         elif name != 'none':
             pinned[_REGIONS[name]] = True
     return pinned
+
+
+def only_node(name: str, rows: int, cols: int, parameter: str) -> tuple[int, int]:
+    """Return row and col of the node ``name``; ClothSimError when it is none or several."""
+    nodes = np.argwhere(pinned_nodes([name], rows, cols, parameter)).tolist()
+    if len(nodes) != 1:
+        raise ClothSimError(
+            f'{parameter} has {name!r}, which is {len(nodes)} nodes: '
+            'give a corner, or a node as "row,col"')
+    return tuple(nodes[0])
 
 
 def check_node(row: int, col: int, rows: int, cols: int) -> None:

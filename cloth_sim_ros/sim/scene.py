@@ -21,12 +21,13 @@ from typing import Any
 from cloth_sim_ros.sim import grid
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.field import Field
+from cloth_sim_ros.sim.pin_move import PinMove
+from cloth_sim_ros.sim.pins import only_node
 from cloth_sim_ros.sim.pins import pinned_nodes
 from cloth_sim_ros.sim.push import Push
+from cloth_sim_ros.sim.scene_fields import FAMILIES
 from cloth_sim_ros.sim.scene_fields import SCENE_FIELDS
 import numpy as np
-
-FAMILIES = ('structural', 'shear', 'bend')
 
 
 class Scene:
@@ -51,8 +52,14 @@ class Scene:
         if len(self['gravity']) != 3:
             raise ClothSimError(
                 f'gravity needs 3 components, got {len(self["gravity"])}: write [x, y, z]')
+        for family in FAMILIES:
+            if family in self['constraint.hard'] and family in self['constraint.springs']:
+                raise ClothSimError(
+                    f'{family} edges are in constraint.hard and in constraint.springs: '
+                    'take them out of one')
         pinned_nodes(self['pins'], self.rows, self.cols)
         self.timed_pushes()
+        self.timed_pin_moves()
 
     def __getitem__(self, name: str) -> Any:
         """Return the value of the parameter ``name``."""
@@ -118,23 +125,45 @@ class Scene:
 
     def timed_pushes(self) -> tuple[Push, ...]:
         """Return the pushes that are part of the scene, in the order given."""
-        count = len(self['pushes.start'])
-        vectors = {}
-        for name, width in (('duration', 1), ('force', 3), ('center', 3), ('radius', 1)):
-            flat = self[f'pushes.{name}']
-            optional = name in ('center', 'radius') and not flat
-            if len(flat) != count * width and not optional:
-                raise ClothSimError(
-                    f'pushes.{name} needs {width} per push, {count * width} for the {count} in '
-                    f'pushes.start, got {len(flat)}: give one entry for each push')
-            filled = flat if flat else (0.0,) * (count * width)
-            vectors[name] = np.reshape(np.array(filled, dtype=float), (count, width))
+        columns = zip(
+            self['pushes.start'], self._timed('pushes.duration'), self._timed('pushes.force', 3),
+            self._timed('pushes.center', 3, default=0.0),
+            self._timed('pushes.radius', default=0.0))
         return tuple(
             Push.checked(
-                force=vectors['force'][i], start=start, duration=vectors['duration'][i, 0],
-                region='sphere' if vectors['radius'][i, 0] > 0.0 else 'all',
-                center=vectors['center'][i], radius=vectors['radius'][i, 0])
-            for i, start in enumerate(self['pushes.start']))
+                force=force, start=start, duration=duration,
+                region='sphere' if radius > 0.0 else 'all', center=center, radius=radius)
+            for start, (duration,), force, center, (radius,) in columns)
+
+    def timed_pin_moves(self) -> tuple[PinMove, ...]:
+        """Return the moves of pins that are part of the scene, in the order given."""
+        columns = zip(
+            self['pin_moves.start'], self._timed('pin_moves.node'),
+            self._timed('pin_moves.target', 3),
+            self._timed('pin_moves.speed', default=self['pin_speed']))
+        moves = []
+        pinned = self.pinned_nodes()
+        for start, (name,), target, (speed,) in columns:
+            row, col = only_node(name, self.rows, self.cols, 'pin_moves.node')
+            if not pinned[row, col]:
+                raise ClothSimError(
+                    f'pin_moves.node has {name!r}, which is not pinned: add it to pins')
+            moves.append(
+                PinMove.checked(row=row, col=col, target=target, speed=speed, start=start))
+        return tuple(moves)
+
+    def _timed(self, name: str, width: int = 1, default: float | None = None) -> list[tuple]:
+        """Return the ``width`` entries that each push or move has in the parameter ``name``."""
+        group, entry = name.partition('.')[0], 'push' if name.startswith('pushes') else 'move'
+        count = len(self[f'{group}.start'])
+        flat = self[name]
+        if not flat and default is not None:
+            flat = (default,) * (count * width)
+        if len(flat) != count * width:
+            raise ClothSimError(
+                f'{name} needs {width} per {entry}, {count * width} for the {count} in '
+                f'{group}.start, got {len(flat)}: give one entry for each {entry}')
+        return [flat[i * width:(i + 1) * width] for i in range(count)]
 
 
 def refuse_unknown(given: Mapping[str, Any], fields: tuple[Field, ...]) -> None:

@@ -18,6 +18,7 @@ from cloth_sim_ros.sim.field import Field
 
 MOST_SUBSTEPS = 100000
 MODES = ('mass_spring', 'constraint', 'adaptive')
+FAMILIES = ('structural', 'shear', 'bend')
 
 SCENE_FIELDS = (
     Field('mode', str, 'mass_spring', 'simulation mode at the start', choices=MODES, live=True),
@@ -44,6 +45,8 @@ SCENE_FIELDS = (
     Field('pins', str, ('top_left', 'top_right'),
           'nodes held in place: none, all, top_left, top_right, bottom_left, bottom_right, '
           'top_edge, bottom_edge, or "row,col"', is_array=True),
+    Field('pin_speed', float, 1.0, 'speed of a moving pin where none is given', 'm/s',
+          low=1e-6, high=1e6),
     Field('start.pose', str, 'horizontal', 'horizontal: flat at start.z; hanging: upright, '
           'row 0 on top', choices=('horizontal', 'hanging')),
     Field('start.z', float, 1.0, 'height of the cloth centre at the start', 'm',
@@ -56,6 +59,22 @@ SCENE_FIELDS = (
           'stability limit, and is stable in any shape'),
     Field('substeps', int, 1, 'substeps in each dt when auto_substeps is false',
           low=1, high=MOST_SUBSTEPS),
+    Field('constraint.hard', str, ('structural', 'shear'), 'edges that keep their length in mode '
+          'constraint', choices=FAMILIES, is_array=True),
+    Field('constraint.springs', str, (), 'edges that are implicit springs there, with their '
+          'stiffness and damping; all others are left out', choices=FAMILIES, is_array=True),
+    Field('constraint.newton_iterations', int, 2, 'linear solves in each substep; 1 is the '
+          "paper's method", low=1, high=20),
+    Field('constraint.delta', float, 1e-3, 'regularisation of hard edges; less holds lengths '
+          'better and takes more solver iterations', low=1e-7, high=1.0),
+    Field('constraint.max_substeps', int, 32, 'most substeps of dt that auto_substeps takes '
+          'there', low=1, high=MOST_SUBSTEPS),
+    Field('solver.tolerance', float, 1e-2, 'residual at which the linear solver stops, over '
+          'that at its start', low=1e-6, high=0.5),
+    Field('solver.max_iterations', int, 60, 'iterations after which it stops in any case',
+          low=1, high=10000),
+    Field('solver.preconditioner', str, 'multigrid', 'multigrid, or block_jacobi, which needs '
+          'many more iterations', choices=('multigrid', 'block_jacobi')),
     Field('adaptive.scheme', str, 'constraint', 'what holds a spring at its limit: constraint '
           '(impulses with memory), penalty (a stiffer spring), or paper (pulled to rest length)',
           choices=('constraint', 'penalty', 'paper')),
@@ -73,6 +92,14 @@ SCENE_FIELDS = (
           'used where the radius is above 0', 'm', low=-1e6, high=1e6, is_array=True),
     Field('pushes.radius', float, (), 'radius of each timed push; 0 pushes the whole cloth',
           'm', low=0.0, high=1e6, is_array=True),
+    Field('pin_moves.start', float, (), 'start of each timed move of a pin', 's', low=0.0,
+          high=1e9, is_array=True),
+    Field('pin_moves.node', str, (), 'the pinned node of each timed move: a corner or "row,col"',
+          is_array=True),
+    Field('pin_moves.target', float, (), 'the point each timed move leads to in a straight line, '
+          'x y z one after the other', 'm', low=-1e6, high=1e6, is_array=True),
+    Field('pin_moves.speed', float, (), 'speed of each timed move; left out, all have pin_speed',
+          'm/s', low=1e-6, high=1e6, is_array=True),
     Field('layout', str, 'fused', 'fused: force and update in one pass; paper: the two passes '
           'of the paper, a baseline for benchmarks', choices=('fused', 'paper')),
     Field('loads', str, 'auto', 'how shaders read the state: texture, storage, or the faster '

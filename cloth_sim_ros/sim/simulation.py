@@ -21,11 +21,15 @@ from cloth_sim_ros.gl.context import Context
 from cloth_sim_ros.sim import modes
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.errors import NonFiniteStateError
+from cloth_sim_ros.sim.forces import with_forces
 from cloth_sim_ros.sim.forcing import Forcing
 from cloth_sim_ros.sim.guarded_steps import GuardedSteps
 from cloth_sim_ros.sim.layout import choose_layout
+from cloth_sim_ros.sim.nearest import nearest
 from cloth_sim_ros.sim.observer import Observer
-from cloth_sim_ros.sim.pins import check_node
+from cloth_sim_ros.sim.pin_motion import PinMotion
+from cloth_sim_ros.sim.pin_move import PinMove
+from cloth_sim_ros.sim.pin_path import PinPath
 from cloth_sim_ros.sim.push import Push
 from cloth_sim_ros.sim.push_field import AppliedPush
 from cloth_sim_ros.sim.push_field import PushField
@@ -160,12 +164,34 @@ class Simulation:
         return self._pushes.clear()
 
     def pin(self, row: int, col: int) -> None:
-        """Hold the node (row, col) where it is."""
-        self._set_pinned(row, col, True)
+        """Hold the node (row, col) where it is; a pin that moves stops."""
+        self._context.make_current()
+        self._pin_motion.hold(row, col)
 
     def release(self, row: int, col: int) -> None:
-        """Let the node (row, col) move."""
-        self._set_pinned(row, col, False)
+        """Let the node (row, col) go, with the velocity its pin has."""
+        self._context.make_current()
+        self._pin_motion.release(row, col)
+
+    def move_pin(
+            self, row: int, col: int, target: Sequence[float],
+            speed: float | None = None) -> PinPath:
+        """
+        Move the pinned node (row, col) in a straight line to ``target`` [m], where it rests.
+
+        A new target takes the place of the one before, from where the pin is by then.
+
+        :param speed: [m/s] in simulated time; the scene's pin_speed by default
+        :return: its way, which tells when it arrives
+        :raises ClothSimError: when the node is not pinned or a value is wrong
+        """
+        self._context.make_current()
+        return self._pin_motion.move(row, col, target, speed, self.time)
+
+    @property
+    def pin_moves(self) -> tuple[PinMove, ...]:
+        """Return the moves of pins that are under way."""
+        return self._pin_motion.under_way
 
     def pinned_nodes(self) -> np.ndarray:
         """Return which nodes are held now, (rows, cols) bool."""
@@ -173,12 +199,11 @@ class Simulation:
 
     def nearest_node(self, point: Sequence[float]) -> tuple[int, int]:
         """Return row and col of the node nearest to ``point`` [m]."""
-        if len(point) != 3 or not all(math.isfinite(part) for part in point):
-            raise ClothSimError(f'a point needs 3 finite numbers [m], got {tuple(point)}')
-        away = self.snapshot().positions - np.array(point, dtype=np.float32)
-        nearest = int(np.argmin(np.einsum('rci,rci->rc', away, away)))
-        row, col = np.unravel_index(nearest, away.shape[:2])
-        return int(row), int(col)
+        return nearest(self.snapshot().positions, point)
+
+    def nearest_pin(self, point: Sequence[float]) -> tuple[int, int]:
+        """Return row and col of the pinned node nearest to ``point`` [m]."""
+        return nearest(self.snapshot().positions, point, self._state.pinned)
 
     def set_mode(self, name: str) -> str:
         """Step with the mode ``name`` from now on, keeping the state; return the one before."""
@@ -191,7 +216,11 @@ class Simulation:
         return previous
 
     def set_state(self, positions: np.ndarray, velocities: np.ndarray) -> None:
-        """Replace positions [m] and velocities [m/s], both (rows, cols, 3); pins stay still."""
+        """
+        Replace positions [m] and velocities [m/s], both (rows, cols, 3).
+
+        Pins are at rest then: moves under way end, those of the scene that are to come don't.
+        """
         shape = (self.scene.rows, self.scene.cols, 3)
         for name, values in (('positions', positions), ('velocities', velocities)):
             if np.shape(values) != shape or not np.all(np.abs(values) < MOST_MAGNITUDE):
@@ -200,10 +229,11 @@ class Simulation:
                     f'got {np.shape(values)} up to {np.abs(values).max(initial=0.0):g}')
         self._context.make_current()
         self._state.write(np.asarray(positions), np.asarray(velocities))
+        self._pin_motion.drop()
         self._mode.forget()
 
     def reset(self) -> None:
-        """Go back to the start: pose, pins, time and the scene's pushes. The mode stays."""
+        """Go back to the start: pose, pins, time, the scene's pushes and moves of pins."""
         self._context.make_current()
         self._state.pinned[:] = self.scene.pinned_nodes()
         start = self.scene.start_positions()
@@ -216,15 +246,24 @@ class Simulation:
         self._context.make_current()
         return self._observer.measure(self._state, self._forcing_now())
 
-    def snapshot(self) -> Snapshot:
-        """Return everything there is to know of this instant."""
+    def snapshot(self, *, tension: bool = False, pin_forces: bool = False) -> Snapshot:
+        """
+        Return everything there is to know of this instant.
+
+        :param tension: True to have the tension of every edge in it, and the forces at the pins
+        :param pin_forces: True to have these forces alone, which costs less on a large cloth
+        """
         self._context.make_current()
         measures, records = self._observer.record(
             self._state, self._forcing_now(), self._mode.limit_marks())
-        return Snapshot(
+        snapshot = Snapshot(
             **vars(measures), **self._mode.report(), records=records, mode=self.mode,
             time=self.time, steps=self.steps, dt=self.dt,
             substeps=self.substeps, stability_margin=self.stability_margin)
+        if tension or pin_forces:
+            return with_forces(
+                snapshot, self.scene, self._mode, self._pin_motion, every_edge=tension)
+        return snapshot
 
     def finish(self) -> None:
         """Wait until the device has done everything asked of it; for timing."""
@@ -250,11 +289,13 @@ class Simulation:
             self._state.pinned)
         for push in self.scene.timed_pushes():
             self._pushes.add(push, -math.inf)
+        self._pin_motion = PinMotion(self.scene, self._state)
 
     def _make_steps(self, count: int) -> int:
         self._context.make_current()
         try:
-            self._guard.make(self.steps, count, self._make_step, self._mode, self._pushes)
+            self._guard.make(
+                self.steps, count, self._make_step, self._mode, self._pushes, [self._pin_motion])
         except NonFiniteStateError as error:
             self.steps = error.steps
             self._target = self.time
@@ -263,7 +304,10 @@ class Simulation:
         return count
 
     def _make_step(self, number: int) -> None:
-        self._mode.step(self._state, number * self.dt, self._pushes)
+        begin, end = number * self.dt, (number + 1) * self.dt
+        self._pin_motion.begin_step(begin, end)
+        self._mode.step(self._state, begin, self._pushes)
+        self._pin_motion.end_step(begin, end)
 
     def _read_positions(self) -> np.ndarray:
         records = self._observer.record(self._state, self._pushes.still)[1]
@@ -278,16 +322,7 @@ class Simulation:
                 self.scene, self.layout, check_stability=self._check_stability)
         return self._modes[name]
 
-    def _set_pinned(self, row: int, col: int, pinned: bool) -> None:
-        check_node(row, col, self.scene.rows, self.scene.cols)
-        self._context.make_current()
-        self._state.set_pinned(row, col, pinned)
-
 
 def _check_mode(name: str) -> None:
     if name not in MODES:
         raise ClothSimError(f'there is no mode {name!r}: choose one of {", ".join(MODES)}')
-    if name not in modes.AVAILABLE:
-        raise ClothSimError(
-            f'mode {name} is not in this version yet: choose one of '
-            f'{", ".join(modes.AVAILABLE)}')

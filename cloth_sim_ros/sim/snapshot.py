@@ -17,6 +17,7 @@
 from dataclasses import dataclass
 import hashlib
 
+from cloth_sim_ros.sim.pin_forces import PinForces
 import numpy as np
 
 # One node as the shader packs it: the body of a sensor_msgs/PointCloud2.
@@ -35,7 +36,7 @@ class Measures:
     """
     The state in a few numbers.
 
-    :param kinetic_energy: [J]
+    :param kinetic_energy: of the free nodes [J]
     :param elastic_energy: [J]
     :param gravitational_energy: [J], zero at the origin
     :param max_strain: largest abs(l / L0 - 1) of structural and shear springs
@@ -67,9 +68,15 @@ class Snapshot(Measures):
     :param stability_margin: substep over the stability limit
     :param solver_iterations: of the last substep, 0 in a mode without a solver
     :param solver_residual: relative, where the solver stopped
+    :param solver_reached: False when a solve of the last step stopped before the residual asked
+        for
     :param active_constraints: springs at their limit
     :param active_fraction: of all springs
     :param constraint_switches: activations and deactivations in the last step
+    :param tension: when asked for, of the edges that start at each node [N], (rows, cols, 6)
+        float32, above 0 where it pulls: of node (r, c) to (r, c + 1), (r + 1, c), (r + 1, c + 1),
+        (r + 1, c - 1), (r, c + 2) and (r + 2, c); 0 where there is no such edge
+    :param pin_forces: when asked for, what holds each pinned node
     """
 
     records: np.ndarray
@@ -81,9 +88,12 @@ class Snapshot(Measures):
     stability_margin: float
     solver_iterations: int = 0
     solver_residual: float = 0.0
+    solver_reached: bool = True
     active_constraints: int = 0
     active_fraction: float = 0.0
     constraint_switches: int = 0
+    tension: np.ndarray | None = None
+    pin_forces: PinForces | None = None
 
     @property
     def positions(self) -> np.ndarray:
@@ -92,7 +102,7 @@ class Snapshot(Measures):
 
     @property
     def velocities(self) -> np.ndarray:
-        """Return velocities [m/s], (rows, cols, 3) float32."""
+        """Return velocities [m/s], (rows, cols, 3) float32; a pinned node has its pin's."""
         return self._vectors(3)
 
     @property

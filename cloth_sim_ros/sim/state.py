@@ -29,7 +29,8 @@ class State:
     Of the three pairs of buffers, steps go to and fro between two; the third holds the state that
     was kept last, so that keeping one costs nothing.
 
-    ``edits`` counts the changes made from outside, between steps.
+    The velocity of a pinned node is that of its pin. ``edits`` counts the changes made from
+    outside, between steps.
     """
 
     def __init__(self, layout: Layout, positions: np.ndarray, pinned: np.ndarray) -> None:
@@ -51,7 +52,7 @@ class State:
         return int(self.pinned.size - np.count_nonzero(self.pinned))
 
     def write(self, positions: np.ndarray, velocities: np.ndarray) -> None:
-        """Replace all positions [m] and velocities [m/s], both (rows, cols, 3)."""
+        """Replace all positions [m] and velocities [m/s], (rows, cols, 3); pins are at rest."""
         self.edits += 1
         free = ~self.pinned
         position = self._layout.store(_with_fourth(positions, 1.0))
@@ -63,13 +64,30 @@ class State:
             buffer.write(velocity)
 
     def set_pinned(self, row: int, col: int, pinned: bool) -> None:
-        """Hold one node where it is, or let it go from rest."""
+        """Hold one node where it is, or let it go with the velocity its pin has."""
         if self.pinned[row, col] == pinned:
             return
         self.edits += 1
         self.pinned[row, col] = pinned
-        entry = np.array([0.0, 0.0, 0.0, 0.0 if pinned else 1.0], dtype=np.float32)
-        self._velocities[self._now].write(entry, self._layout.index(row, col) * entry.nbytes)
+        if pinned:
+            self._write(self._velocities, row, col, np.zeros(4))
+        else:
+            self._write(self._velocities, row, col, np.ones(1), first=3)
+
+    def set_pin_velocity(self, row: int, col: int, velocity: np.ndarray) -> None:
+        """Let the pinned node (row, col) move with ``velocity`` [m/s], (3,), from now on."""
+        self.edits += 1
+        self._write(self._velocities, row, col, velocity)
+
+    def place_pin(self, row: int, col: int, position: np.ndarray) -> None:
+        """Put the pinned node (row, col), which is close by, at ``position`` [m], (3,)."""
+        self._write(self._positions, row, col, position)
+
+    def read_position(self, row: int, col: int) -> np.ndarray:
+        """Return where the node (row, col) is [m], (3,)."""
+        position = np.empty(3, dtype=np.float32)
+        self._positions[self._now].read_into(position, self._offset(row, col))
+        return position.astype(float)
 
     def bind_in(self) -> None:
         """Let the next dispatch read the present state."""
@@ -108,6 +126,15 @@ class State:
 
     def _spare(self) -> int:
         return next(pair for pair in range(_PAIRS) if pair not in (self._now, self._kept))
+
+    def _write(
+            self, buffers: list[Buffer], row: int, col: int, values: np.ndarray,
+            first: int = 0) -> None:
+        entry = values.astype(np.float32)
+        buffers[self._now].write(entry, self._offset(row, col) + first * entry.itemsize)
+
+    def _offset(self, row: int, col: int) -> int:
+        return self._layout.index(row, col) * 4 * np.dtype(np.float32).itemsize
 
 
 def _with_fourth(vectors: np.ndarray, fourth: np.ndarray | float) -> np.ndarray:

@@ -55,6 +55,11 @@ class Strips:
         self._buffer.read_into(self._figures)
         return self._figures.max(axis=0)
 
+    def sums(self) -> np.ndarray:
+        """Wait for the pass, and return the sum of each figure, float64."""
+        self._buffer.read_into(self._figures)
+        return self._figures.sum(axis=0, dtype=np.float64)
+
     def delete(self) -> None:
         """Give the room back."""
         self._buffer.delete()

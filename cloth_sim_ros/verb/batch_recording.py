@@ -20,9 +20,12 @@ from cloth_sim_interfaces.msg import ClothState
 from cloth_sim_ros.messages.points import PointsMessage
 from cloth_sim_ros.messages.state import state_of
 from cloth_sim_ros.messages.stats import stats_message
+from cloth_sim_ros.messages.wrenches import too_many_pins
+from cloth_sim_ros.messages.wrenches import WrenchMessages
 from cloth_sim_ros.node.opening import write_opening
 from cloth_sim_ros.node.recording_session import RecordingSession
 from cloth_sim_ros.sim.simulation import Simulation
+import numpy as np
 from rclpy.serialization import serialize_message
 
 _NODE_NAME = 'cloth_sim'
@@ -30,7 +33,7 @@ _NODE_NAME = 'cloth_sim'
 
 class BatchRecording:
     """
-    A recording of points, stats and inputs.
+    A recording of points, stats, wrenches and inputs.
 
     :param directory: folder that the recording's own folder is made in
     """
@@ -42,21 +45,29 @@ class BatchRecording:
         self._frame_id = node_values['frame_id']
         self._points = PointsMessage(
             simulation.scene.rows, simulation.scene.cols, self._frame_id)
+        self._wrenches = WrenchMessages(self._frame_id)
         self._session = RecordingSession(directory, _NODE_NAME, self._say_lost)
         self.path = self._session.start(node_values['recording.name'])
         values = {**simulation.scene.values, **node_values}
         write_opening(self._session, simulation, values, f'/{_NODE_NAME}')
         self._write_state(ClothState.RUNNING)
+        reason = too_many_pins(np.count_nonzero(simulation.pinned_nodes()))
+        self._has_wrenches = node_values['publish.wrenches'] and not reason
+        if node_values['publish.wrenches'] and reason:
+            print(f'cloth_sim run: {reason}')
         self.write(0.0, 0.0)
 
     def write(self, step_wall_time: float, real_time_factor: float) -> None:
         """Write the present instant."""
-        snapshot = self._simulation.snapshot()
+        snapshot = self._simulation.snapshot(pin_forces=self._has_wrenches)
         stats = stats_message(
             snapshot, self._frame_id, step_wall_time=step_wall_time,
             real_time_factor=real_time_factor)
         self._session.write('points', self._points.serialise(snapshot), snapshot.time)
         self._session.write('stats', serialize_message(stats), snapshot.time)
+        if self._has_wrenches:
+            for data in self._wrenches.serialise(snapshot):
+                self._session.write('pins/wrenches', data, snapshot.time)
 
     def write_stop(self) -> None:
         """Write that the run has stopped before its end."""

@@ -13,17 +13,23 @@
 # limitations under the License.
 
 """
-Hold a node of the cloth where it is, or let it go.
+Hold a node of the cloth where it is, move it, or let it go.
+
+A pin moves in a straight line, and in simulated time. A new target takes the place of the one
+before.
 
 For example:
   cloth_sim pin 0 15
+  cloth_sim pin 0 15 --to 0.5 0 1.4 --speed 0.3
   cloth_sim pin 0 15 --release
   cloth_sim pin --near 0.5 0 1
 """
 
 from argparse import ArgumentParser
 from argparse import Namespace
+from typing import Any
 
+from cloth_sim_interfaces.srv import MovePin
 from cloth_sim_interfaces.srv import SetPin
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.verb.node_arguments import add_node_arguments
@@ -31,6 +37,7 @@ from cloth_sim_ros.verb.node_arguments import open_node
 from geometry_msgs.msg import Point
 
 _LARGEST = 2**32 - 1
+_AXES = ('X', 'Y', 'Z')
 
 
 def add_arguments(parser: ArgumentParser) -> None:
@@ -38,27 +45,51 @@ def add_arguments(parser: ArgumentParser) -> None:
     parser.add_argument(
         'place', nargs='*', type=int, metavar='ROW COL', help='the node, row 0 is the top one')
     parser.add_argument(
-        '--near', nargs=3, type=float, metavar=('X', 'Y', 'Z'),
-        help='take the node nearest to this point [m]')
-    parser.add_argument('--release', action='store_true', help='let the node go')
+        '--near', nargs=3, type=float, metavar=_AXES,
+        help='take the node nearest to this point [m], with --to the pin nearest to it')
+    what = parser.add_mutually_exclusive_group()
+    what.add_argument('--release', action='store_true', help='let the node go')
+    what.add_argument('--to', nargs=3, type=float, metavar=_AXES, help='move the pin there [m]')
+    parser.add_argument(
+        '--speed', type=float, metavar='M/S',
+        help='of the move [m/s] (default: the parameter pin_speed of the node)')
     add_node_arguments(parser)
 
 
 def main(args: Namespace) -> int:
-    """Pin, or release."""
-    request = _request(args)
+    """Pin, move, or release."""
+    place = _place(args)
+    if args.to is None:
+        kind, name, request = SetPin, 'set_pin', SetPin.Request(release=args.release, **place)
+    else:
+        kind, name, request = MovePin, 'move_pin', MovePin.Request(
+            target=_point(args.to), speed=_speed(args), **place)
     with open_node(args) as node:
-        print(node.call(SetPin, 'set_pin', request).message)
+        print(node.call(kind, name, request).message)
     return 0
 
 
-def _request(args: Namespace) -> SetPin.Request:
+def _place(args: Namespace) -> dict[str, Any]:
     if (args.near is None) == (not args.place) or len(args.place) not in (0, 2):
         raise ClothSimError('one node is needed: give ROW COL, or --near X Y Z')
+    if args.to is None and args.speed is not None:
+        raise ClothSimError('a speed is that of a move: give --to X Y Z as well')
     if args.near is not None:
-        x, y, z = args.near
-        return SetPin.Request(use_point=True, point=Point(x=x, y=y, z=z), release=args.release)
+        return {'use_point': True, 'point': _point(args.near)}
     row, col = args.place
     if not (0 <= row <= _LARGEST and 0 <= col <= _LARGEST):
         raise ClothSimError(f'there is no node ({row}, {col}): rows and columns count from 0')
-    return SetPin.Request(row=row, col=col, release=args.release)
+    return {'row': row, 'col': col}
+
+
+def _speed(args: Namespace) -> float:
+    if args.speed is None:
+        return 0.0
+    # To the node, 0 says that no speed is given.
+    if args.speed == 0.0:
+        raise ClothSimError('a pin does not get there at a speed of 0 m/s: give one above 0')
+    return args.speed
+
+
+def _point(parts: list[float]) -> Point:
+    return Point(**dict(zip('xyz', parts)))

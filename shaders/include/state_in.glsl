@@ -13,8 +13,9 @@
 // limitations under the License.
 
 // The state that is read. position.w is 1 for a node and 0 for a ghost; velocity.w is 1 for a
-// free node and 0 for a pinned one or a ghost. LOADS_TEXTURE: read through texture units, which
-// software devices do several times faster than storage blocks.
+// free node and 0 for a pinned one or a ghost. A pinned node has the velocity of its pin.
+// LOADS_TEXTURE: read through texture units, which software devices do several times faster than
+// storage blocks.
 
 #if LOADS_TEXTURE
 layout(binding = POSITION_IN) uniform samplerBuffer position_in;

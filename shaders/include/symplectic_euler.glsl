@@ -12,13 +12,14 @@
 // See the License for the specific language governing permissions and
 // limitations under the License.
 
-// Symplectic Euler (paper, Eq. 3 and 4): v+ = v + h (a + F / m), x+ = x + h v+; still where pinned.
+// Symplectic Euler (paper, Eq. 3 and 4): v+ = v + h (a + F / m), x+ = x + h v+. A pinned node keeps
+// its velocity, which is that of the pin.
 
 uniform float substep;       // [s]
 uniform float inverse_mass;  // [1/kg]
 
 vec3 next_velocity(vec4 velocity, vec3 force, vec3 applied) {
-    return velocity.w * (velocity.xyz + substep * (applied + inverse_mass * force));
+    return velocity.xyz + velocity.w * substep * (applied + inverse_mass * force);
 }
 
 vec3 next_position(vec3 position, vec3 velocity) {

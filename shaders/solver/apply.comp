@@ -13,7 +13,8 @@
 // limitations under the License.
 
 #version 430 core
-// Add the solution to the velocity and move the nodes: v+ = v + dv, x+ = x + h v+.
+// Add the solution to the velocity and move the nodes: v+ = v + dv, x+ = x + h v+; or, in a further
+// solve of the same step, by what dv adds: x+ = x + h dv.
 
 #include "solver/levels.glsl"
 #include "solver/vectors.glsl"
@@ -24,6 +25,8 @@
 layout(local_size_x = LOCAL_X, local_size_y = LOCAL_Y) in;
 
 uniform float substep;  // [s]
+uniform int is_further;
+uniform vec3 common_change;  // [m/s] of all nodes, besides the solution
 
 void main() {
     int row = int(gl_GlobalInvocationID.y);
@@ -34,7 +37,10 @@ void main() {
     int index = state_index(row, col);
     vec4 velocity = load_velocity(index);
     vec4 position = load_position(index);
-    velocity.xyz += load_vector(cloth_entry(SOLUTION, level_index(0, row, col)));
+    vec3 change = load_vector(cloth_entry(SOLUTION, level_index(0, row, col)));
+    change += common_change;
+    velocity.xyz += change;
+    vec3 moved = substep * (is_further == 1 ? change : velocity.xyz);
     velocity_out[index] = velocity;
-    position_out[index] = vec4(position.xyz + substep * velocity.xyz, position.w);
+    position_out[index] = vec4(position.xyz + moved, position.w);
 }

@@ -22,8 +22,6 @@
 
 layout(local_size_x = LOCAL_X, local_size_y = LOCAL_Y) in;
 
-uniform float pinned_weight;  // what an edge to a pinned node weighs, over one between free nodes
-
 void main() {
     int row = int(gl_GlobalInvocationID.y);
     int col = int(gl_GlobalInvocationID.x);
@@ -31,7 +29,7 @@ void main() {
         return;
     }
     int index = state_index(row, col);
-    float weight = load_velocity(index).w > 0.0 ? 1.0 : -pinned_weight;
+    float kind = load_velocity(index).w > 0.0 ? 1.0 : -1.0;
     system_data[cloth_entry(NODE, node_index(row, col))] =
-        vec4(load_position(index).xyz, weight);
+        vec4(load_position(index).xyz, kind);
 }

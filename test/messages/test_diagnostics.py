@@ -56,6 +56,8 @@ def test_a_healthy_run_is_ok_in_all_parts():
     ('solver', WARN, 'shorter dt', {'solver_iterations': 7, 'solver_residual': 0.5}, {}),
     ('solver', WARN, 'shorter dt',
      {'solver_iterations': 7, 'solver_residual': float('nan')}, {}),
+    ('solver', WARN, 'raise solver.max_iterations',
+     {'solver_iterations': 7, 'solver_residual': 1e-4, 'solver_reached': False}, {}),
     ('stability', OK, '0.85 of', {'stability_margin': 0.85000001}, {}),
     ('stability', WARN, 'above the safe', {'stability_margin': 0.95}, {}),
     ('stability', ERROR, 'auto_substeps', {'stability_margin': 1.1}, {}),

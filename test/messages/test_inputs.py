@@ -15,12 +15,15 @@
 """What was done to the cloth."""
 
 from cloth_sim_interfaces.msg import Command
+from cloth_sim_interfaces.msg import PinTarget
 from cloth_sim_interfaces.msg import Push as PushMessage
 from cloth_sim_ros.messages.inputs import command_message
 from cloth_sim_ros.messages.inputs import mode_message
 from cloth_sim_ros.messages.inputs import parameters_message
 from cloth_sim_ros.messages.inputs import pin_message
+from cloth_sim_ros.messages.inputs import pin_target_message
 from cloth_sim_ros.messages.inputs import push_message
+from cloth_sim_ros.sim.pin_move import PinMove
 from cloth_sim_ros.sim.push import Push
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.scene_fields import SCENE_FIELDS
@@ -42,6 +45,16 @@ def test_a_push_is_told_in_full():
         start=message.start, duration=message.duration, region=message.region,
         center=(message.center.x, message.center.y, message.center.z),
         radius=message.radius) == push
+
+
+def test_a_target_is_told_in_full():
+    """A pin could not be moved again as it was."""
+    move = PinMove.checked(row=3, col=4, target=(1.0, 2.0, 3.0), speed=0.25, start=0.5)
+    message = deserialize_message(
+        serialize_message(pin_target_message(move, 0.5, 'world')), PinTarget)
+    assert message.header.stamp.nanosec == 500000000 and message.header.frame_id == 'world'
+    assert (message.row, message.col, message.speed) == (3, 4, 0.25)
+    assert (message.target.x, message.target.y, message.target.z) == move.target
 
 
 def test_pin_mode_and_command_are_told_with_their_time():

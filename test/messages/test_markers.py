@@ -14,12 +14,17 @@
 
 """The markers, decoded."""
 
+from contextlib import closing
+
 from cloth_sim_ros.messages.markers import MarkersMessage
 from cloth_sim_ros.messages.strain_colors import strain_colors
 from cloth_sim_ros.messages.triangles import triangles
 from cloth_sim_ros.sim.push import Push
+from cloth_sim_ros.sim.scene import Scene
+from cloth_sim_ros.sim.simulation import Simulation
 from cloth_sim_ros.sim.snapshot import FLAG_AT_LIMIT
 from cloth_sim_ros.sim.snapshot import FLAG_PINNED
+from cloth_sim_ros.study.limit_scenes import unit_scene
 from made_snapshot import make_snapshot
 import numpy as np
 import pytest
@@ -85,6 +90,18 @@ def test_pins_and_active_constraints_stand_on_their_nodes():
     assert (pins.type, limits.type) == (Marker.SPHERE_LIST, Marker.POINTS)
     np.testing.assert_array_equal(points_of(pins), snapshot.positions[[0, 4], [6, 1]])
     np.testing.assert_array_equal(points_of(limits), snapshot.positions[[2, 4], [3, 1]])
+
+
+def test_constraints_of_the_adaptive_mode_are_drawn():
+    """Nobody would see where the cloth is at its limit."""
+    with closing(Simulation(Scene(unit_scene(12, 5.0, 0.01)))) as simulation:
+        simulation.advance(0.5)
+        snapshot = simulation.snapshot()
+    at_limit = (snapshot.flags & FLAG_AT_LIMIT) != 0
+    assert 0 < np.count_nonzero(at_limit) < at_limit.size
+    markers = decode(MarkersMessage(12, 12, 'world').serialise(snapshot))
+    np.testing.assert_array_equal(
+        points_of(markers['active_constraints', 0]), snapshot.positions[at_limit])
 
 
 def test_pushes_are_shown_while_they_act():

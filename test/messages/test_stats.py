@@ -21,7 +21,8 @@ from rclpy.serialization import deserialize_message
 from rclpy.serialization import serialize_message
 
 NUMBERS = {
-    'solver_iterations': 11, 'solver_residual': 1e-3, 'active_constraints': 12,
+    'solver_iterations': 11, 'solver_residual': 1e-3, 'solver_reached': False,
+    'active_constraints': 12,
     'active_fraction': 0.25, 'constraint_switches': 13}
 
 

@@ -23,6 +23,7 @@ import pytest
     ('markers', 'visualization_msgs/msg/MarkerArray', 1, False),
     ('topology', 'shape_msgs/msg/Mesh', 1, True),
     ('stats', 'cloth_sim_interfaces/msg/ClothStats', 10, False),
+    ('pins/wrenches', 'geometry_msgs/msg/WrenchStamped', 1024, False),
     ('state', 'cloth_sim_interfaces/msg/ClothState', 1, True),
     ('clock', 'rosgraph_msgs/msg/Clock', 10, False),
     ('diagnostics', 'diagnostic_msgs/msg/DiagnosticArray', 10, False),
@@ -38,9 +39,11 @@ def test_all_inputs_are_recorded():
     """A run could not be simulated again from its recording."""
     inputs = {key for key in TOPICS if key.startswith('inputs/')}
     assert inputs == {
-        'inputs/push', 'inputs/pin', 'inputs/mode', 'inputs/command', 'inputs/parameters'}
+        'inputs/push', 'inputs/pin', 'inputs/pin_target', 'inputs/mode', 'inputs/command',
+        'inputs/parameters'}
     assert all(TOPICS[key].recorded for key in inputs)
     assert TOPICS['topology'].recorded and TOPICS['clock'].recorded
+    assert TOPICS['pins/wrenches'].recorded
 
 
 def test_only_clock_and_diagnostics_are_global():

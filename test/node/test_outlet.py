@@ -26,10 +26,12 @@ NAMES_AND_TYPES = {
     '~/markers': 'visualization_msgs/msg/MarkerArray',
     '~/topology': 'shape_msgs/msg/Mesh',
     '~/stats': 'cloth_sim_interfaces/msg/ClothStats',
+    '~/pins/wrenches': 'geometry_msgs/msg/WrenchStamped',
     '~/state': 'cloth_sim_interfaces/msg/ClothState',
     '/diagnostics': 'diagnostic_msgs/msg/DiagnosticArray',
     '~/inputs/push': 'cloth_sim_interfaces/msg/Push',
     '~/inputs/pin': 'cloth_sim_interfaces/msg/PinChange',
+    '~/inputs/pin_target': 'cloth_sim_interfaces/msg/PinTarget',
     '~/inputs/mode': 'cloth_sim_interfaces/msg/ModeChange',
     '~/inputs/command': 'cloth_sim_interfaces/msg/Command',
     '~/inputs/parameters': 'rcl_interfaces/msg/ParameterEvent',
@@ -39,6 +41,7 @@ SERVICES = {
     'apply_push': 'cloth_sim_interfaces/srv/ApplyPush',
     'clear_pushes': 'std_srvs/srv/Trigger',
     'set_pin': 'cloth_sim_interfaces/srv/SetPin',
+    'move_pin': 'cloth_sim_interfaces/srv/MovePin',
     'reset': 'std_srvs/srv/Trigger',
     'pause': 'std_srvs/srv/SetBool',
     'step': 'cloth_sim_interfaces/srv/Step',
@@ -76,11 +79,12 @@ def test_services_have_their_types(cloth):
         assert offered[f'{cloth.name}/{name}'] == [kind]
 
 
-def test_listens_to_pushes_and_clicks(cloth):
-    """A push from RViz or Foxglove would go nowhere."""
+def test_listens_to_pushes_targets_and_clicks(cloth):
+    """A push from RViz or Foxglove, or a controller's target, would go nowhere."""
     listened = dict(cloth.client.node.get_subscriber_names_and_types_by_node(
         'cloth_sim', NAMESPACE))
     assert listened[f'{cloth.name}/push'] == ['cloth_sim_interfaces/msg/Push']
+    assert listened[f'{cloth.name}/pins/target'] == ['cloth_sim_interfaces/msg/PinTarget']
     assert listened['/clicked_point'] == ['geometry_msgs/msg/PointStamped']
 
 

@@ -18,11 +18,13 @@ from pathlib import Path
 
 from cloth_sim_interfaces.msg import ClothState
 from cloth_sim_interfaces.srv import ApplyPush
+from cloth_sim_interfaces.srv import MovePin
 from cloth_sim_interfaces.srv import SetPin
 from cloth_sim_interfaces.srv import StartRecording
 from cloth_sim_interfaces.srv import Step
 from cloth_sim_ros.node.parameters import FIELDS
 from cloth_sim_ros.sim.snapshot import POINT_DTYPE
+from geometry_msgs.msg import Point
 from geometry_msgs.msg import Vector3
 import numpy as np
 import pytest
@@ -61,6 +63,7 @@ def test_begins_with_all_that_holds(cloth):
     """A recording started late could not be run again: pins, pushes or the mode would lack."""
     cloth.call(SetPin, 'set_pin', row=3, col=4)
     cloth.call(SetPin, 'set_pin', row=0, col=9, release=True)
+    cloth.call(MovePin, 'move_pin', row=3, col=4, target=Point(z=3.0), speed=0.5)
     cloth.call(ApplyPush, 'apply_push', force=Vector3(z=1.0), duration=0.5)
     cloth.call(Step, 'step', steps=10)
     bag = record(cloth)
@@ -69,6 +72,8 @@ def test_begins_with_all_that_holds(cloth):
     assert [mode.mode for mode in bag.messages('inputs/mode')] == ['mass_spring']
     pins = bag.messages('inputs/pin')
     assert {(pin.row, pin.col, pin.pinned) for pin in pins} == {(3, 4, True), (0, 9, False)}
+    move, = bag.messages('inputs/pin_target')
+    assert (move.row, move.col, move.target.z, move.speed) == (3, 4, 3.0, 0.5)
     push, = bag.messages('inputs/push')
     assert (push.force.z, push.start, push.duration) == (1.0, 0.0, 0.5)
     mesh, = bag.messages('topology')
@@ -86,8 +91,9 @@ def test_records_inputs_as_they_come(cloth):
         lambda: cloth.call(Step, 'step', steps=2),
         lambda: cloth.call(ApplyPush, 'apply_push', force=Vector3(x=1.0), duration=0.1),
         lambda: cloth.call(SetPin, 'set_pin', row=6, col=6),
+        lambda: cloth.call(MovePin, 'move_pin', row=6, col=6, target=Point(z=2.0)),
         lambda: cloth.call(Trigger, 'clear_pushes'))
-    for topic in ('push', 'pin', 'command'):
+    for topic in ('push', 'pin', 'pin_target', 'command'):
         message = bag.messages(f'inputs/{topic}')[-1]
         assert cloth.steps_of(message) == 2, topic
 

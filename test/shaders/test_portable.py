@@ -45,9 +45,14 @@ _FORMS = {
     'observe.comp': {'RECORDS_WANTED': 1, 'STRIP': 16},
     'paper_force.comp': {},
     'paper_update.comp': {'UPDATE_LOCAL': 1024},
+    'rigid_sums.comp': {'STRIP': 16},
     'solver/coarsest.comp': {'COARSEST_ROWS': 4, 'COARSEST_COLS': 5, 'COARSEST_STEPS': 6},
+    'solver/later_right_side.comp': {'HAS_LAG': 1},
     'solver/reduce.comp': {'GROUPS_COUNT': 2, 'GROUPS_OF_EACH': 'ivec2(1, 1), ivec2(3, 2)'},
+    'solver/right_side.comp': {'FORESEES_TURN': 1, 'KEEPS_TENSION': 1, 'HAS_LAG': 1},
     'strain_watch.comp': {'STRIP': 16},
+    'turn_watch.comp': {
+        'STRIP': 16, 'STORED': 200, 'SOLVER_INDEX(row, col)': 'node_index(row, col)'},
 }
 
 

@@ -113,6 +113,25 @@ def test_the_run_can_go_on_without_the_cause(simulate, mode):
     np.testing.assert_allclose(runs[0].positions, runs[1].positions, atol=1e-3)
 
 
+def test_moving_pins_go_back_too(simulate, mode):
+    """A pin would be ahead of its cloth after a stop, or drift when it is held there."""
+    runs = []
+    for force in (None, _ABSURD):
+        simulation = simulate({'mode': mode})
+        simulation.step(15)
+        simulation.move_pin(0, 0, (-0.4, 0.6, 1.1), speed=1.0)
+        if force is not None:
+            simulation.push(force, start=0.0605, duration=1.0)
+            _stop(simulation, 100)
+            assert simulation.steps == 15
+            assert np.array_equal(simulation.snapshot().velocities[0, 0], (0.0, 0.0, 0.0))
+            simulation.clear_pushes()
+        simulation.step(10)
+        runs.append(simulation.snapshot())
+    assert np.array_equal(runs[0].positions[0, 0], runs[1].positions[0, 0])
+    np.testing.assert_allclose(runs[0].positions, runs[1].positions, atol=1e-3)
+
+
 def test_reset_after_a_stop_is_the_start_again(simulate, mode):
     """A reset would leave something of the blow-up over."""
     simulation = simulate({'mode': mode})

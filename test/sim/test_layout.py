@@ -44,6 +44,15 @@ def test_nodes_are_stored_with_two_ghosts_around(block: int):
         assert not border.any()
 
 
+@pytest.mark.parametrize(('rows', 'cols', 'block'), [(1, 2, 4), (5, 7, 1), (6, 3, 2)])
+def test_what_is_stored_comes_back_at_its_node(rows: int, cols: int, block: int):
+    """What was computed for a node would be told of another."""
+    layout = Layout(rows, cols, 'fused', True, block, (8, 4))
+    values = np.random.default_rng(1).normal(size=(rows, cols, 4))
+    stored = layout.store(values).reshape(layout.stored, 4)
+    assert np.array_equal(layout.load(stored), values)
+
+
 @pytest.mark.parametrize(('rows', 'cols', 'block'), [(1, 2, 4), (33, 65, 2), (64, 64, 4)])
 def test_workgroups_reach_every_node(rows: int, cols: int, block: int):
     """The last rows or columns of the cloth would stand still."""

@@ -19,6 +19,8 @@ from cloth_sim_ros.sim.scene import Scene
 import numpy as np
 import pytest
 
+_MOVE = {'pin_moves.start': [1.0], 'pin_moves.node': ['0,0'], 'pin_moves.target': [0.0, 0.0, 1.0]}
+
 
 def test_mass_is_shared_evenly():
     """The cloth would weigh something else than its areal density says."""
@@ -73,6 +75,14 @@ def test_an_unknown_name_is_refused_with_the_nearest():
      'pushes.force needs 3 per push, 3 for the 1'),
     ({'pushes.start': [1.0], 'pushes.duration': [0.0], 'pushes.force': [1.0, 2.0, 3.0]},
      'the duration of a push must be finite and above 0'),
+    ({'pin_moves.start': [1.0]}, 'node needs 1 per move, 1 for the 1 in pin_moves.start'),
+    ({'pin_moves.node': ['0,0']}, 'pin_moves.node needs 1 per move, 0 for the 0'),
+    ({**_MOVE, 'pin_moves.target': [1.0, 2.0]}, 'pin_moves.target needs 3 per move, 3 for the 1'),
+    ({**_MOVE, 'pin_moves.speed': [1.0, 2.0]}, 'pin_moves.speed needs 1 per move, 1 for the 1'),
+    ({**_MOVE, 'pin_moves.node': ['left']}, "pin_moves.node has 'left': give none, all"),
+    ({**_MOVE, 'pin_moves.node': ['top_edge']}, "node has 'top_edge', which is 32 nodes"),
+    ({**_MOVE, 'pin_moves.node': ['3,4']},
+     "pin_moves.node has '3,4', which is not pinned: add it to pins"),
 ])
 def test_what_does_not_fit_together_is_refused(values: dict, message: str):
     """A scene that can't be meant would start and do something else."""
@@ -90,3 +100,18 @@ def test_timed_pushes_are_read_one_by_one():
     first, second = scene.timed_pushes()
     assert (first.region, first.force, first.end) == ('all', (1.0, 2.0, 3.0), 1.1)
     assert (second.region, second.center, second.radius) == ('sphere', (7.0, 8.0, 9.0), 0.3)
+
+
+def test_timed_moves_are_read_one_by_one():
+    """Targets of several moves would be mixed up, or a pin go at another's speed."""
+    scene = Scene({
+        'rows': 5, 'cols': 7, 'pins': ['top_right', '2,3'], 'pin_speed': 0.25,
+        'pin_moves.start': [1.0, 0.5], 'pin_moves.node': ['2,3', 'top_right'],
+        'pin_moves.target': [1.0, 2.0, 3.0, 4.0, 5.0, 6.0]})
+    first, second = scene.timed_pin_moves()
+    assert (first.node, first.target, first.speed, first.start) == (
+        (2, 3), (1.0, 2.0, 3.0), 0.25, 1.0)
+    assert (second.node, second.target, second.speed, second.start) == (
+        (0, 6), (4.0, 5.0, 6.0), 0.25, 0.5)
+    fast = Scene({**scene.values, 'pin_moves.speed': [1.0, 2.0]})
+    assert [move.speed for move in fast.timed_pin_moves()] == [1.0, 2.0]

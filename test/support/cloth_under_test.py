@@ -18,6 +18,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from cloth_sim_interfaces.srv import ApplyPush
+from cloth_sim_interfaces.srv import MovePin
 from cloth_sim_interfaces.srv import SetMode
 from cloth_sim_interfaces.srv import SetPin
 from cloth_sim_interfaces.srv import StartRecording
@@ -49,6 +50,7 @@ SERVICES = {
     'apply_push': ApplyPush,
     'clear_pushes': Trigger,
     'set_pin': SetPin,
+    'move_pin': MovePin,
     'reset': Trigger,
     'pause': SetBool,
     'step': Step,

@@ -48,7 +48,8 @@ class ImplicitSystem:
             weight = law.weights[FAMILIES.index(springs.family)]
             pull = law.pulls[FAMILIES.index(springs.family)]
             both_free = np.prod(springs.ends(free), axis=0).ravel()
-            factor = np.where(both_free, 1.0, law.pinned_weight)
+            factor = np.where(
+                both_free, 1.0, law.pinned_weights[FAMILIES.index(springs.family)])
             first, second = springs.ends(x)
             length = np.linalg.norm(first - second, axis=-1)
             direction = ((first - second) / length[..., None]).reshape(-1, 3)

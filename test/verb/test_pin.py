@@ -33,8 +33,22 @@ def test_takes_the_nearest(verb):
     assert (result.returncode, result.stdout) == (0, 'node (0, 0) is pinned\n')
 
 
+def test_moves(verb, cloth):
+    """A pin could not be moved from the command line, or at another speed than asked for."""
+    result = verb('pin', '0', '9', '--to', '0.45', '0.35', '1.5', '--speed', '0.25')
+    assert (result.returncode, result.stdout) == (
+        0, 'node (0, 9) moves to (0.45, 0.35, 1.5) and arrives at 2 s\n')
+    result = verb('pin', '--near', '-0.4', '-0.35', '1', '--to', '-0.45', '0.35', '1.5')
+    assert (result.returncode, result.stdout) == (
+        0, 'node (0, 0) moves to (-0.45, 0.35, 1.5) and arrives at 0.5 s\n')
+    told = cloth.client.spin_until(lambda: cloth['inputs/pin_target'][1:], 'both are told')
+    assert told[0].speed == 1.0
+
+
 @pytest.mark.parametrize('arguments', [
-    ('5',), (), ('1', '2', '--near', '0', '0', '0'), ('-1', '0'), ('0', str(2**32)), ('8', '0')])
+    ('5',), (), ('1', '2', '--near', '0', '0', '0'), ('-1', '0'), ('0', str(2**32)), ('8', '0'),
+    ('0', '0', '--speed', '1'), ('0', '0', '--to', '0', '0', '1', '--speed', '0'),
+    ('5', '3', '--to', '0', '0', '1')])
 def test_tells_why_not(verb, cloth, arguments):
     """A mistyped node would be pinned as some other one, or end in a traceback."""
     result = verb('pin', *arguments)

@@ -114,7 +114,7 @@ def test_a_run_is_recorded(scene: Path, tmp_path: Path):
     times = [time for topic, time in messages if topic == '/cloth_sim/points']
     assert times == pytest.approx([frame * 0.02 for frame in range(11)])
     assert {topic for topic, _ in messages} >= {
-        '/cloth_sim/stats', '/cloth_sim/state', '/cloth_sim/topology',
+        '/cloth_sim/stats', '/cloth_sim/pins/wrenches', '/cloth_sim/state', '/cloth_sim/topology',
         '/cloth_sim/inputs/parameters', '/cloth_sim/inputs/push'}
 
 

@@ -15,8 +15,9 @@
 """The simulation modes: small objects that know the passes of one substep."""
 
 from cloth_sim_ros.sim.modes.adaptive import Adaptive
+from cloth_sim_ros.sim.modes.constraint import Constraint
 from cloth_sim_ros.sim.modes.mass_spring import MassSpring
 from cloth_sim_ros.sim.modes.mode import Mode
 
 AVAILABLE: dict[str, type[Mode]] = {
-    mode.name: mode for mode in (MassSpring, Adaptive)}
+    mode.name: mode for mode in (MassSpring, Constraint, Adaptive)}

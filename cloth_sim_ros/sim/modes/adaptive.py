@@ -31,6 +31,7 @@ from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.scene_fields import MOST_SUBSTEPS
 from cloth_sim_ros.sim.stability import stability_limit
 from cloth_sim_ros.sim.state import State
+import numpy as np
 
 # Of dt: a rest that is no substep any more.
 _NOTHING = 1e-9
@@ -96,6 +97,12 @@ class Adaptive:
     def limit_marks(self) -> Buffer | None:
         """Return which edges are at their limit; None if none are."""
         return None if self._marks.are_empty else self._marks.buffer
+
+    def tension(
+            self, positions: np.ndarray, velocities: np.ndarray,
+            nodes: np.ndarray | None = None) -> np.ndarray:
+        """Return the tension of every edge, of its spring and of what holds it [N]."""
+        return self._limit.tension(positions, velocities, nodes)
 
     def delete(self) -> None:
         """Give everything back."""

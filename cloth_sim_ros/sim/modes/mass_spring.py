@@ -21,8 +21,10 @@ from cloth_sim_ros.sim.modes.spring_substeps import spring_substeps
 from cloth_sim_ros.sim.modes.two_pass import TwoPass
 from cloth_sim_ros.sim.push_field import PushField
 from cloth_sim_ros.sim.scene import Scene
+from cloth_sim_ros.sim.spring_tension import spring_tension
 from cloth_sim_ros.sim.stability import stability_limit
 from cloth_sim_ros.sim.state import State
+import numpy as np
 
 
 class MassSpring:
@@ -32,6 +34,7 @@ class MassSpring:
 
     def __init__(self, scene: Scene, layout: Layout, *, check_stability: bool = True) -> None:
         """Choose the substeps and compile the passes."""
+        self._scene = scene
         self.stability_limit = stability_limit(scene)
         self.substeps = spring_substeps(scene, self.name, check_stability=check_stability)
         self._length: float = scene['dt'] / self.substeps
@@ -53,6 +56,12 @@ class MassSpring:
 
     def limit_marks(self) -> Buffer | None:
         """Return None: springs have no limit."""
+
+    def tension(
+            self, positions: np.ndarray, velocities: np.ndarray,
+            nodes: np.ndarray | None = None) -> np.ndarray:
+        """Return the tension of every spring at the present moment [N]."""
+        return spring_tension(self._scene, positions, velocities, nodes)
 
     def delete(self) -> None:
         """Give back what the passes allocated."""

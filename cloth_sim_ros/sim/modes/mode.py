@@ -21,6 +21,7 @@ from cloth_sim_ros.sim.layout import Layout
 from cloth_sim_ros.sim.push_field import PushField
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.state import State
+import numpy as np
 
 
 class Mode(Protocol):
@@ -54,6 +55,20 @@ class Mode(Protocol):
 
     def limit_marks(self) -> Buffer | None:
         """Return which edges are at their limit, as limit_mark.comp does; None if none are."""
+
+    def tension(
+            self, positions: np.ndarray, velocities: np.ndarray,
+            nodes: np.ndarray | None = None) -> np.ndarray:
+        """
+        Return the tension of every edge [N], (rows, cols, 6) float32 as in Snapshot.
+
+        What depends on the state is that of the present moment; what is solved for is that of
+        the last substep.
+
+        :param positions: of the present state, (rows, cols, 3) [m]
+        :param velocities: (rows, cols, 3) [m/s]
+        :param nodes: (n, 2) rows and columns: the edges at these nodes are enough
+        """
 
     def delete(self) -> None:
         """Give back what the mode allocated."""

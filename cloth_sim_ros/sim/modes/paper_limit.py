@@ -16,11 +16,14 @@
 
 from cloth_sim_ros.sim.forcing import Forcing
 from cloth_sim_ros.sim.layout import Layout
+from cloth_sim_ros.sim.modes.held_tension import read_held_tension
 from cloth_sim_ros.sim.modes.one_pass import OnePass
 from cloth_sim_ros.sim.modes.strain_watch import StrainWatch
 from cloth_sim_ros.sim.modes.sweeps import Sweeps
 from cloth_sim_ros.sim.scene import Scene
+from cloth_sim_ros.sim.spring_tension import spring_tension
 from cloth_sim_ros.sim.state import State
+import numpy as np
 
 # Enough for the linear system of a small cloth; the error falls by some 10 % a sweep.
 _SWEEPS = 60
@@ -41,6 +44,8 @@ class PaperLimit:
     def __init__(
             self, scene: Scene, layout: Layout, length: float, watch: StrainWatch) -> None:
         """Compile the passes."""
+        self._scene = scene
+        self._layout = layout
         self._limit: float = scene['adaptive.threshold']
         self._length = length
         self._watch = watch
@@ -65,6 +70,16 @@ class PaperLimit:
         self._sweeps.run(_SWEEPS, length, length)
         self._sweeps.finish(state, length)
         self._some_beyond = self._watch.strains(state, forcing, 0.0)[0] > self._limit
+
+    def tension(
+            self, positions: np.ndarray, velocities: np.ndarray,
+            nodes: np.ndarray | None = None) -> np.ndarray:
+        """Return what each edge was pulled back with in the last substep, or its spring's [N]."""
+        springs = spring_tension(self._scene, positions, velocities, nodes)
+        if self.is_idle:
+            return springs
+        held = read_held_tension(self._sweeps.tensions, self._layout)
+        return np.where(held == 0.0, springs, held)
 
     def forget(self) -> None:
         """Hold nothing, as at the start."""

@@ -19,6 +19,7 @@ from cloth_sim_ros.sim.layout import Layout
 from cloth_sim_ros.sim.modes.one_pass import OnePass
 from cloth_sim_ros.sim.modes.strain_watch import StrainWatch
 from cloth_sim_ros.sim.scene import Scene
+from cloth_sim_ros.sim.spring_tension import spring_tension
 from cloth_sim_ros.sim.stability import StiffenedLimit
 from cloth_sim_ros.sim.state import State
 import numpy as np
@@ -51,6 +52,7 @@ class PenaltyLimit:
             self, scene: Scene, layout: Layout, longest: float, watch: StrainWatch, *,
             fixed: bool) -> None:
         """Compile the pass."""
+        self._scene = scene
         self._limit: float = scene['adaptive.threshold']
         self._longest = longest
         self._fixed = fixed
@@ -82,6 +84,13 @@ class PenaltyLimit:
         self._springs.run(state, forcing, length, self._penalty)
         state.swap()
         self._adjust(*self._watch.strains(state, forcing, _AHEAD * length))
+
+    def tension(
+            self, positions: np.ndarray, velocities: np.ndarray,
+            nodes: np.ndarray | None = None) -> np.ndarray:
+        """Return the tension of every spring, as stiff as it is now beyond the limit [N]."""
+        return spring_tension(
+            self._scene, positions, velocities, nodes, penalty=self._penalty)
 
     def forget(self) -> None:
         """Give the springs their own stiffness."""

@@ -19,6 +19,7 @@ from typing import Protocol
 from cloth_sim_ros.gl.buffer import Buffer
 from cloth_sim_ros.sim.forcing import Forcing
 from cloth_sim_ros.sim.state import State
+import numpy as np
 
 
 class StrainLimit(Protocol):
@@ -39,6 +40,11 @@ class StrainLimit(Protocol):
 
     def substep(self, state: State, forcing: Forcing, length: float) -> None:
         """Step ``state`` on by ``length`` [s]."""
+
+    def tension(
+            self, positions: np.ndarray, velocities: np.ndarray,
+            nodes: np.ndarray | None = None) -> np.ndarray:
+        """Return the tension of every edge, of its spring and of what holds it, as modes do."""
 
     def forget(self) -> None:
         """Hold nothing, as at the start."""

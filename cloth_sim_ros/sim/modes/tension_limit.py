@@ -18,10 +18,13 @@ import math
 
 from cloth_sim_ros.sim.forcing import Forcing
 from cloth_sim_ros.sim.layout import Layout
+from cloth_sim_ros.sim.modes.held_tension import read_held_tension
 from cloth_sim_ros.sim.modes.one_pass import OnePass
 from cloth_sim_ros.sim.modes.sweeps import Sweeps
 from cloth_sim_ros.sim.scene import Scene
+from cloth_sim_ros.sim.spring_tension import spring_tension
 from cloth_sim_ros.sim.state import State
+import numpy as np
 
 # Substep over the one at which the pull of the tensions across the edges would blow up.
 _GEOMETRIC_SHARE = 0.15
@@ -47,6 +50,8 @@ class TensionLimit:
 
     def __init__(self, scene: Scene, layout: Layout, longest: float, *, fixed: bool) -> None:
         """Compile the passes and allocate the tensions."""
+        self._scene = scene
+        self._layout = layout
         self._node_mass = scene.node_mass
         self._longest = longest
         self._fixed = fixed
@@ -84,6 +89,15 @@ class TensionLimit:
             max(_LEAST_CORRECTION * min(1.0, length / self._usual), length / self._longest))
         self._usual += _USUAL_SHARE * (length - self._usual)
         self._pull = self._sweeps.finish(state, length)
+
+    def tension(
+            self, positions: np.ndarray, velocities: np.ndarray,
+            nodes: np.ndarray | None = None) -> np.ndarray:
+        """Return the tension of every spring, and what held its edge in the last substep [N]."""
+        springs = spring_tension(self._scene, positions, velocities, nodes)
+        if self.is_idle:
+            return springs
+        return springs + read_held_tension(self.tensions, self._layout)
 
     def forget(self) -> None:
         """Hold nothing, as at the start."""

@@ -14,6 +14,7 @@
 
 """What an edge weighs in the implicit step, and how hard it pulls back to its rest length."""
 
+from collections.abc import Collection
 from dataclasses import dataclass
 
 from cloth_sim_ros.sim.scene import FAMILIES
@@ -26,41 +27,75 @@ DELTA = 1e-3
 @dataclass(frozen=True)
 class EdgeLaw:
     """
-    The edges of one implicit step. All figures are over the node mass.
+    The edges of one implicit step. Tuples have a figure for each family, over the node mass.
 
     :param length: of the step [s]
-    :param weights: a of the matrix between two free nodes, for each family
-    :param pulls: of the right side, on the extension [1/s], for each family
-    :param pinned_weight: what an edge to a pinned node weighs and pulls, over one between two free
+    :param weights: a of the matrix between two free nodes
+    :param pulls: of the right side, on the extension [1/s]
+    :param pinned_weights: what an edge to a pinned node weighs and pulls, over one between two
+        free ones
+    :param keeps: share of the tension found so far that a further solve of the same step keeps:
+        1 for hard edges, whose tension is whatever it takes, 0 for springs
+    :param lags: damping over the length of the step [1/s2], 0 for hard edges
     """
 
     length: float
-    weights: tuple[float, float, float]
-    pulls: tuple[float, float, float]
-    pinned_weight: float
+    weights: tuple[float, ...]
+    pulls: tuple[float, ...]
+    pinned_weights: tuple[float, ...]
+    keeps: tuple[float, ...]
+    lags: tuple[float, ...]
 
     @property
     def largest_weight(self) -> float:
         """Return the weight of the heaviest edge."""
-        return max(self.weights) * max(self.pinned_weight, 1.0)
+        return max(
+            weight * max(factor, 1.0)
+            for weight, factor in zip(self.weights, self.pinned_weights))
+
+
+def edge_law(
+        scene: Scene, length: float, *, hard: Collection[str] = (),
+        springs: Collection[str] = FAMILIES, delta: float = DELTA) -> EdgeLaw:
+    """
+    Return the law of a step in which families of edges are hard, springs, or left out.
+
+    :param hard: keep their rest length: a = 1 / (delta (w_i + w_j))
+    :param springs: have the scene's stiffness and damping, taken implicitly: a = k h^2 + k_d h
+    :param delta: regularisation; 1 / delta is about the condition of the system
+    """
+    edges = []
+    for family in FAMILIES:
+        if family in hard:
+            edges.append(_hard(length, delta))
+        elif family in springs:
+            edges.append(_spring(scene, family, length))
+        else:
+            edges.append(_NO_EDGE)
+    return EdgeLaw(length, *zip(*edges))
 
 
 def implicit_springs(scene: Scene, length: float) -> EdgeLaw:
-    """Return the law of the scene's springs, taken implicitly: a = k h^2 + k_d h."""
-    stiffness = [scene.stiffness(family) / scene.node_mass for family in FAMILIES]
-    damping = [scene.damping(family) / scene.node_mass for family in FAMILIES]
-    return EdgeLaw(
-        length, tuple(length * (length * k + d) for k, d in zip(stiffness, damping)),
-        tuple(length * k for k in stiffness), 1.0)
+    """Return the law of the scene's springs, taken implicitly."""
+    return edge_law(scene, length)
 
 
 def hard_edges(
-        length: float, *, families: tuple[str, ...] = ('structural', 'shear'),
+        length: float, *, families: Collection[str] = ('structural', 'shear'),
         delta: float = DELTA) -> EdgeLaw:
-    """
-    Return the law of edges that keep their rest length: a = 1 / (delta (w_i + w_j)).
+    """Return the law of edges that keep their rest length, without the others."""
+    return EdgeLaw(length, *zip(*(
+        _hard(length, delta) if family in families else _NO_EDGE for family in FAMILIES)))
 
-    :param delta: regularisation; 1 / delta is about the condition of the system
-    """
-    weights = tuple(0.5 / delta if family in families else 0.0 for family in FAMILIES)
-    return EdgeLaw(length, weights, tuple(weight / length for weight in weights), 2.0)
+
+# Weight, pull, weight of pinned ones, keep and lag, as in EdgeLaw.
+_NO_EDGE = (0.0, 0.0, 1.0, 0.0, 0.0)
+
+
+def _hard(length: float, delta: float) -> tuple[float, ...]:
+    return 0.5 / delta, 0.5 / (delta * length), 2.0, 1.0, 0.0
+
+
+def _spring(scene: Scene, family: str, length: float) -> tuple[float, ...]:
+    k, d = (value / scene.node_mass for value in (scene.stiffness(family), scene.damping(family)))
+    return length * (length * k + d), length * k, 1.0, 0.0, d / length

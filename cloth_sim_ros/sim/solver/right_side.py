@@ -25,12 +25,21 @@ from cloth_sim_ros.sim.solver.solver_programs import SolverPrograms
 
 
 class RightSide:
-    """Runs right_side.comp, which has a form with and one without pushes on regions."""
+    """
+    Runs right_side.comp, which has a form with and one without pushes on regions.
+
+    :param foresees_turn: allow for how much longer edges get by turning
+    :param keeps_tension: begin the tension of each edge
+    :param has_lag: and what damping makes of its extension
+    """
 
     def __init__(
-            self, scene: Scene, state: Layout, programs: SolverPrograms, levels: Levels) -> None:
+            self, scene: Scene, state: Layout, programs: SolverPrograms, levels: Levels, *,
+            foresees_turn: bool, keeps_tension: bool, has_lag: bool) -> None:
         """Prepare; nothing is compiled yet."""
-        self._program = SceneProgram('solver/right_side.comp', scene, state, programs.defines)
+        self._program = SceneProgram('solver/right_side.comp', scene, state, {
+            **programs.defines, 'FORESEES_TURN': int(foresees_turn),
+            'KEEPS_TENSION': int(keeps_tension), 'HAS_LAG': int(has_lag)})
         self._groups = levels.cloth.groups
         self._law_in: dict[bool, EdgeLaw] = {}
 
@@ -39,7 +48,9 @@ class RightSide:
         program = self._program.use_for_step(forcing, law.length)
         if self._law_in.get(forcing.has_regions) != law:
             program.set_floats('edge_weights', law.weights)
+            program.set_floats('pinned_weights', law.pinned_weights)
             program.set_floats('edge_pulls', law.pulls)
+            program.set_floats('edge_lags', law.lags)
             self._law_in[forcing.has_regions] = law
         program.dispatch(*self._groups)
         shader_writes_visible()

@@ -37,6 +37,9 @@ from cloth_sim_ros.sim.solver.solver_pass import SolverPass
 from cloth_sim_ros.sim.solver.solver_programs import POINT_LOCAL
 from cloth_sim_ros.sim.solver.solver_programs import POINTS
 from cloth_sim_ros.sim.solver.solver_programs import SolverPrograms
+from cloth_sim_ros.sim.solver.tally import Tally
+from cloth_sim_ros.sim.solver.tally import TallyReport
+from cloth_sim_ros.sim.solver.tensions import Tensions
 from cloth_sim_ros.sim.state import State
 import numpy as np
 
@@ -52,12 +55,16 @@ class Solver:
     :param families: of the edges in the system; None takes those the scene models
     :param tolerance: sqrt((r, B r)) over that at the start, r the residual and B the
         preconditioner
+    :param foresees_turn: let the right side allow for how much longer edges get by turning
+    :param keeps_tension: find the tension of each edge; needed for further solves of a step
+    :param has_damping: further solves have edges with damping among them
     """
 
     def __init__(
             self, scene: Scene, state: Layout, *, families: tuple[str, ...] | None = None,
             preconditioner: str = 'multigrid', tolerance: float = 1e-2,
-            max_iterations: int = 20) -> None:
+            max_iterations: int = 20, foresees_turn: bool = False,
+            keeps_tension: bool = False, has_damping: bool = False) -> None:
         """Compile the passes and allocate the buffers."""
         if families is None:
             families = tuple(family for family in FAMILIES if scene.models(family))
@@ -65,9 +72,14 @@ class Solver:
         levels = Levels(state, coarsen=kind.is_multigrid)
         self._programs = SolverPrograms(
             state, levels, families, is_multigrid=kind.is_multigrid)
-        self._right_side = RightSide(scene, state, self._programs, levels)
+        self._right_side = RightSide(
+            scene, state, self._programs, levels, foresees_turn=foresees_turn,
+            keeps_tension=keeps_tension, has_lag=has_damping)
+        self._tensions = Tensions(
+            scene, self._programs, levels, has_lag=has_damping) if keeps_tension else None
+        self._tally = Tally(self._programs, tolerance)
         self._preconditioner = kind(self._programs, levels)
-        self._max_iterations = max_iterations
+        self._iterations = max_iterations
         self._tolerance = tolerance
         self._law: EdgeLaw | None = None
         self._compile(levels)
@@ -78,6 +90,10 @@ class Solver:
             self._law = law
             self._programs.set_law(law)
             self._preconditioner.set_law(law)
+
+    def submit(self, iterations: int) -> None:
+        """Let solves from now on stop after ``iterations`` in any case."""
+        self._iterations = iterations
 
     def assemble(self, state: State) -> None:
         """Take up positions and pins, and prepare the preconditioner."""
@@ -94,7 +110,17 @@ class Solver:
         """
         self._buffers.bind()
         state.bind_in()
+        if self._tensions is not None:
+            self._tensions.bind()
         self._right_side.run(self._law, forcing)
+
+    def make_later_right_side(self, state: State) -> None:
+        """Make b of what is left of each edge's law, after ``apply`` and another ``assemble``."""
+        self._buffers.bind()
+        # What the last step but one left there is where the nodes were before the first solve.
+        state.bind_out()
+        self._tensions.bind()
+        self._tensions.later_right_side.run()
 
     def set_right_side(self, values: np.ndarray) -> None:
         """Take (rows, cols, 3) ``values``, zero at pinned nodes, as b over the node mass [m/s]."""
@@ -110,16 +136,29 @@ class Solver:
         self._buffers.clear_scalars()
         self._begin.run()
         self._iterate(SolverPass.run)
-        for _ in range(self._max_iterations - 1):
+        for _ in range(self._iterations - 1):
             self._update.run_if_going()
             self._iterate(SolverPass.run_if_going)
         self._update.run()
+        self._tally.add()
+        if self._tensions is not None:
+            self._tensions.bind()
+            self._tensions.find.run()
 
-    def apply(self, state: State) -> None:
-        """Add the solution to the velocities and move the nodes for the length of the step."""
+    def apply(
+            self, state: State, *, further: bool = False,
+            common_change: tuple[float, float, float] = (0.0, 0.0, 0.0)) -> None:
+        """
+        Add the solution to the velocities and move the nodes for the length of the step.
+
+        :param further: True after ``make_later_right_side``: the nodes have moved before
+        :param common_change: of all velocities, besides the solution [m/s]
+        """
         self._buffers.bind()
         state.bind_in()
         state.bind_out()
+        self._apply.set_int('is_further', int(further))
+        self._apply.set_vectors('common_change', common_change)
         self._apply.run()
         state.swap()
 
@@ -134,6 +173,19 @@ class Solver:
         """Return dv [m/s], (rows, cols, 3) float32."""
         return self._buffers.read(SOLUTION)
 
+    @property
+    def tensions(self) -> Tensions | None:
+        """Return the tensions that the solves of the last step have found; None if not kept."""
+        return self._tensions
+
+    def clear_tally(self) -> None:
+        """Begin to count solves anew."""
+        self._tally.clear()
+
+    def tally(self) -> TallyReport:
+        """Return how the solves ended since then."""
+        return self._tally.report()
+
     def report(self) -> SolveReport:
         """Return how the last solve ended."""
         _, _, _, start, after, iterations = (float(value) for value in self._buffers.scalars())
@@ -143,6 +195,9 @@ class Solver:
     def delete(self) -> None:
         """Give the buffers back."""
         self._buffers.delete()
+        self._tally.delete()
+        if self._tensions is not None:
+            self._tensions.delete()
 
     def _iterate(self, run: Callable[[SolverPass], None]) -> None:
         for each in self._preconditioner.cycle:

@@ -14,6 +14,8 @@
 
 """One pass of the solver, and the list of workgroup counts that reduce.comp switches off."""
 
+from collections.abc import Sequence
+
 from cloth_sim_ros.gl.buffer import shader_writes_visible
 from cloth_sim_ros.gl.program import Program
 
@@ -34,6 +36,16 @@ class SolverPass:
         self._program = program
         self._level = level
         self._offset = 0
+
+    def set_int(self, name: str, value: int) -> None:
+        """Set an int uniform of the program."""
+        self._program.use()
+        self._program.set_int(name, value)
+
+    def set_vectors(self, name: str, vectors: Sequence[float]) -> None:
+        """Set a vec3 uniform of the program."""
+        self._program.use()
+        self._program.set_vectors(name, vectors)
 
     def switch(self, dispatches: list[tuple[int, int]]) -> None:
         """Take the pass's place in ``dispatches``, the workgroup counts that can be switched."""

@@ -60,7 +60,8 @@ class SolverPrograms:
         for program in self._compiled:
             program.use()
             program.set_floats('edge_weights', law.weights)
-            program.set_float('pinned_weight', law.pinned_weight)
+            program.set_floats('pinned_weights', law.pinned_weights)
+            program.set_floats('edge_keeps', law.keeps)
             program.set_float('substep', law.length)
 
 

@@ -34,6 +34,10 @@ int tile_index(ivec2 first, int row, int col) {
     return node_index(first.y + row - REACH, first.x + col - REACH);
 }
 
+bool is_in_block(int row, int col) {
+    return row >= REACH && row < REACH + BLOCK && col >= REACH && col < REACH + BLOCK;
+}
+
 // ADD(row, col, drow, dcol, family, rest)
 #if HAS_STRUCTURAL
 #define FOR_STRUCTURAL(ADD) \

@@ -14,18 +14,24 @@
 
 // How much an edge weighs in the matrix, over the node mass.
 
-uniform float edge_weights[3];  // structural, shear, bend
+uniform float edge_weights[3];    // structural, shear, bend
+uniform float pinned_weights[3];  // of an edge to a pinned node, over one between two free ones
 
 #define STRUCTURAL 0
 #define SHEAR 1
 #define BEND 2
 
-// The node's part in the weight of its edges stands in w: 0 for a ghost, 1 for a free node, and
-// for a pinned one minus what an edge to it weighs more than one between free nodes.
+// What a node is stands in w: 0 for a ghost, 1 for a free node, -1 for a pinned one.
 bool is_free(vec4 node) { return node.w > 0.0; }
 
+// 1 between two free nodes, 0 where none can move.
+float edge_share(vec4 from, vec4 to, int family) {
+    return max(from.w, 0.0) * max(to.w, 0.0)
+        + pinned_weights[family] * max(-from.w * to.w, 0.0);
+}
+
 float edge_weight(vec4 from, vec4 to, int family) {
-    return edge_weights[family] * abs(from.w * to.w);
+    return edge_weights[family] * edge_share(from, to, family);
 }
 
 // The weight over the square of the length of d = x_i - x_j.

@@ -36,7 +36,7 @@ uniform int level;
 
 // The system.
 #define INVERSE 0  // two fields: inverse of the node's diagonal block, zero where it can't move
-#define NODE 2     // level 0: position [m] and the node's part in the weight of its edges
+#define NODE 2     // level 0: position [m], and 1 where free, -1 where pinned
 #define GROUND 2   // coarse levels, two fields: mass, and what ties the node to pinned ones
 #define EDGES 4    // coarse levels, six fields: the tensors of the edges that begin here
 

@@ -16,7 +16,7 @@
 What the physics tests share: how a scene is run, and how a figure is held to its limit.
 
 A ground truth is written once. It runs for each mode it holds in and each way the shaders have
-of doing it; a new mode joins by its name in SPRING_MODES, or in a list of its own.
+of doing it; a new mode joins by its name in the lists below.
 """
 
 from collections.abc import Callable
@@ -29,8 +29,21 @@ import pytest
 # Modes whose motion is that of the springs as long as none of them is at its limit.
 SPRING_MODES = ('mass_spring', 'adaptive')
 
-# Those of them in which a spring may stretch without a limit.
+# All modes: for what holds whatever the edges do.
+ALL_MODES = (*SPRING_MODES, 'constraint')
+
+# Those in which a spring may stretch without a limit.
 UNLIMITED_MODES = ('mass_spring',)
+
+# Scenes that the forces of a cloth are tested in, by what each has to show. Every mode is here.
+# Sweeps enough for a limit at which a whole strip hangs: with few it goes on trembling.
+FORCE_SCENES = {
+    'mass_spring': {'mode': 'mass_spring'},
+    'adaptive within its limit': {'mode': 'adaptive'},
+    'adaptive at its limit': {
+        'mode': 'adaptive', 'adaptive.threshold': 0.02, 'adaptive.sweeps': 20},
+    'constraint': {'mode': 'constraint', 'solver.tolerance': 1e-4},
+}
 
 LAYOUTS = ('fused', 'paper')
 
@@ -41,16 +54,28 @@ def mode(request: pytest.FixtureRequest) -> str:
     return request.param
 
 
+@pytest.fixture(scope='session', params=ALL_MODES)
+def any_mode(request: pytest.FixtureRequest) -> str:
+    """Return each mode."""
+    return request.param
+
+
 @pytest.fixture(scope='session', params=UNLIMITED_MODES)
 def unlimited_mode(request: pytest.FixtureRequest) -> str:
     """Return each mode that moves as its springs do, however far they stretch."""
     return request.param
 
 
+@pytest.fixture(scope='session', params=FORCE_SCENES.values(), ids=FORCE_SCENES)
+def force_scene(request: pytest.FixtureRequest) -> dict:
+    """Return the values of each scene that forces are tested in."""
+    return request.param
+
+
 @pytest.fixture(scope='session')
 def tested_modes() -> frozenset[str]:
     """Return all modes these tests run in."""
-    return frozenset(SPRING_MODES)
+    return frozenset(ALL_MODES)
 
 
 @pytest.fixture(scope='session', params=LAYOUTS)

@@ -84,14 +84,14 @@ def test_pins_set_and_released_while_running(simulate, within, mode, layout):
            np.abs(snapshot.positions - oracle.positions).max(), 1e-5)
 
 
-def test_two_simulations_at_once(simulate, mode):
+def test_two_simulations_at_once(simulate, any_mode):
     """Two cloths of one process share a buffer or a context."""
-    alone = simulate({**VALUES, 'mode': mode})
+    alone = simulate({**VALUES, 'mode': any_mode})
     alone.advance(0.3)
     expected = alone.snapshot().state_sha256
     alone.close()
-    first = simulate({**VALUES, 'mode': mode})
-    second = simulate({**VALUES, 'mode': mode, 'rows': 5, 'gravity': [1.0, 2.0, 3.0]})
+    first = simulate({**VALUES, 'mode': any_mode})
+    second = simulate({**VALUES, 'mode': any_mode, 'rows': 5, 'gravity': [1.0, 2.0, 3.0]})
     for _ in range(10):
         first.advance(0.03)
         second.advance(0.03)

@@ -17,24 +17,24 @@
 import numpy as np
 import pytest
 
-NO_SPRINGS = {
+NO_EDGES = {'constraint.hard': [], **{
     f'{kind}.{family}': 0.0
-    for kind in ('stiffness', 'damping') for family in ('structural', 'shear', 'bend')}
+    for kind in ('stiffness', 'damping') for family in ('structural', 'shear', 'bend')}}
 
 
 def _values(mode, layout, dt):
     return {
-        **NO_SPRINGS, 'mode': mode, 'layout': layout, 'rows': 6, 'cols': 5, 'dt': dt,
+        **NO_EDGES, 'mode': mode, 'layout': layout, 'rows': 6, 'cols': 5, 'dt': dt,
         'pins': ['top_left'], 'node_mass': 0.01, 'gravity': [0.0, 0.0, 0.0],
         'auto_substeps': False}
 
 
 @pytest.mark.parametrize('dt', [0.03, 0.007, 0.5])
-def test_timed_push(simulate, within, mode, layout, dt):
+def test_timed_push(simulate, within, any_mode, layout, dt):
     """The impulse of a push in the scene depends on how its times fall between the steps."""
     force, duration = np.array([0.3, -0.2, 1.5]), 0.2
     simulation = simulate({
-        **_values(mode, layout, dt), 'pushes.start': [0.11], 'pushes.duration': [duration],
+        **_values(any_mode, layout, dt), 'pushes.start': [0.11], 'pushes.duration': [duration],
         'pushes.force': force.tolist()})
     simulation.advance(1.5)
     velocities = simulation.snapshot().velocities.astype(float)

@@ -36,7 +36,7 @@ from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.simulation import Simulation
 simulation = Simulation(Scene(json.loads(sys.argv[1])))
 for seconds, mode in json.loads(sys.argv[2]):
-    simulation.set_mode(mode)
+    simulation.set_mode(any_mode)
     simulation.push((0.0, 0.3, 0.5), start=simulation.time + 0.013, duration=0.04,
                     region='sphere', center=(0.1, 0.0, 1.0), radius=0.3)
     simulation.pin(5, 5)
@@ -45,12 +45,6 @@ for seconds, mode in json.loads(sys.argv[2]):
 simulation.advance(0.1)
 print(simulation.snapshot().state_sha256)
 """
-
-
-@pytest.fixture(params=modes.AVAILABLE)
-def mode(request: pytest.FixtureRequest) -> str:
-    """Return each mode there is."""
-    return request.param
 
 
 def _hash_of_a_process(values, spans=None, **environment):
@@ -63,40 +57,40 @@ def _hash_of_a_process(values, spans=None, **environment):
 
 
 @pytest.mark.parametrize('loads_and_block', [('auto', 0), ('texture', 1), ('storage', 2)])
-def test_two_processes_give_one_state(mode, loads_and_block):
+def test_two_processes_give_one_state(any_mode, loads_and_block):
     """A run depends on thread timing or on memory nobody wrote."""
     loads, block = loads_and_block
-    values = {**SCENE, 'mode': mode, 'loads': loads, 'block': block}
+    values = {**SCENE, 'mode': any_mode, 'loads': loads, 'block': block}
     assert _hash_of_a_process(values) == _hash_of_a_process(values)
 
 
-def test_paper_layout_too(mode):
+def test_paper_layout_too(any_mode):
     """The paper's layout depends on thread timing or on memory nobody wrote."""
-    values = {**SCENE, 'mode': mode, 'layout': 'paper'}
+    values = {**SCENE, 'mode': any_mode, 'layout': 'paper'}
     assert _hash_of_a_process(values) == _hash_of_a_process(values)
 
 
-def test_switches_and_pushes_at_fixed_times_too(mode):
+def test_switches_and_pushes_at_fixed_times_too(any_mode):
     """A mode keeps something of an earlier run or reads memory nobody wrote."""
-    values = {**LIMITED, 'mode': mode}
-    spans = [(0.12, mode)] + [(0.08, other) for other in (*modes.AVAILABLE, mode)]
+    values = {**LIMITED, 'mode': any_mode}
+    spans = [(0.12, any_mode)] + [(0.08, other) for other in (*modes.AVAILABLE, any_mode)]
     first = _hash_of_a_process(values, spans)
     assert first == _hash_of_a_process(values, spans)
     # The times of the switches are what counts.
-    spans[0] = (0.2, mode)
+    spans[0] = (0.2, any_mode)
     assert first != _hash_of_a_process(values, spans)
 
 
-def test_threads_do_not_show(mode):
+def test_threads_do_not_show(any_mode):
     """The number of the driver's threads changes the result."""
-    values = {**SCENE, 'mode': mode}
+    values = {**SCENE, 'mode': any_mode}
     assert _hash_of_a_process(values, LP_NUM_THREADS='0') == _hash_of_a_process(
         values, LP_NUM_THREADS='2')
 
 
-def test_reset_starts_the_same_run(simulate, mode, layout):
+def test_reset_starts_the_same_run(simulate, any_mode, layout):
     """Something of the run before a reset is left over."""
-    simulation = simulate({**SCENE, 'mode': mode, 'layout': layout})
+    simulation = simulate({**SCENE, 'mode': any_mode, 'layout': layout})
     start = simulation.snapshot().state_sha256
     simulation.advance(0.5)
     first = simulation.snapshot().state_sha256
@@ -110,16 +104,16 @@ def test_reset_starts_the_same_run(simulate, mode, layout):
     assert first != start
 
 
-def test_reset_forgets_what_a_mode_remembers(simulate, mode):
+def test_reset_forgets_what_a_mode_remembers(simulate, any_mode):
     """Warm starts of the run before would be left over, of this mode or another."""
-    simulation = simulate({**LIMITED, 'mode': mode})
+    simulation = simulate({**LIMITED, 'mode': any_mode})
     hashes = []
     for _ in range(2):
-        simulation.set_mode(mode)
+        simulation.set_mode(any_mode)
         simulation.advance(0.2)
         end = simulation.snapshot()
         hashes.append(end.state_sha256)
-        assert mode != 'adaptive' or end.active_constraints > 0, 'there is nothing to remember'
+        assert any_mode != 'adaptive' or end.active_constraints > 0, 'there is nothing to remember'
         for other in modes.AVAILABLE:
             simulation.set_mode(other)
             simulation.advance(0.05)
@@ -127,14 +121,14 @@ def test_reset_forgets_what_a_mode_remembers(simulate, mode):
     assert hashes[0] == hashes[1]
 
 
-def test_a_switch_and_back_leaves_the_state_alone(simulate, mode):
+def test_a_switch_and_back_leaves_the_state_alone(simulate, any_mode):
     """What a mode kept from before it was left would come back with it."""
     hashes = []
     for switches in (True, False):
-        simulation = simulate({**LIMITED, 'mode': mode})
+        simulation = simulate({**LIMITED, 'mode': any_mode})
         simulation.advance(0.2)
         if switches:
-            for other in (*modes.AVAILABLE, mode):
+            for other in (*modes.AVAILABLE, any_mode):
                 simulation.set_mode(other)
         else:
             # The mode knows nothing but the state, and not how it came to it.
@@ -145,11 +139,11 @@ def test_a_switch_and_back_leaves_the_state_alone(simulate, mode):
     assert hashes[0] == hashes[1]
 
 
-def test_pieces_make_the_same_run(simulate, mode, layout):
+def test_pieces_make_the_same_run(simulate, any_mode, layout):
     """Looking at the state, or advancing in pieces, changes it."""
-    whole = simulate({**SCENE, 'mode': mode, 'layout': layout})
+    whole = simulate({**SCENE, 'mode': any_mode, 'layout': layout})
     whole.advance(0.5)
-    pieces = simulate({**SCENE, 'mode': mode, 'layout': layout})
+    pieces = simulate({**SCENE, 'mode': any_mode, 'layout': layout})
     for _ in range(8):
         pieces.advance(0.0625)
         pieces.snapshot()

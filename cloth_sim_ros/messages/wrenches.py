@@ -1,0 +1,81 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""What each pin feels, as one message a pin, already in the bytes that go out."""
+
+import struct
+
+from cloth_sim_ros.messages.stamp import stamp
+from cloth_sim_ros.sim.snapshot import Snapshot
+from geometry_msgs.msg import Vector3
+from geometry_msgs.msg import Wrench
+from geometry_msgs.msg import WrenchStamped
+from rclpy.serialization import serialize_message
+from std_msgs.msg import Header
+
+# More would keep the node from stepping; subscribers must have room for all of a frame.
+MOST_PINS = 1024
+
+_STAMP = struct.Struct('<iI')
+_STAMP_AT = 4  # behind the encapsulation; the header is the first field
+_FORCE = struct.Struct('<3d')
+_MARK = (1.25, -2.5, 5e300)  # stands for the force when looking for its place
+
+
+class WrenchMessages:
+    """
+    WrenchStamped of each pin: the force of the cloth on its holder [N].
+
+    It is the opposite of Snapshot.pin_forces: what a force sensor in the gripper measures, with
+    the gripper's own weight taken off. A node is a point, so the torque is 0. The frame of a
+    message names the pin; its axes are parallel to those of ``frame_id``.
+
+    :param frame_id: frame of the positions
+    """
+
+    def __init__(self, frame_id: str) -> None:
+        """Serialise nothing yet: pins come and go."""
+        self._frame_id = frame_id
+        self._templates: dict[tuple[int, int], tuple[bytearray, int]] = {}
+
+    def serialise(self, snapshot: Snapshot) -> list[bytes]:
+        """Return the CDR bytes of each message of ``snapshot``, row by row of the pins."""
+        time = stamp(snapshot.time)
+        messages = []
+        held = snapshot.pin_forces
+        for node, force in zip(held.nodes.tolist(), (-held.forces).tolist()):
+            data, place = self._template(*node)
+            _STAMP.pack_into(data, _STAMP_AT, time.sec, time.nanosec)
+            _FORCE.pack_into(data, place, *force)
+            messages.append(bytes(data))
+        return messages
+
+    def _template(self, row: int, col: int) -> tuple[bytearray, int]:
+        """Return the message of a pin, and the place of its force."""
+        if (row, col) not in self._templates:
+            x, y, z = _MARK
+            data = serialize_message(WrenchStamped(
+                header=Header(frame_id=f'{self._frame_id}/pin_{row}_{col}'),
+                wrench=Wrench(force=Vector3(x=x, y=y, z=z))))
+            self._templates[row, col] = bytearray(data), data.index(_FORCE.pack(*_MARK))
+        return self._templates[row, col]
+
+
+def too_many_pins(pins: int) -> str:
+    """Return why ~/pins/wrenches stays silent with so many pins; empty when it does not."""
+    if pins <= MOST_PINS:
+        return ''
+    return (
+        f'~/pins/wrenches is for {MOST_PINS} pins or fewer and there are {pins}, so it stays '
+        'silent: release some, or set publish.wrenches: false')

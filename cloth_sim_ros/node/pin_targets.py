@@ -1,0 +1,78 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+
+"""Pins that are moved from outside: ~/move_pin, and a stream of targets on ~/pins/target."""
+
+from typing import Any
+
+from cloth_sim_interfaces.msg import PinTarget
+from cloth_sim_interfaces.srv import MovePin
+from cloth_sim_ros.node.answer import answer
+from cloth_sim_ros.node.frame_check import check_frame
+from cloth_sim_ros.node.inputs import Inputs
+from cloth_sim_ros.sim.errors import ClothSimError
+from cloth_sim_ros.sim.pin_path import PinPath
+from cloth_sim_ros.sim.simulation import Simulation
+from rclpy.node import Node
+
+# A controller at 1 kHz fills it in the time of a few frames.
+_DEPTH = 100
+
+
+class PinTargets:
+    """
+    Serve ~/move_pin and listen to ~/pins/target.
+
+    :param frame_id: of the cloth
+    """
+
+    def __init__(
+            self, node: Node, simulation: Simulation, inputs: Inputs, frame_id: str) -> None:
+        """Make the service and the subscription."""
+        self._node = node
+        self._simulation = simulation
+        self._inputs = inputs
+        self._frame_id = frame_id
+        node.create_service(MovePin, '~/move_pin', answer(self._on_request))
+        node.create_subscription(PinTarget, '~/pins/target', self._on_message, _DEPTH)
+
+    def _on_request(self, request: MovePin.Request, response: MovePin.Response) -> str:
+        row, col = request.row, request.col
+        if request.use_point:
+            row, col = self._simulation.nearest_pin(_parts(request.point))
+        response.row, response.col = row, col
+        response.arrival = self._move(row, col, request).arrival
+        x, y, z = _parts(request.target)
+        return (
+            f'node ({row}, {col}) moves to ({x:g}, {y:g}, {z:g}) and arrives at '
+            f'{response.arrival:g} s')
+
+    def _on_message(self, message: PinTarget) -> None:
+        try:
+            check_frame(message.header.frame_id, self._frame_id)
+            self._move(message.row, message.col, message)
+        except ClothSimError as error:
+            self._node.get_logger().warning(f'a message on ~/pins/target is ignored: {error}')
+
+    def _move(self, row: int, col: int, request: Any) -> PinPath:
+        # Fields that are not set are 0 in ROS: that speed means the usual one.
+        path = self._simulation.move_pin(
+            row, col, _parts(request.target), request.speed or None)
+        self._inputs.pin_target(path.move)
+        return path
+
+
+def _parts(point: Any) -> tuple[float, float, float]:
+    return (point.x, point.y, point.z)

@@ -1,0 +1,165 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Constraint enforcement: edges keep their length by tensions solved for in each substep."""
+
+from dataclasses import replace
+import math
+
+from cloth_sim_ros.gl.buffer import Buffer
+from cloth_sim_ros.sim.forcing import Forcing
+from cloth_sim_ros.sim.layout import Layout
+from cloth_sim_ros.sim.modes.free_motion import FreeMotion
+from cloth_sim_ros.sim.modes.turn_watch import TurnWatch
+from cloth_sim_ros.sim.push_field import PushField
+from cloth_sim_ros.sim.scene import FAMILIES
+from cloth_sim_ros.sim.scene import Scene
+from cloth_sim_ros.sim.solver.edge_law import edge_law
+from cloth_sim_ros.sim.solver.edge_law import EdgeLaw
+from cloth_sim_ros.sim.solver.solver import Solver
+from cloth_sim_ros.sim.state import State
+import numpy as np
+
+# Of a substep: rounding that is no reason for another one.
+_NOTHING = 1e-9
+# Iterations submitted in a dt, for each that a solve of the last dt has needed, and besides.
+_MORE, _AT_LEAST = 2, 10
+
+
+class Constraint:
+    """
+    The linearised step of docs/numerics_implicit.md; ``substeps`` are those of the last dt.
+
+    ``stability_limit`` [s] follows from the tensions of the last dt; it is a bound on the safe
+    side, infinite without any.
+    """
+
+    name = 'constraint'
+
+    def __init__(self, scene: Scene, layout: Layout, *, check_stability: bool = True) -> None:
+        """Compile the solver for the edges the scene asks for."""
+        self._scene = scene
+        self._dt: float = scene['dt']
+        self._most_iterations: int = scene['solver.max_iterations']
+        self._solves: int = scene['constraint.newton_iterations']
+        families = tuple(
+            family for family in FAMILIES if family in scene['constraint.hard']
+            or (family in scene['constraint.springs'] and scene.models(family)))
+        self._solver = Solver(
+            scene, layout, families=families, preconditioner=scene['solver.preconditioner'],
+            tolerance=scene['solver.tolerance'],
+            max_iterations=self._most_iterations,
+            foresees_turn=self._solves > 1, keeps_tension=True,
+            has_damping=any(
+                scene.damping(family) > 0.0 for family in scene['constraint.springs']))
+        self._watch = TurnWatch(scene, layout, families, self._solver.tensions)
+        self._free_motion = FreeMotion(scene, layout)
+        self.forget()
+
+    def step(self, state: State, begin: float, pushes: PushField) -> None:
+        """Step ``state`` on by one dt."""
+        self._submit_enough()
+        self._choose_substeps(state, pushes.forcing(begin, begin + self._dt))
+        length = self._dt / self.substeps
+        self._solver.set_law(self._law(length))
+        is_held = bool(state.pinned.any())
+        for substep in range(self.substeps):
+            start = begin + substep * length
+            forcing = pushes.forcing(start, start + length)
+            if is_held:
+                self._substep(state, forcing)
+            else:
+                self._free_motion.aim_at(state, forcing, pushes.still, length)
+                self._substep(state, *_split(forcing, length))
+                self._free_motion.restore(state, pushes.still, length)
+
+    def forget(self) -> None:
+        """Drop the tensions, which only serve to choose the next substeps."""
+        self.substeps = 1 if self._scene['auto_substeps'] else self._scene['substeps']
+        self.stability_limit = math.inf
+        self._solver.tensions.clear()
+        self._free_motion.forget()
+        self._solver.clear_tally()
+        self._solver.submit(self._most_iterations)
+
+    def report(self) -> dict[str, float]:
+        """Return how the solves of the last dt ended."""
+        tally = self._solver.tally()
+        return {
+            'solver_iterations': tally.most_iterations,
+            'solver_residual': tally.worst_residual,
+            'solver_reached': tally.unreached == 0,
+        }
+
+    def limit_marks(self) -> Buffer | None:
+        """Return None: an edge has no limit to come to, it is a constraint always."""
+
+    def tension(
+            self, positions: np.ndarray, velocities: np.ndarray,
+            nodes: np.ndarray | None = None) -> np.ndarray:
+        """Return what holds each edge in the last substep [N], the Lagrange multipliers."""
+        return self._solver.tensions.read()
+
+    def delete(self) -> None:
+        """Give everything back."""
+        self._solver.delete()
+        self._watch.delete()
+        self._free_motion.delete()
+
+    def _submit_enough(self) -> None:
+        # Iterations that the device then leaves out cost the host some time each, so there are
+        # not many more of them than the last dt has needed.
+        needed = self._solver.tally().most_iterations
+        if needed > 0:
+            self._solver.submit(
+                min(_MORE * needed + _AT_LEAST, self._most_iterations))
+        self._solver.clear_tally()
+
+    def _choose_substeps(self, state: State, forcing: Forcing) -> None:
+        turning, self.stability_limit = self._watch.longest_substeps(state, forcing, self._dt)
+        if self._scene['auto_substeps']:
+            wanted = self._dt / min(turning, self.stability_limit) - _NOTHING
+            most = self._scene['constraint.max_substeps']
+            # What is no number becomes the most, too.
+            self.substeps = max(1, math.ceil(wanted)) if wanted < most else most
+
+    def _law(self, length: float) -> EdgeLaw:
+        return edge_law(
+            self._scene, length, hard=self._scene['constraint.hard'],
+            springs=self._scene['constraint.springs'], delta=self._scene['constraint.delta'])
+
+    def _substep(
+            self, state: State, forcing: Forcing,
+            common_change: tuple[float, float, float] = (0.0, 0.0, 0.0)) -> None:
+        self._solver.assemble(state)
+        self._solver.make_right_side(state, forcing)
+        self._solver.solve()
+        self._solver.apply(state, common_change=common_change)
+        for _ in range(self._solves - 1):
+            self._solver.assemble(state)
+            self._solver.make_later_right_side(state)
+            self._solver.solve()
+            self._solver.apply(state, further=True)
+
+
+def _split(forcing: Forcing, length: float) -> tuple[Forcing, tuple[float, float, float]]:
+    """
+    Return what accelerates some nodes only, and what all velocities change by [m/s].
+
+    What moves a free cloth as a whole leaves its edges as they are, so the solver, which stops at
+    a residual, need not find it.
+    """
+    return (
+        replace(forcing, everywhere=(0.0, 0.0, 0.0)),
+        tuple(length * part for part in forcing.everywhere))

@@ -1,0 +1,72 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""How long a substep with edges of frozen direction may be."""
+
+import math
+
+from cloth_sim_ros.sim.forcing import Forcing
+from cloth_sim_ros.sim.layout import HALO
+from cloth_sim_ros.sim.layout import Layout
+from cloth_sim_ros.sim.scene import FAMILIES
+from cloth_sim_ros.sim.scene import Scene
+from cloth_sim_ros.sim.scene_program import SceneProgram
+from cloth_sim_ros.sim.solver.tensions import Tensions
+from cloth_sim_ros.sim.state import State
+from cloth_sim_ros.sim.strips import Strips
+
+# Of the length, lost by an edge that turns in one substep: (omega h)^2 / 2.
+_TURN = 0.005
+
+
+class TurnWatch:
+    """
+    Measures how fast edges turn and how tight they are; docs/numerics_implicit.md, Substeps.
+
+    :param families: of the edges that are looked at
+    """
+
+    def __init__(
+            self, scene: Scene, layout: Layout, families: tuple[str, ...],
+            tensions: Tensions) -> None:
+        """Allocate room for the result; nothing is compiled yet."""
+        self._tensions = tensions
+        self._strips = Strips(layout, 2)
+        self._program = SceneProgram('turn_watch.comp', scene, layout, {
+            **Strips.defines(),
+            **{f'HAS_{family.upper()}': int(family in families) for family in FAMILIES},
+            'STORED': tensions.cloth.stored,
+            'SOLVER_INDEX(row, col)':
+                f'(((row) + {HALO}) * {tensions.cloth.pitch} + (col) + {HALO})'})
+
+    def longest_substeps(
+            self, state: State, forcing: Forcing, dt: float) -> tuple[float, float]:
+        """
+        Return the longest substep [s] in which no edge turns too far, and the stable one.
+
+        :param forcing: that acts for ``dt`` [s] from now
+        """
+        program = self._program.use_for_step(forcing, dt)
+        state.bind_in()
+        self._tensions.bind()
+        self._strips.dispatch(program)
+        turns, pulls = (float(largest) for largest in self._strips.largest())
+        # Of the pulls 2 T / L0 at a node, which bound the largest eigenvalue of M^-1 K_geo.
+        return (
+            math.sqrt(2.0 * _TURN / turns) if turns > 0.0 else math.inf,
+            2.0 / math.sqrt(2.0 * pulls) if pulls > 0.0 else math.inf)
+
+    def delete(self) -> None:
+        """Give the room back."""
+        self._strips.delete()

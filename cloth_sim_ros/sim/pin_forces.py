@@ -1,0 +1,65 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""The forces that hold the pinned nodes."""
+
+from dataclasses import dataclass
+
+from cloth_sim_ros.sim.edge_kinds import EDGE_KINDS
+from cloth_sim_ros.sim.scene import Scene
+import numpy as np
+
+
+@dataclass(frozen=True)
+class PinForces:
+    """
+    What holds each pinned node, row by row.
+
+    :param nodes: its row and column, (pins, 2) int
+    :param forces: the force on the cloth [N], (pins, 3) float64; who holds it feels the opposite
+    """
+
+    nodes: np.ndarray
+    forces: np.ndarray
+
+
+def pin_forces(
+        scene: Scene, positions: np.ndarray, tension: np.ndarray, nodes: np.ndarray,
+        accelerations: np.ndarray | None = None) -> PinForces:
+    """
+    Return R = m (a - g) - (what the edges of a node pull it with) for each of ``nodes``.
+
+    The work grows with the nodes given, not with the cloth.
+
+    :param positions: (rows, cols, 3) [m]
+    :param tension: of every edge with an end in ``nodes`` [N], (rows, cols, 6) as in Snapshot
+    :param nodes: rows and columns of the pinned nodes, (pins, 2) int
+    :param accelerations: of the pinned nodes [m/s2], (pins, 3); by default they hold still
+    """
+    own = -np.array(scene['gravity']) if accelerations is None \
+        else accelerations - np.array(scene['gravity'])
+    forces = np.broadcast_to(scene.node_mass * own, (len(nodes), 3)).copy()
+    here = positions[tuple(nodes.T)].astype(float)
+    for kind in EDGE_KINDS:
+        offset = np.array((kind.drow, kind.dcol))
+        for starts, others in ((nodes, nodes + offset), (nodes - offset, nodes - offset)):
+            there = kind.starting_at(starts, scene.rows, scene.cols)
+            d = positions[tuple(others[there].T)] - here[there]
+            length = np.linalg.norm(d, axis=-1)
+            # An edge of no length has no direction: it pulls nowhere.
+            pull = np.divide(
+                tension[(*starts[there].T, kind.number)], length,
+                out=np.zeros_like(length), where=length > 0.0)
+            forces[there] -= pull[:, None] * d
+    return PinForces(nodes, forces)

@@ -1,0 +1,177 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+
+"""The pins of a run: which nodes they hold, and where they go."""
+
+from collections.abc import Sequence
+
+from cloth_sim_ros.sim.errors import ClothSimError
+from cloth_sim_ros.sim.pin_move import PinMove
+from cloth_sim_ros.sim.pin_path import PinPath
+from cloth_sim_ros.sim.pins import check_node
+from cloth_sim_ros.sim.scene import Scene
+from cloth_sim_ros.sim.state import State
+import numpy as np
+
+# Of a step: what is left of a way that counts as none.
+_NOTHING = 1e-9
+_REST = np.zeros(3)
+
+Node = tuple[int, int]
+# The moves to come, the ways under way, and the velocities on the device, of the last step, and of
+# the one before.
+KeptMotion = tuple[
+    list[PinMove], dict[Node, PinPath], dict[Node, np.ndarray], dict[Node, np.ndarray],
+    dict[Node, np.ndarray]]
+
+
+class PinMotion:
+    """
+    Gives moving pins their velocity before each step of dt, and their position after it.
+
+    All substeps of a step have the same velocity. A step in which a move begins or ends has the
+    one that leads to where the pin is at its end. Nothing is done while no pin moves.
+
+    :param scene: its timed moves begin at their times, where their nodes are pinned by then
+    """
+
+    def __init__(self, scene: Scene, state: State) -> None:
+        """Wait for the timed moves."""
+        self._scene = scene
+        self._state = state
+        self._waiting = sorted(scene.timed_pin_moves(), key=lambda move: move.start)
+        self._paths: dict[Node, PinPath] = {}
+        # What the state has now, and what pins had in the last step and in the one before.
+        self._on_device: dict[Node, np.ndarray] = {}
+        self._latest: dict[Node, np.ndarray] = {}
+        self._earlier: dict[Node, np.ndarray] = {}
+
+    @property
+    def under_way(self) -> tuple[PinMove, ...]:
+        """Return the moves that have begun and not ended."""
+        return tuple(path.move for path in self._paths.values())
+
+    def hold(self, row: int, col: int) -> None:
+        """Pin the node (row, col) where it is, at rest; a pin that moves stops."""
+        self._check_node(row, col)
+        self._stop((row, col))
+        self._state.set_pinned(row, col, True)
+
+    def release(self, row: int, col: int) -> None:
+        """Let the node (row, col) go, with the velocity its pin has."""
+        self._check_node(row, col)
+        for entries in (self._paths, self._on_device, self._latest, self._earlier):
+            entries.pop((row, col), None)
+        self._state.set_pinned(row, col, False)
+
+    def move(
+            self, row: int, col: int, target: Sequence[float], speed: float | None,
+            now: float) -> PinPath:
+        """
+        Begin to move the pin (row, col) ``now`` [s], in place of a move under way.
+
+        :param speed: [m/s]; None for the scene's pin_speed
+        :return: its way, which tells when it arrives
+        :raises ClothSimError: when the node is not pinned or a value is wrong
+        """
+        self._check_node(row, col)
+        if not self._state.pinned[row, col]:
+            raise ClothSimError(
+                f'node ({row}, {col}) is free and only a pin can be moved: pin it first')
+        move = PinMove.checked(
+            row=row, col=col, target=target, start=now,
+            speed=self._scene['pin_speed'] if speed is None else speed)
+        return self._start(move)
+
+    def drop(self) -> None:
+        """Forget the moves under way: the state was replaced, and its pins are at rest."""
+        for entries in (self._paths, self._on_device, self._latest, self._earlier):
+            entries.clear()
+
+    def begin_step(self, begin: float, end: float) -> None:
+        """Set the velocities of the step from ``begin`` to ``end`` [s]."""
+        self._earlier = self._latest
+        if not (self._paths or self._waiting):
+            self._latest = {}
+            return
+        places = {node: path.position(begin) for node, path in self._paths.items()}
+        while self._waiting and self._waiting[0].start < end:
+            move = self._waiting.pop(0)
+            if self._state.pinned[move.node]:
+                self._start(move)
+        self._latest = {
+            node: path.velocity(begin, end, places.get(node, path.position(path.begin)))
+            for node, path in self._paths.items()}
+        for node, velocity in self._latest.items():
+            self._set_velocity(node, velocity)
+
+    def end_step(self, begin: float, end: float) -> None:
+        """Put the pins where they are at ``end`` [s]; those at their target come to rest."""
+        nothing = _NOTHING * (end - begin)
+        for node, path in list(self._paths.items()):
+            arrives = path.arrival <= end + nothing
+            # Each substep has rounded its position to float32.
+            self._state.place_pin(*node, path.position(path.arrival if arrives else end))
+            if arrives:
+                self._stop(node)
+
+    def keep(self) -> KeptMotion:
+        """Return what ``restore`` needs to come back to this moment."""
+        return (
+            list(self._waiting), dict(self._paths), dict(self._on_device), dict(self._latest),
+            dict(self._earlier))
+
+    def restore(self, kept: KeptMotion) -> None:
+        """Go back to the moment of ``keep``, to which the state has gone back already."""
+        given_since = self._on_device
+        waiting, *entries = kept
+        self._waiting = list(waiting)
+        self._paths, self._on_device, self._latest, self._earlier = map(dict, entries)
+        # The first step after that moment gave its velocities to the state as it was then.
+        for node in given_since:
+            self._state.set_pin_velocity(*node, self._on_device.get(node, _REST))
+
+    def velocity_changes(self, nodes: np.ndarray) -> np.ndarray:
+        """
+        Return the velocity of pins in the last step less that in the step before [m/s].
+
+        :param nodes: their rows and columns, (pins, 2) int
+        :return: (pins, 3)
+        """
+        changes = np.zeros((len(nodes), 3))
+        if self._latest or self._earlier:
+            for change, node in zip(changes, map(tuple, nodes.tolist())):
+                change += self._latest.get(node, _REST) - self._earlier.get(node, _REST)
+        return changes
+
+    def _check_node(self, row: int, col: int) -> None:
+        check_node(row, col, self._scene.rows, self._scene.cols)
+
+    def _start(self, move: PinMove) -> PinPath:
+        path = self._paths.get(move.node)
+        origin = self._state.read_position(*move.node) if path is None else (
+            path.position(move.start))
+        self._paths[move.node] = PinPath(move, origin)
+        return self._paths[move.node]
+
+    def _stop(self, node: Node) -> None:
+        self._paths.pop(node, None)
+        self._set_velocity(node, _REST)
+
+    def _set_velocity(self, node: Node, velocity: np.ndarray) -> None:
+        # Each change is an edit, after which a mode has to look at the state anew.
+        if not np.array_equal(velocity, self._on_device.get(node, _REST)):
+            self._state.set_pin_velocity(*node, velocity)
+            self._on_device[node] = velocity

@@ -1,0 +1,69 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+
+"""A pin that goes from where it is to a point."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+import math
+
+from cloth_sim_ros.sim.errors import ClothSimError
+
+# Farther out float32 holds no cloth any more.
+_FARTHEST = 1e6
+_FASTEST = 1e6
+
+
+@dataclass(frozen=True)
+class PinMove:
+    """
+    A straight way at one speed, at the end of which the pin rests.
+
+    :param row: of the pinned node
+    :param col: of the pinned node
+    :param target: x y z [m]
+    :param speed: [m/s] in simulated time
+    :param start: simulated time at which it begins [s]
+    """
+
+    row: int
+    col: int
+    target: tuple[float, float, float]
+    speed: float
+    start: float
+
+    @classmethod
+    def checked(
+            cls, *, row: int, col: int, target: Sequence[float], speed: float,
+            start: float) -> 'PinMove':
+        """Return a PinMove, or raise ClothSimError saying which value is wrong."""
+        if len(target) != 3 or not all(math.isfinite(part) for part in target):
+            raise ClothSimError(
+                'the target of a pin must be 3 finite numbers [m], '
+                f'got {[float(part) for part in target]}')
+        if max(map(abs, target)) > _FARTHEST:
+            raise ClothSimError(
+                f'the target of a pin is at most {_FARTHEST:g} m along each axis, '
+                f'got {[float(part) for part in target]}: keep the cloth near the origin')
+        if not 0.0 < speed <= _FASTEST:
+            raise ClothSimError(
+                f'the speed of a pin must be above 0 and at most {_FASTEST:g} m/s, '
+                f'got {speed} m/s: give it in simulated time')
+        return cls(row, col, tuple(float(part) for part in target), float(speed), float(start))
+
+    @property
+    def node(self) -> tuple[int, int]:
+        """Return row and col."""
+        return self.row, self.col

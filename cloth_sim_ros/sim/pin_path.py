@@ -1,0 +1,58 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+
+"""Where a moving pin is at each time."""
+
+from cloth_sim_ros.sim.pin_move import PinMove
+import numpy as np
+
+
+class PinPath:
+    """
+    The way of one pin, in float64: nothing adds up, so it ends exactly at its target.
+
+    ``begin`` and ``arrival`` are simulated times [s].
+
+    :param move: what is to be done
+    :param origin: where the pin is when it begins [m], (3,)
+    """
+
+    def __init__(self, move: PinMove, origin: np.ndarray) -> None:
+        """Lay the way from ``origin`` to the target."""
+        self.move = move
+        self._origin = np.asarray(origin, dtype=float)
+        self._target = np.array(move.target)
+        way = self._target - self._origin
+        length = float(np.linalg.norm(way))
+        self.begin = move.start
+        self.arrival = move.start + length / move.speed
+        self._velocity = way * (move.speed / length) if length > 0.0 else np.zeros(3)
+
+    def position(self, time: float) -> np.ndarray:
+        """Return where the pin is at ``time`` [s], (3,) [m]."""
+        if time >= self.arrival:
+            return self._target
+        return self._origin + self._velocity * max(time - self.begin, 0.0)
+
+    def velocity(self, begin: float, end: float, at_begin: np.ndarray) -> np.ndarray:
+        """
+        Return what takes the pin from where it is at ``begin`` to where it is at ``end`` [m/s].
+
+        :param at_begin: where it is at ``begin`` [m]; on another way, if this one begins later
+        """
+        # On the way the velocity has the same bits in each step: only then has nothing changed.
+        if self.begin <= begin and end <= self.arrival:
+            return self._velocity
+        return (self.position(end) - at_begin) / (end - begin)

@@ -1,0 +1,71 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""How the solves of a step ended, gathered on the device."""
+
+from dataclasses import dataclass
+
+from cloth_sim_ros.gl.buffer import Buffer
+from cloth_sim_ros.sim import bindings
+from cloth_sim_ros.sim.solver.solver_pass import SolverPass
+from cloth_sim_ros.sim.solver.solver_programs import SolverPrograms
+import numpy as np
+
+_FIGURES = 3
+
+
+@dataclass(frozen=True)
+class TallyReport:
+    """
+    How the solves since the last clearing ended.
+
+    :param most_iterations: of a solve
+    :param worst_residual: as in SolveReport, of the worst solve
+    :param unreached: solves that stopped before the residual asked for
+    """
+
+    most_iterations: int
+    worst_residual: float
+    unreached: int
+
+
+class Tally:
+    """Runs tally.comp after each solve, so that none has to be waited for."""
+
+    def __init__(self, programs: SolverPrograms, tolerance: float) -> None:
+        """Compile the pass and allocate the figures."""
+        program = programs.make('tally.comp')
+        program.set_float('tolerance_square', tolerance**2)
+        self._pass = SolverPass(program, (1, 1))
+        self._buffer = Buffer(np.zeros(_FIGURES, dtype=np.float32))
+
+    def add(self) -> None:
+        """Count the solve whose scalars are bound."""
+        self._buffer.bind_storage(bindings.SOLVER_TALLY)
+        self._pass.run()
+
+    def clear(self) -> None:
+        """Forget all solves."""
+        self._buffer.write(np.zeros(_FIGURES, dtype=np.float32))
+
+    def report(self) -> TallyReport:
+        """Return how the solves ended."""
+        figures = np.empty(_FIGURES, dtype=np.float32)
+        self._buffer.read_into(figures)
+        iterations, worst_square, unreached = (float(figure) for figure in figures)
+        return TallyReport(int(iterations), worst_square**0.5, int(unreached))
+
+    def delete(self) -> None:
+        """Give the figures back."""
+        self._buffer.delete()

@@ -1,0 +1,58 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""The tension of springs, by the law that the shaders step them with."""
+
+from cloth_sim_ros.sim.edge_kinds import EDGE_KINDS
+from cloth_sim_ros.sim.scene import Scene
+import numpy as np
+
+# As in spring_law.glsl: two nodes in one place are this far apart [m].
+_LEAST_LENGTH = 1e-10
+
+
+def spring_tension(
+        scene: Scene, positions: np.ndarray, velocities: np.ndarray,
+        nodes: np.ndarray | None = None, *, penalty: float = 0.0) -> np.ndarray:
+    """
+    Return k (l - L0) + k_d dl/dt of every spring [N], (rows, cols, 6) float32; above 0 it pulls.
+
+    It is as exact as the positions are: some 1e-7 of k times a coordinate.
+
+    :param positions: (rows, cols, 3) [m]
+    :param velocities: (rows, cols, 3) [m/s]
+    :param nodes: (n, 2) rows and columns, for the springs at these nodes alone: the others are 0
+    :param penalty: stiffness that structural and shear springs gain beyond adaptive.threshold
+        [N/m]
+    """
+    tension = np.zeros((scene.rows, scene.cols, len(EDGE_KINDS)), dtype=np.float32)
+    for kind in EDGE_KINDS:
+        if not scene.models(kind.family):
+            continue
+        starts, ends = (
+            kind.everywhere(scene.rows, scene.cols) if nodes is None
+            else kind.touching(nodes, scene.rows, scene.cols))
+        d = positions[ends].astype(float) - positions[starts]
+        length = np.maximum(np.linalg.norm(d, axis=-1), _LEAST_LENGTH)
+        rest = kind.rest_length(scene)
+        stretch = length - rest
+        pull = scene.stiffness(kind.family) * stretch
+        if scene.damping(kind.family) > 0.0:
+            dv = velocities[ends].astype(float) - velocities[starts]
+            pull += scene.damping(kind.family) * np.sum(dv * d, axis=-1) / length
+        if penalty > 0.0 and kind.family != 'bend':
+            most = scene['adaptive.threshold'] * rest
+            pull += penalty * (stretch - np.clip(stretch, -most, most))
+        tension[(*starts, kind.number)] = pull
+    return tension

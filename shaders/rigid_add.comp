@@ -1,0 +1,42 @@
+// Copyright 2026 the cloth_sim_ros authors
+//
+// Licensed under the Apache License, Version 2.0 (the "License");
+// you may not use this file except in compliance with the License.
+// You may obtain a copy of the License at
+//
+//     http://www.apache.org/licenses/LICENSE-2.0
+//
+// Unless required by applicable law or agreed to in writing, software
+// distributed under the License is distributed on an "AS IS" BASIS,
+// WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+// See the License for the specific language governing permissions and
+// limitations under the License.
+
+#version 430 core
+// Add a rigid motion to a substep that has been made: to the velocities, and to the positions for
+// the length of the substep.
+
+#include "lattice.glsl"
+#include "state_in.glsl"
+#include "state_out.glsl"
+
+layout(local_size_x = LOCAL_X, local_size_y = LOCAL_Y) in;
+
+uniform float substep;  // [s]
+uniform vec3 centre;    // [m] that it turns about
+uniform vec3 velocity;  // [m/s]
+uniform vec3 turn;      // [1/s]
+
+void main() {
+    int col = int(gl_GlobalInvocationID.x);
+    int row = int(gl_GlobalInvocationID.y);
+    if (row >= ROWS || col >= COLS) {
+        return;
+    }
+    int index = node_index(row, col);
+    vec4 v = load_velocity(index);
+    vec4 x = load_position(index);
+    vec3 change = velocity + cross(turn, x.xyz - substep * v.xyz - centre);
+    velocity_out[index] = vec4(v.xyz + change, v.w);
+    position_out[index] = vec4(x.xyz + substep * change, x.w);
+}

@@ -1,0 +1,38 @@
+// Copyright 2026 the cloth_sim_ros authors
+//
+// Licensed under the Apache License, Version 2.0 (the "License");
+// you may not use this file except in compliance with the License.
+// You may obtain a copy of the License at
+//
+//     http://www.apache.org/licenses/LICENSE-2.0
+//
+// Unless required by applicable law or agreed to in writing, software
+// distributed under the License is distributed on an "AS IS" BASIS,
+// WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+// See the License for the specific language governing permissions and
+// limitations under the License.
+
+#version 430 core
+// Add how a solve ended to what is known of those before.
+
+layout(local_size_x = 1) in;
+
+#define SCALARS_ACCESS readonly
+#include "solver/scalars.glsl"
+
+layout(std430, binding = SOLVER_TALLY) buffer Tally {
+    float most_iterations;
+    float worst_residual;  // squared, relative
+    float unreached;
+};
+
+uniform float tolerance_square;
+
+void main() {
+    most_iterations = max(most_iterations, iterations);
+    float residual = measure_start > 0.0 ? measure_after / measure_start : measure_after;
+    // Written so that what is no number counts as not reached, and stays.
+    bool reached = residual <= tolerance_square;
+    unreached += reached ? 0.0 : 1.0;
+    worst_residual = residual <= worst_residual ? worst_residual : residual;
+}

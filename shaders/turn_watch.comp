@@ -1,0 +1,96 @@
+// Copyright 2026 the cloth_sim_ros authors
+//
+// Licensed under the Apache License, Version 2.0 (the "License");
+// you may not use this file except in compliance with the License.
+// You may obtain a copy of the License at
+//
+//     http://www.apache.org/licenses/LICENSE-2.0
+//
+// Unless required by applicable law or agreed to in writing, software
+// distributed under the License is distributed on an "AS IS" BASIS,
+// WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+// See the License for the specific language governing permissions and
+// limitations under the License.
+
+#version 430 core
+// How fast edges turn and how hard their tensions pull at a node: the largest of each, for each
+// invocation, which looks at STRIP nodes of a column. The reader takes the largest of them.
+
+#include "lattice.glsl"
+#include "state_in.glsl"
+#include "applied_acceleration.glsl"
+
+#define TENSION_ACCESS readonly
+#include "solver/tension.glsl"
+
+layout(local_size_x = LOCAL_X, local_size_y = LOCAL_Y) in;
+
+layout(std430, binding = PARTIAL_SUMS) writeonly buffer PartialSums { float partial_sums[]; };
+
+uniform float substep;         // [s] that the acceleration is foreseen for
+uniform float rest_length[5];  // [m] along a row, along a column, diagonal, two along each
+
+// The node after a substep of the applied acceleration, but where it is now.
+struct Node {
+    vec4 position;
+    vec3 velocity;
+};
+
+Node load_node(int row, int col) {
+    int index = node_index(row, col);
+    vec4 v = load_velocity(index);
+    return Node(load_position(index), v.xyz + v.w * substep * applied_acceleration(index));
+}
+
+// Square of the angular velocity, as if the edge had its rest length [1/s2].
+float turn(Node here, int row, int col, int drow, int dcol, int rest) {
+    Node there = load_node(row + drow, col + dcol);
+    vec3 d = there.position.xyz - here.position.xyz;
+    vec3 u = there.velocity - here.velocity;
+    vec3 across = u - (dot(u, d) / max(dot(d, d), 1e-20)) * d;
+    float present = there.position.w;
+    return present * dot(across, across) / (rest_length[rest] * rest_length[rest]);
+}
+
+// Tension over the rest length of the edge that begins here and of the one that ends here [1/s2].
+float pull(int row, int col, int drow, int dcol, int rest) {
+    int index = SOLVER_INDEX(row, col);
+    int behind = SOLVER_INDEX(row - drow, col - dcol);
+    float begins = max(tension[tension_entry(TENSION_FOUND, index, drow, dcol)], 0.0);
+    float ends = max(tension[tension_entry(TENSION_FOUND, behind, drow, dcol)], 0.0);
+    return (begins + ends) / rest_length[rest];
+}
+
+#define LOOK(DROW, DCOL, REST) \
+    turns = max(turns, turn(here, row, col, DROW, DCOL, REST)); \
+    pulls += pull(row, col, DROW, DCOL, REST);
+
+void main() {
+    int col = int(gl_GlobalInvocationID.x);
+    int strip = int(gl_GlobalInvocationID.y);
+    int first = strip * STRIP;
+    if (first >= ROWS || col >= COLS) {
+        return;
+    }
+    float turns = 0.0;
+    float most_pulls = 0.0;
+    for (int row = first; row < min(first + STRIP, ROWS); ++row) {
+        Node here = load_node(row, col);
+        float pulls = 0.0;
+#if HAS_STRUCTURAL
+        LOOK(0, 1, 0)
+        LOOK(1, 0, 1)
+#endif
+#if HAS_SHEAR
+        LOOK(1, 1, 2)
+        LOOK(1, -1, 2)
+#endif
+#if HAS_BEND
+        LOOK(0, 2, 3)
+        LOOK(2, 0, 4)
+#endif
+        most_pulls = max(most_pulls, load_velocity(node_index(row, col)).w * pulls);
+    }
+    partial_sums[2 * (strip * COLS + col)] = turns;
+    partial_sums[2 * (strip * COLS + col) + 1] = most_pulls;
+}

@@ -1,0 +1,65 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""What each pin feels, decoded."""
+
+from cloth_sim_ros.messages.wrenches import MOST_PINS
+from cloth_sim_ros.messages.wrenches import too_many_pins
+from cloth_sim_ros.messages.wrenches import WrenchMessages
+from cloth_sim_ros.sim.pin_forces import PinForces
+from geometry_msgs.msg import WrenchStamped
+from made_snapshot import make_snapshot
+import numpy as np
+import pytest
+from rclpy.serialization import deserialize_message
+
+
+def decode(nodes, forces):
+    """Return the messages of a snapshot with these forces at these nodes."""
+    held = PinForces(np.array(nodes, dtype=int).reshape(-1, 2), np.reshape(forces, (-1, 3)))
+    messages = WrenchMessages('world')
+    # Whatever was sent before must not be left in them.
+    messages.serialise(make_snapshot(3, 4, pin_forces=PinForces(held.nodes, 7.0 + held.forces)))
+    return [
+        deserialize_message(data, WrenchStamped)
+        for data in messages.serialise(make_snapshot(3, 4, pin_forces=held))]
+
+
+def test_each_pin_has_its_own_message():
+    """A gripper would read the force of another one."""
+    messages = decode([(0, 0), (2, 3)], [[1.0, 2.0, 3.0], [4.0, 5.0, 6.0]])
+    assert [message.header.frame_id for message in messages] == ['world/pin_0_0', 'world/pin_2_3']
+    assert {(message.header.stamp.sec, message.header.stamp.nanosec)
+            for message in messages} == {(1, 250000000)}
+
+
+def test_a_holder_feels_the_opposite_of_what_it_holds_with():
+    """A gripper that holds a weight would feel itself pulled up."""
+    message, = decode([(1, 1)], [[0.5, -0.25, 9.81]])
+    force, torque = message.wrench.force, message.wrench.torque
+    assert (force.x, force.y, force.z) == (-0.5, 0.25, -9.81)
+    assert (torque.x, torque.y, torque.z) == (0.0, 0.0, 0.0)
+
+
+def test_a_cloth_without_pins_has_no_messages():
+    """A wrench of nothing would be published."""
+    assert decode([], []) == []
+
+
+@pytest.mark.parametrize(('pins', 'told'), [(0, False), (MOST_PINS, False), (MOST_PINS + 1, True)])
+def test_too_many_pins_are_told_with_a_way_out(pins, told):
+    """The topic would be silent without a word."""
+    reason = too_many_pins(pins)
+    assert bool(reason) == told
+    assert not told or (str(pins) in reason and 'publish.wrenches: false' in reason)

@@ -1,0 +1,152 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+
+"""Pins that are moved by service and by a stream of targets."""
+
+from pathlib import Path
+
+from cloth_sim_interfaces.msg import PinTarget
+from cloth_sim_interfaces.srv import MovePin
+from cloth_sim_interfaces.srv import SetPin
+from cloth_sim_interfaces.srv import StartRecording
+from cloth_sim_interfaces.srv import Step
+from cloth_sim_ros.sim.snapshot import FLAG_PINNED
+from geometry_msgs.msg import Point
+import numpy as np
+import pytest
+from recorded import Recorded
+from std_msgs.msg import Header
+from std_srvs.srv import Trigger
+
+NAN, INF = float('nan'), float('inf')
+TARGET = Point(x=-0.4, y=0.35, z=1.2)
+BAD = {
+    'a free node': ({'row': 5, 'col': 3}, 'node (5, 3) is free and only a pin can be moved'),
+    'a node outside': ({'row': 2**32 - 1}, '0 to 7'),
+    'a target that is no number': ({'target': Point(x=NAN)}, '3 finite numbers'),
+    'an infinite target': ({'target': Point(z=-INF)}, '3 finite numbers'),
+    'a negative speed': ({'speed': -0.5}, 'speed of a pin must be above 0'),
+    'a speed that is no number': ({'speed': NAN}, 'speed of a pin must be above 0'),
+    'an infinite speed': ({'speed': INF}, 'speed of a pin must be above 0'),
+}
+
+
+def test_moves_a_pin(cloth, simulation):
+    """A pin would go elsewhere or at another speed, or the recording would not know."""
+    cloth.call(Step, 'step', steps=3)
+    simulation.step(3)
+    response = cloth.call(MovePin, 'move_pin', row=0, col=0, target=TARGET, speed=0.6)
+    path = simulation.move_pin(0, 0, (-0.4, 0.35, 1.2), 0.6)
+    assert (response.success, response.row, response.col) == (True, 0, 0)
+    assert response.arrival == path.arrival
+    told = cloth.wait_for('inputs/pin_target')
+    assert (told.row, told.col, told.target, told.speed) == (0, 0, TARGET, 0.6)
+    assert (cloth.steps_of(told), told.header.frame_id) == (3, 'world')
+    cloth.call(Step, 'step', steps=100)
+    simulation.step(100)
+    points = cloth.frame(103)
+    assert points.tobytes() == simulation.snapshot().records.tobytes()
+    assert points['z'][0, 0] == np.float32(1.2)
+    assert points['flags'][0, 0] & FLAG_PINNED
+
+
+def test_takes_the_usual_speed_and_the_nearest_pin(cloth):
+    """A request without a speed would be refused, or one by point move a node that is free."""
+    response = cloth.call(
+        MovePin, 'move_pin', use_point=True, point=Point(x=0.1, y=-0.35, z=1.0),
+        target=Point(x=0.45, y=0.35, z=1.5))
+    assert (response.success, response.row, response.col) == (True, 0, 9)
+    assert response.arrival == pytest.approx(0.5)
+    assert cloth.wait_for('inputs/pin_target').speed == 1.0
+
+
+@pytest.mark.parametrize('case', BAD)
+def test_refuses_nonsense(cloth, case):
+    """A bad target would be taken, and end as a cloth that is no number."""
+    change, reason = BAD[case]
+    response = cloth.call(
+        MovePin, 'move_pin', **{'row': 0, 'col': 0, 'target': TARGET, 'speed': 1.0, **change})
+    assert not response.success
+    assert reason in response.message
+    assert not cloth['inputs/pin_target']
+
+
+def test_says_that_there_is_no_pin(cloth):
+    """A request by point would move a node that nobody holds."""
+    for col in (0, 9):
+        cloth.call(SetPin, 'set_pin', row=0, col=col, release=True)
+    response = cloth.call(MovePin, 'move_pin', use_point=True, target=TARGET)
+    assert not response.success
+    assert 'pin a node first' in response.message
+
+
+def test_a_stream_of_targets_is_followed(cloth, simulation):
+    """A controller's targets would be lost, or taken from a foreign frame, or bad ones taken."""
+    publisher = cloth.client.node.create_publisher(PinTarget, f'{cloth.name}/pins/target', 100)
+    cloth.client.spin_until(publisher.get_subscription_count, 'the node listens')
+    for change, _ in BAD.values():
+        publisher.publish(PinTarget(**{'target': TARGET, 'speed': 1.0, **change}))
+    publisher.publish(PinTarget(header=Header(frame_id='tool0'), target=TARGET))
+    for step in range(10):
+        turn = 0.4 * (step + 1)
+        x, z = -0.45 + 0.05 * np.sin(turn), 1.05 - 0.05 * np.cos(turn)
+        publisher.publish(PinTarget(
+            header=Header(frame_id='world' if step % 2 else ''), target=Point(x=x, y=0.35, z=z),
+            speed=4.0))
+        cloth.client.spin_until(
+            lambda: len(cloth['inputs/pin_target']) == step + 1, 'the target is taken')
+        assert cloth.call(Step, 'step', steps=2).success
+        simulation.move_pin(0, 0, (x, 0.35, z), 4.0)
+        simulation.step(2)
+    assert cloth.frame(20).tobytes() == simulation.snapshot().records.tobytes()
+    cloth.client.node.destroy_publisher(publisher)
+
+
+def test_a_recorded_run_can_be_made_again(cloth, simulation):
+    """A recording would not have all that moved the pins, or not when."""
+    path = Path(cloth.call(StartRecording, 'start_recording').path)
+    for step, (col, z) in enumerate([(0, 1.2), (9, 0.9), (0, 1.0), (5, 1.4), (9, 1.3)]):
+        if col == 5:
+            cloth.call(SetPin, 'set_pin', row=0, col=col)
+        assert cloth.call(
+            MovePin, 'move_pin', row=0, col=col, target=Point(x=0.1 * col - 0.45, z=z),
+            speed=1.0 + 0.3 * step).success
+        cloth.call(Step, 'step', steps=7)
+    cloth.call(Trigger, 'stop_recording')
+    bag = Recorded(path)
+    targets, pins = bag.messages('inputs/pin_target'), bag.messages('inputs/pin')
+    assert len(targets) == 5
+    for step in range(35):
+        for pin in pins:
+            if cloth.steps_of(pin) == step:
+                simulation.pin(pin.row, pin.col)
+        for told in targets:
+            if cloth.steps_of(told) == step:
+                simulation.move_pin(
+                    told.row, told.col, (told.target.x, told.target.y, told.target.z),
+                    told.speed)
+        simulation.step()
+    assert cloth.frame(35).tobytes() == simulation.snapshot().records.tobytes()
+
+
+def test_a_reset_ends_the_moves(cloth, simulation):
+    """A pin would go on to the target of the run before."""
+    assert cloth.call(MovePin, 'move_pin', target=TARGET).success
+    cloth.call(Step, 'step', steps=3)
+    cloth.call(Trigger, 'reset')
+    cloth.clear()
+    cloth.call(Step, 'step', steps=10)
+    simulation.step(10)
+    assert cloth.frame(10).tobytes() == simulation.snapshot().records.tobytes()

@@ -1,0 +1,88 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""What the pins feel, against a simulation without a node on the same device."""
+
+from pathlib import Path
+
+from cloth_sim_interfaces.srv import SetPin
+from cloth_sim_interfaces.srv import StartRecording
+from cloth_sim_interfaces.srv import Step
+from cloth_under_test import PAUSED
+from geometry_msgs.msg import WrenchStamped
+from node_process import NodeProcess
+from recorded import Recorded
+from std_srvs.srv import Trigger
+
+KEY = 'pins/wrenches'
+
+
+def forces_of(messages):
+    """Return the force of each message by its frame."""
+    vectors = {message.header.frame_id: message.wrench.force for message in messages}
+    return {frame: (force.x, force.y, force.z) for frame, force in vectors.items()}
+
+
+def expected_forces(simulation):
+    """Return the force that each holder of the simulation's cloth feels, by its frame."""
+    held = simulation.snapshot(pin_forces=True).pin_forces
+    return {
+        f'world/pin_{row}_{col}': tuple(-part for part in force)
+        for (row, col), force in zip(held.nodes.tolist(), held.forces.tolist())}
+
+
+def test_each_holder_feels_its_pin(cloth, simulation):
+    """A gripper would read another force than it holds with, or one of another time."""
+    assert cloth.call(SetPin, 'set_pin', row=3, col=4).success
+    assert cloth.call(Step, 'step', steps=20).success
+    cloth.client.spin_until(
+        lambda: sum(cloth.steps_of(message) == 20 for message in cloth[KEY]) >= 3,
+        'a wrench for each of three pins')
+    simulation.pin(3, 4)
+    simulation.step(20)
+    told = forces_of(message for message in cloth[KEY] if cloth.steps_of(message) == 20)
+    assert set(told) == {'world/pin_0_0', 'world/pin_0_9', 'world/pin_3_4'}
+    assert told == expected_forces(simulation)
+
+
+def test_a_recording_has_them(cloth):
+    """What a robot would have felt could not be looked up afterwards."""
+    path = Path(cloth.call(StartRecording, 'start_recording', name='').path)
+    assert cloth.call(Step, 'step', steps=8).success
+    assert cloth.call(Trigger, 'stop_recording').success
+    recorded = Recorded(path).messages(KEY)
+    assert [cloth.steps_of(message) for message in recorded] == [0, 0, 8, 8]
+    published = [message for message in cloth[KEY] if cloth.steps_of(message) == 8]
+    assert forces_of(recorded[2:]) == forces_of(published)
+
+
+def test_the_parameter_turns_them_off_and_on(cloth):
+    """A topic nobody wants would still cost time, or could not be had back."""
+    assert cloth.set_parameters(publish__wrenches=False).successful
+    assert cloth.call(Step, 'step', steps=2).success
+    cloth.frame(2)
+    assert cloth.set_parameters(publish__wrenches=True).successful
+    assert cloth.call(Step, 'step', steps=2).success
+    cloth.wait_for(KEY, lambda message: cloth.steps_of(message) == 4)
+    assert all(cloth.steps_of(message) != 2 for message in cloth[KEY])
+
+
+def test_too_many_pins_are_told_and_not_sent(client, tmp_path):
+    """A cloth that is pinned all over would bring its node to a stand, or be silent unasked."""
+    scene = {**PAUSED, 'rows': 33, 'cols': 33, 'pins': ['all']}
+    with NodeProcess(tmp_path, scene, '-r', '__ns:=/many_pins') as node:
+        watch = client.watch(WrenchStamped, '/many_pins/cloth_sim/pins/wrenches')
+        client.spin_until(lambda: 'so it stays silent' in node.output, 'the warning')
+        assert not watch.messages
+    assert node.output.count('so it stays silent') == 1

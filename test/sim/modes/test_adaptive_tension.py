@@ -1,0 +1,101 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""The tensions of the adaptive mode are what moves its nodes, to the digit."""
+
+from contextlib import closing
+
+from cloth_sim_ros.sim.edge_kinds import EDGE_KINDS
+from cloth_sim_ros.sim.scene import Scene
+from cloth_sim_ros.sim.simulation import Simulation
+from cloth_sim_ros.sim.spring_tension import spring_tension
+import numpy as np
+import pytest
+
+ROWS, COLS = 8, 6
+# A limit that is passed soon, and one substep, so that two looks have all that happens between.
+SCENE = {
+    'mode': 'adaptive', 'rows': ROWS, 'cols': COLS, 'adaptive.threshold': 0.03, 'dt': 2e-3,
+    'auto_substeps': False, 'stiffness.structural': 20.0, 'stiffness.shear': 15.0,
+    'stiffness.bend': 2.0, 'pins': ['top_left', 'top_right', '4,3']}
+
+
+def pull_on_nodes(positions, tension):
+    """Return the sum of what the edges of each node pull it with [N]."""
+    total = np.zeros((ROWS, COLS, 3))
+    for kind in EDGE_KINDS:
+        starts, ends = kind.everywhere(ROWS, COLS)
+        d = positions[ends].astype(float) - positions[starts]
+        pull = tension[(*starts, kind.number)] / np.linalg.norm(d, axis=-1)
+        total[starts] += pull[..., None] * d
+        total[ends] -= pull[..., None] * d
+    return total
+
+
+def springs_of(scene, look):
+    """Return the tension of the springs alone."""
+    return spring_tension(scene, look.positions, look.velocities)
+
+
+def constraint_pull(scene, before, after):
+    """Return the springs at the start of a step with what held the edges in it."""
+    return springs_of(scene, before) + after.tension - springs_of(scene, after)
+
+
+def penalty_pull(scene, before, after):
+    """Return the springs at the start of a step, as stiff as they were then."""
+    return before.tension
+
+
+def paper_pull(scene, before, after):
+    """Return what pulled edges back in a step, and the springs where nothing did."""
+    held = after.tension != springs_of(scene, after)
+    return np.where(held, after.tension, springs_of(scene, before))
+
+
+@pytest.mark.parametrize(('scheme', 'dt', 'pull'), [
+    ('constraint', 2e-3, constraint_pull), ('penalty', 3e-4, penalty_pull),
+    ('paper', 2e-3, paper_pull)])
+def test_tensions_are_what_moves_the_nodes(scheme, dt, pull):
+    """A tension would be told of another edge than the one that is held, or be another force."""
+    scene = Scene({**SCENE, 'adaptive.scheme': scheme, 'dt': dt})
+    with closing(Simulation(scene)) as simulation:
+        simulation.advance(0.35)
+        for _ in range(5):
+            before = simulation.snapshot(tension=True)
+            simulation.step()
+            after = simulation.snapshot(tension=True)
+            assert after.substeps == 1
+            # Beyond the springs' own, on both diagonals too.
+            held = after.tension != springs_of(scene, after)
+            assert held[..., :4].any(axis=(0, 1)).all() and not held[..., 4:].any()
+            force = pull_on_nodes(before.positions, pull(scene, before, after))
+            force += scene.node_mass * np.array(scene['gravity'])
+            gained = scene.node_mass / dt * (
+                after.velocities.astype(float) - before.velocities)
+            free = ~scene.pinned_nodes()
+            np.testing.assert_allclose(
+                gained[free], force[free], rtol=0.0, atol=1e-4 * np.abs(force).max())
+
+
+@pytest.mark.parametrize('scheme', ['constraint', 'penalty', 'paper'])
+def test_a_cloth_within_its_limit_has_the_tension_of_its_springs(scheme):
+    """What held an edge long ago would still be told, or what another mode left."""
+    scene = Scene({**SCENE, 'adaptive.scheme': scheme})
+    with closing(Simulation(scene)) as simulation:
+        simulation.advance(0.35)
+        for look in (simulation.reset, lambda: simulation.set_mode('mass_spring')):
+            look()
+            snapshot = simulation.snapshot(tension=True)
+            assert np.array_equal(snapshot.tension, springs_of(scene, snapshot))

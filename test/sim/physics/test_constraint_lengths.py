@@ -1,0 +1,56 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""How well the constraint mode keeps lengths in the paper's scene, pushed with 5 g."""
+
+from cloth_sim_ros.study.limit_scenes import paper_scene
+import pytest
+
+_METHOD_OF_THE_PAPER = {
+    'constraint.newton_iterations': 1, 'auto_substeps': False, 'solver.tolerance': 1e-4}
+
+
+def _violation(simulate, dt, **values):
+    """Return the largest violation at the end of any dt in 10 s."""
+    simulation = simulate(paper_scene(5.0, dt, mode='constraint', **values))
+    violation, energy, substeps = 0.0, 0.0, 0
+    for _ in range(round(10.0 / dt)):
+        simulation.step()
+        measures = simulation.measure()
+        violation = max(violation, measures.max_strain)
+        energy = max(energy, measures.kinetic_energy)
+        substeps += simulation.substeps
+    print(f'measured: dt {dt} {values} violation {violation:.2%} kinetic energy {energy:.0f} J '
+          f'substeps {substeps / round(10.0 / dt):.2f}')
+    # A scheme that freezes the cloth keeps all lengths.
+    assert 4300.0 < energy < 6800.0
+    return violation
+
+
+@pytest.mark.parametrize(('dt', 'allowed'), [(0.02, 0.002), (0.05, 0.02)])
+def test_violation(simulate, within, dt, allowed):
+    """The default lets edges stretch more than it may."""
+    within('violation', _violation(simulate, dt), allowed)
+
+
+def test_the_method_of_the_paper(simulate):
+    """One solve without substeps does not lose (omega h)^2 / 2, 7 % at 0.02 s."""
+    violation = _violation(simulate, 0.02, **_METHOD_OF_THE_PAPER)
+    assert violation == pytest.approx(0.07, rel=0.1)
+
+
+def test_bend_springs_join_by_parameter(simulate, within):
+    """Bend springs make the step unstable, or edges longer."""
+    within('violation', _violation(
+        simulate, 0.02, **{'constraint.springs': ['bend']}), 0.002)

@@ -1,0 +1,94 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""The constraint mode against closed forms of one rod, held at one end."""
+
+import numpy as np
+import pytest
+from scipy.special import ellipk
+
+GRAVITY = 9.81
+ROD = {'mode': 'constraint', 'rows': 2, 'cols': 1, 'height': 1.0, 'node_mass': 0.1,
+       'pins': ['top_left'], 'start.pose': 'hanging', 'start.z': 0.0, 'auto_substeps': False,
+       'solver.tolerance': 1e-6}
+PAPER = {'constraint.newton_iterations': 1}
+
+
+def _swing(simulate, angle, seconds, **values):
+    """Return the offset of the lower end from the pin at each step, and its velocity."""
+    simulation = simulate({**ROD, **values})
+    positions = simulation.snapshot().positions.copy()
+    positions[1, 0] = positions[0, 0] + [np.sin(angle), 0.0, -np.cos(angle)]
+    simulation.set_state(positions, np.zeros_like(positions))
+    seen = []
+    for _ in range(round(seconds / simulation.dt)):
+        simulation.step()
+        snapshot = simulation.snapshot()
+        seen.append((snapshot.positions[1, 0] - snapshot.positions[0, 0],
+                     snapshot.velocities[1, 0]))
+    return tuple(np.array(values, dtype=float) for values in zip(*seen))
+
+
+def _period_error(offsets, dt):
+    across = offsets[:, 0]
+    before = np.flatnonzero(np.diff(np.sign(across)))
+    crossings = before - across[before] / (across[before + 1] - across[before])
+    exact = 4.0 * np.sqrt(1.0 / GRAVITY) * ellipk(np.sin(0.5)**2)
+    return 2.0 * dt * np.mean(np.diff(crossings)) / exact - 1.0
+
+
+@pytest.mark.parametrize('dt', [0.02, 0.01, 0.005])
+def test_pendulum_of_the_paper(simulate, within, dt):
+    """The period is not 4 sqrt(L/g) K to second order, or the length not off (omega h)^2/2."""
+    offsets, velocities = _swing(simulate, 1.0, 10.0, dt=dt, **PAPER)
+    longer = np.max(np.abs(np.linalg.norm(offsets, axis=1) - 1.0))
+    foreseen = np.max(np.sum(velocities**2, axis=1)) * dt**2 / 2.0
+    within('period of a rod', abs(_period_error(offsets, dt)), 3e-4 * (dt / 0.01)**2)
+    within('length of a rod over (omega dt)^2 / 2, less 1', abs(longer / foreseen - 1.0), 0.1)
+
+
+@pytest.mark.parametrize('dt', [0.02, 0.01])
+def test_pendulum(simulate, within, dt):
+    """The turn that the first solve foresees is not the one that the second finds."""
+    offsets, _ = _swing(simulate, 1.0, 10.0, dt=dt)
+    within('period of a rod', abs(_period_error(offsets, dt)), 3e-4 * (dt / 0.01)**2)
+    within('length of a rod', np.max(np.abs(np.linalg.norm(offsets, axis=1) - 1.0)), 3e-6)
+
+
+@pytest.mark.parametrize('values', [PAPER, {}], ids=['one solve', 'two solves'])
+def test_pendulum_keeps_its_energy(simulate, within, values):
+    """A swing of 20 s is damped or driven."""
+    offsets, velocities = _swing(simulate, 1.0, 20.0, dt=0.01, **values)
+    energy = np.sum(velocities**2, axis=1) / 2.0 + GRAVITY * (offsets[:, 2] + 1.0)
+    start = GRAVITY * (1.0 - np.cos(1.0))
+    within('energy after 20 s, change', abs(energy[-100:].mean() / start - 1.0), 0.01)
+
+
+def test_implicit_spring_follows_its_recurrence(simulate, within):
+    """A spring that is not hard is not v+ = (v - h k x / m) / (1 + h k_d / m + h^2 k / m)."""
+    k, damping, mass, h = 100.0, 0.2, 0.1, 0.01
+    simulation = simulate({
+        **ROD, 'dt': h, 'constraint.hard': [], 'constraint.springs': ['structural'],
+        'gravity': [0.0, 0.0, 0.0], 'stiffness.structural': k, 'damping.structural': damping})
+    positions = simulation.snapshot().positions.copy()
+    positions[1, 0, 2] -= 0.05
+    simulation.set_state(positions, np.zeros_like(positions))
+    x, v, worst = 0.05, 0.0, 0.0
+    for _ in range(100):
+        simulation.step()
+        v = (v - h * k * x / mass) / (1.0 + h * damping / mass + h**2 * k / mass)
+        x += h * v
+        offset = np.diff(simulation.snapshot().positions[:, 0, 2].astype(float))[0]
+        worst = max(worst, abs(-offset - 1.0 - x))
+    within('implicit spring against its recurrence [m]', worst, 5e-6)

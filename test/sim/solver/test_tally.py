@@ -1,0 +1,42 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""The solves of a step are counted together."""
+
+import numpy as np
+
+
+def test_a_solve_that_gave_up_is_not_forgotten(make_case):
+    """A step would be told reached because its last solve was."""
+    case = make_case({'rows': 12, 'cols': 9}, tolerance=1e-4, max_iterations=1)
+    case.solver.clear_tally()
+    case.solve()
+    worst = case.solver.report().residual
+    case.solver.set_right_side(np.zeros((12, 9, 3)))
+    case.solve()
+    assert case.solver.report().reached
+    tally = case.solver.tally()
+    assert (tally.most_iterations, tally.unreached) == (1, 1)
+    assert np.isclose(tally.worst_residual, worst, rtol=1e-5)
+    case.solver.clear_tally()
+    assert case.solver.tally().unreached == 0
+
+
+def test_what_is_no_number_is_not_reached(make_case):
+    """A solve that broke down would look like any other."""
+    case = make_case({'rows': 5, 'cols': 5})
+    case.solver.clear_tally()
+    case.solver.set_right_side(np.full((5, 5, 3), np.nan))
+    case.solve()
+    assert case.solver.tally().unreached == 1

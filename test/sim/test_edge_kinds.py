@@ -1,0 +1,64 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Which nodes the edges join."""
+
+from cloth_sim_ros.reference.springs import spring_sets
+from cloth_sim_ros.sim.edge_kinds import EDGE_KINDS
+from cloth_sim_ros.sim.scene import FAMILIES
+from cloth_sim_ros.sim.scene import Scene
+import numpy as np
+import pytest
+
+SHAPES = [(5, 7), (2, 2), (1, 6), (6, 1), (2, 3)]
+
+
+def number_nodes(rows, cols):
+    """Return a (rows, cols) array with a number for each node."""
+    return np.arange(rows * cols).reshape(rows, cols)
+
+
+@pytest.mark.parametrize(('rows', 'cols'), SHAPES)
+def test_edges_are_the_springs_of_the_reference(rows, cols):
+    """A tension would be told of an edge that is not there, or of another one."""
+    scene = Scene({'rows': rows, 'cols': cols, 'width': 0.3, 'height': 0.5})
+    nodes = number_nodes(rows, cols)
+    springs = {
+        (springs.family, springs.down, springs.right): springs
+        for springs in spring_sets(scene, always=FAMILIES)}
+    for kind in EDGE_KINDS:
+        starts, ends = kind.everywhere(rows, cols)
+        key = (kind.family, kind.drow, kind.dcol)
+        if key not in springs:
+            assert nodes[starts].size == 0
+            continue
+        first, second = springs[key].ends(nodes)
+        np.testing.assert_array_equal(nodes[starts], first)
+        np.testing.assert_array_equal(nodes[ends], second)
+        assert kind.rest_length(scene) == pytest.approx(springs[key].rest_length)
+
+
+@pytest.mark.parametrize(('rows', 'cols'), SHAPES)
+def test_edges_at_a_node_are_those_with_an_end_there(rows, cols):
+    """A pin would not feel one of its edges, or feel one of another node."""
+    nodes = number_nodes(rows, cols)
+    chosen = np.array([(0, 0), (rows - 1, cols // 2)])
+    numbers = nodes[tuple(chosen.T)]
+    for kind in EDGE_KINDS:
+        every = {
+            (int(a), int(b)) for a, b in zip(
+                *(nodes[index].ravel() for index in kind.everywhere(rows, cols)))}
+        found = zip(*(nodes[index] for index in kind.touching(chosen, rows, cols)))
+        assert {(int(a), int(b)) for a, b in found} == {
+            pair for pair in every if np.isin(pair, numbers).any()}

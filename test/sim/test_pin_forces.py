@@ -1,0 +1,66 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""The forces that hold the pins."""
+
+from cloth_sim_ros.reference.springs import spring_sets
+from cloth_sim_ros.reference.springs import total_forces
+from cloth_sim_ros.sim.pin_forces import pin_forces
+from cloth_sim_ros.sim.scene import Scene
+from cloth_sim_ros.sim.spring_tension import spring_tension
+import numpy as np
+import pytest
+
+
+@pytest.mark.parametrize(('rows', 'cols'), [(6, 5), (2, 2), (1, 4), (4, 1)])
+def test_it_is_the_weight_and_the_pull_of_the_reference_springs(rows, cols):
+    """A pin would not feel one of its edges, or feel it the wrong way."""
+    scene = Scene({
+        'rows': rows, 'cols': cols, 'damping.shear': 0.2, 'gravity': [1.0, -2.0, -9.81]})
+    random = np.random.default_rng(2)
+    positions = scene.rest_positions() + random.normal(0.0, 0.05, (rows, cols, 3))
+    velocities = random.normal(0.0, 1.0, positions.shape)
+    pulls = total_forces(spring_sets(scene), positions, velocities)
+    nodes = np.array([(0, 0), (rows // 2, cols - 1), (rows - 1, 0)])
+    tension = spring_tension(scene, positions, velocities, nodes)
+    held = pin_forces(scene, positions, tension, nodes)
+    assert np.array_equal(held.nodes, nodes)
+    expected = -scene.node_mass * np.array(scene['gravity']) - pulls[tuple(nodes.T)]
+    np.testing.assert_allclose(held.forces, expected, rtol=1e-5, atol=1e-5)
+
+
+def test_an_accelerated_pin_speeds_up_its_own_mass():
+    """A moved gripper would not feel the inertia of what it holds."""
+    scene = Scene({'rows': 1, 'cols': 2, 'node_mass': 0.5})
+    nodes = np.array([(0, 0), (0, 1)])
+    held = pin_forces(
+        scene, scene.rest_positions(), np.zeros((1, 2, 6)), nodes,
+        np.array([[0.0, 0.0, 2.0], [3.0, 0.0, 0.0]]))
+    np.testing.assert_allclose(
+        held.forces, [[0.0, 0.0, 0.5 * (2.0 + 9.81)], [1.5, 0.0, 0.5 * 9.81]])
+
+
+def test_nodes_in_one_place_pull_nowhere():
+    """The force at a pin would not be a number."""
+    scene = Scene({'rows': 1, 'cols': 2, 'gravity': [0.0, 0.0, 0.0]})
+    held = pin_forces(scene, np.zeros((1, 2, 3)), np.full((1, 2, 6), 5.0), np.array([(0, 0)]))
+    assert not held.forces.any()
+
+
+def test_no_pins_have_no_forces():
+    """A cloth in the air would have no snapshot."""
+    scene = Scene({'rows': 2, 'cols': 2})
+    held = pin_forces(
+        scene, scene.rest_positions(), np.zeros((2, 2, 6)), np.empty((0, 2), dtype=int))
+    assert held.forces.shape == (0, 3)
