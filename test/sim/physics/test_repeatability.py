@@ -49,7 +49,7 @@ print(simulation.snapshot().state_sha256)
 
 
 def _hash_of_a_process(values, spans=None, **environment):
-    """Return the hash after ``spans`` of seconds and mode, with pushes and pins; or after 0.5 s."""
+    """Return the hash after ``spans`` of seconds and mode, with pushes and pins; or 0.5 s."""
     spans = spans or []
     done = subprocess.run(
         [sys.executable, '-c', IN_A_PROCESS, json.dumps(values), json.dumps(spans)], check=True,
