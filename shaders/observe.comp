@@ -22,6 +22,7 @@
 #include "state_in.glsl"
 #include "spring_law.glsl"
 #include "applied_acceleration.glsl"
+#include "bounded.glsl"
 
 layout(local_size_x = LOCAL_X, local_size_y = LOCAL_Y) in;
 
@@ -43,7 +44,7 @@ layout(std430, binding = RECORDS) writeonly buffer Records { uint records[]; };
 #endif
 
 // An invocation's kinetic and gravitational energy over the node mass, elastic energy, largest
-// strain, and how many of its nodes are not finite. The kinetic energy is that of the free nodes.
+// strain, and how many of its nodes are out of bounds. The kinetic energy is that of the free nodes.
 #define SUMS 5
 layout(std430, binding = PARTIAL_SUMS) writeonly buffer PartialSums { float partial_sums[]; };
 
@@ -94,14 +95,19 @@ vec3 tangent(vec4 here, int row, int col, int drow, int dcol) {
     return mix(here.xyz, ahead.xyz, ahead.w) - mix(here.xyz, behind.xyz, behind.w);
 }
 
-// The side that faces up when the cloth lies flat; up for a chain, which has no sides.
-vec3 surface_normal(vec4 here, int row, int col) {
-    vec3 normal = cross(tangent(here, row, col, 1, 0), tangent(here, row, col, 0, 1));
-    float square = dot(normal, normal);
-    return square > 1e-30 ? normal * inversesqrt(square) : vec3(0.0, 0.0, 1.0);
+// Free of its length, so that products of it neither leave float32 nor vanish.
+vec3 direction_of(vec3 d) {
+    float size = max(max(abs(d.x), abs(d.y)), abs(d.z));
+    return size > 0.0 ? d / size : d;
 }
 
-bool is_finite(vec3 v) { return !(any(isnan(v)) || any(isinf(v))); }
+// The side that faces up when the cloth lies flat; up for a chain, which has no sides.
+vec3 surface_normal(vec4 here, int row, int col) {
+    vec3 normal = cross(
+        direction_of(tangent(here, row, col, 1, 0)), direction_of(tangent(here, row, col, 0, 1)));
+    float square = dot(normal, normal);
+    return square > 1e-12 ? normal * inversesqrt(square) : vec3(0.0, 0.0, 1.0);
+}
 
 #if RECORDS_WANTED
 void write_vector(int word, vec3 v) {
@@ -152,7 +158,7 @@ void main() {
     float elastic = 0.0;
     float gravitational = 0.0;
     float strain = 0.0;
-    float not_finite = 0.0;
+    float out_of_bounds = 0.0;
     for (int row = first_row + strip * STRIP; row < past; ++row) {
         int index = node_index(row, col);
         vec4 x = load_position(index);
@@ -162,7 +168,7 @@ void main() {
         elastic += springs.energy;
         gravitational -= dot(gravity, x.xyz);
         strain = max(strain, springs.strain);
-        not_finite += is_finite(x.xyz) && is_finite(v.xyz) ? 0.0 : 1.0;
+        out_of_bounds += is_bounded(x.xyz) && is_bounded(v.xyz) ? 0.0 : 1.0;
 #if RECORDS_WANTED
         write_record(row, col, x, v, springs.strain);
 #endif
@@ -172,5 +178,5 @@ void main() {
     partial_sums[first + 1] = elastic;
     partial_sums[first + 2] = gravitational;
     partial_sums[first + 3] = strain;
-    partial_sums[first + 4] = not_finite;
+    partial_sums[first + 4] = out_of_bounds;
 }

@@ -23,6 +23,9 @@ from statistics import median
 from cloth_sim_ros.analysis.recording import Entry
 from cloth_sim_ros.analysis.recording import Recording
 
+# ClothState.STOPPED: a recording is read without the interfaces.
+_STOPPED = 'stopped'
+
 
 @dataclass
 class Summary:
@@ -38,7 +41,7 @@ class Summary:
     :param largest_kinetic_energy: over all frames [J]
     :param first_energy: total energy of the first frame [J]
     :param last_energy: total energy of the last frame [J]
-    :param finite: False when the run broke off because its state was not finite
+    :param finite: False when the run stopped because the next state was not finite
     :param factors: real-time factors of the frames that ran
     """
 
@@ -102,6 +105,8 @@ class Summary:
 
     def _read_state(self, entry: Entry) -> None:
         self.device = entry.message.device
+        if entry.message.run_state == _STOPPED:
+            self.finite = False
 
     def _read_mode(self, entry: Entry) -> None:
         if entry.message.mode not in self.modes:

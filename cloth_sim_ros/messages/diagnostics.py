@@ -32,14 +32,15 @@ ERROR = DiagnosticStatus.ERROR
 
 def diagnostics_message(
         snapshot: Snapshot, *, node_name: str, device: str, paused: bool,
-        real_time_factor: float, wanted_factor: float, recording_path: str = '',
-        recording_error: str = '') -> DiagnosticArray:
+        real_time_factor: float, wanted_factor: float, problem: str = '',
+        recording_path: str = '', recording_error: str = '') -> DiagnosticArray:
     """
     Return the health of the GL device, the pace, the solver, the stability and the recorder.
 
     :param device: GL_RENDERER
     :param real_time_factor: simulated time per wall time, achieved
     :param wanted_factor: the same as asked for, 0 for as fast as possible
+    :param problem: why the run has stopped, empty when it has not
     :param recording_path: folder being written to, empty when not recording
     :param recording_error: why the last recording broke off, empty when it did not
     """
@@ -47,7 +48,7 @@ def diagnostics_message(
         'GL device': (OK, device, {'renderer': device}),
         'real-time factor': _pace(paused, real_time_factor, wanted_factor),
         'solver': _solver(snapshot),
-        'stability': _stability(snapshot),
+        'stability': _stability(snapshot, problem),
         'recorder': _recorder(recording_path, recording_error),
     }
     return DiagnosticArray(
@@ -97,7 +98,7 @@ def _solver(snapshot: Snapshot) -> tuple[bytes, str, dict]:
     return OK, text, values
 
 
-def _stability(snapshot: Snapshot) -> tuple[bytes, str, dict]:
+def _stability(snapshot: Snapshot, problem: str) -> tuple[bytes, str, dict]:
     margin = float(snapshot.stability_margin)
     values = {
         'margin': margin,
@@ -106,8 +107,8 @@ def _stability(snapshot: Snapshot) -> tuple[bytes, str, dict]:
         'max strain': float(snapshot.max_strain),
         'total energy': float(snapshot.total_energy),
     }
-    if not snapshot.finite:
-        return ERROR, 'the state is no longer finite: reset, then take a shorter dt', values
+    if problem:
+        return ERROR, problem, values
     text = f'a substep is {margin:.3g} of the stability limit'
     if margin > 1.0:
         return ERROR, f'{text}: take a shorter dt, or auto_substeps: true', values

@@ -14,7 +14,6 @@
 
 """The ROS node: puts the parts together, and holds no physics."""
 
-from cloth_sim_interfaces.msg import ClothState
 from cloth_sim_interfaces.msg import Command
 from cloth_sim_ros.messages.diagnostics import diagnostics_message
 from cloth_sim_ros.messages.topology import serialise_topology
@@ -87,7 +86,8 @@ class ClothSimNode(Node):
         self._pacing = Pacing(values['real_time_factor'])
         self._run_loop = RunLoop(
             self, self._simulation, frame_seconds=1.0 / values['publish.rate'],
-            pacing=self._pacing, paused=values['start_paused'], on_frame=self._on_frame)
+            pacing=self._pacing, paused=values['start_paused'], on_frame=self._on_frame,
+            on_stop=self._on_stop)
         self._state = StateTopic(
             self._outlet, self._simulation, self._run_loop, self._recording, values['frame_id'])
         self._clock_topic = ClockTopic(self, self._outlet, values['publish.clock'])
@@ -148,11 +148,9 @@ class ClothSimNode(Node):
         self._state.send()
 
     def _on_frame(self, worked: float, steps: int) -> None:
-        finite = self._frames.send(
+        self._frames.send(
             worked=worked, steps=steps, real_time_factor=self._run_loop.real_time_factor)
-        if not finite:
-            self._stop_run()
-        elif self._run_loop.running and self._pacing.too_slow:
+        if self._run_loop.running and self._pacing.too_slow:
             self.get_logger().warning(
                 f'{self._pacing.achieved:.3g} x real time is below the {self._pacing.factor:g} '
                 'asked for: take fewer nodes, a longer dt or a lower real_time_factor',
@@ -162,16 +160,11 @@ class ClothSimNode(Node):
         """Send the present moment as a frame."""
         self._on_frame(0.0, 0)
 
-    def _stop_run(self) -> None:
-        if self._run_loop.run_state == ClothState.STOPPED:
-            return
-        self._run_loop.stop()
-        simulation = self._simulation
+    def _on_stop(self) -> None:
         self.get_logger().error(
-            f'the state is no longer finite at {simulation.time:.6g} s, so the run stops: take '
-            f'a dt below {simulation.dt:g} s, auto_substeps: true or smaller pushes, and call '
-            '~/reset')
+            f'{self._run_loop.problem}; then resume to try again, or call ~/reset')
         self._state.send()
+        self._watch()
 
     def _reset(self) -> None:
         self._inputs.command(Command.RESET)
@@ -203,7 +196,7 @@ class ClothSimNode(Node):
         snapshot = self._simulation.snapshot()
         self._outlet.send_message('diagnostics', diagnostics_message(
             snapshot, node_name=self.get_name(), device=self._simulation.device,
-            paused=not self._run_loop.running,
+            paused=not self._run_loop.running, problem=self._run_loop.problem,
             real_time_factor=self._run_loop.real_time_factor,
             wanted_factor=self._values['real_time_factor'],
             recording_path=self._recording.path, recording_error=self._recording_error),

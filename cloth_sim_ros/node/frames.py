@@ -55,9 +55,9 @@ class Frames:
 
     def send(
             self, *, worked: float = 0.0, steps: int = 0, real_time_factor: float = 0.0,
-            to_recording: bool = True) -> bool:
+            to_recording: bool = True) -> None:
         """
-        Send what is wanted of the moment, and return False when its state is not finite.
+        Send what is wanted of the moment.
 
         :param worked: wall time the steps of this frame took [s]
         :param steps: of dt in this frame, 0 when the moment has been there before
@@ -73,7 +73,7 @@ class Frames:
             and self._outlet.wanted(part, by_recording=to_recording)]
         wrenches = self._wrenches.wanted(by_recording=to_recording)
         if not made and not wrenches:
-            return simulation.measure().finite
+            return
         begin = time.monotonic()
         snapshot = simulation.snapshot(pin_forces=wrenches)
         # The device may still be at work when the steps return: the read-back waits for it.
@@ -87,9 +87,6 @@ class Frames:
                 real_time_factor=real_time_factor)),
         }
         for part in made:
-            # Nothing can be drawn of a state that is not finite, but its numbers tell.
-            if snapshot.finite or part == 'stats':
-                self._outlet.send(part, makers[part], now, to_recording=to_recording)
-        if wrenches and snapshot.finite:
+            self._outlet.send(part, makers[part], now, to_recording=to_recording)
+        if wrenches:
             self._wrenches.send(snapshot, to_recording=to_recording)
-        return snapshot.finite

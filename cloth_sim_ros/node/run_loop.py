@@ -12,7 +12,7 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""Advance the simulation frame by frame: running, paused, or stopped by a bad state."""
+"""Advance the simulation frame by frame: running, paused, or stopped by a blow-up."""
 
 from collections.abc import Callable
 import time
@@ -20,6 +20,7 @@ import time
 from cloth_sim_interfaces.msg import ClothState
 from cloth_sim_ros.node.pacing import Pacing
 from cloth_sim_ros.sim.errors import ClothSimError
+from cloth_sim_ros.sim.errors import NonFiniteStateError
 from cloth_sim_ros.sim.simulation import Simulation
 from rclpy.clock import Clock
 from rclpy.clock import ClockType
@@ -28,6 +29,8 @@ from rclpy.node import Node
 _NANOSECONDS = 1e9
 # A frame can take long: after this much wall time [s] services get their turn.
 _SLICE = 0.02
+# Of a slice: steps made at one go are as many as take about so long.
+_PIECE = 0.25
 MOST_STEPS = 100000
 
 
@@ -42,19 +45,23 @@ class RunLoop:
     :param pacing: when the next frame is due
     :param on_frame: called after the state has changed, with the wall time that took [s] and the
         steps of dt made
+    :param on_stop: called when a step was not finite and the run has stopped before it
     """
 
     def __init__(
             self, node: Node, simulation: Simulation, *, frame_seconds: float, pacing: Pacing,
-            paused: bool, on_frame: Callable[[float, int], None]) -> None:
+            paused: bool, on_frame: Callable[[float, int], None],
+            on_stop: Callable[[], None]) -> None:
         """Make the timer; nothing moves before start."""
         self._node = node
         self._simulation = simulation
         self._frame_seconds = frame_seconds
         self._pacing = pacing
         self._on_frame = on_frame
+        self._on_stop = on_stop
         self._paused = paused
-        self._stopped = False
+        self._problem = ''
+        self._piece = 1
         self._begin_frame()
         # Simulated time may stand still, or come from this very node: only a steady clock paces.
         self._timer = node.create_timer(
@@ -64,9 +71,14 @@ class RunLoop:
     @property
     def run_state(self) -> str:
         """ClothState.RUNNING, PAUSED or STOPPED."""
-        if self._stopped:
+        if self._problem:
             return ClothState.STOPPED
         return ClothState.PAUSED if self._paused else ClothState.RUNNING
+
+    @property
+    def problem(self) -> str:
+        """Why the run has stopped; empty when it has not."""
+        return self._problem
 
     @property
     def running(self) -> bool:
@@ -85,45 +97,44 @@ class RunLoop:
             self._wait(0.0)
 
     def pause(self) -> None:
-        """Make no more frames; a ClothSimError tells that the run is stopped."""
-        self._refuse_when_stopped('pause')
+        """Make no more frames."""
         self._paused = True
         self._timer.cancel()
 
     def resume(self) -> None:
-        """Make frames again; a ClothSimError tells that the run is stopped."""
-        self._refuse_when_stopped('resume')
-        if self._paused:
+        """Make frames again; after a stop, try again from the state that was kept."""
+        if not self.running:
             self._paused = False
+            self._problem = ''
             self.start()
 
-    def stop(self) -> None:
-        """Make no more frames before restart, whatever is asked for."""
-        self._stopped = True
-        self._timer.cancel()
-
     def restart(self) -> None:
-        """Undo stop, and begin with a whole frame."""
-        self._stopped = False
+        """Forget a stop, and begin with a whole frame."""
+        self._problem = ''
         self._begin_frame()
         self.start()
 
     def step(self, steps: int) -> None:
-        """Make ``steps`` steps of dt now; ClothSimError unless paused."""
-        self._refuse_when_stopped('step')
-        if not self._paused:
+        """Make ``steps`` steps of dt now; ClothSimError while running, or when one is lost."""
+        if self.running:
             raise ClothSimError(
                 'the simulation is running, and ~/step needs it paused: call ~/pause with '
                 'data: true first')
         if not 1 <= steps <= MOST_STEPS:
             raise ClothSimError(
                 f'steps {steps} is outside its range: give a value from 1 to {MOST_STEPS}')
-        begin = time.monotonic()
-        done = 0
-        while done < steps and self._node.context.ok():
-            self._simulation.step()
-            done += 1
-        self._on_frame(time.monotonic() - begin, done)
+        self._begin_frame()
+        try:
+            while self._steps < steps and self._node.context.ok():
+                self._make_piece(min(self._piece, steps - self._steps))
+        except NonFiniteStateError as error:
+            self._stop(error)
+            raise
+        finally:
+            worked, made = self._worked, self._steps
+            self._begin_frame()
+        self._paused, self._problem = True, ''
+        self._on_frame(worked, made)
 
     def _begin_frame(self) -> None:
         self._left = self._frame_seconds
@@ -131,7 +142,11 @@ class RunLoop:
         self._steps = 0
 
     def _make_frame(self) -> None:
-        self._make_part()
+        try:
+            self._make_part()
+        except NonFiniteStateError as error:
+            self._stop(error)
+            return
         if self._left > 0.0:
             self._wait(0.0)
             return
@@ -147,17 +162,35 @@ class RunLoop:
     def _make_part(self) -> None:
         begin = time.monotonic()
         while self._left > 0.0 and time.monotonic() - begin < _SLICE:
-            part = min(self._left, self._simulation.dt)
-            self._steps += self._simulation.advance(part)
-            self._left -= part
-        self._worked += time.monotonic() - begin
+            seconds = min(self._left, self._piece * self._simulation.dt)
+            self._make_piece(seconds=seconds)
+            self._left -= seconds
+
+    def _make_piece(self, steps: int = 0, *, seconds: float = 0.0) -> None:
+        first = self._simulation.steps
+        begin = time.monotonic()
+        try:
+            if steps:
+                self._simulation.step(steps)
+            else:
+                self._simulation.advance(seconds)
+        finally:
+            # Each piece is checked at its end, so it should not be shorter than it has to be.
+            took = time.monotonic() - begin
+            self._piece = self._piece * 2 if took < _PIECE * _SLICE else max(1, self._piece // 2)
+            self._worked += took
+            self._steps += self._simulation.steps - first
+
+    def _stop(self, error: NonFiniteStateError) -> None:
+        """Show the last finite state, and tell that there is no more to come."""
+        self._timer.cancel()
+        self._problem = str(error)
+        worked, steps = self._worked, self._steps
+        self._begin_frame()
+        if steps:
+            self._on_frame(worked, steps)
+        self._on_stop()
 
     def _wait(self, seconds: float) -> None:
         self._timer.timer_period_ns = int(seconds * _NANOSECONDS)
         self._timer.reset()
-
-    def _refuse_when_stopped(self, request: str) -> None:
-        if self._stopped:
-            raise ClothSimError(
-                f'the run has stopped because its state is not finite, and cannot {request}: '
-                'call ~/reset first')

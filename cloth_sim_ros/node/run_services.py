@@ -54,9 +54,13 @@ class RunServices:
         return f'{self._run_loop.run_state} at {self._simulation.time:.6g} s'
 
     def _on_step(self, request: Step.Request, response: Step.Response) -> str:
-        response.sim_time = self._simulation.time
-        self._run_loop.step(request.steps)
-        response.sim_time = self._simulation.time
+        before = self._run_loop.run_state
+        try:
+            self._run_loop.step(request.steps)
+        finally:
+            response.sim_time = self._simulation.time
+        if self._run_loop.run_state != before:
+            self._changed()
         return f'{request.steps} steps made, now at {self._simulation.time:.6g} s'
 
     def _on_reset(self, _: Trigger.Request, __: Trigger.Response) -> str:

@@ -17,3 +17,23 @@
 
 class ClothSimError(ValueError):
     """A request that cannot be carried out; nothing was changed by it."""
+
+
+class NonFiniteStateError(ClothSimError):
+    """
+    The state could not be stepped on: a position or velocity is no number, or absurdly large.
+
+    The simulation keeps the last finite state, and can be looked at, changed, reset or tried
+    again.
+
+    :param steps: made since the start or the last reset until the state that is kept
+    :param node: row and col of the node that was fastest among those that were lost; None where
+        that can't be told
+    """
+
+    def __init__(
+            self, message: str, *, steps: int, node: tuple[int, int] | None = None) -> None:
+        """Keep what the message says."""
+        super().__init__(message)
+        self.steps = steps
+        self.node = node

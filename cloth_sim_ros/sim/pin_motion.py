@@ -30,6 +30,11 @@ _NOTHING = 1e-9
 _REST = np.zeros(3)
 
 Node = tuple[int, int]
+# The moves to come, the ways under way, and the velocities on the device, of the last step, and of
+# the one before.
+KeptMotion = tuple[
+    list[PinMove], dict[Node, PinPath], dict[Node, np.ndarray], dict[Node, np.ndarray],
+    dict[Node, np.ndarray]]
 
 
 class PinMotion:
@@ -121,6 +126,22 @@ class PinMotion:
             self._state.place_pin(*node, path.position(path.arrival if arrives else end))
             if arrives:
                 self._stop(node)
+
+    def keep(self) -> KeptMotion:
+        """Return what ``restore`` needs to come back to this moment."""
+        return (
+            list(self._waiting), dict(self._paths), dict(self._on_device), dict(self._latest),
+            dict(self._earlier))
+
+    def restore(self, kept: KeptMotion) -> None:
+        """Go back to the moment of ``keep``, to which the state has gone back already."""
+        given_since = self._on_device
+        waiting, *entries = kept
+        self._waiting = list(waiting)
+        self._paths, self._on_device, self._latest, self._earlier = map(dict, entries)
+        # The first step after that moment gave its velocities to the state as it was then.
+        for node in given_since:
+            self._state.set_pin_velocity(*node, self._on_device.get(node, _REST))
 
     def velocity_changes(self, nodes: np.ndarray) -> np.ndarray:
         """

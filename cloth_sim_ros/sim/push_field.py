@@ -59,6 +59,10 @@ class _Entry:
         return self.inside is not None and self.push.start <= time < self.push.end
 
 
+# Each push, and whether it is still to come.
+KeptPushes = tuple[tuple[_Entry, bool], ...]
+
+
 class PushField:
     """
     All pushes of a run.
@@ -137,6 +141,29 @@ class PushField:
         """Return how long from ``now`` no push acts [s]: ``now`` while one does, or infinite."""
         starts = (entry.push.start for entry in self._entries if entry.push.end > now)
         return max(min(starts, default=math.inf), now)
+
+    def keep(self) -> KeptPushes:
+        """Return what ``restore`` needs to come back to this moment."""
+        return tuple((entry, entry.inside is None) for entry in self._entries)
+
+    def restore(self, kept: KeptPushes) -> None:
+        """Go back to the moment of ``keep``: what ended acts again, what began is to come."""
+        self._entries = [entry for entry, _ in kept]
+        for entry, is_to_come in kept:
+            if is_to_come:
+                entry.inside, entry.nodes = None, 0
+        # They may hold nodes and accelerations of pushes that begin anew.
+        self._in_buffer, self._latest = (), ((), self.still)
+
+    def speed_gained(self, begin: float, end: float) -> float:
+        """
+        Return by how much pushes make a node faster from ``begin`` to ``end`` [m/s].
+
+        Those that were still to come count with the nodes they had when they last began.
+        """
+        return sum(
+            entry.push.overlap(begin, end) * (end - begin)
+            * float(np.linalg.norm(entry.acceleration)) for entry in self._entries)
 
     def delete(self) -> None:
         """Give the buffer back."""

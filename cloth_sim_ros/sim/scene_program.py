@@ -22,6 +22,10 @@ from cloth_sim_ros.sim.scene import FAMILIES
 from cloth_sim_ros.sim.scene import Scene
 import numpy as np
 
+# A position [m] or velocity [m/s] beyond it counts as not finite: with the softest and the
+# stiffest springs, energies and normals of what is below it do not leave float32.
+MOST_MAGNITUDE = 1e12
+
 
 class SceneProgram:
     """
@@ -77,6 +81,7 @@ def scene_defines(scene: Scene) -> dict[str, object]:
     has_damping = any(scene.damping(family) > 0.0 for family in FAMILIES)
     return {
         'STRAIN_LIMIT': 'NO_LIMIT',
+        'MOST_MAGNITUDE': f'{MOST_MAGNITUDE:e}',
         'HAS_DAMPING': int(has_damping),
         **{f'HAS_{family.upper()}': int(scene.models(family)) for family in FAMILIES},
     }

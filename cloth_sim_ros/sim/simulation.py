@@ -20,8 +20,10 @@ import math
 from cloth_sim_ros.gl.context import Context
 from cloth_sim_ros.sim import modes
 from cloth_sim_ros.sim.errors import ClothSimError
+from cloth_sim_ros.sim.errors import NonFiniteStateError
 from cloth_sim_ros.sim.forces import with_forces
 from cloth_sim_ros.sim.forcing import Forcing
+from cloth_sim_ros.sim.guarded_steps import GuardedSteps
 from cloth_sim_ros.sim.layout import choose_layout
 from cloth_sim_ros.sim.nearest import nearest
 from cloth_sim_ros.sim.observer import Observer
@@ -33,6 +35,7 @@ from cloth_sim_ros.sim.push_field import AppliedPush
 from cloth_sim_ros.sim.push_field import PushField
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.scene_fields import MODES
+from cloth_sim_ros.sim.scene_program import MOST_MAGNITUDE
 from cloth_sim_ros.sim.snapshot import Measures
 from cloth_sim_ros.sim.snapshot import Snapshot
 from cloth_sim_ros.sim.state import State
@@ -40,7 +43,6 @@ import numpy as np
 
 # Below this many nodes llvmpipe is faster without its worker threads (docs/performance.md).
 _SINGLE_THREAD_NODES = 128 * 128
-_LARGEST = float(np.finfo(np.float32).max)
 
 
 class Simulation:
@@ -50,13 +52,14 @@ class Simulation:
     :param scene: what to model
     :param context: GL context to use; by default one of its own
     :param check_stability: False lets dt pass the stability limit, to study what happens
+    :param stop_at_non_finite: False steps on whatever becomes of the state, to study that
     :raises ClothSimError: when the scene can't be run as it asks
     :raises DeviceError: when there is no device for it
     """
 
     def __init__(
             self, scene: Scene, *, context: Context | None = None,
-            check_stability: bool = True) -> None:
+            check_stability: bool = True, stop_at_non_finite: bool = True) -> None:
         """Compile, allocate and take up the start pose."""
         self.scene = scene
         self.dt: float = scene['dt']
@@ -70,6 +73,8 @@ class Simulation:
         self.layout = choose_layout(scene, self._context)
         self._state = State(self.layout, scene.start_positions(), scene.pinned_nodes())
         self._observer = Observer(scene, self.layout)
+        self._guard = GuardedSteps(
+            scene, self.layout, self._observer, self._state, stop_at_non_finite)
         self._modes: dict[str, modes.Mode] = {}
         self._mode = self._get_mode(scene['mode'])
         self._pushes: PushField | None = None
@@ -115,6 +120,7 @@ class Simulation:
         Simulate ``seconds`` more; what is no whole dt is carried over to the next call.
 
         :return: steps of dt made
+        :raises NonFiniteStateError: when the state is lost; the last finite one is kept
         """
         if not math.isfinite(seconds) or seconds < 0.0:
             raise ClothSimError(f'cannot advance by {seconds} s: give a time of 0 s or more')
@@ -124,7 +130,7 @@ class Simulation:
         return self._make_steps(due)
 
     def step(self, count: int = 1) -> None:
-        """Make ``count`` steps of dt."""
+        """Make ``count`` steps of dt; as advance, stop at the last finite state."""
         if count < 0:
             raise ClothSimError(f'cannot make {count} steps: give 0 or more')
         self._make_steps(count)
@@ -217,10 +223,10 @@ class Simulation:
         """
         shape = (self.scene.rows, self.scene.cols, 3)
         for name, values in (('positions', positions), ('velocities', velocities)):
-            if np.shape(values) != shape or not np.all(np.abs(values) < _LARGEST):
+            if np.shape(values) != shape or not np.all(np.abs(values) < MOST_MAGNITUDE):
                 raise ClothSimError(
-                    f'{name} must be {shape} numbers that float32 can hold, '
-                    f'got {np.shape(values)}')
+                    f'{name} must be {shape} numbers below {MOST_MAGNITUDE:g}, '
+                    f'got {np.shape(values)} up to {np.abs(values).max(initial=0.0):g}')
         self._context.make_current()
         self._state.write(np.asarray(positions), np.asarray(velocities))
         self._pin_motion.drop()
@@ -266,7 +272,8 @@ class Simulation:
     def close(self) -> None:
         """Give everything on the device back."""
         self._context.make_current()
-        for part in (self._state, self._observer, self._pushes, *self._modes.values()):
+        for part in (
+                self._state, self._observer, self._guard, self._pushes, *self._modes.values()):
             part.delete()
         if self._owns_context:
             self._context.close()
@@ -286,13 +293,21 @@ class Simulation:
 
     def _make_steps(self, count: int) -> int:
         self._context.make_current()
-        for _ in range(count):
-            span = self.time, (self.steps + 1) * self.dt
-            self._pin_motion.begin_step(*span)
-            self._mode.step(self._state, self.time, self._pushes)
-            self._pin_motion.end_step(*span)
-            self.steps += 1
+        try:
+            self._guard.make(
+                self.steps, count, self._make_step, self._mode, self._pushes, [self._pin_motion])
+        except NonFiniteStateError as error:
+            self.steps = error.steps
+            self._target = self.time
+            raise
+        self.steps += count
         return count
+
+    def _make_step(self, number: int) -> None:
+        begin, end = number * self.dt, (number + 1) * self.dt
+        self._pin_motion.begin_step(begin, end)
+        self._mode.step(self._state, begin, self._pushes)
+        self._pin_motion.end_step(begin, end)
 
     def _read_positions(self) -> np.ndarray:
         records = self._observer.record(self._state, self._pushes.still)[1]

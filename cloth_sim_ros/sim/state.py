@@ -12,17 +12,22 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""The moving state on the device: two pairs of buffers, read from one and written to the other."""
+"""The moving state on the device: pairs of buffers, read from one and written to another."""
 
 from cloth_sim_ros.gl.buffer import Buffer
 from cloth_sim_ros.sim import bindings
 from cloth_sim_ros.sim.layout import Layout
 import numpy as np
 
+_PAIRS = 3
+
 
 class State:
     """
     Positions and velocities of all nodes on the device, and which nodes are pinned.
+
+    Of the three pairs of buffers, steps go to and fro between two; the third holds the state that
+    was kept last, so that keeping one costs nothing.
 
     The velocity of a pinned node is that of its pin. ``edits`` counts the changes made from
     outside, between steps.
@@ -33,9 +38,11 @@ class State:
         self._layout = layout
         self.pinned = pinned.copy()
         size = layout.stored * 4 * np.dtype(np.float32).itemsize
-        self._positions = [Buffer(size), Buffer(size)]
-        self._velocities = [Buffer(size), Buffer(size)]
+        self._positions = [Buffer(size) for _ in range(_PAIRS)]
+        self._velocities = [Buffer(size) for _ in range(_PAIRS)]
         self._now = 0
+        self._kept = 0
+        self._next = 1
         self.edits = 0
         self.write(positions, np.zeros_like(positions))
 
@@ -50,7 +57,7 @@ class State:
         free = ~self.pinned
         position = self._layout.store(_with_fourth(positions, 1.0))
         velocity = self._layout.store(_with_fourth(velocities * free[..., None], free))
-        # Ghosts are never written by a step, so both pairs need theirs.
+        # Ghosts are never written by a step, so all pairs need theirs.
         for buffer in self._positions:
             buffer.write(position)
         for buffer in self._velocities:
@@ -93,21 +100,36 @@ class State:
 
     def bind_out(self) -> None:
         """Let the next dispatch write the state to come."""
-        self._positions[1 - self._now].bind_storage(bindings.POSITION_OUT)
-        self._velocities[1 - self._now].bind_storage(bindings.VELOCITY_OUT)
+        self._positions[self._next].bind_storage(bindings.POSITION_OUT)
+        self._velocities[self._next].bind_storage(bindings.VELOCITY_OUT)
 
     def bind_out_for_reading(self) -> None:
         """Let the next dispatches read the velocities to come in place of the present ones."""
-        self._velocities[1 - self._now].bind_texture(bindings.VELOCITY_IN)
+        self._velocities[self._next].bind_texture(bindings.VELOCITY_IN)
 
     def swap(self) -> None:
         """Make what was written the present state."""
-        self._now = 1 - self._now
+        self._now = self._next
+        self._next = self._spare()
+
+    def keep(self) -> None:
+        """Keep the present state, in place of the one kept before, for ``restore``."""
+        self._kept = self._now
+        self._next = self._spare()
+
+    def restore(self, _: None = None) -> None:
+        """Go back to the state that was kept; pins set since then are not undone."""
+        self.edits += 1
+        self._now = self._kept
+        self._next = self._spare()
 
     def delete(self) -> None:
         """Give the buffers back."""
         for buffer in self._positions + self._velocities:
             buffer.delete()
+
+    def _spare(self) -> int:
+        return next(pair for pair in range(_PAIRS) if pair not in (self._now, self._kept))
 
     def _write(
             self, buffers: list[Buffer], row: int, col: int, values: np.ndarray,

@@ -50,14 +50,11 @@ class BatchRecording:
         self.path = self._session.start(node_values['recording.name'])
         values = {**simulation.scene.values, **node_values}
         write_opening(self._session, simulation, values, f'/{_NODE_NAME}')
-        state = state_of(
-            simulation, frame_id=self._frame_id, run_state=ClothState.RUNNING,
-            recording_path=self.path)
+        self._write_state(ClothState.RUNNING)
         reason = too_many_pins(np.count_nonzero(simulation.pinned_nodes()))
         self._has_wrenches = node_values['publish.wrenches'] and not reason
         if node_values['publish.wrenches'] and reason:
             print(f'cloth_sim run: {reason}')
-        self._session.write('state', serialize_message(state), simulation.time)
         self.write(0.0, 0.0)
 
     def write(self, step_wall_time: float, real_time_factor: float) -> None:
@@ -72,9 +69,19 @@ class BatchRecording:
             for data in self._wrenches.serialise(snapshot):
                 self._session.write('pins/wrenches', data, snapshot.time)
 
+    def write_stop(self) -> None:
+        """Write that the run has stopped before its end."""
+        self._write_state(ClothState.STOPPED)
+
     def close(self) -> None:
         """Finish the recording."""
         self._session.close()
+
+    def _write_state(self, run_state: str) -> None:
+        state = state_of(
+            self._simulation, frame_id=self._frame_id, run_state=run_state,
+            recording_path=self.path)
+        self._session.write('state', serialize_message(state), self._simulation.time)
 
     @staticmethod
     def _say_lost(reason: str) -> None:

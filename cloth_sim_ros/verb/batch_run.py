@@ -19,6 +19,7 @@ import time
 from typing import Any
 
 from cloth_sim_ros.sim.errors import ClothSimError
+from cloth_sim_ros.sim.errors import NonFiniteStateError
 from cloth_sim_ros.sim.simulation import Simulation
 from tqdm import tqdm
 
@@ -28,6 +29,8 @@ _BAR = '{percentage:3.0f}% |{bar}| {n:.2f}/{total:.2f} s simulated{postfix}'
 class BatchRun:
     """
     Steps a simulation frame by frame and keeps what a result needs.
+
+    ``problem`` says why the run has stopped before its end; it is empty when it has not.
 
     :param node_values: the node's parameters by name; publish.rate makes the frames
     :param record_directory: folder for a recording; None records nothing
@@ -47,7 +50,7 @@ class BatchRun:
         self.steps = 0
         self.wall_seconds = 0.0
         self.peak_strain = 0.0
-        self.lost_at = math.nan
+        self.problem = ''
 
     @property
     def recording_path(self) -> str:
@@ -55,7 +58,7 @@ class BatchRun:
         return self._recording.path if self._recording else ''
 
     def advance(self, seconds: float) -> None:
-        """Simulate ``seconds``; stop early when the state is not finite any more."""
+        """Simulate ``seconds``; stop early at the last finite state."""
         if not math.isfinite(seconds) or seconds < 0.0:
             raise ClothSimError(f'--seconds must be a finite time, got {seconds}: give 0 or more')
         frames = math.ceil(seconds / self._frame_seconds - 1e-9)
@@ -75,18 +78,22 @@ class BatchRun:
 
     def _make_frame(self, seconds: float) -> bool:
         simulation = self._simulation
+        first = simulation.steps
         begin = time.perf_counter()
-        steps = simulation.advance(seconds)
+        try:
+            simulation.advance(seconds)
+        except NonFiniteStateError as error:
+            self.problem = str(error)
         # Reading the strain waits for the device, so the wall time holds all of the work.
         measures = simulation.measure()
         wall = time.perf_counter() - begin
+        steps = simulation.steps - first
         self.steps += steps
         self.wall_seconds += wall
-        if not measures.finite:
-            self.lost_at = simulation.time
-            self.peak_strain = math.inf
-            return False
         self.peak_strain = max(self.peak_strain, measures.max_strain)
-        if self._recording is not None and steps:
-            self._recording.write(wall / steps, seconds / wall)
-        return True
+        if self._recording is not None:
+            if steps:
+                self._recording.write(wall / steps, steps * simulation.dt / wall)
+            if self.problem:
+                self._recording.write_stop()
+        return not self.problem

@@ -40,6 +40,8 @@ const ivec2 GROUPS[GROUPS_COUNT] = ivec2[](GROUPS_OF_EACH);
 
 shared vec2 sums[REDUCE_LOCAL];
 
+bool is_number(float value) { return (floatBitsToUint(value) & 0x7f800000u) != 0x7f800000u; }
+
 void decide(float now, float curvature) {
     bool first = iterations == 0.0;
     float start = first ? now : measure_start;
@@ -48,6 +50,11 @@ void decide(float now, float curvature) {
     float bent = first ? curvature : curvature - keep * now / step_length;
     bool sound = now > 0.0 && bent > 0.0;
     step_length = sound ? now / bent : 0.0;
+    // A system without a solution is not passed over: the nodes are lost, and that is seen.
+    if (!is_number(now) || !is_number(bent)) {
+        step_length = uintBitsToFloat(0x7fc00000u);
+        sound = false;
+    }
     measure = now;
     measure_start = start;
     iterations += first && !sound ? 0.0 : 1.0;

@@ -44,7 +44,8 @@ void main() {
             image += kept * load(IMAGE, index);
             solution = load(SOLUTION, index);
         }
-        if (length > 0.0) {
+        // Also where it is no number.
+        if (!(length == 0.0)) {
             solution += length * direction;
             residual -= length * image;
         }

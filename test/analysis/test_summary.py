@@ -18,6 +18,7 @@
 from cloth_sim_ros.analysis.recording import Recording
 from cloth_sim_ros.analysis.summary import summarise
 from cloth_sim_ros.messages.points import PointsMessage
+from cloth_sim_ros.messages.state import state_message
 from cloth_sim_ros.messages.stats import stats_message
 from cloth_sim_ros.recording.recorder import Recorder
 from cloth_sim_ros.sim.errors import ClothSimError
@@ -66,6 +67,20 @@ def test_a_run_that_blew_up_is_told(tmp_path):
     summary = summarise(Recording(tmp_path / 'bag'))
     assert not summary.finite
     assert summary.largest_strain == pytest.approx(0.2)
+
+
+def test_a_run_that_stopped_before_it_blew_up_is_told(tmp_path):
+    """A run that broke off would look like one that came to its end."""
+    recorder = Recorder(tmp_path, 'bag', 'cloth_sim')
+    good = make_snapshot(2, 2)
+    recorder.write('points', PointsMessage(2, 2, 'world').serialise(good), good.time)
+    recorder.write('stats', serialize_message(stats_message(good, 'world')), good.time)
+    recorder.write('state', serialize_message(state_message(
+        frame_id='world', sim_time=good.time, mode='adaptive', available_modes=['adaptive'],
+        run_state='stopped', rows=2, cols=2, dt=0.005, substeps=3, stability_limit=0.002,
+        device='a device')), good.time)
+    recorder.close()
+    assert not summarise(Recording(tmp_path / 'bag')).finite
 
 
 def test_a_recording_without_frames_is_refused(tmp_path):

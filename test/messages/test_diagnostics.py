@@ -61,7 +61,7 @@ def test_a_healthy_run_is_ok_in_all_parts():
     ('stability', OK, '0.85 of', {'stability_margin': 0.85000001}, {}),
     ('stability', WARN, 'above the safe', {'stability_margin': 0.95}, {}),
     ('stability', ERROR, 'auto_substeps', {'stability_margin': 1.1}, {}),
-    ('stability', ERROR, 'reset', {'finite': False, 'max_strain': float('nan')}, {}),
+    ('stability', ERROR, 'lost at node (1, 2)', {}, {'problem': 'lost at node (1, 2)'}),
     ('recorder', OK, '/bags/a', {}, {'recording_path': '/bags/a'}),
     ('recorder', ERROR, 'disk is full', {}, {'recording_error': 'the disk is full'}),
 ])

@@ -12,49 +12,83 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""Long frames, and a run whose state stops being finite."""
+"""Long frames, and a run whose next state would not be finite."""
 
 from signal import SIGINT
 
 from cloth_sim_interfaces.srv import ApplyPush
 from cloth_sim_interfaces.srv import SetPin
+from cloth_sim_interfaces.srv import StartRecording
 from cloth_sim_interfaces.srv import Step
+from cloth_sim_ros.analysis.frames import read_frames
+from cloth_sim_ros.analysis.recording import Recording
 from cloth_under_test import ClothUnderTest
 from cloth_under_test import SCENE
 from geometry_msgs.msg import Vector3
 from node_process import NodeProcess
+import numpy as np
 from std_srvs.srv import SetBool
 from std_srvs.srv import Trigger
 
 TOO_MUCH = {'force': Vector3(x=1e30), 'duration': 1.0}
 
 
-def test_stops_when_the_state_is_not_finite_and_reset_mends_it(client, tmp_path):
+def test_stops_before_the_state_is_not_finite_and_can_go_on(client, tmp_path):
     """A cloth of NaN would be published for ever, or the node could not be used any more."""
     with NodeProcess(tmp_path, SCENE, '-r', '__ns:=/blow_up') as node:
         cloth = ClothUnderTest(client, SCENE, '/blow_up/cloth_sim')
         cloth.wait_for('stats', lambda stats: stats.steps > 0)
+        started = cloth.call(StartRecording, 'start_recording', name='blow_up')
         assert cloth.call(ApplyPush, 'apply_push', **TOO_MUCH).success
         cloth.wait_for('state', lambda state: state.run_state == 'stopped')
-        assert 'no longer finite at' in node.output and 'call ~/reset' in node.output
+        found = cloth.wait_for('diagnostics', lambda array: any(
+            'non-finite' in status.message for status in array.status))
+        [status] = [status for status in found.status if 'non-finite' in status.message]
+        assert status.level == status.ERROR
+        assert 'push with less force' in status.message
+        assert node.output.count('the state became non-finite') == 1
+        assert 'call ~/reset' in node.output
 
-        assert not cloth.call(SetBool, 'pause', data=False).success
-        assert 'call ~/reset' in cloth.call(Step, 'step', steps=1).message
+        answer = cloth.call(Step, 'step', steps=1)
+        assert not answer.success and 'push with less force' in answer.message
         assert cloth.call(SetPin, 'set_pin', row=1, col=1).success, 'services still answer'
-        assert all(cloth.points_of(cloud)['x'].max() < 1e30 for cloud in cloth['points'])
+        cloth.clear()
+        assert cloth.call(SetBool, 'pause', data=False).success, 'it tries again'
+        cloth.wait_for('state', lambda state: state.run_state == 'running')
+        cloth.wait_for('state', lambda state: state.run_state == 'stopped')
 
+        assert cloth.call(Trigger, 'clear_pushes').success
+        assert cloth.call(SetBool, 'pause', data=False).success
+        cloth.wait_for('stats', lambda stats: stats.steps > 20)
+        assert cloth['state'][-1].run_state == 'running'
+        assert all(np.abs(cloth.points_of(cloud)['x']).max() < 1e3 for cloud in cloth['points'])
+
+        assert cloth.call(ApplyPush, 'apply_push', **TOO_MUCH).success
+        cloth.client.spin_until(
+            lambda: cloth['state'][-1].run_state == 'stopped', 'the second stop')
         cloth.clear()
         assert cloth.call(Trigger, 'reset').success
         cloth.wait_for('state', lambda state: state.run_state == 'running')
-        cloth.wait_for('stats', lambda stats: stats.steps > 20)
+        assert cloth.call(Trigger, 'stop_recording').success
+    frames = list(read_frames(Recording(started.path, '/blow_up/cloth_sim')))
+    assert len(frames) > 2
+    assert all(np.isfinite(frame.positions).all() for frame in frames)
 
 
 def test_a_step_into_the_same_is_told_too(cloth):
     """A paused cloth would be stepped on as NaN, or forget that it was paused."""
     cloth.call(ApplyPush, 'apply_push', **TOO_MUCH)
-    cloth.call(Step, 'step', steps=50)
+    answer = cloth.call(Step, 'step', steps=50)
+    assert not answer.success and 'non-finite' in answer.message
+    assert answer.sim_time < 50 * cloth.dt
     cloth.wait_for('state', lambda state: state.run_state == 'stopped')
-    assert not cloth.call(Step, 'step', steps=1).success
+    cloth.clear()
+    assert cloth.call(Trigger, 'clear_pushes').success
+    assert cloth.call(Step, 'step', steps=1).success, 'without the push it can go on'
+    cloth.wait_for('state', lambda state: state.run_state == 'paused')
+    cloth.call(ApplyPush, 'apply_push', **TOO_MUCH)
+    cloth.call(Step, 'step', steps=50)
+    cloth.clear()
     cloth.call(Trigger, 'reset')
     cloth.wait_for('state', lambda state: state.run_state == 'paused')
     assert cloth.call(Step, 'step', steps=1).success

@@ -38,6 +38,7 @@ _SCENES = {
         'damping.shear': 0.0, 'damping.bend': 0.0},
 }
 _FORMS = {
+    'bounds_check.comp': {'STRIP': 16},
     'limit_finish.comp': {'STRIP': 16},
     'limit_mark.comp': {'MARKS_TENSION': 1},
     'limit_sweep.comp': {'SWEEP_LAW': 'LIMIT_LAW'},

@@ -152,7 +152,7 @@ def test_a_state_that_is_not_finite_is_seen():
     """Cloth of NaN would be published as if it were real."""
     simulation = Simulation(
         Scene({**_SMALL, 'dt': 0.05, 'auto_substeps': False, 'start.jitter': 0.1}),
-        check_stability=False)
+        check_stability=False, stop_at_non_finite=False)
     assert simulation.measure().finite
     simulation.step(400)
     assert not simulation.measure().finite

@@ -19,6 +19,8 @@ from pathlib import Path
 import subprocess
 import sys
 
+from cloth_sim_ros.analysis.recording import Recording
+from cloth_sim_ros.analysis.summary import summarise
 from mcap.reader import make_reader
 import numpy as np
 import pytest
@@ -135,15 +137,26 @@ def test_what_is_wrong_is_said_in_one_line(scene: Path, arguments: list[str], me
 
 
 def test_a_blow_up_is_a_failure_that_says_when(scene: Path, tmp_path: Path):
-    """A run of NaN would look like a result."""
+    """A run of NaN would look like a result, or leave files that can't be read."""
     violent = tmp_path / 'violent.yaml'
     # So light and pushed so hard that squared distances leave the range of float32.
     violent.write_text(
         _SCENE.replace('force: [0.1, 0.0, 2.0]', 'force: [0.0, 0.0, 1.0e9]')
         + '    node_mass: 1.0e-16\n    stiffness: {structural: 1e-12, shear: 0.0, bend: 0.0}\n'
         '    damping: {structural: 0.0, shear: 0.0, bend: 0.0}\n')
-    done = run(violent, '--seconds', 0.3, '--json')
+    out = tmp_path / 'last.npz'
+    done = run(violent, '--seconds', 0.3, '--json', '--out', out, '--record', tmp_path,
+               '--set', 'recording.name=lost')
     assert done.returncode == 1
     result = json.loads(done.stdout.splitlines()[-1])
     assert result['finite'] is False
-    assert 'the state is not finite any more, seen at' in done.stderr
+    assert result['sim_seconds'] == pytest.approx(0.1)
+    [line] = [line for line in done.stderr.splitlines() if 'non-finite' in line]
+    assert 'in the step from t = 0.1 s' in line and 'push with less force' in line
+    assert 'Traceback' not in done.stderr
+    with np.load(out) as state:
+        assert state['time'] == pytest.approx(0.1)
+        assert np.isfinite(state['positions']).all()
+    summary = summarise(Recording(tmp_path / 'lost'))
+    assert not summary.finite
+    assert summary.end == pytest.approx(0.1)

@@ -17,19 +17,18 @@
 import math
 
 from cloth_sim_ros.gl.buffer import Buffer
-from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.layout import Layout
 from cloth_sim_ros.sim.modes.limit_marks import LimitMarks
 from cloth_sim_ros.sim.modes.one_pass import OnePass
 from cloth_sim_ros.sim.modes.paper_limit import PaperLimit
 from cloth_sim_ros.sim.modes.penalty_limit import PenaltyLimit
+from cloth_sim_ros.sim.modes.spring_substeps import spring_substeps
 from cloth_sim_ros.sim.modes.strain_limit import StrainLimit
 from cloth_sim_ros.sim.modes.strain_watch import StrainWatch
 from cloth_sim_ros.sim.modes.tension_limit import TensionLimit
 from cloth_sim_ros.sim.push_field import PushField
 from cloth_sim_ros.sim.scene import Scene
-from cloth_sim_ros.sim.stability import choose_substeps
-from cloth_sim_ros.sim.stability import safe_substep
+from cloth_sim_ros.sim.scene_fields import MOST_SUBSTEPS
 from cloth_sim_ros.sim.stability import stability_limit
 from cloth_sim_ros.sim.state import State
 import numpy as np
@@ -50,12 +49,9 @@ class Adaptive:
     def __init__(self, scene: Scene, layout: Layout, *, check_stability: bool = True) -> None:
         """Choose the substeps and compile the passes."""
         self.stability_limit = stability_limit(scene)
-        self.substeps: int = (
-            choose_substeps(scene) if scene['auto_substeps'] else scene['substeps'])
+        self.substeps = spring_substeps(scene, self.name, check_stability=check_stability)
         self._dt: float = scene['dt']
         self._length = self._dt / self.substeps
-        if check_stability and self._length > self.stability_limit:
-            raise ClothSimError(self._too_long(scene))
         self._fewest_substeps = self.substeps
         self._springs = OnePass(scene, layout)
         self._watch = StrainWatch(scene, layout)
@@ -128,15 +124,9 @@ class Adaptive:
         self._before = length
 
     def _next_length(self, left: float) -> float:
-        return left / math.ceil(left / self._limit.next_length() - _NOTHING)
-
-    def _too_long(self, scene: Scene) -> str:
-        most = safe_substep(scene) * self.substeps
-        return (
-            f'dt {scene["dt"]:g} s in {self.substeps} substeps is above the stability limit '
-            f'{self.stability_limit:.3g} s of a substep in mode {self.name} '
-            f'(node mass {scene.node_mass:.3g} kg): '
-            f'set dt <= {most:.3g}, or auto_substeps: true')
+        # Also of a cloth that is about to blow up, a step comes to its end.
+        longest = max(self._limit.next_length(), self._dt / MOST_SUBSTEPS)
+        return left / math.ceil(left / longest - _NOTHING)
 
 
 def _make_limit(

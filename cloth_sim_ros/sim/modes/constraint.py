@@ -92,10 +92,9 @@ class Constraint:
         """Take the next state as it comes, stretched or not."""
         self.substeps = 1 if self._scene['auto_substeps'] else self._scene['substeps']
         self.stability_limit = math.inf
-        self._solver.tensions.clear()
+        self._solver.forget()
         self._free_motion.forget()
         self._hardening.forget()
-        self._solver.clear_tally()
         self._solver.submit(self._most_iterations)
 
     def report(self) -> dict[str, float]:
@@ -135,7 +134,9 @@ class Constraint:
     def _choose_substeps(self, state: State, forcing: Forcing) -> float:
         turning, self.stability_limit, misfit = self._watch.look(state, forcing, self._dt)
         if self._scene['auto_substeps']:
-            wanted = self._dt / min(turning, self.stability_limit) - _NOTHING
+            longest = min(turning, self.stability_limit)
+            # Nodes that are pushed absurdly turn their edges at once.
+            wanted = self._dt / longest - _NOTHING if longest > 0.0 else math.inf
             most = self._scene['constraint.max_substeps']
             # What is no number becomes the most, too.
             self.substeps = max(1, math.ceil(wanted)) if wanted < most else most
@@ -156,7 +157,7 @@ class Constraint:
         self._solver.apply(state, common_change=common_change)
         for _ in range(self._solves - 1):
             self._solver.assemble(state)
-            self._solver.make_later_right_side(state)
+            self._solver.make_later_right_side()
             self._solver.solve()
             self._solver.apply(state, further=True)
 

@@ -15,16 +15,13 @@
 """Mass-spring: explicit springs to 12 neighbours, symplectic Euler (paper, section 4.1)."""
 
 from cloth_sim_ros.gl.buffer import Buffer
-from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.layout import Layout
 from cloth_sim_ros.sim.modes.one_pass import OnePass
+from cloth_sim_ros.sim.modes.spring_substeps import spring_substeps
 from cloth_sim_ros.sim.modes.two_pass import TwoPass
 from cloth_sim_ros.sim.push_field import PushField
 from cloth_sim_ros.sim.scene import Scene
-from cloth_sim_ros.sim.scene_fields import MOST_SUBSTEPS
 from cloth_sim_ros.sim.spring_tension import spring_tension
-from cloth_sim_ros.sim.stability import choose_substeps
-from cloth_sim_ros.sim.stability import safe_substep
 from cloth_sim_ros.sim.stability import stability_limit
 from cloth_sim_ros.sim.state import State
 import numpy as np
@@ -39,13 +36,8 @@ class MassSpring:
         """Choose the substeps and compile the passes."""
         self._scene = scene
         self.stability_limit = stability_limit(scene)
-        self.substeps: int = (
-            choose_substeps(scene) if scene['auto_substeps'] else scene['substeps'])
-        if self.substeps > MOST_SUBSTEPS:
-            raise ClothSimError(self._too_many(scene))
+        self.substeps = spring_substeps(scene, self.name, check_stability=check_stability)
         self._length: float = scene['dt'] / self.substeps
-        if check_stability and self._length > self.stability_limit:
-            raise ClothSimError(self._too_long(scene))
         self._passes = OnePass(scene, layout) if layout.kind == 'fused' else TwoPass(scene, layout)
 
     def step(self, state: State, begin: float, pushes: PushField) -> None:
@@ -74,18 +66,3 @@ class MassSpring:
     def delete(self) -> None:
         """Give back what the passes allocated."""
         self._passes.delete()
-
-    def _too_many(self, scene: Scene) -> str:
-        most = safe_substep(scene) * MOST_SUBSTEPS
-        return (
-            f'dt {scene["dt"]:g} s would take {self.substeps:.3g} substeps of the '
-            f'{self.stability_limit:.3g} s that are stable, more than {MOST_SUBSTEPS}: '
-            f'set dt <= {most:.3g}, or take softer springs, less damping or a larger node mass')
-
-    def _too_long(self, scene: Scene) -> str:
-        most = safe_substep(scene) * self.substeps
-        return (
-            f'dt {scene["dt"]:g} s in {self.substeps} substeps is above the stability limit '
-            f'{self.stability_limit:.3g} s of a substep in mode {self.name} '
-            f'(node mass {scene.node_mass:.3g} kg): '
-            f'set dt <= {most:.3g}, or auto_substeps: true')

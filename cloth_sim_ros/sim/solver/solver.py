@@ -117,11 +117,9 @@ class Solver:
             self._tensions.bind()
         self._right_side.run(self._law, forcing)
 
-    def make_later_right_side(self, state: State) -> None:
+    def make_later_right_side(self) -> None:
         """Make b of what is left of each edge's law, after ``apply`` and another ``assemble``."""
         self._buffers.bind()
-        # What the last step but one left there is where the nodes were before the first solve.
-        state.bind_out()
         self._tensions.bind()
         self._tensions.later_right_side.run()
 
@@ -182,6 +180,13 @@ class Solver:
     def tensions(self) -> Tensions | None:
         """Return the tensions that the solves of the last step have found; None if not kept."""
         return self._tensions
+
+    def forget(self) -> None:
+        """Drop what earlier solves have left, also where they came to no numbers."""
+        self._buffers.clear()
+        if self._tensions is not None:
+            self._tensions.clear()
+        self._tally.clear()
 
     def clear_tally(self) -> None:
         """Begin to count solves anew."""

@@ -62,6 +62,11 @@ class SolverBuffers:
             self._system.bind_texture(bindings.SOLVER_SYSTEM)
             self._sums.bind_texture(bindings.SOLVER_SUMS)
 
+    def clear(self) -> None:
+        """Make all zero, as at the start: what is no number would stay where it is multiplied."""
+        for buffer in (self._vectors, self._system, self._sums, self._scalars, self._dispatches):
+            buffer.write(np.zeros(buffer.bytes // 4, dtype=np.uint32))
+
     def clear_scalars(self) -> None:
         """Forget the last solve."""
         self._scalars.write(np.zeros(_SCALARS, dtype=np.float32))

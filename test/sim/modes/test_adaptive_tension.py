@@ -71,7 +71,7 @@ def test_tensions_are_what_moves_the_nodes(scheme, dt, pull):
     """A tension would be told of another edge than the one that is held, or be another force."""
     scene = Scene({**SCENE, 'adaptive.scheme': scheme, 'dt': dt})
     with closing(Simulation(scene)) as simulation:
-        simulation.advance(0.35)
+        simulation.advance(0.1)
         for _ in range(5):
             before = simulation.snapshot(tension=True)
             simulation.step()
@@ -94,7 +94,7 @@ def test_a_cloth_within_its_limit_has_the_tension_of_its_springs(scheme):
     """What held an edge long ago would still be told, or what another mode left."""
     scene = Scene({**SCENE, 'adaptive.scheme': scheme})
     with closing(Simulation(scene)) as simulation:
-        simulation.advance(0.35)
+        simulation.advance(0.1)
         for look in (simulation.reset, lambda: simulation.set_mode('mass_spring')):
             look()
             snapshot = simulation.snapshot(tension=True)

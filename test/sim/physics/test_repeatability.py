@@ -19,6 +19,7 @@ import os
 import subprocess
 import sys
 
+from cloth_sim_ros.sim import modes
 import pytest
 
 SCENE = {
@@ -26,20 +27,33 @@ SCENE = {
     'pushes.duration': [0.1, 0.05], 'pushes.force': [0.0, 0.0, 4.0, 1.0, 0.0, 0.0],
     'pushes.center': [0.0, 0.0, 0.0, 0.0, 0.0, 1.0], 'pushes.radius': [0.0, 0.4]}
 
+# Its pushes take some edges to their limit and let them go again; calm enough for hard edges.
+LIMITED = {
+    **SCENE, 'rows': 17, 'cols': 13, 'start.jitter': 0.002, 'adaptive.threshold': 0.01}
+
 IN_A_PROCESS = """
 import json, sys
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.simulation import Simulation
 simulation = Simulation(Scene(json.loads(sys.argv[1])))
-simulation.advance(0.5)
+for seconds, mode in json.loads(sys.argv[2]):
+    simulation.set_mode(mode)
+    simulation.push((0.0, 0.3, 0.5), start=simulation.time + 0.013, duration=0.04,
+                    region='sphere', center=(0.1, 0.0, 1.0), radius=0.3)
+    simulation.pin(5, 5)
+    simulation.advance(seconds)
+    simulation.release(5, 5)
+simulation.advance(0.5 if simulation.steps == 0 else 0.1)
 print(simulation.snapshot().state_sha256)
 """
 
 
-def _hash_of_a_process(values, **environment):
+def _hash_of_a_process(values, spans=None, **environment):
+    """Return the hash after ``spans`` of seconds and mode, with pushes and pins; or 0.5 s."""
+    spans = spans or []
     done = subprocess.run(
-        [sys.executable, '-c', IN_A_PROCESS, json.dumps(values)], check=True, text=True,
-        capture_output=True, env={**os.environ, **environment})
+        [sys.executable, '-c', IN_A_PROCESS, json.dumps(values), json.dumps(spans)], check=True,
+        text=True, capture_output=True, env={**os.environ, **environment})
     return done.stdout.strip()
 
 
@@ -55,6 +69,17 @@ def test_paper_layout_too(any_mode):
     """The paper's layout depends on thread timing or on memory nobody wrote."""
     values = {**SCENE, 'mode': any_mode, 'layout': 'paper'}
     assert _hash_of_a_process(values) == _hash_of_a_process(values)
+
+
+def test_switches_and_pushes_at_fixed_times_too(any_mode):
+    """A mode keeps something of an earlier run or reads memory nobody wrote."""
+    values = {**LIMITED, 'mode': any_mode}
+    spans = [(0.12, any_mode)] + [(0.08, other) for other in (*modes.AVAILABLE, any_mode)]
+    first = _hash_of_a_process(values, spans)
+    assert first == _hash_of_a_process(values, spans)
+    # The times of the switches are what counts.
+    spans[0] = (0.2, any_mode)
+    assert first != _hash_of_a_process(values, spans)
 
 
 def test_threads_do_not_show(any_mode):
@@ -78,6 +103,41 @@ def test_reset_starts_the_same_run(simulate, any_mode, layout):
     simulation.advance(0.5)
     assert simulation.snapshot().state_sha256 == first
     assert first != start
+
+
+def test_reset_forgets_what_a_mode_remembers(simulate, any_mode):
+    """Warm starts of the run before would be left over, of this mode or another."""
+    simulation = simulate({**LIMITED, 'mode': any_mode})
+    hashes = []
+    for _ in range(2):
+        simulation.set_mode(any_mode)
+        simulation.advance(0.2)
+        end = simulation.snapshot()
+        hashes.append(end.state_sha256)
+        assert any_mode != 'adaptive' or end.active_constraints > 0, 'there is nothing to remember'
+        for other in modes.AVAILABLE:
+            simulation.set_mode(other)
+            simulation.advance(0.05)
+        simulation.reset()
+    assert hashes[0] == hashes[1]
+
+
+def test_a_switch_and_back_leaves_the_state_alone(simulate, any_mode):
+    """What a mode kept from before it was left would come back with it."""
+    hashes = []
+    for switches in (True, False):
+        simulation = simulate({**LIMITED, 'mode': any_mode})
+        simulation.advance(0.2)
+        if switches:
+            for other in (*modes.AVAILABLE, any_mode):
+                simulation.set_mode(other)
+        else:
+            # The mode knows nothing but the state, and not how it came to it.
+            now = simulation.snapshot()
+            simulation.set_state(now.positions, now.velocities)
+        simulation.advance(0.1)
+        hashes.append(simulation.snapshot().state_sha256)
+    assert hashes[0] == hashes[1]
 
 
 def test_pieces_make_the_same_run(simulate, any_mode, layout):

@@ -41,7 +41,7 @@ def _values(mode, nodes, damping_ratio, shear, bend):
 
 def _strain_after(simulate, values, over_limit, steps):
     dt = over_limit * stability_limit(Scene(values))
-    simulation = simulate({**values, 'dt': dt}, check_stability=False)
+    simulation = simulate({**values, 'dt': dt}, check_stability=False, stop_at_non_finite=False)
     simulation.step(steps)
     snapshot = simulation.snapshot()
     return snapshot.max_strain if snapshot.finite else np.inf

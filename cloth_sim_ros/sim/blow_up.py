@@ -1,0 +1,96 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Why a state became non-finite, and what to change."""
+
+from cloth_sim_ros.sim.errors import NonFiniteStateError
+from cloth_sim_ros.sim.scene import Scene
+from cloth_sim_ros.sim.scene_program import MOST_MAGNITUDE
+from cloth_sim_ros.sim.stability import safe_substep
+import numpy as np
+
+# Of the shortest spacing: a node that moves further in a substep has left what its springs know.
+_FAR = 0.5
+# A strain that no cloth was laid out for.
+_OVERSTRETCHED = 10.0
+
+
+def explain(
+        scene: Scene, lost: np.ndarray, records: np.ndarray, *, mode: str, substeps: int,
+        longest_substep: float, stability_limit: float, steps: int,
+        gained_speed: float) -> NonFiniteStateError:
+    """
+    Return the error that tells when, where, why, and what to change.
+
+    :param lost: records of the state that is not finite
+    :param records: of the last finite one, which is kept
+    :param substeps: of the step that led from one to the other
+    :param longest_substep: that the mode takes of a cloth at rest [s]
+    :param steps: made until the state that is kept
+    :param gained_speed: by pushes in the step after it [m/s]
+    """
+    speeds = _lengths(records, 'vx', 'vy', 'vz')
+    # Of the nodes that were lost, the fastest: a blow-up spreads from node to node.
+    row, col = (int(at) for at in np.unravel_index(
+        np.argmax(np.where(_is_lost(lost), speeds, -1.0)), speeds.shape))
+    time = steps * scene['dt']
+    cause, way_out = _cause(
+        scene, longest_substep, stability_limit, float(speeds.max()),
+        float(records['strain'].max()), gained_speed)
+    return NonFiniteStateError(
+        f'the state became non-finite in the step from t = {time:.6g} s, first at node '
+        f'({row}, {col}), in mode {mode} with substeps of {scene["dt"] / substeps:.3g} s: '
+        f'positions and velocities must stay below {MOST_MAGNITUDE:g} m and m/s, but {cause}; '
+        f'the state at {time:.6g} s is kept: {way_out}', steps=steps, node=(row, col))
+
+
+def _cause(
+        scene: Scene, substep: float, stability_limit: float, speed: float, strain: float,
+        gained_speed: float) -> tuple[str, str]:
+    reach = _FAR * min(scene.spacing)
+    safe_dt = f'{safe_substep(scene) * scene["substeps"]:.3g}'
+    if substep > stability_limit:
+        return (
+            f'the substep is {substep / stability_limit:.3g} times the stability limit',
+            f'set dt <= {safe_dt}, or auto_substeps: true')
+    if gained_speed * substep > reach:
+        return (
+            f'a push made nodes faster by up to {gained_speed:.3g} m/s, while in a substep they '
+            f'can follow {reach:.3g} m', 'push with less force, or take a larger mass')
+    if speed * substep > reach:
+        return (
+            f'the fastest node moved at {speed:.3g} m/s, while in a substep it can follow '
+            f'{reach:.3g} m', 'push or start it more gently, or set a smaller dt')
+    if strain > _OVERSTRETCHED:
+        return (
+            f'a spring had the strain {strain:.3g}',
+            'stretch it less, or take stiffer springs or more damping')
+    if substep > safe_substep(scene):
+        return (
+            'substeps of that length are stable in a flat cloth, not in a folded one',
+            f'set dt <= {safe_dt}, or auto_substeps: true')
+    return (
+        f'the fastest node moved at {speed:.3g} m/s and the largest strain was {strain:.3g}',
+        f'set dt <= {min(substep, scene["dt"]) / 2.0:.3g}, or take softer springs or a larger '
+        'mass')
+
+
+def _is_lost(records: np.ndarray) -> np.ndarray:
+    # Written so that what is no number is lost.
+    return ~np.logical_and.reduce([
+        np.abs(records[name]) < MOST_MAGNITUDE for name in ('x', 'y', 'z', 'vx', 'vy', 'vz')])
+
+
+def _lengths(records: np.ndarray, *names: str) -> np.ndarray:
+    return np.sqrt(sum(records[name].astype(np.float64)**2 for name in names))

@@ -1,0 +1,135 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Make steps, and stop at the last finite state when one leads out of all bounds."""
+
+from collections.abc import Callable
+from collections.abc import Sequence
+from typing import Any
+from typing import NoReturn
+from typing import Protocol
+
+from cloth_sim_ros.sim import blow_up
+from cloth_sim_ros.sim.bounds_check import BoundsCheck
+from cloth_sim_ros.sim.errors import NonFiniteStateError
+from cloth_sim_ros.sim.forcing import Forcing
+from cloth_sim_ros.sim.layout import Layout
+from cloth_sim_ros.sim.modes.mode import Mode
+from cloth_sim_ros.sim.observer import Observer
+from cloth_sim_ros.sim.push_field import PushField
+from cloth_sim_ros.sim.scene import Scene
+from cloth_sim_ros.sim.state import State
+import numpy as np
+
+# Between two checks: the read-back of a check waits for the device, and what lies between is
+# stepped again when one fails (docs/performance.md).
+_MOST_SUBSTEPS = 64
+
+
+class Restorable(Protocol):
+    """What steps change."""
+
+    def keep(self) -> Any:
+        """Return what ``restore`` needs to come back to this moment."""
+
+    def restore(self, kept: Any) -> None:
+        """Go back to the moment of ``keep``, the latest one."""
+
+
+class GuardedSteps:
+    """
+    Check the state at the end of each batch of steps, and now and then within.
+
+    When a check fails, the steps since the last good one are made again, each with a check of
+    its own, and the state goes back to the last that passes. What the mode keeps from step to
+    step begins anew there.
+
+    :param guarded: False steps on whatever becomes of the state
+    """
+
+    def __init__(
+            self, scene: Scene, layout: Layout, observer: Observer, state: State,
+            guarded: bool = True) -> None:
+        """Allocate what the check needs."""
+        self._scene = scene
+        self._dt: float = scene['dt']
+        self._observer = observer
+        self._state = state
+        self._guarded = guarded
+        self._check = BoundsCheck(scene, layout)
+
+    def make(
+            self, first: int, count: int, step: Callable[[int], None], mode: Mode,
+            pushes: PushField, others: Sequence[Restorable] = ()) -> None:
+        """
+        Make ``count`` steps from a state that is finite.
+
+        :param first: number of the first step, counted from 0 at the start of the run
+        :param step: makes the step of a number, by ``mode``
+        :param pushes: those that ``step`` uses
+        :param others: what else ``step`` changes
+        :raises NonFiniteStateError: after going back to the last finite state
+        """
+        parts = (self._state, pushes, *others)
+        kept = _keep(parts)
+        since, substeps = first, 0
+        for number in range(first, first + count):
+            step(number)
+            substeps += mode.substeps
+            is_last = number == first + count - 1
+            if not self._guarded or (not is_last and substeps < _MOST_SUBSTEPS):
+                continue
+            if not self._check.passes(self._state):
+                _go_back(parts, kept, mode)
+                self._step_to_the_last_finite(since, number + 1, step, mode, pushes, parts)
+            kept = _keep(parts)
+            since, substeps = number + 1, 0
+
+    def delete(self) -> None:
+        """Give everything back."""
+        self._check.delete()
+
+    def _step_to_the_last_finite(
+            self, begin: int, end: int, step: Callable[[int], None], mode: Mode,
+            pushes: PushField, parts: Sequence[Restorable]) -> NoReturn:
+        for number in range(begin, end):
+            kept = _keep(parts)
+            step(number)
+            if self._check.passes(self._state):
+                continue
+            time, substeps = number * self._dt, mode.substeps
+            lost = self._look()
+            _go_back(parts, kept, mode)
+            raise blow_up.explain(
+                self._scene, lost, self._look(), mode=mode.name, substeps=substeps,
+                longest_substep=self._dt / mode.substeps, stability_limit=mode.stability_limit,
+                steps=number, gained_speed=pushes.speed_gained(time, time + self._dt))
+        raise NonFiniteStateError(
+            f'the state became non-finite before t = {end * self._dt:.6g} s in mode {mode.name}, '
+            f'but not when the steps since {begin * self._dt:.6g} s were made again without what '
+            'the mode had kept from earlier ones: go on from there, or set a smaller dt',
+            steps=end)
+
+    def _look(self) -> np.ndarray:
+        return self._observer.record(self._state, Forcing(self._scene['gravity']))[1]
+
+
+def _keep(parts: Sequence[Restorable]) -> list[Any]:
+    return [part.keep() for part in parts]
+
+
+def _go_back(parts: Sequence[Restorable], kept: Sequence[Any], mode: Mode) -> None:
+    for part, its_own in zip(parts, kept):
+        part.restore(its_own)
+    mode.forget()
