@@ -71,7 +71,7 @@ def test_tensions_are_what_moves_the_nodes(scheme, dt, pull):
     """A tension would be told of another edge than the one that is held, or be another force."""
     scene = Scene({**SCENE, 'adaptive.scheme': scheme, 'dt': dt})
     with closing(Simulation(scene)) as simulation:
-        simulation.advance(0.1)
+        simulation.advance(0.35)
         for _ in range(5):
             before = simulation.snapshot(tension=True)
             simulation.step()
