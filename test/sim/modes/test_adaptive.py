@@ -167,36 +167,6 @@ def momenta(snapshot):
             speed.sum(), (np.linalg.norm(positions, axis=-1) * speed).sum())
 
 
-@pytest.mark.long
-@pytest.mark.parametrize('areal_density', [0.05, 0.2])
-def test_light_cloth_is_cloth_and_not_rubber(areal_density):
-    """A towel with a limit of 1 % stretches like rubber when it is shaken, or blows up."""
-    reach, rate, dt, seconds = 0.05, 4.0 * np.pi, 0.01, 60.0
-    scene = Scene({
-        **LIMP, 'rows': 64, 'cols': 64, 'areal_density': areal_density, 'mode': 'adaptive',
-        'damping.structural': 1e-3, 'damping.shear': 1e-3, 'adaptive.threshold': 0.01, 'dt': dt})
-    strains, substeps = [], []
-    with closing(Simulation(scene)) as simulation:
-        free_mass = scene.node_mass * (scene.node_count - 2)
-        speed = np.zeros(3)
-        for step in range(round(seconds / dt)):
-            # Seen from the shaken pins, the cloth is pushed the other way.
-            turn = rate * (step + 1) * dt
-            faster = reach * rate * np.array([np.cos(turn), 0.0, 0.5 * np.sin(turn)])
-            simulation.push(-free_mass * (faster - speed) / dt, duration=dt)
-            speed = faster
-            simulation.step()
-            snapshot = simulation.snapshot()
-            assert snapshot.finite
-            strains.append(snapshot.max_strain)
-            substeps.append(snapshot.substeps)
-    late = np.array(strains[round(1.0 / dt):])
-    print(f'measured {late.max():.4f} of 0.02 allowed: strain, median {np.median(late):.4f} of '
-          f'0.012, {np.mean(substeps):.0f} substeps a step, at most {max(substeps)}')
-    assert late.max() <= 0.02
-    assert np.median(late) <= 0.012
-
-
 def test_a_calm_cloth_is_mass_spring_to_the_bit():
     """Cloth within its limit is not stepped as its springs alone would."""
     stiff = {'stiffness.structural': 300.0, 'stiffness.shear': 300.0, 'pins': ['top_edge']}
