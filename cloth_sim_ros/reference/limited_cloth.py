@@ -65,9 +65,9 @@ class LimitedCloth(ReferenceCloth):
         return self._max_strain_at(self._flat_positions)
 
     @property
+    @abstractmethod
     def is_idle(self) -> bool:
         """Tell whether nothing is held, so that a mass-spring substep does the same."""
-        raise NotImplementedError
 
     def _see(self, strain: float) -> None:
         """Take the largest strain at the last look of the watch."""
