@@ -66,8 +66,8 @@ class Snapshot(Measures):
     :param dt: [s]
     :param substeps: in each dt
     :param stability_margin: substep over the stability limit
-    :param solver_iterations: of the last substep, 0 in a mode without a solver
-    :param solver_residual: relative, where the solver stopped
+    :param solver_iterations: most of a solve in the last step, 0 in a mode without a solver
+    :param solver_residual: relative, where the worst solve of the last step stopped
     :param solver_reached: False when a solve of the last step stopped before the residual asked
         for
     :param active_constraints: springs at their limit

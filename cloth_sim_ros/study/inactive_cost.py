@@ -24,12 +24,12 @@ from collections.abc import Mapping
 from collections.abc import Sequence
 from dataclasses import dataclass
 import statistics
-import time
 from typing import Any
 
 from cloth_sim_ros.gl.context import Context
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.simulation import Simulation
+from cloth_sim_ros.study.timed_steps import time_steps
 
 MODES = ('mass_spring', 'adaptive')
 # A swinging cloth, held along one edge, that stays far from the default limit.
@@ -75,11 +75,11 @@ def inactive_costs(
             Simulation(Scene({**values, 'rows': size, 'cols': size, 'mode': mode}),
                        context=context) for mode in MODES]
         for run in runs:
-            _time_steps(run, round_steps)
+            time_steps(run, round_steps)
         ratios = []
         largest_strain = 0.0
         for _ in range(rounds):
-            baseline, watched = (_time_steps(run, round_steps) for run in runs)
+            baseline, watched = (time_steps(run, round_steps) for run in runs)
             ratios.append(watched / baseline)
             largest_strain = max(largest_strain, runs[1].measure().max_strain)
         ends = [run.snapshot() for run in runs]
@@ -91,14 +91,6 @@ def inactive_costs(
         for run in runs:
             run.close()
         context.close()
-
-
-def _time_steps(run: Simulation, count: int) -> float:
-    run.finish()
-    begin = time.perf_counter()
-    run.step(count)
-    run.finish()
-    return time.perf_counter() - begin
 
 
 def main() -> None:

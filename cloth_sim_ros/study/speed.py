@@ -20,7 +20,6 @@ from collections.abc import Sequence
 from dataclasses import asdict
 from dataclasses import dataclass
 import statistics
-import time
 from typing import Any
 
 from cloth_sim_ros.gl.context import Context
@@ -28,6 +27,7 @@ from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.simulation import Simulation
 from cloth_sim_ros.sim.stability import SAFETY
 from cloth_sim_ros.sim.stability import stability_limit
+from cloth_sim_ros.study.timed_steps import time_steps
 
 _STEPS_BEFORE = 2
 
@@ -85,7 +85,7 @@ def compare_variants(
         measured: list[list[float]] = [[] for _ in runs]
         for _ in range(rounds):
             for run, count, figures in zip(runs, counts, measured):
-                figures.append(run.scene.node_count * count / _time_steps(run, count))
+                figures.append(run.scene.node_count * count / time_steps(run, count))
         speeds = tuple(
             _speed(name, run, figures, measured[-1])
             for name, run, figures in zip(variants, runs, measured))
@@ -116,13 +116,5 @@ def _speed(
 
 def _steps_for(run: Simulation, seconds: float) -> int:
     # The first steps compile what the device puts off until then.
-    _time_steps(run, _STEPS_BEFORE)
-    return max(1, round(_STEPS_BEFORE * seconds / _time_steps(run, _STEPS_BEFORE)))
-
-
-def _time_steps(run: Simulation, count: int) -> float:
-    run.finish()
-    begin = time.perf_counter()
-    run.step(count)
-    run.finish()
-    return time.perf_counter() - begin
+    time_steps(run, _STEPS_BEFORE)
+    return max(1, round(_STEPS_BEFORE * seconds / time_steps(run, _STEPS_BEFORE)))

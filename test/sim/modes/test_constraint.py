@@ -17,6 +17,7 @@
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.simulation import Simulation
+from momenta import momenta
 import numpy as np
 import pytest
 
@@ -124,9 +125,9 @@ def test_a_free_cloth_keeps_its_momenta(simulate, steps):
     spin = np.cross([0.7, 1.5, 2.2], positions - positions.mean(axis=(0, 1)))
     simulation.set_state(
         positions, spin + [0.3, 0.2, -0.1] + 0.3 * random.normal(size=positions.shape))
-    before = _momenta(simulation.snapshot())
+    before = momenta(simulation.snapshot())
     simulation.step(steps)
-    after = _momenta(simulation.snapshot())
+    after = momenta(simulation.snapshot())
     assert simulation.measure().max_strain < 0.01
     linear = np.abs(after[0] - before[0]).max() / before[2]
     angular = np.abs(after[1] - before[1]).max() / before[3]
@@ -147,12 +148,3 @@ def test_gravity_and_pushes_move_a_free_cloth(simulate):
     weight = 0.2 * np.array([0.0, 0.0, -9.81])
     np.testing.assert_allclose(
         momentum, 0.2 * weight + 0.055 * np.array([0.5, 0.0, 1.0]), atol=1e-6)
-
-
-def _momenta(snapshot):
-    """Return sums over nodes of v, of x cross v, of |v| and of |x| |v|."""
-    positions = snapshot.positions.astype(float)
-    velocities = snapshot.velocities.astype(float)
-    speed = np.linalg.norm(velocities, axis=-1)
-    return (velocities.sum(axis=(0, 1)), np.cross(positions, velocities).sum(axis=(0, 1)),
-            speed.sum(), (np.linalg.norm(positions, axis=-1) * speed).sum())

@@ -14,6 +14,7 @@
 
 """A free cloth in no field keeps its linear and angular momentum."""
 
+from momenta import momenta
 import numpy as np
 
 
@@ -29,19 +30,10 @@ def test_momentum_over_ten_thousand_steps(simulate, within, mode, layout):
     simulation.set_state(
         (start.positions + random.standard_normal(shape) / 150.0).astype(np.float32),
         random.standard_normal(shape).astype(np.float32))
-    before = _momenta(simulation.snapshot())
+    before = momenta(simulation.snapshot())
     simulation.step(10_000)
-    after = _momenta(simulation.snapshot())
+    after = momenta(simulation.snapshot())
     within('linear momentum, change over sum of |v|',
            np.abs(after[0] - before[0]).max() / before[2], 1e-6)
     within('angular momentum, change over sum of |x| |v|',
            np.abs(after[1] - before[1]).max() / before[3], 5e-6)
-
-
-def _momenta(snapshot):
-    """Return sums over nodes of v, of x cross v, of |v| and of |x| |v|."""
-    positions = snapshot.positions.astype(float)
-    velocities = snapshot.velocities.astype(float)
-    speed = np.linalg.norm(velocities, axis=-1)
-    return (velocities.sum(axis=(0, 1)), np.cross(positions, velocities).sum(axis=(0, 1)),
-            speed.sum(), (np.linalg.norm(positions, axis=-1) * speed).sum())
