@@ -55,14 +55,23 @@ class Frame:
             raise ClothSimError(
                 f'the cloud at {time:g} s has no field {missing[0]}: '
                 'give a recording of a cloth_sim node')
-        layout = np.dtype({
-            'names': list(fields),
-            'formats': [
-                np.dtype(_KINDS[field.datatype]).newbyteorder('>' if cloud.is_bigendian else '<')
-                for field in fields.values()],
-            'offsets': [field.offset for field in fields.values()],
-            'itemsize': cloud.point_step})
-        records = np.frombuffer(cloud.data, layout).reshape(cloud.height, cloud.width)
+        try:
+            layout = np.dtype({
+                'names': list(fields),
+                'formats': [
+                    np.dtype(_KINDS[field.datatype]).newbyteorder(
+                        '>' if cloud.is_bigendian else '<')
+                    for field in fields.values()],
+                'offsets': [field.offset for field in fields.values()],
+                'itemsize': cloud.point_step})
+            records = np.frombuffer(cloud.data, layout).reshape(cloud.height, cloud.width)
+        except (KeyError, ValueError, TypeError) as error:
+            raise ClothSimError(
+                f'the cloud at {time:g} s is not as long as it says, or of unknown fields '
+                f'({error}): give a recording of a cloth_sim node') from error
+        if not records.size:
+            raise ClothSimError(
+                f'the cloud at {time:g} s has no point: give a recording of a cloth_sim node')
         return cls(time, records, tuple(pushes))
 
     @property

@@ -17,26 +17,23 @@
 
 from collections.abc import Iterator
 from collections.abc import Sequence
-from dataclasses import replace
 
 from cloth_sim_ros.analysis.frame import Frame
 from cloth_sim_ros.analysis.panel_times import panel_times
-from cloth_sim_ros.analysis.recording import Entry
+from cloth_sim_ros.analysis.push_history import KEYS
+from cloth_sim_ros.analysis.push_history import PushHistory
 from cloth_sim_ros.analysis.recording import Recording
 from cloth_sim_ros.sim.push import Push
 
 
 def read_frames(recording: Recording) -> Iterator[Frame]:
     """Yield every frame with the pushes given before it; one is in memory at a time."""
-    pushes: list[Push] = []
-    for entry in recording.entries('points', 'inputs/push', 'inputs/command'):
+    history = PushHistory()
+    for entry in recording.entries('points', *KEYS):
         if entry.key == 'points':
-            yield Frame.from_points(entry.time, entry.message, pushes)
-        elif entry.key == 'inputs/push':
-            pushes.append(_push(entry))
+            yield Frame.from_points(entry.time, entry.message, history.pushes)
         else:
-            # Both commands, a reset and a removal of all pushes, end what acts.
-            pushes = [_ended(push, entry.time) for push in pushes if push.start < entry.time]
+            history.read(entry)
 
 
 def frames_at(recording: Recording, times: Sequence[float]) -> list[Frame]:
@@ -73,22 +70,3 @@ def default_times(recording: Recording, count: int) -> list[float]:
     if not times:
         raise recording.no_frame()
     return panel_times(times[0], times[-1], pushes.values(), count)
-
-
-def _push(entry: Entry) -> Push:
-    message = entry.message
-    stamp = message.header.stamp
-    return Push(
-        force=_parts(message.force),
-        # From the time of the run, which a reset puts back, to the time of the recording.
-        start=message.start + entry.time - (stamp.sec + 1e-9 * stamp.nanosec),
-        duration=message.duration, region=message.region, center=_parts(message.center),
-        radius=message.radius)
-
-
-def _ended(push: Push, time: float) -> Push:
-    return replace(push, duration=min(push.duration, time - push.start))
-
-
-def _parts(vector: object) -> tuple[float, float, float]:
-    return (vector.x, vector.y, vector.z)

@@ -39,11 +39,13 @@ class Entry:
     :param key: the topic behind the name of the node, such as points or inputs/push
     :param time: [s] simulated, going on where a reset put the clock back
     :param message: decoded
+    :param resets: of the run, seen before it
     """
 
     key: str
     time: float
     message: Any
+    resets: int = 0
 
 
 class Recording:
@@ -69,6 +71,12 @@ class Recording:
         if self._given_node is not None:
             return f'/{self._given_node.strip("/")}'
         return find_node(self.topics, self.path)
+
+    @property
+    def name(self) -> str:
+        """Get a name to tell recordings apart: that of the folder, or of the file."""
+        path = self.path.resolve()
+        return path.stem if path.is_file() else path.name
 
     @property
     def topics(self) -> list[BagTopic]:
@@ -107,10 +115,10 @@ class Recording:
             message = self._bag.decode(raw)
             header = getattr(message, 'header', None)
             if header is not None:
-                time.read(header.stamp, raw.topic)
+                _read_stamp(time, header, raw)
             key = raw.topic[begin:]
             if key in keys:
-                yield Entry(key, time.now, message)
+                yield Entry(key, time.now, message, time.resets)
 
     def raw_messages(self) -> Iterator[RawMessage]:
         """Yield all messages of all topics as they were recorded, of other nodes too."""
@@ -130,3 +138,12 @@ class Recording:
         wanted = {f'{self.node}/{key}': TYPES[key] for key in keys}
         return [
             topic for topic in self.topics if wanted.get(topic.name) == topic.type_name]
+
+
+def _read_stamp(time: SteadyTime, header: Any, raw: RawMessage) -> None:
+    try:
+        time.read(header.stamp, raw.topic)
+    except (AttributeError, TypeError) as error:
+        raise ClothSimError(
+            f'the header of {raw.topic} has no stamp: give a recording of a cloth_sim node'
+        ) from error

@@ -29,6 +29,7 @@ class SteadyTime:
     def __init__(self) -> None:
         """Begin before the first message."""
         self.now = 0.0
+        self.resets = 0        # before the message read last
         self._offsets = [0.0]  # of each span between two resets
         self._latest = 0.0     # time of any message
         self._last: dict[str, tuple[float, int]] = {}
@@ -46,6 +47,7 @@ class SteadyTime:
             range(span, len(self._offsets)),
             key=lambda later: abs(stamped + self._offsets[later] - self._latest))
         self._last[topic] = stamped, span
+        self.resets = span
         self.now = stamped + self._offsets[span]
         self._latest = max(self._latest, self.now)
         return self.now

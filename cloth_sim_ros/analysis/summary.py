@@ -16,131 +16,149 @@
 """A recording in a few numbers."""
 
 from dataclasses import dataclass
-from dataclasses import field
-import math
-from statistics import median
+from typing import Any
 
-from cloth_sim_ros.analysis.recording import Entry
+from cloth_sim_ros.analysis.gaps import find_gaps
 from cloth_sim_ros.analysis.recording import Recording
+from cloth_sim_ros.analysis.run import Run
+import numpy as np
 
-# ClothState.STOPPED: a recording is read without the interfaces.
-_STOPPED = 'stopped'
 
-
-@dataclass
+@dataclass(frozen=True)
 class Summary:
     """
-    What happened in a recording.
+    What happened in a recording; nan where it does not say.
 
     :param device: GL_RENDERER; empty where the recording does not say
     :param modes: each once, in the order they came
+    :param switches: of the mode: time [s], mode before and mode after
     :param begin: time of the first frame [s]
     :param end: time of the last frame [s]
     :param dt: [s]
     :param largest_strain: of all springs over all frames
+    :param mean_strain: of all nodes over all frames
     :param largest_kinetic_energy: over all frames [J]
     :param first_energy: total energy of the first frame [J]
     :param last_energy: total energy of the last frame [J]
     :param finite: False when the run stopped because the next state was not finite
-    :param factors: real-time factors of the frames that ran
+    :param real_time_factor: median of the frames that ran; 0 when none did
+    :param step_wall_time: median wall time of one dt [s]
+    :param most_active: edges at their limit, in the frame with most
+    :param solver_iterations: most of any frame; 0 without a solver
+    :param solver_residual: worst of any frame
+    :param solver_missed: frames in which a solve stopped before the residual asked for
+    :param gaps: begin and end [s] of spans without frames where there should be some
+    :param missing: topics that would have told more
+    :param is_whole: False when the recording was cut off, or a part of it can't be read
+    :param problems: what could not be read, one sentence each
     """
 
-    device: str = ''
-    rows: int = 0
-    cols: int = 0
-    modes: list[str] = field(default_factory=list)
-    begin: float = 0.0
-    end: float = 0.0
-    frames: int = 0
-    dt: float = 0.0
-    substeps: int = 0
-    largest_strain: float = 0.0
-    last_strain: float = 0.0
-    largest_kinetic_energy: float = 0.0
-    last_kinetic_energy: float = 0.0
-    first_energy: float = math.nan
-    last_energy: float = math.nan
-    finite: bool = True
-    factors: list[float] = field(default_factory=list, repr=False)
-    pushes: int = 0
-    pins: int = 0
-    releases: int = 0
-    resets: int = 0
+    name: str
+    node: str
+    device: str
+    rows: int
+    cols: int
+    modes: list[str]
+    switches: list[tuple[float, str, str]]
+    begin: float
+    end: float
+    frames: int
+    dt: float
+    substeps: float
+    largest_strain: float
+    last_strain: float
+    mean_strain: float
+    largest_kinetic_energy: float
+    last_kinetic_energy: float
+    first_energy: float
+    last_energy: float
+    finite: bool
+    real_time_factor: float
+    step_wall_time: float
+    most_active: float
+    solver_iterations: float
+    solver_residual: float
+    solver_missed: int
+    pushes: int
+    pins: int
+    releases: int
+    resets: int
+    gaps: list[tuple[float, float]]
+    missing: list[str]
+    is_whole: bool
+    problems: list[str]
 
     @property
     def duration(self) -> float:
         """Get the simulated time from the first to the last frame [s]."""
         return self.end - self.begin
 
-    @property
-    def real_time_factor(self) -> float:
-        """Get the median real-time factor of the frames that ran; 0 when none did."""
-        return median(self.factors) if self.factors else 0.0
-
-    def read(self, entry: Entry) -> None:
-        """Take up one message of a topic in _READERS."""
-        _READERS[entry.key](self, entry)
-
-    def _read_points(self, entry: Entry) -> None:
-        if not self.frames:
-            self.begin = entry.time
-        self.end = entry.time
-        self.frames += 1
-        self.rows, self.cols = entry.message.height, entry.message.width
-
-    def _read_stats(self, entry: Entry) -> None:
-        stats = entry.message
-        self.dt, self.substeps = stats.dt, stats.substeps
-        if stats.real_time_factor > 0.0:
-            self.factors.append(stats.real_time_factor)
-        self.finite = math.isfinite(stats.total_energy)
-        if not self.finite:
-            return
-        self.last_strain, self.last_kinetic_energy = stats.max_strain, stats.kinetic_energy
-        self.largest_strain = max(self.largest_strain, stats.max_strain)
-        self.largest_kinetic_energy = max(self.largest_kinetic_energy, stats.kinetic_energy)
-        self.last_energy = stats.total_energy
-        if math.isnan(self.first_energy):
-            self.first_energy = stats.total_energy
-
-    def _read_state(self, entry: Entry) -> None:
-        self.device = entry.message.device
-        if entry.message.run_state == _STOPPED:
-            self.finite = False
-
-    def _read_mode(self, entry: Entry) -> None:
-        if entry.message.mode not in self.modes:
-            self.modes.append(entry.message.mode)
-
-    def _read_pin(self, entry: Entry) -> None:
-        if entry.message.pinned:
-            self.pins += 1
-        else:
-            self.releases += 1
-
-    def _read_push(self, _: Entry) -> None:
-        self.pushes += 1
-
-    def _read_command(self, entry: Entry) -> None:
-        self.resets += entry.message.command == 'reset'
-
-
-_READERS = {
-    'points': Summary._read_points,
-    'stats': Summary._read_stats,
-    'state': Summary._read_state,
-    'inputs/mode': Summary._read_mode,
-    'inputs/pin': Summary._read_pin,
-    'inputs/push': Summary._read_push,
-    'inputs/command': Summary._read_command,
-}
+    @classmethod
+    def of(cls, run: Run) -> 'Summary':
+        """Return the summary of ``run``."""
+        told = _Figures(run)
+        columns = run.columns
+        return cls(
+            name=run.name, node=run.node, device=run.device, rows=run.rows, cols=run.cols,
+            modes=run.modes.modes,
+            switches=[(each.time, each.previous, each.mode) for each in run.modes.switches],
+            begin=float(columns['time'][0]), end=float(columns['time'][-1]),
+            frames=len(columns['time']), dt=told.last('dt'), substeps=told.last('substeps'),
+            largest_strain=told.largest('max_strain'), last_strain=told.last('max_strain'),
+            mean_strain=told.mean('mean_strain'),
+            largest_kinetic_energy=told.largest('kinetic_energy'),
+            last_kinetic_energy=told.last('kinetic_energy'),
+            first_energy=told.first('total_energy'), last_energy=told.last('total_energy'),
+            finite=told.all_finite and not run.stopped,
+            real_time_factor=told.median_above_0('real_time_factor', 0.0),
+            step_wall_time=told.median_above_0('step_wall_time', np.nan),
+            most_active=told.largest('active_constraints'),
+            solver_iterations=told.largest('solver_iterations'),
+            solver_residual=told.largest('solver_residual'),
+            solver_missed=int(np.count_nonzero(columns['solver_reached'] == 0.0))
+            if told.largest('solver_iterations') > 0 else 0,
+            **{name: run.counts[name] for name in ('pushes', 'pins', 'releases', 'resets')},
+            gaps=find_gaps(columns['time'], columns['resets']),
+            missing=run.missing, is_whole=run.is_whole, problems=run.problems)
 
 
 def summarise(recording: Recording) -> Summary:
     """Read ``recording`` once and return its summary; ClothSimError when it holds no frame."""
-    summary = Summary()
-    for entry in recording.entries(*_READERS):
-        summary.read(entry)
-    if not summary.frames:
-        raise recording.no_frame()
-    return summary
+    return Summary.of(Run(recording))
+
+
+class _Figures:
+    """Reads the columns of a run, but for the rows whose energy is no longer finite."""
+
+    def __init__(self, run: Run) -> None:
+        self._columns = run.columns
+        energy = run.columns['total_energy']
+        # A row without stats has no energy, and no dt either.
+        is_lost = ~np.isfinite(energy) & np.isfinite(run.columns['dt'])
+        is_lost &= np.isfinite(energy).any()
+        self.all_finite = not is_lost.any()
+        self._good = ~is_lost
+
+    def _values(self, name: str) -> np.ndarray:
+        values = self._columns[name][self._good]
+        return values[np.isfinite(values)]
+
+    def _of(self, name: str, function: Any) -> float:
+        values = self._values(name)
+        return float(function(values)) if len(values) else np.nan
+
+    def first(self, name: str) -> float:
+        return self._of(name, lambda values: values[0])
+
+    def last(self, name: str) -> float:
+        return self._of(name, lambda values: values[-1])
+
+    def largest(self, name: str) -> float:
+        return self._of(name, np.max)
+
+    def mean(self, name: str) -> float:
+        return self._of(name, np.mean)
+
+    def median_above_0(self, name: str, otherwise: float) -> float:
+        values = self._values(name)
+        return float(np.median(values[values > 0.0])) if (values > 0.0).any() else otherwise

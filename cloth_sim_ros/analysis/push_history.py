@@ -1,0 +1,63 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+
+"""The pushes of a recording, in its own time."""
+
+from dataclasses import replace
+
+from cloth_sim_ros.analysis.recording import Entry
+from cloth_sim_ros.sim.push import Push
+
+KEYS = ('inputs/push', 'inputs/command')
+
+
+class PushHistory:
+    """
+    Takes up the messages of the topics KEYS one after the other.
+
+    ``pushes`` are those known so far; one that was ended early has the duration it had.
+    """
+
+    def __init__(self) -> None:
+        """Begin without a push."""
+        self.pushes: list[Push] = []
+
+    def read(self, entry: Entry) -> None:
+        """Take up one message."""
+        if entry.key == 'inputs/push':
+            self.pushes.append(_push(entry))
+        else:
+            # Both commands, a reset and a removal of all pushes, end what acts.
+            self.pushes = [
+                _ended(push, entry.time) for push in self.pushes if push.start < entry.time]
+
+
+def _push(entry: Entry) -> Push:
+    message = entry.message
+    stamp = message.header.stamp
+    return Push(
+        force=_parts(message.force),
+        # From the time of the run, which a reset puts back, to the time of the recording.
+        start=message.start + entry.time - (stamp.sec + 1e-9 * stamp.nanosec),
+        duration=message.duration, region=message.region, center=_parts(message.center),
+        radius=message.radius)
+
+
+def _ended(push: Push, time: float) -> Push:
+    return replace(push, duration=min(push.duration, time - push.start))
+
+
+def _parts(vector: object) -> tuple[float, float, float]:
+    return (vector.x, vector.y, vector.z)

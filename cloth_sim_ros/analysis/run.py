@@ -1,0 +1,164 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+
+"""All that a recording tells of its run, read once from first to last."""
+
+from collections import Counter
+from collections.abc import Callable
+from collections.abc import Iterable
+from collections.abc import Iterator
+
+from cloth_sim_ros.analysis.frame import Frame
+from cloth_sim_ros.analysis.frame_table import FrameTable
+from cloth_sim_ros.analysis.frame_table import STATS
+from cloth_sim_ros.analysis.mode_history import KEYS as MODE_KEYS
+from cloth_sim_ros.analysis.mode_history import ModeHistory
+from cloth_sim_ros.analysis.push_history import KEYS as PUSH_KEYS
+from cloth_sim_ros.analysis.push_history import PushHistory
+from cloth_sim_ros.analysis.recording import Entry
+from cloth_sim_ros.analysis.recording import Recording
+from cloth_sim_ros.analysis.strain_histogram import StrainHistogram
+from cloth_sim_ros.sim.errors import ClothSimError
+import numpy as np
+
+# ClothState.STOPPED: a recording is read without the interfaces.
+_STOPPED = 'stopped'
+_FIGURES = ('points', 'stats')
+KEYS = (*_FIGURES, 'state', 'inputs/mode', 'inputs/pin', *PUSH_KEYS)
+
+# Without a message on another topic nothing was done to the cloth.
+_TELLING = (*_FIGURES, 'state', 'inputs/mode')
+
+Watch = Callable[[Iterable[Entry], int], Iterable[Entry]]
+
+
+def not_watched(entries: Iterable[Entry], _: int) -> Iterator[Entry]:
+    """Hand the entries on."""
+    return iter(entries)
+
+
+class Run:
+    """
+    A run as its recording tells it; a few hundred bytes a frame are kept.
+
+    :param watch: is given all entries and their number, and hands them on: a progress bar
+    :raises ClothSimError: when it holds neither points nor stats, or points of several cloths
+    """
+
+    def __init__(self, recording: Recording, watch: Watch = not_watched) -> None:
+        """Read the recording."""
+        self.path = recording.path
+        self.name = recording.name
+        self.node = recording.node
+        self.device = ''
+        self.rows = 0
+        self.cols = 0
+        self.stopped = False
+        self.counts: Counter[str] = Counter()
+        self.strains = StrainHistogram()
+        self.missing = [key for key in _TELLING if key not in recording.keys()]
+        self._unusable = ''
+        self._has_points = False
+        self._without: set[str] = set()
+        self._pushes = PushHistory()
+        self._modes = ModeHistory()
+        self._table = FrameTable()
+        for entry in watch(recording.entries(*KEYS), recording.count(*KEYS)):
+            self._read(entry)
+        if not len(self._table):
+            raise ClothSimError(self._unusable) if self._unusable else recording.no_frame()
+        self.columns = self._table.columns()
+        self.is_whole = not recording.problems
+        self.problems = [*recording.problems, *self._said()]
+
+    @property
+    def modes(self) -> ModeHistory:
+        """Get the modes and their switches."""
+        return self._modes
+
+    @property
+    def pushes(self) -> list:
+        """Get the pushes, with ``start`` in the time of the recording."""
+        return self._pushes.pushes
+
+    def has(self, column: str) -> bool:
+        """Tell whether any frame has a figure in ``column``."""
+        return bool(np.isfinite(self.columns[column]).any())
+
+    def _read(self, entry: Entry) -> None:
+        key, message = entry.key, entry.message
+        if key == 'points':
+            self._read_points(entry)
+        elif key == 'stats':
+            self._read_stats(entry)
+        elif key in PUSH_KEYS:
+            self.counts['pushes'] += key == 'inputs/push'
+            self.counts['resets'] += getattr(message, 'command', '') == 'reset'
+            self._pushes.read(entry)
+        elif key == 'inputs/pin':
+            self.counts['pins' if message.pinned else 'releases'] += 1
+        if key == 'state':
+            if not self.rows:
+                self.rows, self.cols = message.rows, message.cols
+            self.device = message.device
+            self.stopped |= message.run_state == _STOPPED
+        if key in MODE_KEYS:
+            self._modes.read(entry)
+
+    def _read_points(self, entry: Entry) -> None:
+        if self._unusable:
+            return
+        try:
+            frame = Frame.from_points(entry.time, entry.message)
+        except ClothSimError as error:
+            # The other topics still tell something.
+            self._unusable = str(error)
+            return
+        size = frame.records.shape
+        if self._has_points and size != (self.rows, self.cols):
+            raise ClothSimError(
+                f'{self.path} has a cloud of {size[0]} x {size[1]} nodes at {entry.time:g} s '
+                f'after clouds of {self.rows} x {self.cols}: give a recording of one cloth')
+        self.rows, self.cols = size
+        self._has_points = True
+        strain = np.ascontiguousarray(frame.strain)
+        self.strains.add(strain)
+        self._table.put(entry.resets, entry.time, {
+            'mean_strain': strain.mean(dtype=float),
+            'mean_height': frame.records['z'].mean(dtype=float)})
+        self._largest_strain(entry, float(strain.max()))
+
+    def _read_stats(self, entry: Entry) -> None:
+        values = {}
+        for name in STATS:
+            if hasattr(entry.message, name):
+                values[name] = getattr(entry.message, name)
+            else:
+                self._without.add(name)
+        self._table.put(entry.resets, entry.time, values)
+
+    def _largest_strain(self, entry: Entry, strain: float) -> None:
+        if 'stats' in self.missing:
+            # The node at the spring with the largest strain has that strain.
+            self._table.put(entry.resets, entry.time, {'max_strain': strain})
+
+    def _said(self) -> list[str]:
+        said = []
+        if self._unusable:
+            said.append(f'points were left out: {self._unusable}')
+        if self._without:
+            said.append(
+                f'stats of another version: without {", ".join(sorted(self._without))}')
+        return said

@@ -1,0 +1,177 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+
+"""Figures over simulated time, with what was done to the cloth in the background."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+import math
+
+from cloth_sim_ros.analysis.gaps import find_gaps
+from cloth_sim_ros.analysis.run import Run
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.ticker import MaxNLocator
+from matplotlib.ticker import NullFormatter
+import numpy as np
+
+WIDTH = 9.0           # [inch]
+TITLE_HEIGHT = 1.0
+PANEL_HEIGHT = 3.0
+COLORS = ('#1f5fa8', '#d9831f', '#2f8f4e', '#303030')
+INK = '#303030'
+_PUSH = '#1560e0'
+_SWITCH = '#8a2be2'
+_GRID = '#dddddd'
+_WIDE_RANGE = 20.0    # from the usual value, beyond which a scale is logarithmic
+_MOST_NAMES = 12      # of modes, that still can be read
+
+
+@dataclass(frozen=True)
+class Line:
+    """
+    One column of a run as a line.
+
+    :param scale: from the column's unit to the one shown
+    :param above_zero: True when 0 says that there is no value
+    """
+
+    column: str
+    label: str
+    scale: float = 1.0
+    above_zero: bool = False
+
+
+@dataclass(frozen=True)
+class Panel:
+    """
+    Lines with one axis.
+
+    :param label: of the axis, with its unit
+    :param scale: linear, log, or auto: log where the values range widely
+    """
+
+    label: str
+    lines: Sequence[Line]
+    scale: str = 'linear'
+
+
+def time_plot(run: Run, title: str, panels: Sequence[Panel]) -> Figure:
+    """Return a figure with ``panels`` below each other."""
+    figure = Figure(
+        figsize=(WIDTH, TITLE_HEIGHT + PANEL_HEIGHT * len(panels)), layout='constrained')
+    all_axes = np.atleast_1d(figure.subplots(len(panels), 1, sharex=True))
+    for axes, panel in zip(all_axes, panels):
+        _draw(axes, run, panel)
+        _mark(axes, run)
+        finish_axes(axes, panel.label)
+    _name_switches(all_axes[0], run)
+    all_axes[-1].set_xlabel('simulated time [s]', color=INK)
+    figure.suptitle(title, fontsize=11, color=INK)
+    return figure
+
+
+def finish_axes(axes: Axes, label: str) -> None:
+    """Add the grid, the name of the axis and, where there is something to tell apart, names."""
+    axes.set_ylabel(label, color=INK)
+    axes.grid(color=_GRID, linewidth=0.6)
+    axes.set_axisbelow(True)
+    axes.margins(x=0.01)
+    handles, names = axes.get_legend_handles_labels()
+    if handles:
+        axes.legend(
+            handles, names, loc='upper left', bbox_to_anchor=(1.0, 1.0), frameon=False,
+            fontsize=9)
+
+
+def _draw(axes: Axes, run: Run, panel: Panel) -> None:
+    shown = []
+    for number, line in enumerate(panel.lines):
+        if not run.has(line.column):
+            continue
+        values = line.scale * run.columns[line.column]
+        if line.above_zero or panel.scale == 'log':
+            values = np.where(values > 0.0, values, np.nan)
+        shown.append(values)
+        times, values = _with_breaks(run, values)
+        # A single line is named by its axis.
+        label = line.label if len(panel.lines) > 1 else None
+        axes.plot(times, values, color=COLORS[number], linewidth=1.3, label=label)
+    if panel.scale == 'log' or panel.scale == 'auto' and _ranges_widely(shown):
+        _set_log_scale(axes, np.concatenate(shown))
+    elif all(np.nanmin(values) >= 0.0 for values in shown):
+        axes.set_ylim(bottom=0.0)
+        if all(np.nanmax(values % 1.0) == 0.0 for values in shown):
+            axes.yaxis.set_major_locator(MaxNLocator(integer=True))
+
+
+def _ranges_widely(shown: Sequence[np.ndarray]) -> bool:
+    values = np.concatenate(shown)
+    values = values[np.isfinite(values)]
+    if not len(values) or values.min() <= 0.0:
+        return False
+    usual = np.median(values)
+    return values.max() > _WIDE_RANGE * usual or usual > _WIDE_RANGE * values.min()
+
+
+def _set_log_scale(axes: Axes, values: np.ndarray) -> None:
+    """Show whole decades, in plain numbers."""
+    axes.set_yscale('log')
+    if np.isfinite(values).any():
+        low, high = math.floor(_log10(np.nanmin(values))), math.ceil(_log10(np.nanmax(values)))
+        axes.set_ylim(10.0**low, 10.0**max(high, low + 1))
+    axes.yaxis.set_major_formatter(lambda value, _: f'{value:g}')
+    axes.yaxis.set_minor_formatter(NullFormatter())
+
+
+def _log10(value: float) -> float:
+    return math.log10(value) if value > 0.0 else 0.0
+
+
+def _with_breaks(run: Run, values: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Return times and values to draw: nothing is drawn across gaps and resets."""
+    times, resets = run.columns['time'], run.columns['resets']
+    # Moments that say nothing of this value are no gaps in it.
+    told = np.isfinite(values)
+    times, resets, values = times[told], resets[told], values[told]
+    ends = {begin for begin, _ in find_gaps(times, resets)}
+    after = [
+        place + 1 for place in range(len(times) - 1)
+        if times[place] in ends or resets[place + 1] != resets[place]]
+    return np.insert(times, after, np.nan), np.insert(values, after, np.nan)
+
+
+def _mark(axes: Axes, run: Run) -> None:
+    begin, end = run.columns['time'][0], run.columns['time'][-1]
+    label = 'push'
+    for push in run.pushes:
+        first, last = max(push.start, begin), min(push.end, end)
+        if first < last:
+            axes.axvspan(first, last, color=_PUSH, alpha=0.13, linewidth=0.0, label=label)
+            label = None
+    label = 'mode switch'
+    for switch in run.modes.switches:
+        axes.axvline(
+            switch.time, color=_SWITCH, linewidth=1.1, linestyle=(0, (4, 3)), label=label)
+        label = None
+
+
+def _name_switches(axes: Axes, run: Run) -> None:
+    switches = run.modes.switches
+    for switch in switches if len(switches) <= _MOST_NAMES else ():
+        axes.annotate(
+            switch.mode, (switch.time, 1.0), xycoords=('data', 'axes fraction'),
+            xytext=(0, 3), textcoords='offset points', fontsize=8, color=_SWITCH,
+            rotation=20, ha='left', va='bottom')

@@ -1,0 +1,132 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+
+"""
+Analyse recordings: a table, and with --out CSV, JSON and plots.
+
+Reads any bag of the node's topics: of this project or of ros2 bag record, mcap or sqlite3, also
+one that was cut off. With several, all others are compared with the first, at the simulated times
+at which both have a frame. Needs no node.
+
+For example:
+  cloth_sim analyze bags/cloth_2026_01_31-12_00_00
+  cloth_sim analyze bags/drop_springs bags/drop_constraint --out drop
+"""
+
+from argparse import ArgumentParser
+from argparse import Namespace
+from collections.abc import Iterable
+from collections.abc import Iterator
+from collections.abc import Sequence
+from dataclasses import replace
+from pathlib import Path
+
+from cloth_sim_ros.analysis.comparison import compare
+from cloth_sim_ros.analysis.comparison import Comparison
+from cloth_sim_ros.analysis.comparison_lines import comparison_lines
+from cloth_sim_ros.analysis.recording import Entry
+from cloth_sim_ros.analysis.recording import Recording
+from cloth_sim_ros.analysis.report_files import comparison_values
+from cloth_sim_ros.analysis.report_files import make_folder
+from cloth_sim_ros.analysis.report_files import summary_values
+from cloth_sim_ros.analysis.report_files import write_comparison
+from cloth_sim_ros.analysis.report_files import write_frames
+from cloth_sim_ros.analysis.report_files import write_json
+from cloth_sim_ros.analysis.report_files import write_plot
+from cloth_sim_ros.analysis.run import Run
+from cloth_sim_ros.analysis.summary import Summary
+from cloth_sim_ros.analysis.summary_lines import summary_lines
+from cloth_sim_ros.analysis.summary_lines import text_table
+from cloth_sim_ros.verb.recording_arguments import add_node_argument
+from tqdm import tqdm
+
+
+def add_arguments(parser: ArgumentParser) -> None:
+    """Add the arguments of this verb."""
+    parser.add_argument(
+        'recordings', nargs='+', metavar='BAG',
+        help='folder of a recording, of this project or of ros2 bag, or its mcap or db3 file')
+    add_node_argument(parser)
+    parser.add_argument(
+        '--out', metavar='DIR',
+        help='write CSV, JSON and plots into a folder for each recording in this one')
+
+
+def main(args: Namespace) -> int:
+    """Analyse one by one, then compare."""
+    recordings = [Recording(path, args.node) for path in args.recordings]
+    names = _names(recordings)
+    # Told before minutes of reading, not after.
+    folder = make_folder(args.out) if args.out else None
+    for recording, name in zip(recordings, names):
+        run = Run(recording, _progress(name))
+        summary = Summary.of(run)
+        print(f'{recording.path}\n{text_table(summary_lines(summary))}\n')
+        if folder:
+            _write_run(run, summary, make_folder(folder / name))
+    comparisons = [
+        replace(
+            compare(recordings[0], other, _progress(f'{name} against {names[0]}')),
+            first=names[0], second=name)
+        for other, name in zip(recordings[1:], names[1:])]
+    for comparison in comparisons:
+        print(f'{text_table(comparison_lines(comparison))}\n')
+    if folder:
+        if comparisons:
+            _write_comparisons(comparisons, names, folder)
+        print(folder)
+    return 0
+
+
+def _write_run(run: Run, summary: Summary, folder: Path) -> None:
+    # Drawing takes a second to load, and a table alone does not need it.
+    from cloth_sim_ros.analysis.run_plots import run_plots
+    write_frames(run, folder / 'frames.csv')
+    write_json(summary_values(summary, run), folder / 'summary.json')
+    for name, figure in run_plots(run):
+        write_plot(figure, folder / f'{name}.png')
+
+
+def _write_comparisons(
+        comparisons: Sequence[Comparison], names: Sequence[str], folder: Path) -> None:
+    from cloth_sim_ros.analysis.comparison_plot import comparison_plot
+    for comparison, name in zip(comparisons, names[1:]):
+        write_comparison(comparison, folder / f'{name}_against_{names[0]}.csv')
+    write_json([comparison_values(each) for each in comparisons], folder / 'comparison.json')
+    write_plot(comparison_plot(comparisons), folder / 'comparison.png')
+
+
+def _names(recordings: Sequence[Recording]) -> list[str]:
+    """Return a name for each recording that no other one has."""
+    names: list[str] = []
+    for recording in recordings:
+        others = names.count(recording.name)
+        names.append(f'{recording.name}_{others + 1}' if others else recording.name)
+    return names
+
+
+def _progress(name: str):
+    """Return what shows how much of the recording ``name`` has been read."""
+    bar = tqdm(total=0, desc=name, unit=' messages', mininterval=0.2, leave=False)
+
+    def watch(entries: Iterable[Entry], count: int) -> Iterator[Entry]:
+        bar.total += count
+        for entry in entries:
+            bar.update()
+            yield entry
+        if bar.n >= bar.total:
+            bar.close()
+
+    return watch
