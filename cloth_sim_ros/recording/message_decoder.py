@@ -16,6 +16,7 @@
 """From CDR to messages, by the definitions that a bag holds."""
 
 from collections.abc import Iterable
+from functools import lru_cache
 from typing import Any
 
 from cloth_sim_ros.recording.bag_topic import BagTopic
@@ -62,17 +63,20 @@ class MessageDecoder:
 
     def _store(self, name: str) -> Typestore:
         if name in self._definitions:
-            return _typestore(_parsed(self._definitions[name], name))
+            return _parsed_store(self._definitions[name], name)
         if name.startswith('cloth_sim_interfaces/'):
             # Only such a bag needs the packages of ROS to be read.
             from cloth_sim_ros.recording.message_definition import message_definition
-            return _typestore(get_types_from_msg(message_definition(name), name))
+            return _parsed_store(
+                MessageDefinition(MessageDefinitionFormat.MSG, message_definition(name)), name)
         return get_typestore(Stores.ROS2_JAZZY)
 
 
-def _typestore(types: Typesdict) -> Typestore:
+# Most bags have the same definitions, which take longer to parse than a small bag to read.
+@lru_cache(maxsize=64)
+def _parsed_store(definition: MessageDefinition, name: str) -> Typestore:
     store = get_typestore(Stores.EMPTY)
-    store.register(types)
+    store.register(_parsed(definition, name))
     return store
 
 
