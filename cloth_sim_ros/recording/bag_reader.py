@@ -104,7 +104,7 @@ class BagReader:
 
 def _storage(file: Path) -> WholeStorage | BrokenMcap:
     try:
-        return WholeStorage(file)
+        storage = WholeStorage(file)
     except Exception as error:  # what a broken file raises can be anything
         if file.suffix == '.mcap':
             return BrokenMcap(file)
@@ -112,3 +112,5 @@ def _storage(file: Path) -> WholeStorage | BrokenMcap:
             f'{file} is no whole sqlite3 bag ({error or type(error).__name__}): give another '
             f'one, or save what is left by `sqlite3 {file.name} .recover | sqlite3 whole.db3`'
         ) from error
+    # The summary of an mcap file may leave the topics out: they are found on the way.
+    return storage if storage.topics or file.suffix != '.mcap' else BrokenMcap(file)

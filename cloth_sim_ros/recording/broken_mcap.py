@@ -66,30 +66,29 @@ class BrokenMcap:
         """Get the topics. Chunks are unpacked only where their index names a new one."""
         channels = McapChannels()
         counts: Counter[int] = Counter()
+        indexed: Counter[int] = Counter()  # what the index of the last chunk says
         chunk = None
-        indexed = False
 
-        def read_last_chunk() -> None:
-            for record in self._unpacked(chunk) if chunk else ():
+        def unpack() -> Counter[int]:
+            records = self._unpacked(chunk) if chunk else []
+            for record in records:
                 channels.read(record)
-                if isinstance(record, Message) and not indexed:
-                    counts[record.channel_id] += 1
+            return Counter(
+                record.channel_id for record in records if isinstance(record, Message))
 
         for record in self._records():
             channels.read(record)
             if isinstance(record, Chunk):
-                if not indexed:
-                    read_last_chunk()
-                chunk, indexed = record, False
+                counts += indexed or unpack()
+                chunk, indexed = record, Counter()
             elif isinstance(record, MessageIndex):
-                indexed = True
-                counts[record.channel_id] += len(record.records)
+                indexed[record.channel_id] += len(record.records)
                 if record.channel_id not in channels:
-                    read_last_chunk()
+                    unpack()
             elif isinstance(record, Message):
                 counts[record.channel_id] += 1
-        # The cut may have taken its index, or a part of it.
-        read_last_chunk()
+        # The cut may have taken a part of the last index.
+        counts += unpack()
         return channels.topics(counts)
 
     def messages(self, names: Collection[str] | None) -> Iterator[RawMessage]:

@@ -25,8 +25,8 @@ def history(*entries):
     """Return the history of messages, each a key, a time, a mode and the one before."""
     made = ModeHistory()
     for key, time, mode, *previous in entries:
-        message = SimpleNamespace(mode=mode, **({'previous_mode': previous[0]} if previous else {}))
-        made.read(Entry(key, time, message))
+        fields = {'previous_mode': previous[0]} if previous else {}
+        made.read(Entry(key, time, SimpleNamespace(mode=mode, **fields)))
     return made
 
 

@@ -64,6 +64,19 @@ def test_another_node_can_be_read(tmp_path):
     assert Recording(tmp_path / 'other').node == '/left/cloth'
 
 
+def test_raw_messages_of_all_topics_can_be_had(known):
+    """A player would need a reader of its own."""
+    recording = Recording(known.folder)
+    raw = list(recording.raw_messages())
+    assert {message.topic for message in raw} == {topic.name for topic in recording.topics}
+    assert len(raw) == sum(topic.count for topic in recording.topics)
+    assert [message.time for message in raw] == sorted(message.time for message in raw)
+    stats = [message for message in raw if message.topic == '/cloth_sim/stats']
+    decoded = [recording.decode(message).max_strain for message in stats]
+    assert decoded == [entry.message.max_strain for entry in recording.entries('stats')]
+    assert stats[0].type_name == 'cloth_sim_interfaces/msg/ClothStats'
+
+
 @pytest.mark.parametrize('share', [0.3, 0.7, 0.99])
 def test_a_recording_that_was_cut_off_is_read_up_to_there(tmp_path, share):
     """The recording of a crashed or killed run would be lost."""

@@ -31,7 +31,7 @@ FACTOR = 3                        # wall time in a second of simulated time
 
 def copy_bag(
         source, target, storage='mcap', *, topics=None, renamed=None, split=1,
-        compression=None):
+        compression=None, delays=None):
     """
     Write the bag ``source`` anew with times of the wall clock; return ``target``.
 
@@ -39,14 +39,16 @@ def copy_bag(
     :param topics: those to keep; None keeps all
     :param renamed: new names of topics by their old ones
     :param split: number of files
+    :param delays: by which messages of topics come late in wall time [ns], by name
     :param compression: FILE or MESSAGE, of a bag as old as Humble's; None for none
     """
     plugin = {'mcap': StoragePlugin.MCAP, 'sqlite3': StoragePlugin.SQLITE3}[storage]
     with Reader(source) as reader:
         messages = [
-            (connection, WALL + FACTOR * time, data)
+            (connection, WALL + FACTOR * time + (delays or {}).get(connection.topic, 0), data)
             for connection, time, data in reader.messages()
             if topics is None or connection.topic in topics]
+        messages.sort(key=lambda message: message[1])
         part = -(-len(messages) // split)
         folders = []
         for number in range(split):

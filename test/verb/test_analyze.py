@@ -147,7 +147,8 @@ def test_what_was_done_to_the_cloth_is_told(swinging, analyze, tmp_path, capsys)
     assert summary['modes'] == ['mass_spring'] and set(columns['mode']) == {'mass_spring'}
     assert summary['device'] and summary['dt'] == 0.005
     shown = capsys.readouterr().out
-    assert '32 x 32 nodes' in shown and '1 pushes' in shown and 'state              finite' in shown
+    for told in ('32 x 32 nodes', '1 pushes', 'state              finite'):
+        assert told in shown
     plots = {path.stem: imread(path) for path in tmp_path.rglob('*.png')}
     assert set(plots) == {'energies', 'strain', 'pace', 'strain_histogram'}
     assert all(plot.shape[1] > 800 for plot in plots.values())
