@@ -1,0 +1,75 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+
+"""Analysing ten minutes; `python -m pytest --long -s` of this file shows speed and memory."""
+
+import json
+from pathlib import Path
+import resource
+import struct
+import subprocess
+import sys
+import time
+
+from cloth_sim_ros.recording.bag_reader import BagReader
+from cloth_sim_ros.recording.recorder import Recorder
+from cloth_sim_ros.verb.main import main
+import pytest
+
+SCENE = Path(__file__).resolve().parents[2] / 'config' / 'drape.yaml'
+RATE = 60
+SECONDS = 600
+REPEATED = 4
+_START = 'import sys; from cloth_sim_ros.verb.main import main; sys.exit(main())'
+
+
+@pytest.fixture(scope='module')
+def ten_minutes(tmp_path_factory):
+    """Return a recording of 36001 frames: 4 s of a run, over and over, with stamps that go on."""
+    folder = tmp_path_factory.mktemp('ten_minutes')
+    assert main([
+        'run', str(SCENE), '--seconds', str(REPEATED), '--record', str(folder), '--set',
+        'recording.name=short', '--set', 'rows=64', '--set', 'cols=64', '--set',
+        f'publish.rate={RATE}.0']) == 0
+    frames = {
+        key: [raw.data for raw in BagReader(folder / 'short').messages([f'/cloth_sim/{key}'])]
+        for key in ('points', 'stats')}
+    recorder = Recorder(folder, 'long')
+    for number in range(SECONDS * RATE + 1):
+        for key, messages in frames.items():
+            data = bytearray(messages[number % len(messages)])
+            # The stamp is what every message begins with, behind the 4 bytes of CDR.
+            struct.pack_into('<iI', data, 4, *divmod(round(number * 1e9 / RATE), 10**9))
+            recorder.write(key, bytes(data), number / RATE)
+    recorder.close()
+    return recorder.path
+
+
+@pytest.mark.long
+def test_ten_minutes_are_read_in_little_memory(ten_minutes, tmp_path):
+    """A long recording could not be analysed, or only on a machine with much memory."""
+    begin = time.monotonic()
+    subprocess.run(
+        [sys.executable, '-c', _START, 'analyze', str(ten_minutes), '--out', str(tmp_path)],
+        check=True)
+    wall = time.monotonic() - begin
+    most = resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss / 1024
+    print(f'measured {SECONDS / wall:.0f} x real time, {wall:.1f} s with plots, {most:.0f} MiB')
+    summary = json.loads((tmp_path / 'long' / 'summary.json').read_text())
+    assert summary['frames'] == SECONDS * RATE + 1
+    assert summary['end'] == pytest.approx(SECONDS)
+    assert summary['gaps'] == [] and summary['is_whole']
+    # Python and its libraries have 150 MiB, the clouds 6200.
+    assert most < 400
