@@ -17,6 +17,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Any
 
 from cloth_sim_ros.messages.push_arrows import push_arrows
@@ -49,21 +50,16 @@ class Frame:
     @classmethod
     def from_points(cls, time: float, cloud: Any, pushes: Sequence[Push] = ()) -> 'Frame':
         """Return the frame of a decoded PointCloud2; ClothSimError when it is no cloth."""
-        fields = {field.name: field for field in cloud.fields}
-        missing = [name for name in _NEEDED if name not in fields]
+        names = {field.name for field in cloud.fields}
+        missing = [name for name in _NEEDED if name not in names]
         if missing:
             raise ClothSimError(
                 f'the cloud at {time:g} s has no field {missing[0]}: '
                 'give a recording of a cloth_sim node')
         try:
-            layout = np.dtype({
-                'names': list(fields),
-                'formats': [
-                    np.dtype(_KINDS[field.datatype]).newbyteorder(
-                        '>' if cloud.is_bigendian else '<')
-                    for field in fields.values()],
-                'offsets': [field.offset for field in fields.values()],
-                'itemsize': cloud.point_step})
+            layout = _layout(
+                tuple((field.name, field.datatype, field.offset) for field in cloud.fields),
+                cloud.point_step, bool(cloud.is_bigendian))
             records = np.frombuffer(cloud.data, layout).reshape(cloud.height, cloud.width)
         except (KeyError, ValueError, TypeError) as error:
             raise ClothSimError(
@@ -106,3 +102,13 @@ class Frame:
 
     def _vectors(self, *names: str) -> np.ndarray:
         return np.stack([self.records[name] for name in names], axis=-1).astype(float)
+
+
+@lru_cache(maxsize=16)
+def _layout(fields: tuple[tuple[str, int, int], ...], size: int, big_endian: bool) -> np.dtype:
+    """Return the type of a point; all clouds of a recording have one."""
+    names, kinds, offsets = zip(*fields)
+    order = '>' if big_endian else '<'
+    return np.dtype({
+        'names': names, 'formats': [np.dtype(_KINDS[kind]).newbyteorder(order) for kind in kinds],
+        'offsets': offsets, 'itemsize': size})
