@@ -42,7 +42,7 @@ VERBS = {
     'record': 'start or stop a recording of a running node',
     'status': 'show what a running node is doing',
     'info': 'tell what a recording holds',
-    'picture': 'draw the cloth of a recording into a PNG file',
+    'render': 'draw the cloth of recordings, as a sheet of pictures or a video',
 }
 INTERRUPTED = 130
 

@@ -1,0 +1,81 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Draw a ball on each node that is held."""
+
+from functools import cached_property
+import math
+
+from cloth_sim_ros.analysis.rendering.look import HIDDEN
+from cloth_sim_ros.analysis.rendering.look import PIN_COLOR
+from cloth_sim_ros.analysis.rendering.seen_and_hidden import seen_and_hidden
+from cloth_sim_ros.analysis.rendering.view import View
+from cloth_sim_ros.analysis.rendering.view_uniforms import set_view
+from cloth_sim_ros.gl.buffer import Buffer
+from cloth_sim_ros.gl.render_program import RenderProgram
+import numpy as np
+
+_UNIT = 0             # render/ball.vert
+_RADIUS = 1.0 / 75.0  # of the shorter side of the picture
+_SMALLEST = 1.2       # [pixel]
+_SHARE = 0.36         # of the distance between neighbouring pins
+
+BALL_DEFINES = {'RIM': 1.3}
+
+
+class PinDrawing:
+    """
+    Draws balls that all look alike, smaller where they stand close together.
+
+    :param detail: drawn pixels along each side of a pixel of the picture
+    """
+
+    def __init__(self, detail: int) -> None:
+        """Keep what all frames share."""
+        self._detail = detail
+
+    def draw(self, pins: np.ndarray, view: View) -> None:
+        """Draw a ball at each of ``pins``, (n, 3) [m]; faintly where the cloth hides it."""
+        if not len(pins):
+            return
+        radius = ball_radius(view.project(pins), view)
+        places = np.zeros((len(pins), 4), np.float32)
+        places[:, :3] = pins - view.middle
+        buffer = Buffer(places)
+        buffer.bind_texture(_UNIT)
+        program = self._program
+        program.use()
+        set_view(program, view, self._detail)
+        program.set_float('radius', radius * self._detail)
+        program.set_float('lead', 1.5 * radius * view.pixel)
+        program.set_vectors('ball_color', PIN_COLOR)
+        for opacity in seen_and_hidden(HIDDEN):
+            program.set_float('opacity', opacity)
+            program.draw_strips(4, len(pins))
+        buffer.delete()
+
+    @cached_property
+    def _program(self) -> RenderProgram:
+        return RenderProgram('render/ball.vert', 'render/ball.frag', BALL_DEFINES)
+
+
+def ball_radius(seen: np.ndarray, view: View) -> float:
+    """Return the radius of a ball [pixel] at each of ``seen``, (n, 2) [pixel]."""
+    largest = _RADIUS * min(view.width, view.height)
+    if len(seen) < 3:
+        return largest
+    # Pins follow each other along the rows: the next one in their order is a near one.
+    steps = np.linalg.norm(np.diff(seen, axis=0), axis=1)
+    near = float(np.percentile(steps, 25))
+    return max(min(largest, _SHARE * near), _SMALLEST) if math.isfinite(near) else largest
