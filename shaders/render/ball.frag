@@ -27,7 +27,7 @@ void main() {
     if (cover == 0.0) {
         discard;
     }
-    float rim = clamp((away - 1.0) * radius + RIM + 0.5, 0.0, 1.0);
+    float rim = clamp((away - 1.0) * radius + min(RIM, 0.3 * radius) + 0.5, 0.0, 1.0);
     vec3 normal = vec3(place, sqrt(max(1.0 - away * away, 0.0)));
     float level = 0.7 + 0.45 * max(dot(normal, vec3(-0.45, 0.55, 0.70)), 0.0);
     color = vec4(mix(min(ball_color * level, 1.0), vec3(1.0), rim), opacity * cover);

@@ -29,19 +29,20 @@ in float strain;
 in vec2 place;
 out vec4 color;
 
-// How much of this pixel a dot on a node at its limit covers.
-float limit_dot() {
+// How much of this pixel a dot on a node at its limit covers, with its rim and without.
+vec2 limit_dot() {
     vec2 nearest = clamp(round(place), vec2(0.0), vec2(cols - 1, rows - 1));
     int flags = int(normal_and_flags(node_index(int(nearest.y), int(nearest.x))).w);
     if ((flags & FLAG_AT_LIMIT) == 0) {
-        return 0.0;
+        return vec2(0.0);
     }
     float away = length((place - nearest) * cell);
     vec2 across = fwidth(place) * cell;
     float pixel = 0.5 * (across.x + across.y);
-    float sharp = clamp((DOT_RADIUS - away) / max(pixel, 1e-6) + 0.5, 0.0, 1.0);
+    vec2 sharp = clamp(
+        (vec2(DOT_RADIUS, DOT_INSIDE) - away) / max(pixel, 1e-6) + 0.5, vec2(0.0), vec2(1.0));
     // Where a cell is hardly larger than a pixel, a dot is a tint.
-    return mix(sharp, DOT_TINT, smoothstep(0.3, 0.6, pixel));
+    return mix(sharp, vec2(0.0, DOT_TINT), smoothstep(0.25, 0.5, pixel));
 }
 
 float hem() {
@@ -50,7 +51,8 @@ float hem() {
 }
 
 void main() {
-    vec3 shown = mix(strain_color(strain), limit_color, limit_dot());
-    shown = lit(shown, normalize(normal), gl_FrontFacing);
+    vec3 shown = lit(strain_color(strain), normalize(normal), gl_FrontFacing);
+    vec2 covered = limit_dot();
+    shown = mix(mix(shown, vec3(DOT_RIM), covered.x), limit_color, covered.y);
     color = vec4(shown * (1.0 - hem()), 1.0);
 }

@@ -18,6 +18,7 @@
 #include "render/strain_color.glsl"
 
 uniform float half_width;
+uniform float rim;  // of darker colour [pixel]
 uniform float opacity;
 in float strain;
 noperspective in vec2 along;
@@ -26,9 +27,11 @@ out vec4 color;
 
 void main() {
     vec2 away = vec2(along.x - clamp(along.x, 0.0, piece_length), along.y);
-    float cover = clamp(half_width + 0.5 - length(away), 0.0, 1.0);
+    float inside = half_width - length(away);
+    float cover = clamp(inside + 0.5, 0.0, 1.0);
     if (cover == 0.0) {
         discard;
     }
-    color = vec4(strain_color(strain), opacity * cover);
+    float shade = rim > 0.0 ? 1.0 - HEM_SHADE * clamp(rim + 0.5 - inside, 0.0, 1.0) : 1.0;
+    color = vec4(shade * strain_color(strain), opacity * cover);
 }

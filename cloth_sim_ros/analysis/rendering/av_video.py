@@ -58,8 +58,10 @@ class AvVideo:
             raise ClothSimError(f'{path} takes no {codec} video: name it *.mp4') from error
         self._stream.width, self._stream.height = size
         self._stream.pix_fmt = 'yuv420p'
-        self._stream.bit_rate = 0 if codec == 'libx264' else round(
-            _BITS * size[0] * size[1] * float(fps))
+        if codec != 'libx264':
+            self._stream.bit_rate = round(_BITS * size[0] * size[1] * fps)
+        # What can't be written is told now, not after the first images.
+        self._container.start_encoding()
 
     def write(self, image: np.ndarray) -> None:
         """Append ``image``, (height, width, 3) uint8."""

@@ -21,8 +21,10 @@ from cloth_sim_ros.analysis.rendering.view import View
 from cloth_sim_ros.sim.errors import ClothSimError
 import numpy as np
 
-_MARGIN = 1.06        # of the picture over what must be in it
+_MARGIN = 1.06        # size of the picture over that of what must be in it
 _WIDEST = 150.0       # [deg]
+_LEAST_VIEW = 1e-3    # half the height of a picture of one point, over the size of the scene
+_CLEAR = 1.1          # distance of the camera over that of what is nearest to it
 _SMALLEST = 1e-6      # a scene of one point still has a size [m]
 _DEEP = 4.0           # what is drawn around the scene, over its size
 
@@ -83,10 +85,13 @@ class Camera:
         tangent = math.tan(math.radians(self.field_of_view) / 2.0)
         # In perspective, what is nearer by z looks larger: |x| / slope + z must not be above the
         # distance. That asks for the same as a parallel view of x + slope z.
-        slopes = (tangent * width / height, tangent)
+        slope = tangent / _MARGIN
         sides = [
-            self._side(across, near, slopes[0]), self._side(up, near, slopes[1])]
-        half_height = _MARGIN * max(sides[0][1] * height / width, sides[1][1], size / 1e3)
+            self._side(across, near, slope * width / height), self._side(up, near, slope)]
+        half_height = _MARGIN * max(
+            sides[0][1] * height / width, sides[1][1], size * _LEAST_VIEW,
+            # A wide camera would stand within the cloth.
+            slope * _CLEAR * float(near.max()))
         middle = middle + sides[0][0] * self.axes[0] + sides[1][0] * self.axes[1]
         distance = half_height / tangent if tangent > 0.0 else math.inf
         return View(

@@ -19,6 +19,7 @@ from functools import cached_property
 from cloth_sim_ros.analysis.frame import Frame
 from cloth_sim_ros.analysis.rendering.light import LIGHT_DEFINES
 from cloth_sim_ros.analysis.rendering.light import set_light
+from cloth_sim_ros.analysis.rendering.look import HEM_SHADE
 from cloth_sim_ros.analysis.rendering.look import LIMIT_COLOR
 from cloth_sim_ros.analysis.rendering.look import SHADOW_COLOR
 from cloth_sim_ros.analysis.rendering.palette_buffer import PALETTE_DEFINES
@@ -34,9 +35,10 @@ _HEM_WIDTH = 0.9      # [pixel of the picture]
 
 CLOTH_DEFINES = {
     **LIGHT_DEFINES, **PALETTE_DEFINES, 'FLAG_AT_LIMIT': FLAG_AT_LIMIT,
-    # Radius of a dot on a node at its limit, over the shorter side of a cell; the tint that dots
-    # make where they can't be told apart; how much darker the hem is.
-    'DOT_RADIUS': 0.24, 'DOT_TINT': 0.25, 'HEM_SHADE': 0.45}
+    # Radius of a dot on a node at its limit, over the shorter side of a cell, with its rim and
+    # without; the grey of the rim; the tint that dots make where they can't be told apart.
+    'DOT_RADIUS': 0.33, 'DOT_INSIDE': 0.22, 'DOT_RIM': 0.1, 'DOT_TINT': 0.3,
+    'HEM_SHADE': HEM_SHADE}
 
 
 class ClothDrawing:

@@ -17,6 +17,7 @@
 from dataclasses import dataclass
 
 _SMALLEST_FONT, _LARGEST_FONT = 11, 34
+_SMALLEST_SIDE = 32       # of a panel [pixel]
 _FONT_SHARE = 1.0 / 36.0  # of the width of a panel that is not much wider than high
 
 
@@ -29,6 +30,7 @@ class Layout:
     :param has_title: leave room for a title
     :param has_labels: leave room for the name of each row
     :param has_bar: leave room for a colour bar
+    :param letters: their height [pixel]; 0 fits it to the panels
     """
 
     rows: int
@@ -37,10 +39,13 @@ class Layout:
     has_title: bool = True
     has_labels: bool = False
     has_bar: bool = True
+    letters: int = 0
 
     @property
     def font(self) -> int:
         """Get the height of the letters [pixel]."""
+        if self.letters:
+            return self.letters
         # Many small panels make a large sheet, which is looked at from farther away.
         share = _FONT_SHARE * min(self.panel[0], 1.1 * self.panel[1]) * (1.0 + 0.1 * (self.columns - 1))
         return round(min(max(share, _SMALLEST_FONT), _LARGEST_FONT))
@@ -102,11 +107,12 @@ class Layout:
     @classmethod
     def within(cls, width: int, height: int, **parts: object) -> 'Layout':
         """Return the layout whose sheet is about ``width`` x ``height`` pixels as a whole."""
-        layout = cls(panel=(width, height), **parts)
-        for _ in range(8):
+        layout = cls(panel=(width // parts['columns'], height // parts['rows']), **parts)
+        letters = layout.font
+        for _ in range(2):
             over = layout.size[0] - width, layout.size[1] - height
             panel = (
-                max(layout.panel[0] - round(over[0] / layout.columns), 32),
-                max(layout.panel[1] - round(over[1] / layout.rows), 32))
-            layout = cls(panel=panel, **parts)
+                max(layout.panel[0] - round(over[0] / layout.columns), _SMALLEST_SIDE),
+                max(layout.panel[1] - round(over[1] / layout.rows), _SMALLEST_SIDE))
+            layout = cls(panel=panel, letters=letters, **parts)
         return layout

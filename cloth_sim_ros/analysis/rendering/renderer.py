@@ -17,28 +17,33 @@
 from functools import cached_property
 
 from cloth_sim_ros.analysis.frame import Frame
+from cloth_sim_ros.analysis.rendering.ball_drawing import BallDrawing
 from cloth_sim_ros.analysis.rendering.cloth_drawing import ClothDrawing
 from cloth_sim_ros.analysis.rendering.floor_drawing import FloorDrawing
 from cloth_sim_ros.analysis.rendering.look import BACKGROUND
+from cloth_sim_ros.analysis.rendering.look import HIDDEN
+from cloth_sim_ros.analysis.rendering.look import LIMIT_COLOR
+from cloth_sim_ros.analysis.rendering.look import PIN_COLOR
+from cloth_sim_ros.analysis.rendering.look import PUSH_COLOR
 from cloth_sim_ros.analysis.rendering.node_buffer import NodeBuffer
 from cloth_sim_ros.analysis.rendering.palette_buffer import PaletteBuffer
-from cloth_sim_ros.analysis.rendering.pin_drawing import PinDrawing
 from cloth_sim_ros.analysis.rendering.push_drawing import PushDrawing
 from cloth_sim_ros.analysis.rendering.region_rings import region_rings
 from cloth_sim_ros.analysis.rendering.ribbon_drawing import RibbonDrawing
-from cloth_sim_ros.analysis.rendering.look import HIDDEN
-from cloth_sim_ros.analysis.rendering.look import PUSH_COLOR
 from cloth_sim_ros.analysis.rendering.seen_and_hidden import seen_and_hidden
 from cloth_sim_ros.analysis.rendering.strain_scale import StrainScale
 from cloth_sim_ros.analysis.rendering.survey import Survey
 from cloth_sim_ros.analysis.rendering.view import View
 from cloth_sim_ros.gl.context import Context
 from cloth_sim_ros.gl.framebuffer import Framebuffer
+from cloth_sim_ros.sim.snapshot import FLAG_AT_LIMIT
 import numpy as np
 from OpenGL import GL
 
-_CHAIN_WIDTH = 1.0 / 130.0  # of the shorter side of the picture
-_RING_WIDTH = 1.5           # [pixel]
+_CHAIN_WIDTH = 1.0 / 100.0  # of the shorter side of the picture
+_CHAIN_RIM = 0.8            # [pixel]
+_RING_WIDTH = 1.5
+_LIMIT_SIZE = 0.55          # of the ball on a node at its limit, over that of a pin
 
 
 class Renderer:
@@ -82,12 +87,15 @@ class Renderer:
         if is_chain:
             self._ribbon.draw(
                 frame.records.size, self.view,
-                _CHAIN_WIDTH * min(self.view.width, self.view.height))
+                _CHAIN_WIDTH * min(self.view.width, self.view.height), rim=_CHAIN_RIM)
+            self._balls.draw(
+                frame.positions[(frame.records['flags'] & FLAG_AT_LIMIT) != 0], self.view,
+                LIMIT_COLOR, _LIMIT_SIZE)
         else:
             self._cloth.draw(frame, self.view)
         self._pushes.draw(self._survey.arrows(frame), self.view)
         self._draw_rings(frame)
-        self._pins.draw(frame.positions[frame.pinned], self.view)
+        self._balls.draw(frame.positions[frame.pinned], self.view, PIN_COLOR)
         return self._framebuffer.read()
 
     def close(self) -> None:
@@ -120,8 +128,8 @@ class Renderer:
         return FloorDrawing(self._survey, self._detail)
 
     @cached_property
-    def _pins(self) -> PinDrawing:
-        return PinDrawing(self._detail)
+    def _balls(self) -> BallDrawing:
+        return BallDrawing(self._detail)
 
     @cached_property
     def _pushes(self) -> PushDrawing:

@@ -16,12 +16,15 @@
 
 from functools import cached_property
 
+from cloth_sim_ros.analysis.rendering.look import HEM_SHADE
 from cloth_sim_ros.analysis.rendering.look import UNKNOWN_COLOR
 from cloth_sim_ros.analysis.rendering.palette_buffer import PALETTE_DEFINES
 from cloth_sim_ros.analysis.rendering.palette_buffer import PaletteBuffer
 from cloth_sim_ros.analysis.rendering.view import View
 from cloth_sim_ros.analysis.rendering.view_uniforms import set_view
 from cloth_sim_ros.gl.render_program import RenderProgram
+
+RIBBON_DEFINES = {**PALETTE_DEFINES, 'HEM_SHADE': HEM_SHADE}
 
 
 class RibbonDrawing:
@@ -37,12 +40,13 @@ class RibbonDrawing:
         self._detail = detail
 
     def draw(
-            self, count: int, view: View, width: float, *, opacity: float = 1.0,
-            color: tuple[float, float, float] = UNKNOWN_COLOR) -> None:
+            self, count: int, view: View, width: float, *, rim: float = 0.0,
+            opacity: float = 1.0, color: tuple[float, float, float] = UNKNOWN_COLOR) -> None:
         """
         Draw the first ``count`` points' line.
 
         :param width: [pixel of the picture]
+        :param rim: of its darker border, on each side [pixel of the picture]
         :param color: of points without strain
         """
         program = self._program
@@ -50,9 +54,10 @@ class RibbonDrawing:
         set_view(program, view, self._detail)
         self._palette.give(program, color)
         program.set_float('half_width', 0.5 * width * self._detail)
+        program.set_float('rim', rim * self._detail)
         program.set_float('opacity', opacity)
         program.draw_strips(4, count - 1)
 
     @cached_property
     def _program(self) -> RenderProgram:
-        return RenderProgram('render/ribbon.vert', 'render/ribbon.frag', PALETTE_DEFINES)
+        return RenderProgram('render/ribbon.vert', 'render/ribbon.frag', RIBBON_DEFINES)

@@ -29,6 +29,7 @@ import numpy as np
 
 _INK = '#303030'
 _POINTS_PER_INCH = 72.0  # so that a point is a pixel
+_LETTERS = 1.7           # height of a letter over its usual width
 
 
 class Sheet:
@@ -134,6 +135,9 @@ class Sheet:
             handles=handles, loc='center', ncols=len(handles), frameon=False,
             bbox_to_anchor=(middle, 0.68 * layout.legend_height / height), labelcolor=_INK,
             fontsize=0.9 * layout.font, handletextpad=0.5, columnspacing=1.6)
+        # The directions stand to the left, and the same room is left free on the right.
+        room = 2.0 * (layout.middle - layout.legend_height)
         self._figure.text(
-            middle, 0.24 * layout.legend_height / height, note, fontsize=0.75 * layout.font,
+            middle, 0.24 * layout.legend_height / height, note,
+            fontsize=min(0.75 * layout.font, _LETTERS * room / max(len(note), 1)),
             color='#707070', ha='center', va='center')

@@ -103,7 +103,7 @@ def note_of(sources: Sequence[Source]) -> str:
     """Return where the runs were made, and what can't be drawn."""
     devices = dict.fromkeys(source.device for source in sources if source.device)
     missing = [
-        f'{source.name}: {" and ".join(source.missing)} not drawn, the file lacks them'
+        f'{source.name} lacks {" and ".join(source.missing)}: not drawn'
         for source in sources if source.missing]
     simulated = [f'simulated on {", ".join(devices)}'] if devices else []
     return '; '.join([*simulated, *missing])

@@ -73,7 +73,7 @@ class StateSource(Source):
     @property
     def missing(self) -> list[str]:
         """Name what can't be drawn, since it is not there."""
-        told = {'strain': 'strain', 'flags': 'pins and nodes at their limit'}
+        told = {'strain': 'strain', 'flags': 'pins and limits'}
         return [told[key] for key in self._missing]
 
     def frames(self) -> Iterator[Frame]:
@@ -95,8 +95,8 @@ def _read(path: str | Path) -> dict[str, np.ndarray]:
             return {key: file[key] for key in file.files}
     except FileNotFoundError as error:
         raise ClothSimError(f'there is no state file {path}: {_WRITE_IT_ANEW}') from error
-    # np.load returns a plain array, without files, for what is no archive.
-    except (OSError, ValueError, EOFError, BadZipFile, AttributeError) as error:
+    # What is an array and no archive has no context, which is a TypeError.
+    except (OSError, ValueError, EOFError, BadZipFile, TypeError) as error:
         raise ClothSimError(f'{path} is no state file: {_WRITE_IT_ANEW}') from error
 
 

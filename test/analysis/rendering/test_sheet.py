@@ -12,60 +12,76 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
+"""What is around the panels, and where they go."""
 
-"""The panels of a picture and their common view."""
-
-from cloth_sim_ros.analysis.camera import Camera
-from cloth_sim_ros.analysis.sheet import Sheet
-from cloth_sim_ros.sim.push import Push
+from cloth_sim_ros.analysis.rendering.camera import Camera
+from cloth_sim_ros.analysis.rendering.layout import Layout
+from cloth_sim_ros.analysis.rendering.sheet import Sheet
+from cloth_sim_ros.analysis.rendering.strain_scale import StrainScale
+from cloth_sim_ros.analysis.rendering.survey import Survey
 import numpy as np
 import pytest
 
 
-def test_nothing_is_cut_off(hanging):
-    """A part of the cloth, or a push, would lie outside its panel."""
-    push = Push.checked(force=(0.0, -5.0, 9.0), start=0.0, duration=10.0)
-    swung = hanging(2.0, pushes=(push,))
-    swung.records['y'] = 1.5 * swung.records['z']
-    frames = [hanging(1.0), swung]
-    camera = Camera()
-    sheet = Sheet(frames, camera)
-    for axes, frame in zip(sheet.panels, frames):
-        sheet.set_up(axes, frame.time)
-        drawn = np.concatenate(
-            [frame.positions.reshape(-1, 3), *frame.push_arrows(sheet.arrow_length)])
-        seen = camera.project(drawn)
-        for values, (low, high) in ((seen[:, 0], axes.get_xlim()), (seen[:, 1], axes.get_ylim())):
-            assert low < values.min() and values.max() < high
+@pytest.fixture
+def sheet_of(hanging):
+    """Return a function that makes a sheet for a layout."""
+
+    def make(layout, **words):
+        survey = Survey()
+        survey.add(hanging())
+        view = Camera().looking_at(survey.points, *layout.panel)
+        return Sheet(layout, survey, StrainScale(survey.strains), view, **words)
+
+    return make
 
 
-def test_all_panels_are_seen_alike(hanging):
-    """Panels could not be compared: each would have its own scale."""
-    small = hanging(0.0)
-    small.records['x'] *= 0.1
-    sheet = Sheet([small, hanging(1.0), hanging(2.0), hanging(3.0)], Camera())
-    for axes, time in zip(sheet.panels, range(4)):
-        sheet.set_up(axes, time)
-        assert axes.get_aspect() == 1.0
-    assert len({axes.get_xlim() for axes in sheet.panels}) == 1
-    assert len({axes.get_ylim() for axes in sheet.panels}) == 1
+def test_each_panel_is_where_the_layout_says(sheet_of):
+    """A panel would be in the place of another, or changed on its way."""
+    layout = Layout(2, 2, (60, 50))
+    images = [np.full((50, 60, 3), 40 * (number + 1), np.uint8) for number in range(4)]
+    whole = sheet_of(layout).compose(images, ['a', 'b', 'c', 'd'])
+    assert whole.shape == (layout.size[1], layout.size[0], 3)
+    for number, image in enumerate(images):
+        left, top = layout.corner(number)
+        top += layout.heading
+        np.testing.assert_array_equal(whole[top:top + 50, left:left + 60], image)
 
 
-def test_each_panel_says_its_time(hanging):
+def test_each_panel_has_its_own_heading(sheet_of):
     """A reader would not know which moment is shown."""
-    sheet = Sheet([hanging(0.0), hanging(1.25)], Camera())
-    for axes, time in zip(sheet.panels, (0.0, 1.25)):
-        sheet.set_up(axes, time)
-    assert [axes.get_title() for axes in sheet.panels] == ['t = 0.00 s', 't = 1.25 s']
+    layout = Layout(1, 2, (200, 100))
+    images = 2 * [np.full((100, 200, 3), 255, np.uint8)]
+    sheet = sheet_of(layout)
+    empty, told = (sheet.compose(images, headings) for headings in (['', ''], ['', 't = 1 s']))
+    changed = np.argwhere((empty != told).any(axis=-1))
+    left, top = layout.corner(1)
+    assert len(changed) > 20
+    assert top <= changed[:, 0].min() and changed[:, 0].max() < top + layout.heading
+    assert left <= changed[:, 1].min() and changed[:, 1].max() < left + 200
+    # Composing does not change the sheet.
+    np.testing.assert_array_equal(sheet.compose(images, ['', '']), empty)
 
 
-@pytest.mark.parametrize('rows, cols', [(20, 1), (1, 20), (2, 2)])
-def test_a_chain_has_a_panel_one_can_see(hanging, rows, cols):
-    """The picture of a chain would be a metre high and a finger wide."""
-    frame = hanging(rows=rows, cols=cols)
-    if cols == 1:
-        frame.records['x'] = 0.0
-    sheet = Sheet([frame], Camera())
-    sheet.set_up(sheet.panels[0], 0.0)
-    (left, right), (bottom, top) = sheet.panels[0].get_xlim(), sheet.panels[0].get_ylim()
-    assert 0.4 < (right - left) / (top - bottom) < 2.5
+def test_words_and_bar_stay_off_the_panels(sheet_of):
+    """A long title or note, or the bar, would be written over the cloth."""
+    layout = Layout(2, 1, (240, 180), has_labels=True)
+    around = sheet_of(
+        layout, title='a cloth', labels=['one row', 'the other'], note='note ' * 12).compose([], [])
+    ink = (around < 128).any(axis=-1)
+    for number in range(2):
+        left, top = layout.corner(number)
+        assert not ink[top:top + layout.heading + 180, left:left + 240].any()
+    assert ink[:layout.top].any() and ink[:, :layout.left].any()
+    assert ink[:, layout.bar_left:].any()
+    # The border of the sheet is free.
+    assert not ink[0].any() and not ink[-1].any() and not ink[:, -1].any()
+
+
+def test_a_sheet_without_strain_has_no_bar(sheet_of):
+    """A bar would explain colours that are not there."""
+    with_bar, without = (
+        sheet_of(Layout(1, 1, (240, 180), has_bar=has_bar)).compose([], [])
+        for has_bar in (True, False))
+    assert without.shape[1] < with_bar.shape[1]
+    assert np.ptp(without[:180], axis=-1).max() < 10

@@ -12,13 +12,12 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""Draw a ball on each node that is held."""
+"""Draw balls on nodes: on those that are held, and on those of a chain at their limit."""
 
 from functools import cached_property
 import math
 
 from cloth_sim_ros.analysis.rendering.look import HIDDEN
-from cloth_sim_ros.analysis.rendering.look import PIN_COLOR
 from cloth_sim_ros.analysis.rendering.seen_and_hidden import seen_and_hidden
 from cloth_sim_ros.analysis.rendering.view import View
 from cloth_sim_ros.analysis.rendering.view_uniforms import set_view
@@ -29,12 +28,12 @@ import numpy as np
 _UNIT = 0             # render/ball.vert
 _RADIUS = 1.0 / 75.0  # of the shorter side of the picture
 _SMALLEST = 1.2       # [pixel]
-_SHARE = 0.36         # of the distance between neighbouring pins
+_SHARE = 0.36         # of the distance between neighbouring balls
 
 BALL_DEFINES = {'RIM': 1.3}
 
 
-class PinDrawing:
+class BallDrawing:
     """
     Draws balls that all look alike, smaller where they stand close together.
 
@@ -45,13 +44,19 @@ class PinDrawing:
         """Keep what all frames share."""
         self._detail = detail
 
-    def draw(self, pins: np.ndarray, view: View) -> None:
-        """Draw a ball at each of ``pins``, (n, 3) [m]; faintly where the cloth hides it."""
-        if not len(pins):
+    def draw(
+            self, points: np.ndarray, view: View, color: tuple[float, float, float],
+            size: float = 1.0) -> None:
+        """
+        Draw a ball at each of ``points``, (n, 3) [m]; faintly where the cloth hides it.
+
+        :param size: over that of a pin
+        """
+        if not len(points):
             return
-        radius = ball_radius(view.project(pins), view)
-        places = np.zeros((len(pins), 4), np.float32)
-        places[:, :3] = pins - view.middle
+        radius = size * ball_radius(view.project(points), view)
+        places = np.zeros((len(points), 4), np.float32)
+        places[:, :3] = points - view.middle
         buffer = Buffer(places)
         buffer.bind_texture(_UNIT)
         program = self._program
@@ -59,10 +64,10 @@ class PinDrawing:
         set_view(program, view, self._detail)
         program.set_float('radius', radius * self._detail)
         program.set_float('lead', 1.5 * radius * view.pixel)
-        program.set_vectors('ball_color', PIN_COLOR)
+        program.set_vectors('ball_color', color)
         for opacity in seen_and_hidden(HIDDEN):
             program.set_float('opacity', opacity)
-            program.draw_strips(4, len(pins))
+            program.draw_strips(4, len(points))
         buffer.delete()
 
     @cached_property
@@ -75,7 +80,7 @@ def ball_radius(seen: np.ndarray, view: View) -> float:
     largest = _RADIUS * min(view.width, view.height)
     if len(seen) < 3:
         return largest
-    # Pins follow each other along the rows: the next one in their order is a near one.
+    # Nodes follow each other along the rows: the next one in their order is a near one.
     steps = np.linalg.norm(np.diff(seen, axis=0), axis=1)
     near = float(np.percentile(steps, 25))
     return max(min(largest, _SHARE * near), _SMALLEST) if math.isfinite(near) else largest
