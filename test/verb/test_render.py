@@ -42,7 +42,8 @@ def render(run, tmp_path, capsys):
     def draw(*arguments, sources=('small',)):
         file = tmp_path / f'{len(list(tmp_path.iterdir()))}.png'
         assert main([
-            'render', *(str(run / source) for source in sources), '--out', str(file), '--size', '120x90', *arguments]) == 0
+            'render', *(str(run / source) for source in sources), '--out', str(file),
+            '--size', '120x90', *arguments]) == 0
         assert capsys.readouterr().out.strip() == str(file)
         return imread(file)
 

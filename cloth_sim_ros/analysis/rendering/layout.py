@@ -47,7 +47,8 @@ class Layout:
         if self.letters:
             return self.letters
         # Many small panels make a large sheet, which is looked at from farther away.
-        share = _FONT_SHARE * min(self.panel[0], 1.1 * self.panel[1]) * (1.0 + 0.1 * (self.columns - 1))
+        share = _FONT_SHARE * (1.0 + 0.1 * (self.columns - 1)) * min(
+            self.panel[0], 1.1 * self.panel[1])
         return round(min(max(share, _SMALLEST_FONT), _LARGEST_FONT))
 
     @property

@@ -44,7 +44,7 @@ class StrainScale:
         """Fit the scale."""
         if full is not None and not 0.0 < full < math.inf:
             raise ClothSimError(
-                f'the largest strain of the scale must be above 0, got {full:g}: give 0.05 for 5 %')
+                f'the strain of the last colour must be above 0, got {full:g}: give 0.05 for 5 %')
         self.is_known = strains.is_known
         self.largest = strains.largest
         fitted = round_up(max(strains.above(_SHARE), _LEAST)) if strains.is_known else _LEAST

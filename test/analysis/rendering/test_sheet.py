@@ -67,7 +67,8 @@ def test_words_and_bar_stay_off_the_panels(sheet_of):
     """A long title or note, or the bar, would be written over the cloth."""
     layout = Layout(2, 1, (240, 180), has_labels=True)
     around = sheet_of(
-        layout, title='a cloth', labels=['one row', 'the other'], note='note ' * 12).compose([], [])
+        layout, title='a cloth', labels=['one row', 'the other'], note='note ' * 12
+    ).compose([], [])
     ink = (around < 128).any(axis=-1)
     for number in range(2):
         left, top = layout.corner(number)
