@@ -25,6 +25,7 @@ from cloth_sim_ros.analysis.rendering.source import Source
 from cloth_sim_ros.analysis.rendering.stage import Style
 from cloth_sim_ros.analysis.rendering.state_source import StateSource
 from cloth_sim_ros.sim.errors import ClothSimError
+from cloth_sim_ros.verb.recording_arguments import add_node_argument
 
 _LEAST_SIDE, _MOST_SIDE = 32, 8192  # [pixel]
 
@@ -33,9 +34,7 @@ def add_source_arguments(parser: ArgumentParser) -> None:
     """Add the recordings and the name of their node."""
     parser.add_argument(
         'sources', nargs='+', metavar='BAG|STATE.npz', help='folder of a recording, or a state')
-    parser.add_argument(
-        '--node', default='cloth_sim', metavar='NAME',
-        help='name of the recorded node, with its namespace (default: %(default)s)')
+    add_node_argument(parser)
 
 
 def add_camera_arguments(parser: ArgumentParser) -> None:

@@ -29,6 +29,7 @@ in float strain;
 in vec2 place;
 out vec4 color;
 
+#ifdef HAS_LIMITS
 // How much of this pixel a dot on a node at its limit covers, with its rim and without.
 vec2 limit_dot() {
     vec2 nearest = clamp(round(place), vec2(0.0), vec2(cols - 1, rows - 1));
@@ -44,6 +45,7 @@ vec2 limit_dot() {
     // Where a cell is hardly larger than a pixel, a dot is a tint.
     return mix(sharp, vec2(0.0, DOT_TINT), smoothstep(0.25, 0.5, pixel));
 }
+#endif
 
 float hem() {
     vec2 inside = min(place, vec2(cols - 1, rows - 1) - place) / max(fwidth(place), vec2(1e-6));
@@ -52,7 +54,9 @@ float hem() {
 
 void main() {
     vec3 shown = lit(strain_color(strain), normalize(normal), gl_FrontFacing);
+#ifdef HAS_LIMITS
     vec2 covered = limit_dot();
     shown = mix(mix(shown, vec3(DOT_RIM), covered.x), limit_color, covered.y);
+#endif
     color = vec4(shown * (1.0 - hem()), 1.0);
 }

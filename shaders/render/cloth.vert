@@ -20,6 +20,8 @@
 
 #ifdef SHADOW
 uniform float floor_z;
+uniform int rows;
+uniform int stride;  // between the nodes that are drawn: an outline needs fewer than the surface
 #else
 out vec3 normal;
 out float strain;
@@ -29,6 +31,10 @@ out vec2 place;  // column and row
 void main() {
     int row = gl_InstanceID + (gl_VertexID & 1);
     int col = gl_VertexID >> 1;
+#ifdef SHADOW
+    row = min(row * stride, rows - 1);
+    col = min(col * stride, cols - 1);
+#endif
     int node = node_index(row, col);
     vec4 found = position_and_strain(node);
 #ifdef SHADOW

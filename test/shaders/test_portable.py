@@ -21,6 +21,7 @@ import subprocess
 
 from cloth_sim_ros.analysis.rendering.ball_drawing import BALL_DEFINES
 from cloth_sim_ros.analysis.rendering.cloth_drawing import CLOTH_DEFINES
+from cloth_sim_ros.analysis.rendering.cloth_drawing import LIMIT_DEFINES
 from cloth_sim_ros.analysis.rendering.push_drawing import ARROW_DEFINES
 from cloth_sim_ros.analysis.rendering.ribbon_drawing import RIBBON_DEFINES
 from cloth_sim_ros.gl.shader_directory import shader_directory
@@ -64,7 +65,7 @@ _FORMS = {
 _RENDER_FORMS = {
     'arrow': [ARROW_DEFINES],
     'ball': [BALL_DEFINES],
-    'cloth': [CLOTH_DEFINES],
+    'cloth': [CLOTH_DEFINES, LIMIT_DEFINES],
     'floor': [{}],
     'plain': [{}],
     'ribbon': [RIBBON_DEFINES],

@@ -17,7 +17,6 @@
 from functools import cached_property
 import math
 
-from cloth_sim_ros.analysis.rendering.look import HIDDEN
 from cloth_sim_ros.analysis.rendering.seen_and_hidden import seen_and_hidden
 from cloth_sim_ros.analysis.rendering.view import View
 from cloth_sim_ros.analysis.rendering.view_uniforms import set_view
@@ -65,7 +64,7 @@ class BallDrawing:
         program.set_float('radius', radius * self._detail)
         program.set_float('lead', 1.5 * radius * view.pixel)
         program.set_vectors('ball_color', color)
-        for opacity in seen_and_hidden(HIDDEN):
+        for opacity in seen_and_hidden():
             program.set_float('opacity', opacity)
             program.draw_strips(4, len(points))
         buffer.delete()

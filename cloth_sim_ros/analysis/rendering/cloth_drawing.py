@@ -15,6 +15,7 @@
 """Draw the surface of a cloth, and its shadow."""
 
 from functools import cached_property
+import math
 
 from cloth_sim_ros.analysis.frame import Frame
 from cloth_sim_ros.analysis.rendering.light import LIGHT_DEFINES
@@ -26,19 +27,21 @@ from cloth_sim_ros.analysis.rendering.palette_buffer import PALETTE_DEFINES
 from cloth_sim_ros.analysis.rendering.palette_buffer import PaletteBuffer
 from cloth_sim_ros.analysis.rendering.view import View
 from cloth_sim_ros.analysis.rendering.view_uniforms import set_view
+from cloth_sim_ros.gl.draw_state import draw_over_all
 from cloth_sim_ros.gl.render_program import RenderProgram
 from cloth_sim_ros.sim.snapshot import FLAG_AT_LIMIT
 import numpy as np
-from OpenGL import GL
 
 _HEM_WIDTH = 0.9      # [pixel of the picture]
+_SHADOW_SIDE = 160    # most nodes of the shadow along a side
 
 CLOTH_DEFINES = {
-    **LIGHT_DEFINES, **PALETTE_DEFINES, 'FLAG_AT_LIMIT': FLAG_AT_LIMIT,
+    **LIGHT_DEFINES, **PALETTE_DEFINES, 'HEM_SHADE': HEM_SHADE}
+LIMIT_DEFINES = {
+    **CLOTH_DEFINES, 'HAS_LIMITS': 1, 'FLAG_AT_LIMIT': FLAG_AT_LIMIT,
     # Radius of a dot on a node at its limit, over the shorter side of a cell, with its rim and
     # without; the grey of the rim; the tint that dots make where they can't be told apart.
-    'DOT_RADIUS': 0.33, 'DOT_INSIDE': 0.22, 'DOT_RIM': 0.1, 'DOT_TINT': 0.3,
-    'HEM_SHADE': HEM_SHADE}
+    'DOT_RADIUS': 0.33, 'DOT_INSIDE': 0.22, 'DOT_RIM': 0.1, 'DOT_TINT': 0.3}
 
 
 class ClothDrawing:
@@ -56,7 +59,8 @@ class ClothDrawing:
     def draw(self, frame: Frame, view: View) -> None:
         """Draw the surface."""
         rows, cols = frame.records.shape
-        program = self._surface
+        has_limits = bool((frame.records['flags'] & FLAG_AT_LIMIT).any())
+        program = self._with_limits if has_limits else self._surface
         program.use()
         set_view(program, view)
         set_light(program, view)
@@ -74,15 +78,23 @@ class ClothDrawing:
         program = self._shadow
         program.use()
         set_view(program, view)
+        stride = math.ceil(max(rows, cols) / _SHADOW_SIDE)
+        program.set_int('rows', rows)
         program.set_int('cols', cols)
+        program.set_int('stride', stride)
         program.set_float('floor_z', floor - view.middle[2])
         program.set_vectors('plain_color', SHADOW_COLOR)
-        GL.glDisable(GL.GL_DEPTH_TEST)
-        program.draw_strips(2 * cols, rows - 1)
+        draw_over_all()
+        down, along = (math.ceil((count - 1) / stride) for count in (rows, cols))
+        program.draw_strips(2 * (along + 1), down)
 
     @cached_property
     def _surface(self) -> RenderProgram:
         return RenderProgram('render/cloth.vert', 'render/cloth.frag', CLOTH_DEFINES)
+
+    @cached_property
+    def _with_limits(self) -> RenderProgram:
+        return RenderProgram('render/cloth.vert', 'render/cloth.frag', LIMIT_DEFINES)
 
     @cached_property
     def _shadow(self) -> RenderProgram:

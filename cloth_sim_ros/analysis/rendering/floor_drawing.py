@@ -22,9 +22,9 @@ from cloth_sim_ros.analysis.rendering.strain_scale import round_up
 from cloth_sim_ros.analysis.rendering.survey import Survey
 from cloth_sim_ros.analysis.rendering.view import View
 from cloth_sim_ros.analysis.rendering.view_uniforms import set_view
+from cloth_sim_ros.gl.draw_state import draw_over_all
 from cloth_sim_ros.gl.render_program import RenderProgram
 import numpy as np
-from OpenGL import GL
 
 _LINE_WIDTH = 1.0     # [pixel of the picture]
 _REACH = 1.6          # of half a side of the grid over the longest side of all cloths
@@ -56,7 +56,7 @@ class FloorDrawing:
         program.set_pair('grid_offset', tuple(np.remainder(self._middle[:2], self.step)))
         program.set_float('line_width', _LINE_WIDTH * self._detail)
         program.set_vectors('line_color', GRID_COLOR)
-        GL.glDisable(GL.GL_DEPTH_TEST)
+        draw_over_all()
         program.draw_strips(4)
 
     @cached_property

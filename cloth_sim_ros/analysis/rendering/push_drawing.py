@@ -18,13 +18,13 @@ from functools import cached_property
 
 from cloth_sim_ros.analysis.rendering.light import LIGHT_DEFINES
 from cloth_sim_ros.analysis.rendering.light import set_light
-from cloth_sim_ros.analysis.rendering.look import HIDDEN
 from cloth_sim_ros.analysis.rendering.look import PUSH_COLOR
+from cloth_sim_ros.analysis.rendering.seen_and_hidden import seen_and_hidden
 from cloth_sim_ros.analysis.rendering.view import View
 from cloth_sim_ros.analysis.rendering.view_uniforms import set_view
+from cloth_sim_ros.gl.draw_state import draw_clockwise_only
 from cloth_sim_ros.gl.render_program import RenderProgram
 import numpy as np
-from OpenGL import GL
 
 _SIDES = 40
 _SHAFT = 0.016        # radius over the length of the largest arrow
@@ -66,16 +66,12 @@ class PushDrawing:
             self._draw_one(program)
 
     def _draw_one(self, program: RenderProgram) -> None:
-        # Its own far side must not show through its near one, so that it writes its depth.
-        GL.glEnable(GL.GL_DEPTH_TEST)
-        GL.glEnable(GL.GL_CULL_FACE)
-        GL.glCullFace(GL.GL_FRONT)
-        for depth, opacity in ((GL.GL_GREATER, HIDDEN), (GL.GL_LEQUAL, 1.0)):
-            GL.glDepthMask(depth == GL.GL_LEQUAL)
-            GL.glDepthFunc(depth)
+        # Its own far side must not show through its near one.
+        draw_clockwise_only(True)
+        for opacity in seen_and_hidden(hides=True):
             program.set_float('opacity', opacity)
             program.draw_strips(2 * (_SIDES + 1), 4)
-        GL.glDisable(GL.GL_CULL_FACE)
+        draw_clockwise_only(False)
 
     @cached_property
     def _program(self) -> RenderProgram:

@@ -32,7 +32,8 @@ class RecordingSource(Source):
     def __init__(self, recording: Recording) -> None:
         """Keep the recording, without reading it."""
         self._recording = recording
-        self.name = recording.path.stem
+        path = recording.path.resolve()
+        self.name = path.stem if path.is_file() else path.name
 
     @property
     def modes(self) -> list[str]:

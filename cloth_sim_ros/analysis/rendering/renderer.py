@@ -21,7 +21,6 @@ from cloth_sim_ros.analysis.rendering.ball_drawing import BallDrawing
 from cloth_sim_ros.analysis.rendering.cloth_drawing import ClothDrawing
 from cloth_sim_ros.analysis.rendering.floor_drawing import FloorDrawing
 from cloth_sim_ros.analysis.rendering.look import BACKGROUND
-from cloth_sim_ros.analysis.rendering.look import HIDDEN
 from cloth_sim_ros.analysis.rendering.look import LIMIT_COLOR
 from cloth_sim_ros.analysis.rendering.look import PIN_COLOR
 from cloth_sim_ros.analysis.rendering.look import PUSH_COLOR
@@ -35,10 +34,11 @@ from cloth_sim_ros.analysis.rendering.strain_scale import StrainScale
 from cloth_sim_ros.analysis.rendering.survey import Survey
 from cloth_sim_ros.analysis.rendering.view import View
 from cloth_sim_ros.gl.context import Context
+from cloth_sim_ros.gl.draw_state import blend_by_opacity
+from cloth_sim_ros.gl.draw_state import draw_nearest
 from cloth_sim_ros.gl.framebuffer import Framebuffer
 from cloth_sim_ros.sim.snapshot import FLAG_AT_LIMIT
 import numpy as np
-from OpenGL import GL
 
 _CHAIN_WIDTH = 1.0 / 100.0  # of the shorter side of the picture
 _CHAIN_RIM = 0.8            # [pixel]
@@ -75,15 +75,13 @@ class Renderer:
         """Return the image of ``frame``, (height, width, 3) uint8, the uppermost line first."""
         self._context.make_current()
         self._framebuffer.begin(BACKGROUND)
-        GL.glEnable(GL.GL_BLEND)
-        GL.glBlendFunc(GL.GL_SRC_ALPHA, GL.GL_ONE_MINUS_SRC_ALPHA)
+        blend_by_opacity()
         is_chain = min(frame.records.shape) == 1
         self._nodes.load(frame, self.view.middle)
         if not is_chain:
             self._cloth.draw_shadow(frame, self.view, self._survey.floor)
         self._floor.draw(self.view)
-        GL.glEnable(GL.GL_DEPTH_TEST)
-        GL.glDepthFunc(GL.GL_LEQUAL)
+        draw_nearest()
         if is_chain:
             self._ribbon.draw(
                 frame.records.size, self.view,
@@ -105,7 +103,7 @@ class Renderer:
     def _draw_rings(self, frame: Frame) -> None:
         for ring in region_rings(frame.acting_pushes, self.view.axes):
             self._lines.load_line(ring, self.view.middle)
-            for opacity in seen_and_hidden(HIDDEN):
+            for opacity in seen_and_hidden():
                 self._ribbon.draw(
                     len(ring), self.view, _RING_WIDTH, opacity=opacity, color=PUSH_COLOR)
 

@@ -16,15 +16,19 @@
 
 from collections.abc import Iterator
 
-from OpenGL import GL
+from cloth_sim_ros.analysis.rendering.look import HIDDEN
+from cloth_sim_ros.gl.draw_state import draw_hidden
+from cloth_sim_ros.gl.draw_state import draw_nearest
 
 
-def seen_and_hidden(hidden: float) -> Iterator[float]:
-    """Set the depth test for each of the two, and yield the opacity to draw with."""
-    GL.glEnable(GL.GL_DEPTH_TEST)
-    GL.glDepthMask(GL.GL_FALSE)
-    GL.glDepthFunc(GL.GL_GREATER)
-    yield hidden
-    GL.glDepthFunc(GL.GL_LEQUAL)
+def seen_and_hidden(*, hides: bool = False) -> Iterator[float]:
+    """
+    Yield the opacity to draw with, once for what is hidden and once for what is seen.
+
+    :param hides: hide what comes later and is farther away
+    """
+    draw_hidden()
+    yield HIDDEN
+    draw_nearest(hides=hides)
     yield 1.0
-    GL.glDepthMask(GL.GL_TRUE)
+    draw_nearest()
