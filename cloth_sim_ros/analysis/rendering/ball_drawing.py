@@ -28,6 +28,7 @@ _UNIT = 0             # render/ball.vert
 _RADIUS = 1.0 / 75.0  # of the shorter side of the picture
 _SMALLEST = 1.2       # [pixel]
 _SHARE = 0.36         # of the distance between neighbouring balls
+_LEAD = 4.0           # in front of the cloth, over the radius: a ball should not be cut by it
 
 BALL_DEFINES = {'RIM': 1.3}
 
@@ -62,7 +63,7 @@ class BallDrawing:
         program.use()
         set_view(program, view, self._detail)
         program.set_float('radius', radius * self._detail)
-        program.set_float('lead', 1.5 * radius * view.pixel)
+        program.set_float('lead', _LEAD * radius * view.pixel)
         program.set_vectors('ball_color', color)
         for opacity in seen_and_hidden():
             program.set_float('opacity', opacity)
