@@ -19,11 +19,6 @@ from pathlib import Path
 import re
 import subprocess
 
-from cloth_sim_ros.analysis.rendering.ball_drawing import BALL_DEFINES
-from cloth_sim_ros.analysis.rendering.cloth_drawing import CLOTH_DEFINES
-from cloth_sim_ros.analysis.rendering.cloth_drawing import LIMIT_DEFINES
-from cloth_sim_ros.analysis.rendering.push_drawing import ARROW_DEFINES
-from cloth_sim_ros.analysis.rendering.ribbon_drawing import RIBBON_DEFINES
 from cloth_sim_ros.gl.shader_directory import shader_directory
 from cloth_sim_ros.gl.shader_source import ShaderSource
 from cloth_sim_ros.sim.layout import Layout
@@ -62,15 +57,6 @@ _FORMS = {
     'turn_watch.comp': {
         'STRIP': 16, 'STORED': 200, 'SOLVER_INDEX(row, col)': 'node_index(row, col)'},
 }
-_RENDER_FORMS = {
-    'arrow': [ARROW_DEFINES],
-    'ball': [BALL_DEFINES],
-    'cloth': [CLOTH_DEFINES, LIMIT_DEFINES],
-    'floor': [{}],
-    'plain': [{}],
-    'ribbon': [RIBBON_DEFINES],
-}
-_SHADOW = {'SHADOW': 1}
 
 
 def shader_names() -> list[str]:
@@ -105,24 +91,6 @@ def test_glslang_accepts_the_shader(
     assert done.returncode == 0, done.stdout
 
 
-def render_shaders() -> list[tuple[str, dict]]:
-    """Return file and defines of each form of a shader that draws."""
-    folder = shader_directory() / 'render'
-    return [
-        (f'render/{path.name}', defines) for path in sorted(folder.iterdir())
-        for defines in [
-            *_RENDER_FORMS[path.stem], *([_SHADOW] if path.name == 'cloth.vert' else [])]]
-
-
-@pytest.mark.parametrize(('name', 'defines'), render_shaders())
-def test_glslang_accepts_the_shader_that_draws(tmp_path: Path, name: str, defines: dict):
-    """The picture would be drawn on one driver only."""
-    path = tmp_path / Path(name).name
-    path.write_text(ShaderSource(name, defines).text)
-    done = subprocess.run(['glslangValidator', str(path)], capture_output=True, text=True)
-    assert done.returncode == 0, done.stdout
-
-
 @pytest.mark.parametrize('path', sorted(shader_directory().rglob('*.*')), ids=lambda p: p.name)
 def test_no_vendor_extension_and_no_float_atomics(path: Path):
     """Other GPUs could not run it, or two runs would differ."""
@@ -134,7 +102,7 @@ def test_no_vendor_extension_and_no_float_atomics(path: Path):
     assert not re.search(r'\batomic\w+\(', text)
 
 
-@pytest.mark.parametrize('name', shader_names() + [name for name, _ in render_shaders()])
+@pytest.mark.parametrize('name', shader_names())
 def test_version_is_430_core(name: str):
     """A device with OpenGL 4.3 could not run it."""
     assert '#version 430 core' in (shader_directory() / name).read_text().splitlines()

@@ -20,19 +20,20 @@ import subprocess
 import sys
 
 import av
-from cloth_sim_ros.analysis.rendering.ffmpeg_video import FfmpegVideo
 from cloth_sim_ros.analysis.rendering.video_file import open_video
 from cloth_sim_ros.sim.errors import ClothSimError
 import numpy as np
 import pytest
 
 GREYS = (0, 60, 120, 180, 240)
-_WITHOUT_AV = """
+_WITHOUT_AV = f"""
 import sys
 sys.modules['av'] = None
 from cloth_sim_ros.analysis.rendering.video_file import open_video
-with open_video(sys.argv[1], (64, 48), 10.0):
-    pass
+import numpy as np
+with open_video(sys.argv[1], (64, 48), 10.0) as video:
+    for grey in {GREYS}:
+        video.write(np.full((48, 64, 3), grey, np.uint8))
 """
 
 
@@ -78,11 +79,16 @@ def test_a_file_that_cannot_be_written_is_told(tmp_path, name, rule):
             write(video)
 
 
+def write_without_av(path, programs):
+    """Write GREYS in a process that finds only ``programs``."""
+    return subprocess.run(
+        [sys.executable, '-c', _WITHOUT_AV, path], capture_output=True, text=True,
+        env={**os.environ, 'PATH': str(programs)})
+
+
 def test_without_an_encoder_the_way_out_is_told(tmp_path):
     """A user would get an ImportError."""
-    done = subprocess.run(
-        [sys.executable, '-c', _WITHOUT_AV, tmp_path / 'run.mp4'], capture_output=True, text=True,
-        env={**os.environ, 'PATH': str(tmp_path)})
+    done = write_without_av(tmp_path / 'run.mp4', tmp_path)
     assert done.stderr.splitlines()[-1].endswith(
         'nothing here encodes video: run `pip install av`, or install the program ffmpeg')
 
@@ -94,12 +100,12 @@ def test_the_program_ffmpeg_will_do(tmp_path: Path):
         [sys.executable, '-m', 'pip', 'install', '-q', '--no-deps', '--target', tmp_path,
          'imageio-ffmpeg==0.8.1'], check=True)
     program, = (tmp_path / 'imageio_ffmpeg' / 'binaries').glob('ffmpeg-*')
-    video = FfmpegVideo(str(program), tmp_path / 'greys.mp4', (64, 48), 10.0)
-    write(video)
-    video.close()
+    programs = tmp_path / 'programs'
+    programs.mkdir()
+    (programs / 'ffmpeg').symlink_to(program)
+    done = write_without_av(tmp_path / 'greys.mp4', programs)
+    assert done.returncode == 0, done.stderr
     check(tmp_path / 'greys.mp4')
-    video = FfmpegVideo(str(program), tmp_path / 'nowhere' / 'greys.mp4', (64, 48), 10.0)
-    with pytest.raises(OSError, match='No such file'):
-        for _ in range(1000):
-            write(video)
-        video.close()
+    done = write_without_av(tmp_path / 'nowhere' / 'greys.mp4', programs)
+    assert 'greys.mp4 cannot be written: ' in done.stderr.splitlines()[-1]
+    assert 'No such file' in done.stderr.splitlines()[-1]
