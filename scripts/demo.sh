@@ -145,6 +145,6 @@ echo "node $stopping has ended"
 tell 'What was recorded:'
 cloth_sim info "$recording"
 picture=$recording.png
-cloth_sim picture "$recording" --out "$picture" > /dev/null
+cloth_sim render "$recording" --out "$picture" > /dev/null
 tell "recording  $recording
 picture    $picture"

@@ -43,7 +43,7 @@ VERBS = {
     'status': 'show what a running node is doing',
     'info': 'tell what a recording holds',
     'analyze': 'analyse recordings: table, CSV, JSON and plots',
-    'picture': 'draw the cloth of a recording into a PNG file',
+    'render': 'draw the cloth of recordings, as a sheet of pictures or a video',
 }
 INTERRUPTED = 130
 

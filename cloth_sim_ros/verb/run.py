@@ -45,7 +45,7 @@ def add_arguments(parser: ArgumentParser) -> None:
                         help='simulated time (default: %(default)s)')
     parser.add_argument('--record', metavar='DIR', help='write a recording into this folder')
     parser.add_argument('--out', metavar='STATE.npz',
-                        help='write the last positions, velocities and the time')
+                        help='write the last positions, velocities, strains, flags and the time')
     parser.add_argument('--json', action='store_true',
                         help='end with one line that holds the result as JSON')
 
@@ -68,10 +68,12 @@ def main(args: Namespace) -> int:
 
 
 def write_state(path: str, last: Snapshot) -> None:
-    """Write positions, velocities and time of ``last`` to an npz file."""
+    """Write positions, velocities, strains, flags and time of ``last`` to an npz file."""
     try:
         with open(path, 'wb') as file:
-            np.savez(file, positions=last.positions, velocities=last.velocities, time=last.time)
+            np.savez(
+                file, positions=last.positions, velocities=last.velocities, strain=last.strain,
+                flags=last.flags, time=last.time)
     except OSError as error:
         raise ClothSimError(f'{path} cannot be written: {error}') from error
 

@@ -21,6 +21,7 @@ import sys
 
 from cloth_sim_ros.analysis.recording import Recording
 from cloth_sim_ros.analysis.summary import summarise
+from cloth_sim_ros.sim.snapshot import FLAG_PINNED
 from mcap.reader import make_reader
 import numpy as np
 import pytest
@@ -88,8 +89,10 @@ def test_the_state_is_written(scene: Path, tmp_path: Path):
     out = tmp_path / 'state.npz'
     result_of(run(scene, '--seconds', 0.2, '--json', '--out', out))
     with np.load(out) as state:
-        assert set(state) == {'positions', 'velocities', 'time'}
+        assert set(state) == {'positions', 'velocities', 'strain', 'flags', 'time'}
         assert state['positions'].shape == state['velocities'].shape == (9, 13, 3)
+        assert state['strain'].shape == state['flags'].shape == (9, 13)
+        assert state['flags'][0, 0] & FLAG_PINNED and not state['flags'][1, 1] & FLAG_PINNED
         assert state['time'] == pytest.approx(0.2)
 
 

@@ -1,0 +1,84 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Encode video with PyAV."""
+
+from fractions import Fraction
+from pathlib import Path
+
+import av
+from cloth_sim_ros.sim.errors import ClothSimError
+import numpy as np
+
+# The best first; each with the options for good quality.
+_CODECS = {
+    'libx264': {'crf': '18', 'preset': 'medium'},
+    'libopenh264': {'rc_mode': 'quality'},
+    'mpeg4': {'qscale': '2'},
+}
+_BITS = 0.25          # a pixel of an image, where the encoder has no measure of quality
+_FINEST = 1001        # 30000/1001 images a second is usual
+
+
+class AvVideo:
+    """
+    A video file.
+
+    :param size: width and height [pixel], both even
+    :raises OSError: when the file can't be written
+    """
+
+    def __init__(self, path: str | Path, size: tuple[int, int], fps: float) -> None:
+        """Open the file."""
+        codec = next((name for name in _CODECS if _is_known(name)), None)
+        if codec is None:
+            raise ClothSimError(
+                'this PyAV encodes none of ' + ', '.join(_CODECS) + ': run `pip install av`')
+        try:
+            self._container = av.open(str(path), 'w')
+        except ValueError as error:
+            raise ClothSimError(
+                f'{path} has no ending that means a video: name it *.mp4') from error
+        rate = Fraction(fps).limit_denominator(_FINEST)
+        try:
+            self._stream = self._container.add_stream(codec, rate=rate, options=_CODECS[codec])
+        except ValueError as error:
+            self._container.close()
+            raise ClothSimError(f'{path} takes no {codec} video: name it *.mp4') from error
+        self._stream.width, self._stream.height = size
+        self._stream.pix_fmt = 'yuv420p'
+        if codec != 'libx264':
+            self._stream.bit_rate = round(_BITS * size[0] * size[1] * fps)
+        # What can't be written is told now, not after the first images.
+        self._container.start_encoding()
+
+    def write(self, image: np.ndarray) -> None:
+        """Append ``image``, (height, width, 3) uint8."""
+        frame = av.VideoFrame.from_ndarray(image, format='rgb24')
+        self._container.mux(self._stream.encode(frame))
+
+    def close(self) -> None:
+        """Finish the file."""
+        try:
+            self._container.mux(self._stream.encode(None))
+        finally:
+            self._container.close()
+
+
+def _is_known(name: str) -> bool:
+    try:
+        av.codec.Codec(name, 'w')
+    except av.codec.codec.UnknownCodecError:
+        return False
+    return True

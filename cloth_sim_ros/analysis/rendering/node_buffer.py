@@ -1,0 +1,72 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""The nodes of a frame on the device, for the shaders of render/."""
+
+from cloth_sim_ros.analysis.frame import Frame
+from cloth_sim_ros.gl.buffer import Buffer
+from cloth_sim_ros.gl.errors import DeviceError
+import numpy as np
+
+_UNIT = 0             # render/nodes.glsl
+_WORDS = 8            # x y z strain, normal and flags
+UNKNOWN_STRAIN = -1.0
+
+
+class NodeBuffer:
+    """
+    Holds one frame at a time, and grows when a larger one comes.
+
+    :param most_texels: that a texture of the device has
+    """
+
+    def __init__(self, most_texels: int) -> None:
+        """Begin without memory."""
+        self._most_texels = most_texels
+        self._buffer: Buffer | None = None
+
+    def load(self, frame: Frame, middle: np.ndarray) -> None:
+        """
+        Take up ``frame`` and let shaders read it.
+
+        :param middle: that the shaders' positions are relative to [m]: far from the origin,
+            single precision would be too coarse
+        :raises DeviceError: when the cloth is too large for the device
+        """
+        rows, cols = frame.records.shape
+        if 2 * rows * cols > self._most_texels:
+            raise DeviceError(
+                f'a cloth of {rows} x {cols} nodes is too large to be drawn by this device: it '
+                f'draws at most {self._most_texels // 2} nodes')
+        packed = np.empty((rows, cols, _WORDS), np.float32)
+        packed[..., :3] = frame.positions - middle
+        packed[..., 3] = np.nan_to_num(frame.strain, nan=UNKNOWN_STRAIN)
+        packed[..., 4:7] = frame.normals
+        packed[..., 7] = frame.records['flags']
+        self._load(packed)
+
+    def load_line(self, points: np.ndarray, middle: np.ndarray) -> None:
+        """Take up the ``points`` of a line, (n, 3) [m]."""
+        packed = np.full((len(points), _WORDS), UNKNOWN_STRAIN, np.float32)
+        packed[:, :3] = points - middle
+        self._load(packed)
+
+    def _load(self, packed: np.ndarray) -> None:
+        if self._buffer is None or self._buffer.bytes < packed.nbytes:
+            if self._buffer is not None:
+                self._buffer.delete()
+            self._buffer = Buffer(packed)
+        else:
+            self._buffer.write(packed)
+        self._buffer.bind_texture(_UNIT)

@@ -1,0 +1,35 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""The outlines of the spheres that pushes act on."""
+
+from collections.abc import Iterable
+
+from cloth_sim_ros.sim.push import Push
+import numpy as np
+
+_POINTS = 97
+
+
+def region_rings(pushes: Iterable[Push], axes: np.ndarray) -> list[np.ndarray]:
+    """
+    Return a circle for each of ``pushes`` that acts on a sphere.
+
+    :param axes: of the camera that looks at it: right, up and towards it
+    :return: (n, 3) each [m], the last point again the first
+    """
+    angles = np.linspace(0.0, 2.0 * np.pi, _POINTS)
+    circle = np.stack([np.cos(angles), np.sin(angles)], axis=1) @ axes[:2]
+    return [
+        np.array(push.center) + push.radius * circle for push in pushes if push.region != 'all']

@@ -1,0 +1,114 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""The cloth of a state file, as `cloth_sim run --out` writes it, to draw."""
+
+from collections.abc import Iterator
+from collections.abc import Sequence
+from pathlib import Path
+from zipfile import BadZipFile
+
+from cloth_sim_ros.analysis.frame import Frame
+from cloth_sim_ros.analysis.rendering.source import Source
+from cloth_sim_ros.analysis.rendering.surface_normals import surface_normals
+from cloth_sim_ros.sim.errors import ClothSimError
+from cloth_sim_ros.sim.snapshot import POINT_DTYPE
+import numpy as np
+
+_WRITE_IT_ANEW = 'write it with `cloth_sim run --out`'
+
+
+class StateSource(Source):
+    """
+    The one frame of the npz file at ``path``.
+
+    It needs ``positions``, (rows, cols, 3) [m]; ``time`` [s], ``strain`` and ``flags``, both
+    (rows, cols), are taken where they are there.
+
+    :raises ClothSimError: when there is no such file, or no cloth in it
+    """
+
+    def __init__(self, path: str | Path) -> None:
+        """Read the file."""
+        self.name = Path(path).stem
+        arrays = _read(path)
+        positions = _positions(path, arrays)
+        shape = positions.shape[:2]
+        records = np.zeros(shape, POINT_DTYPE)
+        for place, axis in enumerate('xyz'):
+            records[axis] = positions[..., place]
+            records[f'normal_{axis}'] = surface_normals(positions)[..., place]
+        self._missing = [key for key in ('strain', 'flags') if arrays.get(key) is None]
+        records['strain'] = np.nan
+        for key in ('strain', 'flags'):
+            if key not in self._missing:
+                if arrays[key].shape != shape:
+                    raise ClothSimError(
+                        f'{key} in {path} has the shape {arrays[key].shape}, the cloth {shape}: '
+                        f'{_WRITE_IT_ANEW}')
+                records[key] = arrays[key]
+        self._frame = Frame(float(arrays.get('time', 0.0)), records)
+
+    @property
+    def modes(self) -> list[str]:
+        """Get none: a state file does not tell."""
+        return []
+
+    @property
+    def device(self) -> str:
+        """Name none: a state file does not tell."""
+        return ''
+
+    @property
+    def missing(self) -> list[str]:
+        """Name what can't be drawn, since it is not there."""
+        told = {'strain': 'strain', 'flags': 'pins and limits'}
+        return [told[key] for key in self._missing]
+
+    def frames(self) -> Iterator[Frame]:
+        """Yield the frame."""
+        yield self._frame
+
+    def frames_at(self, times: Sequence[float]) -> list[Frame]:
+        """Return the frame once for each of ``times``."""
+        return [self._frame] * len(times)
+
+    def default_times(self, count: int) -> list[float]:
+        """Return its time [s]."""
+        return [self._frame.time]
+
+
+def _read(path: str | Path) -> dict[str, np.ndarray]:
+    try:
+        with np.load(path, allow_pickle=False) as file:
+            return {key: file[key] for key in file.files}
+    except FileNotFoundError as error:
+        raise ClothSimError(f'there is no state file {path}: {_WRITE_IT_ANEW}') from error
+    # What is an array and no archive has no context, which is a TypeError.
+    except (OSError, ValueError, EOFError, BadZipFile, TypeError) as error:
+        raise ClothSimError(f'{path} is no state file: {_WRITE_IT_ANEW}') from error
+
+
+def _positions(path: str | Path, arrays: dict[str, np.ndarray]) -> np.ndarray:
+    positions = arrays.get('positions')
+    if positions is None:
+        raise ClothSimError(f'{path} holds no positions: {_WRITE_IT_ANEW}')
+    if positions.ndim != 3 or positions.shape[2] != 3 or 0 in positions.shape:
+        raise ClothSimError(
+            f'positions in {path} have the shape {positions.shape}, not (rows, cols, 3): '
+            f'{_WRITE_IT_ANEW}')
+    if not np.issubdtype(positions.dtype, np.number) or not np.isfinite(positions).all():
+        raise ClothSimError(
+            f'positions in {path} are not all finite numbers: take a state before the blow-up')
+    return positions.astype(float)

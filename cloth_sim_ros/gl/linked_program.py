@@ -1,0 +1,121 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""What programs of all kinds share: compiling, linking, and setting uniforms."""
+
+from collections.abc import Mapping
+from collections.abc import Sequence
+import re
+
+from cloth_sim_ros.gl import quick_calls
+from cloth_sim_ros.gl.errors import ShaderError
+from cloth_sim_ros.gl.shader_source import ShaderSource
+import numpy as np
+from OpenGL import GL
+
+# Mesa: "0:12(3): error", NVIDIA: "0(12) : error", others: "ERROR: 0:12:".
+_LINE = re.compile(r'\b0[:(](\d+)[):(]')
+
+
+class LinkedProgram:
+    """
+    Shaders on the device that work together.
+
+    :param stages: the source of each stage, by its GL name
+    :raises ShaderError: with file, line and text of what the compiler refuses
+    """
+
+    def __init__(self, stages: Mapping[int, ShaderSource]) -> None:
+        """Compile and link ``stages``."""
+        self.name = ' and '.join(source.name for source in stages.values())
+        shaders = [_compiled(stage, source) for stage, source in stages.items()]
+        self._program = GL.glCreateProgram()
+        for shader in shaders:
+            GL.glAttachShader(self._program, shader)
+        GL.glLinkProgram(self._program)
+        for shader in shaders:
+            GL.glDeleteShader(shader)
+        if not GL.glGetProgramiv(self._program, GL.GL_LINK_STATUS):
+            last = list(stages.values())[-1]
+            raise ShaderError(explain(last, _text(GL.glGetProgramInfoLog(self._program))))
+        self._locations: dict[str, int] = {}
+
+    def use(self) -> None:
+        """Make this the program that later calls act on."""
+        quick_calls.use_program(self._program)
+
+    def set_float(self, name: str, value: float) -> None:
+        """Set a float uniform of the program in use."""
+        quick_calls.set_uniform_float(self._location(name), value)
+
+    def set_int(self, name: str, value: int) -> None:
+        """Set an int uniform of the program in use."""
+        quick_calls.set_uniform_int(self._location(name), value)
+
+    def set_floats(self, name: str, values: Sequence[float]) -> None:
+        """Set the first floats of an array uniform of the program in use."""
+        flat = np.ascontiguousarray(values, dtype=np.float32)
+        GL.glUniform1fv(self._location(name), len(flat), flat)
+
+    def set_pair(self, name: str, values: Sequence[float]) -> None:
+        """Set a vec2 uniform of the program in use."""
+        GL.glUniform2f(self._location(name), *values)
+
+    def set_vectors(self, name: str, vectors: Sequence[Sequence[float]] | np.ndarray) -> None:
+        """Set a vec3 uniform, or the first of an array of them, of the program in use."""
+        flat = np.ascontiguousarray(vectors, dtype=np.float32).reshape(-1, 3)
+        GL.glUniform3fv(self._location(name), len(flat), flat)
+
+    def set_int_vectors(self, name: str, vectors: np.ndarray) -> None:
+        """Set the first of an array of ivec2 or ivec4 uniforms of the program in use."""
+        flat = np.ascontiguousarray(vectors, dtype=np.int32)
+        setter = {2: GL.glUniform2iv, 4: GL.glUniform4iv}[flat.shape[1]]
+        setter(self._location(name), len(flat), flat)
+
+    def set_matrix(self, name: str, matrix: np.ndarray) -> None:
+        """Set a mat4 uniform, which acts on columns, of the program in use."""
+        flat = np.ascontiguousarray(matrix, dtype=np.float32)
+        GL.glUniformMatrix4fv(self._location(name), 1, GL.GL_TRUE, flat)
+
+    def _location(self, name: str) -> int:
+        if name not in self._locations:
+            self._locations[name] = GL.glGetUniformLocation(self._program, name)
+        # -1 means the shader doesn't use it, and GL ignores what is set there.
+        return self._locations[name]
+
+
+def _compiled(stage: int, source: ShaderSource) -> int:
+    shader = GL.glCreateShader(stage)
+    GL.glShaderSource(shader, source.text)
+    GL.glCompileShader(shader)
+    if not GL.glGetShaderiv(shader, GL.GL_COMPILE_STATUS):
+        log = GL.glGetShaderInfoLog(shader)
+        GL.glDeleteShader(shader)
+        raise ShaderError(explain(source, _text(log)))
+    return shader
+
+
+def explain(source: ShaderSource, log: str) -> str:
+    """Return the compiler's ``log`` with the lines it speaks of."""
+    lines = [f'{source.name} does not compile:']
+    for entry in log.strip().splitlines():
+        lines.append(f'  {entry}')
+        found = _LINE.search(entry)
+        if found:
+            lines.append(f'    {source.origin(int(found[1]))}')
+    return '\n'.join(lines)
+
+
+def _text(log: bytes | str) -> str:
+    return log.decode(errors='replace') if isinstance(log, bytes) else log

@@ -1,0 +1,48 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""A render program: a vertex and a fragment shader that draw strips of triangles."""
+
+from collections.abc import Mapping
+
+from cloth_sim_ros.gl.linked_program import LinkedProgram
+from cloth_sim_ros.gl.shader_source import ShaderSource
+from OpenGL import GL
+
+
+class RenderProgram(LinkedProgram):
+    """
+    Vertex and fragment shader ``name`` on the device.
+
+    Vertices have no attributes: the shader makes them from their number and reads buffers.
+
+    :param vertex: file of the vertex shader in the shader folder
+    :param fragment: file of the fragment shader
+    :param defines: what to #define in both
+    :raises ShaderError: with file, line and text of what the compiler refuses
+    """
+
+    def __init__(
+            self, vertex: str, fragment: str, defines: Mapping[str, object] | None = None) -> None:
+        """Compile and link both."""
+        super().__init__({
+            GL.GL_VERTEX_SHADER: ShaderSource(vertex, defines),
+            GL.GL_FRAGMENT_SHADER: ShaderSource(fragment, defines)})
+        # A core profile draws nothing without a vertex array, be it empty.
+        self._vertex_array = int(GL.glGenVertexArrays(1))
+
+    def draw_strips(self, vertices: int, strips: int = 1) -> None:
+        """Draw ``strips`` triangle strips of ``vertices`` each, with the program in use."""
+        GL.glBindVertexArray(self._vertex_array)
+        GL.glDrawArraysInstanced(GL.GL_TRIANGLE_STRIP, 0, vertices, strips)

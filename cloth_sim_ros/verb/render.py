@@ -1,0 +1,80 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""
+Draw the cloth of recordings: a sheet of pictures, or a video. Needs no node and no window.
+
+The colour of the cloth is its strain. Balls are pins, arrows are pushes that act, dots are nodes
+at their strain limit. Without --at, moments are chosen so that the pushes are seen. Several
+recordings have a row each, seen alike. The state that `cloth_sim run --out` writes can be drawn
+in place of a recording.
+
+For example:
+  cloth_sim render bags/drop_test --out drop.png --at 0.5,1,2 --azimuth 30 --elevation 10
+  cloth_sim render bags/soft bags/stiff --labels soft stiff --out both.png --at 0.5,1,2
+  cloth_sim render state.npz --out state.png
+  cloth_sim render bags/drop_test --video drop.mp4 --speed 0.25
+"""
+
+from argparse import ArgumentParser
+from argparse import Namespace
+
+from cloth_sim_ros.analysis.rendering.picture import write_picture
+from cloth_sim_ros.analysis.rendering.video import write_video
+from cloth_sim_ros.sim.errors import ClothSimError
+from cloth_sim_ros.verb.recording_arguments import list_of_times
+from cloth_sim_ros.verb.render_arguments import add_camera_arguments
+from cloth_sim_ros.verb.render_arguments import add_source_arguments
+from cloth_sim_ros.verb.render_arguments import add_style_arguments
+from cloth_sim_ros.verb.render_arguments import sources_of
+from cloth_sim_ros.verb.render_arguments import style_of
+
+
+def add_arguments(parser: ArgumentParser) -> None:
+    """Add the arguments of this verb."""
+    add_source_arguments(parser)
+    sheet = parser.add_argument_group('sheet of pictures')
+    sheet.add_argument('--out', metavar='FILE.png', help='picture to write')
+    sheet.add_argument('--at', type=list_of_times, metavar='T,T,...', help='times to show [s]')
+    sheet.add_argument(
+        '--columns', type=int, default=3, metavar='N',
+        help='panels side by side, of one recording (default: %(default)s)')
+    video = parser.add_argument_group('video')
+    video.add_argument('--video', metavar='FILE.mp4', help='video to write')
+    video.add_argument(
+        '--fps', type=float, default=30.0, help='images a second (default: %(default)s)')
+    video.add_argument(
+        '--speed', type=float, default=1.0,
+        help='simulated seconds in a second of the video (default: %(default)s)')
+    video.add_argument('--from', type=float, dest='begin', metavar='T', help='begin there [s]')
+    video.add_argument('--to', type=float, dest='end', metavar='T', help='end there [s]')
+    add_camera_arguments(parser)
+    add_style_arguments(parser)
+
+
+def main(args: Namespace) -> int:
+    """Draw, and say where."""
+    if not args.out and not args.video:
+        raise ClothSimError('there is nothing to write: give --out FILE.png or --video FILE.mp4')
+    style = style_of(args)
+    sources = sources_of(args)
+    if args.out:
+        write_picture(sources, args.out, times=args.at, style=style)
+        print(args.out)
+    if args.video:
+        write_video(
+            sources, args.video, style=style, fps=args.fps, speed=args.speed, begin=args.begin,
+            end=args.end)
+        print(args.video)
+    return 0

@@ -1,0 +1,62 @@
+// Copyright 2026 the cloth_sim_ros authors
+//
+// Licensed under the Apache License, Version 2.0 (the "License");
+// you may not use this file except in compliance with the License.
+// You may obtain a copy of the License at
+//
+//     http://www.apache.org/licenses/LICENSE-2.0
+//
+// Unless required by applicable law or agreed to in writing, software
+// distributed under the License is distributed on an "AS IS" BASIS,
+// WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+// See the License for the specific language governing permissions and
+// limitations under the License.
+
+#version 430 core
+// The colour of the cloth: its strain under the light, dots on nodes at their limit, and a hem.
+
+#include "render/nodes.glsl"
+#include "render/light.glsl"
+#include "render/strain_color.glsl"
+
+uniform int rows;
+uniform vec2 cell;         // sides of a cell at rest, the shorter one 1
+uniform float hem_width;   // [pixel]
+uniform vec3 limit_color;
+
+in vec3 normal;
+in float strain;
+in vec2 place;
+out vec4 color;
+
+#ifdef HAS_LIMITS
+// How much of this pixel a dot on a node at its limit covers, with its rim and without.
+vec2 limit_dot() {
+    vec2 nearest = clamp(round(place), vec2(0.0), vec2(cols - 1, rows - 1));
+    int flags = int(normal_and_flags(node_index(int(nearest.y), int(nearest.x))).w);
+    if ((flags & FLAG_AT_LIMIT) == 0) {
+        return vec2(0.0);
+    }
+    float away = length((place - nearest) * cell);
+    vec2 across = fwidth(place) * cell;
+    float pixel = 0.5 * (across.x + across.y);
+    vec2 sharp = clamp(
+        (vec2(DOT_RADIUS, DOT_INSIDE) - away) / max(pixel, 1e-6) + 0.5, vec2(0.0), vec2(1.0));
+    // Where a cell is hardly larger than a pixel, a dot is a tint.
+    return mix(sharp, vec2(0.0, DOT_TINT), smoothstep(0.25, 0.5, pixel));
+}
+#endif
+
+float hem() {
+    vec2 inside = min(place, vec2(cols - 1, rows - 1) - place) / max(fwidth(place), vec2(1e-6));
+    return HEM_SHADE * clamp(hem_width - min(inside.x, inside.y) + 0.5, 0.0, 1.0);
+}
+
+void main() {
+    vec3 shown = lit(strain_color(strain), normalize(normal), gl_FrontFacing);
+#ifdef HAS_LIMITS
+    vec2 covered = limit_dot();
+    shown = mix(mix(shown, vec3(DOT_RIM), covered.x), limit_color, covered.y);
+#endif
+    color = vec4(shown * (1.0 - hem()), 1.0);
+}

@@ -1,0 +1,49 @@
+// Copyright 2026 the cloth_sim_ros authors
+//
+// Licensed under the Apache License, Version 2.0 (the "License");
+// you may not use this file except in compliance with the License.
+// You may obtain a copy of the License at
+//
+//     http://www.apache.org/licenses/LICENSE-2.0
+//
+// Unless required by applicable law or agreed to in writing, software
+// distributed under the License is distributed on an "AS IS" BASIS,
+// WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+// See the License for the specific language governing permissions and
+// limitations under the License.
+
+#version 430 core
+// The surface: one strip of triangles between two rows of nodes, two vertices a column.
+
+#include "render/view.glsl"
+#include "render/nodes.glsl"
+
+#ifdef SHADOW
+uniform float floor_z;
+uniform int rows;
+uniform int stride;  // between the nodes that are drawn: an outline needs fewer than the surface
+#else
+out vec3 normal;
+out float strain;
+out vec2 place;  // column and row
+#endif
+
+void main() {
+    int row = gl_InstanceID + (gl_VertexID & 1);
+    int col = gl_VertexID >> 1;
+#ifdef SHADOW
+    row = min(row * stride, rows - 1);
+    col = min(col * stride, cols - 1);
+#endif
+    int node = node_index(row, col);
+    vec4 found = position_and_strain(node);
+#ifdef SHADOW
+    // Of a lamp straight above.
+    gl_Position = seen(vec3(found.xy, floor_z));
+#else
+    normal = normal_and_flags(node).xyz;
+    strain = found.w;
+    place = vec2(col, row);
+    gl_Position = seen(found.xyz);
+#endif
+}

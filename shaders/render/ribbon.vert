@@ -1,0 +1,41 @@
+// Copyright 2026 the cloth_sim_ros authors
+//
+// Licensed under the Apache License, Version 2.0 (the "License");
+// you may not use this file except in compliance with the License.
+// You may obtain a copy of the License at
+//
+//     http://www.apache.org/licenses/LICENSE-2.0
+//
+// Unless required by applicable law or agreed to in writing, software
+// distributed under the License is distributed on an "AS IS" BASIS,
+// WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+// See the License for the specific language governing permissions and
+// limitations under the License.
+
+#version 430 core
+// Lines of one width in the picture: a quad around each piece from a point to the next.
+
+#include "render/view.glsl"
+#include "render/nodes.glsl"
+
+uniform float half_width;              // [pixel]
+out float strain;
+noperspective out vec2 along;          // from the begin of the piece, and across it [pixel]
+noperspective out float piece_length;  // [pixel]
+
+void main() {
+    vec4 begin = position_and_strain(gl_InstanceID);
+    vec4 end = position_and_strain(gl_InstanceID + 1);
+    vec4 a = seen(begin.xyz), b = seen(end.xyz);
+    vec2 line = (b.xy / b.w - a.xy / a.w) * half_size;
+    piece_length = length(line);
+    vec2 forward = piece_length > 1e-3 ? line / piece_length : vec2(1.0, 0.0);
+    float beyond = half_width + 1.0;
+    bool is_end = (gl_VertexID & 1) == 1;
+    float side = (gl_VertexID >> 1) == 1 ? beyond : -beyond;
+    along = vec2(is_end ? piece_length + beyond : -beyond, side);
+    strain = is_end ? end.w : begin.w;
+    gl_Position = is_end ? b : a;
+    vec2 shift = (is_end ? beyond : -beyond) * forward + side * vec2(-forward.y, forward.x);
+    gl_Position.xy += shift / half_size * gl_Position.w;
+}

@@ -1,0 +1,65 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Cloths of known shape, and a renderer for them."""
+
+from collections.abc import Callable
+from collections.abc import Iterator
+
+from cloth_sim_ros.analysis.frame import Frame
+from cloth_sim_ros.analysis.rendering.camera import Camera
+from cloth_sim_ros.analysis.rendering.renderer import Renderer
+from cloth_sim_ros.analysis.rendering.strain_scale import StrainScale
+from cloth_sim_ros.analysis.rendering.survey import Survey
+from cloth_sim_ros.sim.snapshot import POINT_DTYPE
+import numpy as np
+import pytest
+
+ABOVE = Camera(-90.0, 90.0, 0.0)  # x to the right, y up, no perspective
+FULL = 0.05                       # strain of the last colour
+
+
+@pytest.fixture
+def flat() -> Callable[..., Frame]:
+    """Return a function that makes a frame: a level square metre at z = 0."""
+
+    def make(rows: int = 9, cols: int = 9, strain: float = 0.03, pushes: tuple = ()) -> Frame:
+        records = np.zeros((rows, cols), POINT_DTYPE)
+        records['x'] = np.linspace(-0.5, 0.5, cols)
+        records['y'] = np.linspace(0.5, -0.5, rows)[:, None]
+        records['normal_z'] = 1.0
+        records['strain'] = strain
+        return Frame(1.0, records, pushes)
+
+    return make
+
+
+@pytest.fixture
+def rendered() -> Iterator[Callable[..., tuple]]:
+    """Return a function that draws a frame, and returns the image and the renderer."""
+    renderers = []
+
+    def draw(
+            frame: Frame, camera: Camera = ABOVE, width: int = 160, height: int = 120,
+            detail: int = 1) -> tuple[np.ndarray, Renderer]:
+        survey = Survey()
+        survey.add(frame)
+        view = camera.looking_at(survey.points, width, height)
+        renderer = Renderer(survey, StrainScale(survey.strains, FULL), view, detail)
+        renderers.append(renderer)
+        return renderer.draw(frame).astype(int), renderer
+
+    yield draw
+    for renderer in renderers:
+        renderer.close()

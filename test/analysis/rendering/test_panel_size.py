@@ -1,0 +1,32 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""The size of a panel when nobody says."""
+
+from cloth_sim_ros.analysis.rendering.camera import Camera
+from cloth_sim_ros.analysis.rendering.panel_size import panel_size
+import numpy as np
+import pytest
+
+FRONT = Camera(-90.0, 0.0)
+
+
+@pytest.mark.parametrize(('wide', 'high', 'ratio'), [
+    (1.0, 1.0, 1.0), (1.2, 1.0, 1.2), (1.0, 1.5, 1 / 1.5), (1.0, 0.0, 1.7), (0.0, 1.0, 1 / 1.7)])
+def test_it_has_the_shape_of_the_scene(wide, high, ratio):
+    """A panel would be half empty, or a finger wide."""
+    corners = np.array([[0.0, 0.0, 0.0], [wide, 5.0, high]])
+    width, height = panel_size(corners, FRONT)
+    assert width / height == pytest.approx(ratio, rel=0.02)
+    assert 300 < width < 700

@@ -1,0 +1,70 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""
+Every shader that draws, in every form, is portable GLSL.
+
+Apart from test/shaders, which runs where there is no matplotlib.
+"""
+
+from pathlib import Path
+import subprocess
+
+from cloth_sim_ros.analysis.rendering.ball_drawing import BALL_DEFINES
+from cloth_sim_ros.analysis.rendering.cloth_drawing import CLOTH_DEFINES
+from cloth_sim_ros.analysis.rendering.cloth_drawing import LIMIT_DEFINES
+from cloth_sim_ros.analysis.rendering.push_drawing import ARROW_DEFINES
+from cloth_sim_ros.analysis.rendering.ribbon_drawing import RIBBON_DEFINES
+from cloth_sim_ros.gl.shader_directory import shader_directory
+from cloth_sim_ros.gl.shader_source import ShaderSource
+import pytest
+
+_SHADOW = {'SHADOW': 1}
+_FORMS = {
+    'arrow.frag': [ARROW_DEFINES],
+    'arrow.vert': [ARROW_DEFINES],
+    'ball.frag': [BALL_DEFINES],
+    'ball.vert': [BALL_DEFINES],
+    'cloth.frag': [CLOTH_DEFINES, LIMIT_DEFINES],
+    'cloth.vert': [CLOTH_DEFINES, LIMIT_DEFINES, _SHADOW],
+    'floor.frag': [{}],
+    'floor.vert': [{}],
+    'plain.frag': [_SHADOW],
+    'ribbon.frag': [RIBBON_DEFINES],
+    'ribbon.vert': [RIBBON_DEFINES],
+}
+
+
+def test_every_shader_is_looked_at():
+    """A new shader would be tried on one driver only."""
+    assert {path.name for path in (shader_directory() / 'render').iterdir()} == set(_FORMS)
+
+
+@pytest.mark.parametrize(
+    ('name', 'defines'), [(name, defines) for name, forms in _FORMS.items() for defines in forms])
+def test_glslang_accepts_the_shader(tmp_path: Path, name: str, defines: dict):
+    """The picture would be drawn on one driver's leniency only."""
+    source = ShaderSource(f'render/{name}', defines)
+    assert source.text.startswith('#version 430 core\n')
+    (tmp_path / name).write_text(source.text)
+    done = subprocess.run(
+        ['glslangValidator', str(tmp_path / name)], capture_output=True, text=True)
+    assert done.returncode == 0, done.stdout
+
+
+@pytest.mark.parametrize('name', _FORMS)
+def test_version_is_430_core(name: str):
+    """A device with OpenGL 4.3 could not run it."""
+    lines = (shader_directory() / 'render' / name).read_text().splitlines()
+    assert '#version 430 core' in lines

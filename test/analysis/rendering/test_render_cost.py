@@ -1,0 +1,35 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""The measurement behind docs/performance.md."""
+
+from cloth_sim_ros.analysis.rendering.render_cost import main
+from cloth_sim_ros.analysis.rendering.render_cost import wavy_cloth
+import numpy as np
+
+
+def test_it_measures_each_size(capsys):
+    """The table in the docs could not be made again."""
+    main(sides=(5, 8), rounds=2)
+    lines = capsys.readouterr().out.splitlines()
+    assert [line[:14].split() for line in lines[2:]] == 2 * [['5', 'x', '5']] + 2 * [
+        ['8', 'x', '8']]
+    assert all(float(line.split()[4]) > 0.0 for line in lines[2:])
+
+
+def test_the_cloth_is_a_cloth():
+    """Something else than a cloth would be measured."""
+    frame = wavy_cloth(20)
+    assert frame.positions.shape == (20, 20, 3)
+    np.testing.assert_allclose(np.linalg.norm(frame.normals, axis=-1), 1.0, atol=1e-6)
