@@ -43,6 +43,7 @@ VERBS = {
     'status': 'show what a running node is doing',
     'info': 'tell what a recording holds',
     'analyze': 'analyse recordings: table, CSV, JSON and plots',
+    'paper': 'make Fig. 10 and 11 of the paper',
     'render': 'draw the cloth of recordings, as a sheet of pictures or a video',
 }
 INTERRUPTED = 130

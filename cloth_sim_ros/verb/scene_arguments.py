@@ -16,6 +16,8 @@
 
 from argparse import ArgumentParser
 from argparse import Namespace
+from collections.abc import Mapping
+from pathlib import Path
 from typing import Any
 
 from cloth_sim_ros.node.node_fields import NODE_FIELDS
@@ -41,8 +43,17 @@ def read_scene(args: Namespace) -> tuple[Scene, dict[str, Any]]:
 
     :raises ClothSimError: when the file or a --set is not right
     """
-    given = load_parameters(args.scene)
-    given.update(parse_change(change) for change in args.changes)
+    return scene_from(args.scene, dict(map(parse_change, args.changes)))
+
+
+def scene_from(
+        path: str | Path, changes: Mapping[str, Any]) -> tuple[Scene, dict[str, Any]]:
+    """
+    Return the scene and the node's parameters of a file with ``changes`` by name.
+
+    :raises ClothSimError: when the file or a change is not right
+    """
+    given = {**load_parameters(path), **changes}
     refuse_unknown(given, SCENE_FIELDS + NODE_FIELDS)
     node_values = {
         field.name: field.check(given.pop(field.name, field.default)) for field in NODE_FIELDS}

@@ -1,0 +1,81 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+r"""
+Make Fig. 10 and 11 of the paper: recordings, a table of their peaks, and a sheet of pictures.
+
+The recordings and FIGURE.png go into the folder --out. Some runs go beyond what is stable, as
+the paper's do; they end at their last finite state. docs/paper.md tells what is seen.
+
+For example:
+  cloth_sim paper fig10
+  cloth_sim paper fig11 --out bags/fig11 --set rows=20 --set cols=20
+"""
+
+from argparse import ArgumentParser
+from argparse import Namespace
+from pathlib import Path
+import sys
+
+from cloth_sim_ros.analysis.outcome_table import outcome_table
+from cloth_sim_ros.analysis.recording import Recording
+from cloth_sim_ros.analysis.run_outcome import read_outcome
+from cloth_sim_ros.sim.errors import ClothSimError
+from cloth_sim_ros.sim.scene import Scene
+from cloth_sim_ros.study.paper_figures import FIGURES
+from cloth_sim_ros.study.paper_figures import paper_scene_file
+from cloth_sim_ros.study.paper_figures import PaperFigure
+from cloth_sim_ros.verb.recorded_run import record_run
+from cloth_sim_ros.verb.recording_arguments import list_of_times
+from cloth_sim_ros.verb.scene_arguments import parse_change
+from cloth_sim_ros.verb.scene_arguments import scene_from
+
+_SECONDS = 3.0
+
+
+def add_arguments(parser: ArgumentParser) -> None:
+    """Add the arguments of this verb."""
+    parser.add_argument('figure', choices=FIGURES, help='which figure')
+    parser.add_argument('--out', metavar='DIR', help='folder to write (default: bags/paper_FIGURE)')
+    parser.add_argument('--seconds', type=float, default=_SECONDS, metavar='T',
+                        help='simulated time of each run (default: %(default)s)')
+    parser.add_argument('--at', type=list_of_times, metavar='T,T,...',
+                        help='times to show [s]')
+    parser.add_argument('--set', action='append', default=[], metavar='name=value', dest='changes',
+                        help='change a parameter of all runs; can be given several times')
+
+
+def main(args: Namespace) -> int:
+    """Run, print the table, and draw."""
+    figure = FIGURES[args.figure]
+    folder = Path(args.out or f'bags/paper_{args.figure}')
+    changes = dict(map(parse_change, args.changes))
+    rows = []
+    for run in figure.runs:
+        scene, node_values = scene_from(
+            paper_scene_file(), {**changes, **run.changes})
+        print(run.label, file=sys.stderr)
+        problem = record_run(
+            scene, node_values, args.seconds, folder, run.name,
+            check_stability=run.check_stability)
+        if problem:
+            print(f'{run.label}: {problem}')
+        rows.append((run.label, read_outcome(Recording(folder / run.name)), allowed_strain(scene)))
+    print(outcome_table(rows))
+    return 0
+
+
+def allowed_strain(scene: Scene) -> float | None:
+    """Return the strain up to which the mode of ``scene`` lets edges be; None for any."""
+    return {'constraint': 0.0, 'adaptive': scene['adaptive.threshold']}.get(scene['mode'])
