@@ -27,7 +27,7 @@ class RunOutcome:
 
     :param end: time of the last frame [s]
     :param dt: [s]
-    :param substeps: of a dt, mean over the frames
+    :param substeps: of a dt, mean over the frames that moved on
     :param max_strain: largest of any structural or shear spring
     :param kinetic_energy: largest [J]
     :param stability_margin: largest; above 1 the substep is longer than is stable
@@ -48,7 +48,7 @@ class RunOutcome:
 def read_outcome(recording: Recording) -> RunOutcome:
     """Read ``recording`` once; ClothSimError when it holds no frame."""
     outcome = RunOutcome()
-    frames, substeps, steps = 0, 0, 0
+    frames, moved, substeps, steps = 0, 0, 0, 0
     for entry in recording.entries('stats', 'state'):
         message = entry.message
         if entry.key == 'state':
@@ -58,12 +58,13 @@ def read_outcome(recording: Recording) -> RunOutcome:
         outcome.max_strain = max(outcome.max_strain, message.max_strain)
         outcome.kinetic_energy = max(outcome.kinetic_energy, message.kinetic_energy)
         outcome.stability_margin = max(outcome.stability_margin, message.stability_margin)
-        outcome.wall_seconds += message.step_wall_time * (message.steps - steps)
+        frames += 1
         if message.steps > steps:
-            frames += 1
+            outcome.wall_seconds += message.step_wall_time * (message.steps - steps)
+            moved += 1
             substeps += message.substeps
         steps = message.steps
     if not frames:
         raise recording.no_frame()
-    outcome.substeps = substeps / frames
+    outcome.substeps = substeps / max(moved, 1)
     return outcome

@@ -31,11 +31,10 @@ import sys
 from cloth_sim_ros.analysis.outcome_table import outcome_table
 from cloth_sim_ros.analysis.recording import Recording
 from cloth_sim_ros.analysis.run_outcome import read_outcome
-from cloth_sim_ros.sim.errors import ClothSimError
+from cloth_sim_ros.analysis.run_sheet import write_run_sheet
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.study.paper_figures import FIGURES
 from cloth_sim_ros.study.paper_figures import paper_scene_file
-from cloth_sim_ros.study.paper_figures import PaperFigure
 from cloth_sim_ros.verb.recorded_run import record_run
 from cloth_sim_ros.verb.recording_arguments import list_of_times
 from cloth_sim_ros.verb.scene_arguments import parse_change
@@ -61,7 +60,7 @@ def main(args: Namespace) -> int:
     figure = FIGURES[args.figure]
     folder = Path(args.out or f'bags/paper_{args.figure}')
     changes = dict(map(parse_change, args.changes))
-    rows = []
+    rows, shown = [], []
     for run in figure.runs:
         scene, node_values = scene_from(
             paper_scene_file(), {**changes, **run.changes})
@@ -71,8 +70,15 @@ def main(args: Namespace) -> int:
             check_stability=run.check_stability)
         if problem:
             print(f'{run.label}: {problem}')
-        rows.append((run.label, read_outcome(Recording(folder / run.name)), allowed_strain(scene)))
+        recording = Recording(folder / run.name)
+        outcome = read_outcome(recording)
+        rows.append((run.label, outcome, allowed_strain(scene)))
+        shown.append((run.label, recording, outcome))
     print(outcome_table(rows))
+    sheet = folder / f'{args.figure}.png'
+    times = [time for time in args.at or figure.times if time <= args.seconds]
+    write_run_sheet(sheet, shown, times or [args.seconds], figure.title)
+    print(sheet)
     return 0
 
 

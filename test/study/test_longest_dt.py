@@ -1,0 +1,81 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Up to which dt methods hold: what docs/paper.md says of the paper's limits."""
+
+from cloth_sim_ros.sim.scene import Scene
+from cloth_sim_ros.sim.scene_file import load_parameters
+from cloth_sim_ros.sim.stability import stability_limit
+from cloth_sim_ros.study.longest_dt import holds
+from cloth_sim_ros.study.longest_dt import pushed_cloth
+from cloth_sim_ros.study.longest_dt import run_at
+from cloth_sim_ros.study.paper_figures import PAPER_ADAPTIVE
+from cloth_sim_ros.study.paper_figures import PAPER_CONSTRAINT
+from cloth_sim_ros.study.paper_figures import paper_scene_file
+from cloth_sim_ros.study.paper_figures import STIFF
+import pytest
+
+CLOTH = pushed_cloth(12, 5.0)
+SECONDS = 2.5
+
+
+def springs(stiffness):
+    """Return what makes all springs as stiff as that, stepped without substeps."""
+    return {
+        'mode': 'mass_spring', 'auto_substeps': False,
+        **{f'stiffness.{family}': stiffness for family in ('structural', 'shear', 'bend')}}
+
+
+def test_the_cloth_is_that_of_the_scene_file():
+    """The table would be of another cloth than the pictures."""
+    values = load_parameters(paper_scene_file())
+    force = values.pop('pushes.force')
+    assert CLOTH['pushes.force'] == pytest.approx(force)
+    assert {name: CLOTH.get(name, value) for name, value in values.items()} == values
+
+
+@pytest.mark.parametrize('stiffness', [1000.0, STIFF])
+def test_springs_without_substeps_blow_up_above_their_limit_and_not_below(stiffness):
+    """The limit of stability.py is not what makes the paper's mass-spring cloth blow up."""
+    changes = springs(stiffness)
+    limit = stability_limit(Scene({**CLOTH, **changes}))
+    below, above = (
+        run_at(CLOTH, changes, share * limit, SECONDS) for share in (0.95, 1.15))
+    print(f'measured: limit {limit:.5f} s; below it a strain of {below.max_strain:.3g} and '
+          f'{below.peak_kinetic_energy:.4g} J; above it '
+          + (f'{above.peak_kinetic_energy:.3g} J' if above.finite else 'not finite'))
+    assert below.finite
+    assert below.max_strain < 1.0
+    assert below.peak_kinetic_energy < 6e3
+    assert not above.finite or above.peak_kinetic_energy > 1e6
+
+
+def test_the_project_holds_where_the_papers_schemes_do_not():
+    """docs/paper.md says that the limits of 0.01 and 0.02 s have moved."""
+    for mode, allowed, theirs in (
+            ('constraint', 0.0, PAPER_CONSTRAINT), ('adaptive', 0.1, PAPER_ADAPTIVE)):
+        short = run_at(CLOTH, {'mode': mode}, 0.01, SECONDS)
+        assert holds(run_at(CLOTH, {'mode': mode}, 0.02, SECONDS), allowed, short)
+        assert not holds(run_at(CLOTH, theirs, 0.02, SECONDS), allowed, short)
+
+
+def test_the_papers_adaptive_scheme_fails_at_short_steps_too():
+    """docs/paper.md says that a shorter step makes it worse, since edges come back faster."""
+    peaks = [
+        run_at(CLOTH, PAPER_ADAPTIVE, dt, SECONDS).peak_kinetic_energy
+        for dt in (0.01, 0.005, 0.003)]
+    print('measured: peaks', ', '.join(f'{peak:.3g} J' for peak in peaks))
+    assert peaks[0] < 8e3
+    assert peaks[1] > 3.0 * peaks[0]
+    assert peaks[2] > 3.0 * peaks[1]
