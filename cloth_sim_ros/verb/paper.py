@@ -15,11 +15,11 @@
 r"""
 Make Fig. 10 and 11 of the paper: recordings, a table of their peaks, and a sheet of pictures.
 
-The recordings and FIGURE.png go into the folder --out. Some runs go beyond what is stable, as
+Each figure has its folder with a recording of each run. Some runs go beyond what is stable, as
 the paper's do; they end at their last finite state. docs/paper.md tells what is seen.
 
 For example:
-  cloth_sim paper fig10
+  cloth_sim paper fig10 --sheet fig10.png
   cloth_sim paper fig11 --out bags/fig11 --set rows=20 --set cols=20
 """
 
@@ -46,7 +46,10 @@ _SECONDS = 3.0
 def add_arguments(parser: ArgumentParser) -> None:
     """Add the arguments of this verb."""
     parser.add_argument('figure', choices=FIGURES, help='which figure')
-    parser.add_argument('--out', metavar='DIR', help='folder to write (default: bags/paper_FIGURE)')
+    parser.add_argument('--out', metavar='DIR',
+                        help='folder of the recordings (default: bags/paper_FIGURE)')
+    parser.add_argument('--sheet', metavar='FILE.png',
+                        help='picture to write (default: FIGURE.png in that folder)')
     parser.add_argument('--seconds', type=float, default=_SECONDS, metavar='T',
                         help='simulated time of each run (default: %(default)s)')
     parser.add_argument('--at', type=list_of_times, metavar='T,T,...',
@@ -62,8 +65,7 @@ def main(args: Namespace) -> int:
     changes = dict(map(parse_change, args.changes))
     rows, shown = [], []
     for run in figure.runs:
-        scene, node_values = scene_from(
-            paper_scene_file(), {**changes, **run.changes})
+        scene, node_values = scene_from(paper_scene_file(), {**changes, **run.changes})
         print(run.label, file=sys.stderr)
         problem = record_run(
             scene, node_values, args.seconds, folder, run.name,
@@ -75,7 +77,7 @@ def main(args: Namespace) -> int:
         rows.append((run.label, outcome, allowed_strain(scene)))
         shown.append((run.label, recording, outcome))
     print(outcome_table(rows))
-    sheet = folder / f'{args.figure}.png'
+    sheet = args.sheet or folder / f'{args.figure}.png'
     times = [time for time in args.at or figure.times if time <= args.seconds]
     write_run_sheet(sheet, shown, times or [args.seconds], figure.title)
     print(sheet)
