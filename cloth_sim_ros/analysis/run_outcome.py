@@ -32,6 +32,7 @@ class RunOutcome:
     :param kinetic_energy: largest [J]
     :param stability_margin: largest; above 1 the substep is longer than is stable
     :param wall_seconds: spent on the steps
+    :param device: GL_RENDERER
     :param stopped: True when the next state was not finite
     """
 
@@ -42,6 +43,7 @@ class RunOutcome:
     kinetic_energy: float = 0.0
     stability_margin: float = 0.0
     wall_seconds: float = 0.0
+    device: str = ''
     stopped: bool = False
 
 
@@ -52,6 +54,7 @@ def read_outcome(recording: Recording) -> RunOutcome:
     for entry in recording.entries('stats', 'state'):
         message = entry.message
         if entry.key == 'state':
+            outcome.device = message.device
             outcome.stopped = message.run_state == ClothState.STOPPED
             continue
         outcome.end, outcome.dt = entry.time, message.dt

@@ -70,7 +70,8 @@ def write_run_sheet(
         rows=len(rows), columns=len(times), panel=_PANEL, has_labels=True)
     view = camera.looking_at(_in_view(survey, whole), *layout.panel)
     sheet = Sheet(
-        layout, survey, scale, view, title=title, labels=[label for label, *_ in runs])
+        layout, survey, scale, view, title=title, labels=[label for label, *_ in runs],
+        note=_made_on([outcome for *_, outcome in runs]))
     renderer = Renderer(survey, scale, view, _DETAIL)
     try:
         images = [
@@ -92,6 +93,11 @@ def write_run_sheet(
 def _coarser(picture: np.ndarray) -> np.ndarray:
     """Return the picture in steps of 4 of 255: nobody sees them, and the file is 0.6 as large."""
     return np.minimum((picture.astype(np.uint16) + 2) // 4 * 4, _WHITE).astype(np.uint8)
+
+
+def _made_on(outcomes: Sequence[RunOutcome]) -> str:
+    devices = dict.fromkeys(outcome.device for outcome in outcomes if outcome.device)
+    return f'simulated on {", ".join(devices)}' if devices else ''
 
 
 def _shown(

@@ -54,6 +54,7 @@ def test_peaks_are_those_of_all_frames(recording):
     outcome = read_outcome(recording)
     assert outcome.end == pytest.approx(0.3)
     assert outcome.dt == 0.01
+    assert outcome.device == 'a device'
     assert outcome.max_strain == pytest.approx(0.3)
     assert outcome.kinetic_energy == 5.0
     assert outcome.substeps == 4.0
