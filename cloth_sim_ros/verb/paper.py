@@ -32,9 +32,11 @@ from cloth_sim_ros.analysis.outcome_table import outcome_table
 from cloth_sim_ros.analysis.recording import Recording
 from cloth_sim_ros.analysis.run_outcome import read_outcome
 from cloth_sim_ros.analysis.run_sheet import write_run_sheet
+from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.study.paper_figures import FIGURES
 from cloth_sim_ros.study.paper_figures import paper_scene_file
+from cloth_sim_ros.study.paper_figures import PaperFigure
 from cloth_sim_ros.verb.recorded_run import record_run
 from cloth_sim_ros.verb.recording_arguments import list_of_times
 from cloth_sim_ros.verb.scene_arguments import parse_change
@@ -62,6 +64,7 @@ def main(args: Namespace) -> int:
     """Run, print the table, and draw."""
     figure = FIGURES[args.figure]
     folder = Path(args.out or f'bags/paper_{args.figure}')
+    _refuse_to_overwrite(folder, figure)
     changes = dict(map(parse_change, args.changes))
     rows, shown = [], []
     for run in figure.runs:
@@ -82,6 +85,14 @@ def main(args: Namespace) -> int:
     write_run_sheet(sheet, shown, times or [args.seconds], figure.title)
     print(sheet)
     return 0
+
+
+def _refuse_to_overwrite(folder: Path, figure: PaperFigure) -> None:
+    for run in figure.runs:
+        if (folder / run.name).exists():
+            raise ClothSimError(
+                f'{folder / run.name} is there already, and no recording is overwritten: '
+                'name another folder with --out')
 
 
 def allowed_strain(scene: Scene) -> float | None:

@@ -114,7 +114,7 @@ def test_the_table_says_what_the_recordings_hold(told, stats, figure):
 def test_no_recording_is_overwritten(made, capsys):
     """The figures of yesterday would be lost."""
     assert main(['paper', 'fig10', '--out', str(made['fig10'])]) == 1
-    assert 'is there already' in capsys.readouterr().err
+    assert 'another folder with --out' in capsys.readouterr().err
 
 
 def test_an_unknown_parameter_is_refused(tmp_path, capsys):
