@@ -35,7 +35,7 @@ from cloth_sim_ros.sim.errors import ClothSimError
 import numpy as np
 from PIL import Image
 
-_PANEL = (260, 200)   # [pixel]
+_PANEL = (244, 186)   # [pixel]
 _STRAIN_MAX = 0.2     # of the last colour: twice the limit of the adaptive mode
 _TORN = 1.0           # from this strain on, a cloth does not set what the camera shows
 _DETAIL = 2
