@@ -221,16 +221,37 @@ class Simulation:
 
         Pins are at rest then: moves under way end, those of the scene that are to come don't.
         """
-        shape = (self.scene.rows, self.scene.cols, 3)
-        for name, values in (('positions', positions), ('velocities', velocities)):
-            if np.shape(values) != shape or not np.all(np.abs(values) < MOST_MAGNITUDE):
-                raise ClothSimError(
-                    f'{name} must be {shape} numbers below {MOST_MAGNITUDE:g}, '
-                    f'got {np.shape(values)} up to {np.abs(values).max(initial=0.0):g}')
+        self._check_state(positions, velocities)
         self._context.make_current()
         self._state.write(np.asarray(positions), np.asarray(velocities))
         self._pin_motion.drop()
         self._mode.forget()
+
+    def go_on_from(
+            self, steps: int, positions: np.ndarray, velocities: np.ndarray, *,
+            pinned: np.ndarray, pushes: Sequence[Push] = ()) -> None:
+        """
+        Go on from the middle of a run, as far as that is known.
+
+        Moves of pins under way are not: call ``move_pin`` for them. What the mode kept from
+        earlier steps is dropped, and pushes under way act on the free nodes in their region now.
+
+        :param steps: of dt made before
+        :param positions: (rows, cols, 3) [m]
+        :param velocities: (rows, cols, 3) [m/s]; pins are at rest
+        :param pinned: (rows, cols) bool
+        :param pushes: all that act or will act, those of the scene as well
+        """
+        self._check_state(positions, velocities)
+        self._context.make_current()
+        self._state.pinned[:] = pinned
+        self._state.write(np.asarray(positions), np.asarray(velocities))
+        self._mode.forget()
+        self._begin_run()
+        self.steps = steps
+        self._target = self.time
+        self._pushes.take_up(pushes, self.time)
+        self._pin_motion.leave_out_before(self.time)
 
     def reset(self) -> None:
         """Go back to the start: pose, pins, time, the scene's pushes and moves of pins."""
@@ -277,6 +298,14 @@ class Simulation:
             part.delete()
         if self._owns_context:
             self._context.close()
+
+    def _check_state(self, positions: np.ndarray, velocities: np.ndarray) -> None:
+        shape = (self.scene.rows, self.scene.cols, 3)
+        for name, values in (('positions', positions), ('velocities', velocities)):
+            if np.shape(values) != shape or not np.all(np.abs(values) < MOST_MAGNITUDE):
+                raise ClothSimError(
+                    f'{name} must be {shape} numbers below {MOST_MAGNITUDE:g}, '
+                    f'got {np.shape(values)} up to {np.abs(values).max(initial=0.0):g}')
 
     def _begin_run(self) -> None:
         self.steps = 0

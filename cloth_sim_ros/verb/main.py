@@ -43,6 +43,7 @@ VERBS = {
     'status': 'show what a running node is doing',
     'info': 'tell what a recording holds',
     'analyze': 'analyse recordings: table, CSV, JSON and plots',
+    'resimulate': 'run a recorded simulation again, with the same or other settings',
     'picture': 'draw the cloth of a recording into a PNG file',
 }
 INTERRUPTED = 130

@@ -1,0 +1,107 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+r"""
+Run a recorded simulation again, from the recording alone.
+
+Scene and inputs (pushes, pins, their targets, switches of the mode, resets) are those that were
+recorded, at their simulated times. As recorded, on the same device, the run has the same bits, and
+the exit code is 1 when it has not. With --set another scene gets the same inputs; a mode given so
+holds for the whole run. Without --out no ROS is needed.
+
+For example:
+  cloth_sim resimulate bags/my_run
+  cloth_sim resimulate bags/my_run --set mode=constraint --out bags --compare
+"""
+
+from argparse import ArgumentParser
+from argparse import Namespace
+from typing import Any
+
+from cloth_sim_ros.node.node_fields import NODE_FIELDS
+from cloth_sim_ros.recording.project_version import project_version
+from cloth_sim_ros.resimulation.listener import Listener
+from cloth_sim_ros.resimulation.recorded_run import RecordedRun
+from cloth_sim_ros.resimulation.recorded_version import recorded_version
+from cloth_sim_ros.resimulation.rerun import Rerun
+from cloth_sim_ros.resimulation.verdict import Verdict
+from cloth_sim_ros.resimulation.verdict import version_lines
+from cloth_sim_ros.sim.errors import ClothSimError
+from cloth_sim_ros.sim.scene import refuse_unknown
+from cloth_sim_ros.sim.scene_fields import SCENE_FIELDS
+from cloth_sim_ros.verb.fresh_name import fresh_name
+from cloth_sim_ros.verb.recording_arguments import add_recording_arguments
+from cloth_sim_ros.verb.recording_arguments import open_recording
+from cloth_sim_ros.verb.scene_arguments import parse_change
+from tqdm import tqdm
+
+_BAR = '{n:.2f} s simulated again, {elapsed}'
+
+
+def add_arguments(parser: ArgumentParser) -> None:
+    """Add the arguments of this verb."""
+    add_recording_arguments(parser)
+    parser.add_argument('--set', action='append', default=[], metavar='name=value', dest='changes',
+                        help='change a parameter of the scene; can be given several times')
+    parser.add_argument('--out', metavar='DIR', help='record the new run into this folder')
+
+
+def main(args: Namespace) -> int:
+    """Run again, and tell how that compares."""
+    changes = dict(parse_change(change) for change in args.changes)
+    _check_names(changes)
+    recording = open_recording(args)
+    run = RecordedRun(recording)
+    rerun = Rerun(run, changes)
+    listener = _listener(args, run, rerun)
+    try:
+        _make(rerun, listener)
+    finally:
+        if args.out:
+            listener.close()
+    versions = (recorded_version(recording.path), project_version())
+    verdict = Verdict(rerun, run.device, versions)
+    lines = verdict.lines() + version_lines(
+        run.scene.missing, run.scene.unknown(NODE_FIELDS), frozenset(changes))
+    if args.out:
+        lines.append(f'recorded into {listener.path}')
+    print('\n'.join(lines))
+    rerun.close()
+    return int(verdict.is_failure)
+
+
+def _check_names(changes: dict[str, Any]) -> None:
+    node_names = [field.name for field in NODE_FIELDS]
+    for name in changes:
+        if name in node_names:
+            raise ClothSimError(
+                f'{name} is no parameter of the scene: frames and inputs come from the '
+                'recording, and only the scene can be changed')
+    refuse_unknown(changes, SCENE_FIELDS)
+
+
+def _listener(args: Namespace, run: RecordedRun, rerun: Rerun) -> Any:
+    if not args.out:
+        return Listener()
+    # The ROS packages are needed for a recording alone.
+    from cloth_sim_ros.verb.resimulated_recording import ResimulatedRecording
+    values = {field.name: run.scene.other(field) for field in NODE_FIELDS}
+    values['recording.name'] = fresh_name(args.out, f'{run.path.stem}_again')
+    return ResimulatedRecording(rerun.simulation, values, args.out, args.node)
+
+
+def _make(rerun: Rerun, listener: Listener) -> None:
+    with tqdm(bar_format=_BAR, mininterval=0.2) as bar:
+        for time in rerun.make(listener):
+            bar.update(max(time - bar.n, 0.0))
