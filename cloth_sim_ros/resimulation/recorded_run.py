@@ -38,7 +38,7 @@ class RecordedRun:
     The simulator begins each recording with inputs that stand for all that went before: the
     parameters, the mode, changed pins, pins under way, and pushes that act or will act.
 
-    ``path`` is that of the recording, ``scene`` has the parameters and the mode, ``begin`` is the
+    ``path`` is that of the recording, ``node`` the name of the node, ``scene`` has the parameters and the mode, ``begin`` is the
     stamp of the beginning, ``opening`` has the inputs there, ``device`` is the GL_RENDERER or
     empty.
 
@@ -47,7 +47,7 @@ class RecordedRun:
 
     def __init__(self, recording: Recording) -> None:
         """Read up to what was shown first."""
-        self.path = recording.path
+        self.path, self.node = recording.path, recording.node
         entries = recording.entries(*_INPUTS, *_SHOWN)
         inputs: list[Entry] = []
         shown: list[Entry] = []
@@ -57,9 +57,7 @@ class RecordedRun:
                 break
             inputs.append(entry)
         if not inputs and not shown:
-            raise ClothSimError(
-                f'{recording.path} holds nothing of the node {recording.node}: name the recorded '
-                'node with --node')
+            raise recording.no_frame()
         parameters = [
             entry.message for entry in inputs
             if entry.key == _PARAMETERS and entry.message.new_parameters]

@@ -46,7 +46,7 @@ from cloth_sim_ros.verb.recording_arguments import open_recording
 from cloth_sim_ros.verb.scene_arguments import parse_change
 from tqdm import tqdm
 
-_BAR = '{n:.2f} s simulated again, {elapsed}'
+_BAR = '{percentage:3.0f}% |{bar}| {n}/{total} frames{postfix}'
 
 
 def add_arguments(parser: ArgumentParser) -> None:
@@ -66,7 +66,7 @@ def main(args: Namespace) -> int:
     rerun = Rerun(run, changes)
     listener = _listener(args, run, rerun)
     try:
-        _make(rerun, listener)
+        _make(rerun, listener, recording.count('points') or recording.count('stats'))
     finally:
         if args.out:
             listener.close()
@@ -98,10 +98,11 @@ def _listener(args: Namespace, run: RecordedRun, rerun: Rerun) -> Any:
     from cloth_sim_ros.verb.resimulated_recording import ResimulatedRecording
     values = {field.name: run.scene.other(field) for field in NODE_FIELDS}
     values['recording.name'] = fresh_name(args.out, f'{run.path.stem}_again')
-    return ResimulatedRecording(rerun.simulation, values, args.out, args.node)
+    return ResimulatedRecording(rerun.simulation, values, args.out, run.node)
 
 
-def _make(rerun: Rerun, listener: Listener) -> None:
-    with tqdm(bar_format=_BAR, mininterval=0.2) as bar:
+def _make(rerun: Rerun, listener: Listener, frames: int) -> None:
+    with tqdm(total=frames, bar_format=_BAR, mininterval=0.2) as bar:
         for time in rerun.make(listener):
-            bar.update(max(time - bar.n, 0.0))
+            bar.set_postfix_str(f'{time:.2f} s', refresh=False)
+            bar.update(min(1, bar.total - bar.n))
