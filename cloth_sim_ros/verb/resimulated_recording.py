@@ -29,7 +29,7 @@ class ResimulatedRecording(Listener):
     """
     Records inputs and frames as they are heard of, so that this run can be made again, too.
 
-    ``path`` is the folder of the recording; empty before it begins.
+    ``recording`` is None before it begins, and ``path``, its folder, empty.
 
     :param node_values: the node's parameters by name
     :param directory: folder that the recording's own folder is made in
@@ -44,18 +44,18 @@ class ResimulatedRecording(Listener):
         self._arguments = (simulation, node_values, directory)
         self._node_name = node_name
         self._frame_id = node_values['frame_id']
-        self._recording: BatchRecording | None = None
+        self.recording: BatchRecording | None = None
         self._is_written = False
         self.path = ''
 
     def begin(self) -> None:
         """Open the recording and write what it begins with, and its first frame."""
-        self._recording = BatchRecording(
+        self.recording = BatchRecording(
             *self._arguments, node_name=self._node_name, verb='resimulate')
         self._is_written = True
-        self.path = self._recording.path
+        self.path = self.recording.path
         self._inputs = Inputs(
-            self._recording, self._simulation, self._frame_id, self._node_name)
+            self.recording, self._simulation, self._frame_id, self._node_name)
 
     def push(self, push: Push) -> None:
         """Write a push."""
@@ -77,19 +77,19 @@ class ResimulatedRecording(Listener):
         """Write a command."""
         self._inputs.command(command)
         if command == Command.RESET:
-            self._recording.rewind()
+            self.recording.rewind()
 
     def frame(self, step_wall_time: float, real_time_factor: float) -> None:
         """Write the present moment, unless it is the beginning, which is written already."""
         is_written, self._is_written = self._is_written, False
         if not is_written or step_wall_time:
-            self._recording.write(step_wall_time, real_time_factor)
+            self.recording.write(step_wall_time, real_time_factor)
 
     def stop(self) -> None:
         """Write that the run has stopped."""
-        self._recording.write_stop()
+        self.recording.write_stop()
 
     def close(self) -> None:
         """Finish the recording."""
-        if self._recording is not None:
-            self._recording.close()
+        if self.recording is not None:
+            self.recording.close()

@@ -55,10 +55,10 @@ def assert_same(path: str | Path, frames: int | None = None, node: str = 'cloth_
 
 class Director:
     """
-    Does things to a simulation and records them, as a node does.
+    Does things to a simulation and records them, as a node does; a context manager.
 
     :param values: of the scene
-    :param late: steps made before the recording begins
+    :param before: what is done before the recording begins
     """
 
     def __init__(
@@ -74,6 +74,19 @@ class Director:
         self._recording.frame(0.0, 0.0)
         self.frames = 1
         self.path = Path(self._recording.path)
+
+    def __enter__(self) -> 'Director':
+        """Return itself."""
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        """Finish."""
+        self._recording.close()
+        self.simulation.close()
+
+    def send(self, key: str, message: Any) -> None:
+        """Record any message at the present moment."""
+        self._recording.recording.send_message(key, message, self.simulation.time)
 
     def step(self, steps: int) -> None:
         """Make steps, and a frame of their end."""
@@ -119,8 +132,3 @@ class Director:
     def stop(self) -> None:
         """Tell that the run has stopped."""
         self._recording.stop()
-
-    def close(self) -> None:
-        """Finish."""
-        self._recording.close()
-        self.simulation.close()
