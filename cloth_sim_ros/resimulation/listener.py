@@ -53,3 +53,6 @@ class Listener:
 
     def stop(self) -> None:
         """Hear that the run has stopped, at its last finite state."""
+
+    def close(self) -> None:
+        """Hear that there is no more to come."""

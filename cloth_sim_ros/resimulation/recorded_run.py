@@ -38,9 +38,9 @@ class RecordedRun:
     The simulator begins each recording with inputs that stand for all that went before: the
     parameters, the mode, changed pins, pins under way, and pushes that act or will act.
 
-    ``path`` is that of the recording, ``node`` the name of the node, ``scene`` has the parameters and the mode, ``begin`` is the
-    stamp of the beginning, ``opening`` has the inputs there, ``device`` is the GL_RENDERER or
-    empty.
+    ``path`` and ``node`` are those of the recording, ``scene`` has the parameters and the mode,
+    ``begin`` is the stamp of the beginning, ``opening`` has the inputs there, ``device`` is the
+    GL_RENDERER or empty.
 
     :raises ClothSimError: when it can't be run again, because it does not begin so
     """

@@ -64,7 +64,7 @@ class Rerun:
         self._clock = StepClock(recorded['dt'], scene['dt'])
         self.simulation = Simulation(scene)
         self.start = RunStart(run, recorded, self.simulation)
-        self.start.set(self._clock.steps(run.begin))
+        self.start.take_up(self._clock.steps(run.begin))
         self.check = FrameCheck()
         self.problem = ''
         self._replay = InputReplay(self.simulation, Listener(), keep_mode=self._keep_mode)

@@ -57,7 +57,7 @@ class RunStart:
         """Get the inputs that can't be given in this run."""
         return self._replay.refused
 
-    def set(self, steps: int) -> None:
+    def take_up(self, steps: int) -> None:
         """
         Set everything that holds after ``steps`` steps of dt.
 

@@ -18,7 +18,7 @@ Run a recorded simulation again, from the recording alone.
 Scene and inputs (pushes, pins, their targets, switches of the mode, resets) are those that were
 recorded, at their simulated times. As recorded, on the same device, the run has the same bits, and
 the exit code is 1 when it has not. With --set another scene gets the same inputs; a mode given so
-holds for the whole run. Without --out no ROS is needed.
+holds for the whole run. Without --out and --compare no ROS is needed.
 
 For example:
   cloth_sim resimulate bags/my_run
@@ -27,6 +27,9 @@ For example:
 
 from argparse import ArgumentParser
 from argparse import Namespace
+from contextlib import AbstractContextManager
+from contextlib import nullcontext
+from tempfile import TemporaryDirectory
 from typing import Any
 
 from cloth_sim_ros.node.node_fields import NODE_FIELDS
@@ -40,6 +43,7 @@ from cloth_sim_ros.resimulation.verdict import version_lines
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.scene import refuse_unknown
 from cloth_sim_ros.sim.scene_fields import SCENE_FIELDS
+from cloth_sim_ros.verb import analyze
 from cloth_sim_ros.verb.fresh_name import fresh_name
 from cloth_sim_ros.verb.recording_arguments import add_recording_arguments
 from cloth_sim_ros.verb.recording_arguments import open_recording
@@ -55,6 +59,9 @@ def add_arguments(parser: ArgumentParser) -> None:
     parser.add_argument('--set', action='append', default=[], metavar='name=value', dest='changes',
                         help='change a parameter of the scene; can be given several times')
     parser.add_argument('--out', metavar='DIR', help='record the new run into this folder')
+    parser.add_argument('--compare', action='store_true',
+                        help='compare both runs as `cloth_sim analyze` does; with --out, its '
+                             'files go there, too')
 
 
 def main(args: Namespace) -> int:
@@ -62,23 +69,39 @@ def main(args: Namespace) -> int:
     changes = dict(parse_change(change) for change in args.changes)
     _check_names(changes)
     recording = open_recording(args)
-    run = RecordedRun(recording)
-    rerun = Rerun(run, changes)
-    listener = _listener(args, run, rerun)
-    try:
-        _make(rerun, listener, recording.count('points') or recording.count('stats'))
-    finally:
-        if args.out:
+    with _folder(args) as folder:
+        run = RecordedRun(recording)
+        rerun = Rerun(run, changes)
+        listener = _listener(run, rerun, folder)
+        try:
+            _make(rerun, listener, recording.count('points') or recording.count('stats'))
+        finally:
             listener.close()
-    versions = (recorded_version(recording.path), project_version())
-    verdict = Verdict(rerun, run.device, versions)
-    lines = verdict.lines() + version_lines(
-        run.scene.missing, run.scene.unknown(NODE_FIELDS), frozenset(changes))
-    if args.out:
-        lines.append(f'recorded into {listener.path}')
-    print('\n'.join(lines))
-    rerun.close()
+        verdict = Verdict(
+            rerun, run.device, (recorded_version(recording.path), project_version()))
+        lines = verdict.lines() + recording.problems + version_lines(
+            run.scene.missing, run.scene.unknown(NODE_FIELDS), frozenset(changes))
+        print('\n'.join(lines))
+        rerun.close()
+        if args.out:
+            print(f'recorded into {listener.path}')
+        if args.compare:
+            _compare(run, listener.path, f'{listener.path}_compared' if args.out else None)
     return int(verdict.is_failure)
+
+
+def _folder(args: Namespace) -> AbstractContextManager[str | None]:
+    """Return where the new run is recorded: nowhere when nobody wants to read it."""
+    if args.compare and not args.out:
+        return TemporaryDirectory()
+    return nullcontext(args.out)
+
+
+def _compare(run: RecordedRun, new: str, out: str | None) -> None:
+    try:
+        analyze.main(Namespace(recordings=[str(run.path), new], node=run.node, out=out))
+    except ClothSimError as error:
+        print(error)
 
 
 def _check_names(changes: dict[str, Any]) -> None:
@@ -91,14 +114,14 @@ def _check_names(changes: dict[str, Any]) -> None:
     refuse_unknown(changes, SCENE_FIELDS)
 
 
-def _listener(args: Namespace, run: RecordedRun, rerun: Rerun) -> Any:
-    if not args.out:
+def _listener(run: RecordedRun, rerun: Rerun, folder: str | None) -> Listener:
+    if folder is None:
         return Listener()
     # The ROS packages are needed for a recording alone.
     from cloth_sim_ros.verb.resimulated_recording import ResimulatedRecording
     values = {field.name: run.scene.other(field) for field in NODE_FIELDS}
-    values['recording.name'] = fresh_name(args.out, f'{run.path.stem}_again')
-    return ResimulatedRecording(rerun.simulation, values, args.out, run.node)
+    values['recording.name'] = fresh_name(folder, f'{run.path.stem}_again')
+    return ResimulatedRecording(rerun.simulation, values, folder, run.node)
 
 
 def _make(rerun: Rerun, listener: Listener, frames: int) -> None:

@@ -108,7 +108,8 @@ class Director:
         self.simulation.release(row, col)
         self._recording.pin(row, col, False)
 
-    def move_pin(self, row: int, col: int, target: tuple[float, float, float], speed: float) -> None:
+    def move_pin(
+            self, row: int, col: int, target: tuple[float, float, float], speed: float) -> None:
         """Let a pin set off."""
         self._recording.pin_target(self.simulation.move_pin(row, col, target, speed).move)
 

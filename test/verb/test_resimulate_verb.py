@@ -15,11 +15,11 @@
 """`cloth_sim resimulate` as a user runs it, without a node."""
 
 from collections.abc import Callable
+import json
 from pathlib import Path
 
 from cloth_sim_ros.analysis.frames import read_frames
 from cloth_sim_ros.analysis.recording import Recording
-from cloth_sim_ros.messages.points import PointsMessage
 from cloth_sim_ros.recording.project_version import project_version
 from cloth_sim_ros.verb.main import main
 from command import cloth_sim
@@ -54,10 +54,10 @@ def again(capsys) -> Callable[..., tuple[int, list[str], str]]:
 
 def test_a_batch_run_is_made_again(tmp_path, again):
     """A run without a node could not be made again, or not without ROS."""
-    scene = Path(__file__).parents[2] / 'config' / 'tablecloth.yaml'
+    scene = Path(__file__).parents[2] / 'config' / 'curtain.yaml'
     assert main([
-        'run', str(scene), '--set', 'rows=12', '--set', 'cols=12', '--seconds', '0.3',
-        '--record', str(tmp_path), '--set', 'recording.name=batch']) == 0
+        'run', str(scene), '--set', 'rows=12', '--set', 'pushes.start=[0.1, 0.22]', '--seconds',
+        '0.3', '--record', str(tmp_path), '--set', 'recording.name=batch']) == 0
     assert again(tmp_path / 'batch')[:2] == (0, ['16 of 16 frames equal to the bit'])
     blocked = (
         'import sys\n'
@@ -81,23 +81,45 @@ def test_other_settings_are_said_and_recorded(bag, again, tmp_path):
     assert lines[-1] == f'recorded into {new}_1'
 
 
-def test_a_recording_that_was_changed_is_a_failure(bag, again, monkeypatch, tmp_path):
+def test_a_run_that_does_not_come_out_again_is_a_failure(tmp_path, again):
     """A script would not notice that a run no longer has its bits."""
-    serialise = PointsMessage.serialise
-
-    def shifted(self, snapshot):
-        snapshot.records['y'][2, 3] += snapshot.steps == 10
-        return serialise(self, snapshot)
-
-    monkeypatch.setattr(PointsMessage, 'serialise', shifted)
-    again(bag, '--out', tmp_path / 'new')
-    monkeypatch.undo()
-    code, lines, _ = again(tmp_path / 'new' / f'{bag.name}_again')
+    with Director(tmp_path, SCENE) as director:
+        director.step(4)
+        now = director.simulation.snapshot()
+        positions = now.positions.copy()
+        positions[2, 3, 1] += 1.0
+        director.simulation.set_state(positions, now.velocities)  # which no recording tells
+        director.step(0)
+    code, lines, _ = again(director.path)
     assert code == 1
     assert lines[0] == '2 of 3 frames equal to the bit'
-    assert lines[1] == (
-        'first difference: frame 3 (t = 0.05 s), node (2, 3), 1 m apart; y differ')
+    assert lines[1].startswith('first difference: frame 3 (t = 0.02 s), node (2, 3), 1 m apart; y')
     assert lines[-1].startswith('this run should have the same bits')
+
+
+@pytest.mark.parametrize('changes', [[], ['--set', 'mode=constraint']])
+def test_both_runs_are_compared(bag, again, tmp_path, changes):
+    """A user would have to look for the new recording to compare it."""
+    code, lines, _ = again(bag, *changes, '--compare', '--out', tmp_path / 'new')
+    assert code == 0
+    assert any(line.startswith('compared ') for line in lines)
+    compared = tmp_path / 'new' / f'{bag.name}_again_compared'
+    assert (compared / 'comparison.json').is_file()
+    first, = json.loads((compared / 'comparison.json').read_text())
+    assert isinstance(first, dict)
+    before = set(tmp_path.rglob('*'))
+    code, lines, _ = again(bag, *changes, '--compare')
+    assert code == 0 and any(line.startswith('node distance') for line in lines)
+    assert set(tmp_path.rglob('*')) == before
+
+
+def test_clouds_of_other_sizes_are_compared_by_their_figures(bag, again):
+    """A comparison of two resolutions would end as an error, or compare other nodes."""
+    code, lines, _ = again(bag, '--set', 'rows=9', '--compare')
+    assert code == 0
+    assert lines[0].startswith('3 frames have other nodes than the 9 x 7 of this run')
+    assert sum('max strain' in line for line in lines) == 2
+    assert 'cannot be compared node by node' in lines[-1]
 
 
 def test_another_version_is_named(bag, again):
