@@ -38,7 +38,7 @@ class RecordedRun:
     The simulator begins each recording with inputs that stand for all that went before: the
     parameters, the mode, changed pins, pins under way, and pushes that act or will act.
 
-    ``path`` and ``node`` are those of the recording, ``scene`` has the parameters and the mode,
+    ``path``, ``name`` and ``node`` are the recording's, ``scene`` has the parameters and the mode,
     ``begin`` is the stamp of the beginning, ``opening`` has the inputs there, ``device`` is the
     GL_RENDERER or empty.
 
@@ -47,7 +47,7 @@ class RecordedRun:
 
     def __init__(self, recording: Recording) -> None:
         """Read up to what was shown first."""
-        self.path, self.node = recording.path, recording.node
+        self.path, self.name, self.node = recording.path, recording.name, recording.node
         entries = recording.entries(*_INPUTS, *_SHOWN)
         inputs: list[Entry] = []
         shown: list[Entry] = []

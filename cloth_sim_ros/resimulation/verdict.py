@@ -37,21 +37,13 @@ class Verdict:
         """Collect the reasons."""
         self._rerun = rerun
         self._check: FrameCheck = rerun.check
-        self.reasons = []
+        self._origin = _origin(device, rerun.simulation.device, versions)
+        self.reasons = [*self._origin]
         if rerun.changed:
-            self.reasons.append('the settings are others')
+            self.reasons.append(f'{", ".join(rerun.changed)} set to other values')
         if rerun.left_out_modes:
             self.reasons.append('the mode is not switched')
-        if device != rerun.simulation.device:
-            self.reasons.append(
-                f'it was recorded on {device or "a device it does not name"}, and bits are the '
-                'same on one device only')
-        recorded, present = versions
-        if recorded != present:
-            self.reasons.append(
-                f'it was recorded by version {recorded or "(not named)"} of cloth_sim_ros, and '
-                f'this is {present or "not named"}')
-        self.reasons += [f'it does not hold {what}' for what in rerun.unknown]
+        self.reasons += [f'the recording does not hold {what}' for what in rerun.unknown]
         if rerun.refused:
             self.reasons.append('some recorded inputs are left out')
 
@@ -64,7 +56,8 @@ class Verdict:
 
     def lines(self) -> list[str]:
         """Return what came out, in words."""
-        return [*self._frames(), *self._end(), *self._left_out()]
+        origin = [f'bits may differ: {reason}' for reason in self._origin]
+        return [*self._frames(), *origin, *self._end(), *self._left_out()]
 
     def _frames(self) -> list[str]:
         check = self._check
@@ -81,7 +74,8 @@ class Verdict:
                 f'first difference: {_in_words(check.first)}',
                 f'largest difference: {_in_words(check.largest)}',
                 f'RMS distance of the nodes in the last frame: {check.last_rms:.3g} m']
-            lines += [f'bits may differ: {reason}' for reason in self.reasons]
+            lines += [f'bits may differ: {reason}' for reason in self.reasons
+                      if reason not in self._origin]
             if not self.reasons:
                 lines.append(
                     'this run should have the same bits: the recording was changed, or the '
@@ -110,6 +104,23 @@ class Verdict:
                 f'left out: {self._rerun.left_out_modes} recorded switches of the mode, because '
                 '--set mode holds for the whole run')
         return lines
+
+
+def _origin(recorded_device: str, device: str, versions: tuple[str, str]) -> list[str]:
+    recorded, present = versions
+    reasons = []
+    if recorded_device != device:
+        reasons.append(
+            f'recorded on {recorded_device or "a device that is not named"}, this is {device}: '
+            'bits are the same on one device only')
+    if recorded != present:
+        reasons.append(
+            f'recorded by {_named(recorded)} of cloth_sim_ros, this is {_named(present)}')
+    return reasons
+
+
+def _named(version: str) -> str:
+    return f'version {version}' if version else 'a version that is not named'
 
 
 def version_lines(

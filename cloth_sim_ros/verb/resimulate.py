@@ -120,7 +120,7 @@ def _listener(run: RecordedRun, rerun: Rerun, folder: str | None) -> Listener:
     # The ROS packages are needed for a recording alone.
     from cloth_sim_ros.verb.resimulated_recording import ResimulatedRecording
     values = {field.name: run.scene.other(field) for field in NODE_FIELDS}
-    values['recording.name'] = fresh_name(folder, f'{run.path.stem}_again')
+    values['recording.name'] = fresh_name(folder, f'{run.name}_again')
     return ResimulatedRecording(rerun.simulation, values, folder, run.node)
 
 

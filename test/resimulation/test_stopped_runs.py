@@ -64,6 +64,21 @@ def test_a_run_that_stops_goes_on_as_it_did(tmp_path):
     assert_same(director.path, 3)
 
 
+def test_what_began_anew_at_a_stop_is_named(tmp_path):
+    """Bits would be promised that depend on the batches in which the node advanced."""
+    with Director(tmp_path, {'rows': 8, 'cols': 9, 'mode': 'adaptive'}) as director:
+        director.step(10)
+        director.push((0.0, 0.0, 1e25), duration=0.01)
+        with pytest.raises(NonFiniteStateError):
+            director.step(1)
+        director.stop()
+        director.clear_pushes()
+        director.step(10)
+    with made_again(director.path) as rerun:
+        assert rerun.unknown == ('with which step mode adaptive began anew as the run stopped',)
+        assert (rerun.problem, rerun.check.frames) == ('', 3)
+
+
 def test_a_new_blow_up_ends_the_run(tmp_path):
     """A run with other settings that blows up would end as a traceback, or be called whole."""
     with Director(tmp_path, {'rows': 8, 'cols': 9, 'node_mass': 1e6}) as director:
