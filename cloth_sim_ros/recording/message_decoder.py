@@ -32,6 +32,7 @@ from rosbags.typesys import get_typestore
 from rosbags.typesys import Stores
 from rosbags.typesys.store import Typestore
 
+_TOO_LONG = 'size mismatch'
 _IDL_RULE = '=' * 80 + '\n'
 
 
@@ -77,7 +78,9 @@ def _decoded(store: Typestore, data: bytes | memoryview, name: str) -> Any:
     """Return the message at the beginning of ``data``."""
     try:
         return store.deserialize_cdr(data, name)
-    except SerdeError:
+    except SerdeError as error:
+        if _TOO_LONG not in str(error):
+            raise
         # The middleware gives a message of nested lists more bytes than it fills, which rosbags
         # takes for a mistake: parameters would not be readable.
         definition = store.get_msgdef(name)
