@@ -32,8 +32,10 @@ ROOMS = {
     'node': {'recording', 'messages', 'sim', 'gl'},
     'study': {'recording', 'messages', 'sim', 'gl', 'reference'},
     'analysis': {'recording', 'messages', 'sim', 'gl'},
+    'resimulation': {'analysis', 'recording', 'sim'},
     'verb': {
-        'node', 'study', 'analysis', 'recording', 'messages', 'reference', 'sim', 'gl'},
+        'node', 'study', 'resimulation', 'analysis', 'recording', 'messages', 'reference', 'sim',
+        'gl'},
 }
 
 # These rooms must run where there is no ROS; they may import no more than this beside Python.

@@ -19,7 +19,7 @@ import struct
 import numpy as np
 
 _ENCAPSULATION = b'\x00\x01\x00\x00'
-_SIZES = {'B': 1, '?': 1, 'i': 4, 'I': 4, 'f': 4, 'd': 8}
+_SIZES = {'B': 1, '?': 1, 'i': 4, 'I': 4, 'f': 4, 'q': 8, 'd': 8}
 
 
 class CdrWriter:

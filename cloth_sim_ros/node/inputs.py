@@ -22,6 +22,7 @@ from cloth_sim_ros.messages.inputs import parameters_message
 from cloth_sim_ros.messages.inputs import pin_message
 from cloth_sim_ros.messages.inputs import pin_target_message
 from cloth_sim_ros.messages.inputs import push_message
+from cloth_sim_ros.messages.parameter_event import serialise_parameter_event
 from cloth_sim_ros.node.outlet import Outlet
 from cloth_sim_ros.node.parameters import FIELDS
 from cloth_sim_ros.node.parameters import plain_value
@@ -83,5 +84,6 @@ class Inputs:
             if parameter.name != 'mode'}
         if values:
             now = self._simulation.time
-            self._outlet.send_message('inputs/parameters', parameters_message(
-                values, FIELDS, now, self._node_name, is_change=True), now)
+            message = parameters_message(values, FIELDS, now, self._node_name, is_change=True)
+            self._outlet.send(
+                'inputs/parameters', lambda: serialise_parameter_event(message), now)

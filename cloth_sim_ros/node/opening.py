@@ -22,6 +22,7 @@ from cloth_sim_ros.messages.inputs import parameters_message
 from cloth_sim_ros.messages.inputs import pin_message
 from cloth_sim_ros.messages.inputs import pin_target_message
 from cloth_sim_ros.messages.inputs import push_message
+from cloth_sim_ros.messages.parameter_event import serialise_parameter_event
 from cloth_sim_ros.messages.topology import serialise_topology
 from cloth_sim_ros.node.parameters import FIELDS
 from cloth_sim_ros.node.recording_session import RecordingSession
@@ -45,9 +46,9 @@ def write_opening(
     now = simulation.time
     frame_id = values['frame_id']
     recording.write('topology', serialise_topology(simulation.scene), now)
-    inputs = [
-        ('inputs/parameters', parameters_message(values, FIELDS, now, node_name)),
-        ('inputs/mode', mode_message(simulation.mode, '', now, frame_id))]
+    parameters = parameters_message(values, FIELDS, now, node_name)
+    recording.write('inputs/parameters', serialise_parameter_event(parameters), now)
+    inputs = [('inputs/mode', mode_message(simulation.mode, '', now, frame_id))]
     pinned = simulation.pinned_nodes()
     for row, col in np.argwhere(pinned != simulation.scene.pinned_nodes()).tolist():
         inputs.append(

@@ -22,6 +22,8 @@ from cloth_sim_ros.recording.bag_metadata import BagMetadata
 from cloth_sim_ros.recording.message_definition import message_definition
 from cloth_sim_ros.recording.message_definition import type_hash
 from cloth_sim_ros.recording.offered_qos import offered_qos
+from cloth_sim_ros.recording.project_version import PACKAGE
+from cloth_sim_ros.recording.project_version import project_version
 from cloth_sim_ros.recording.yaml_text import yaml_text
 from mcap.writer import CompressionType
 from mcap.writer import Writer
@@ -44,7 +46,7 @@ class BagFile:
         self._folder = folder
         self._node_name = node_name
         self._path = folder / f'{folder.name}_0.mcap'
-        self._metadata = BagMetadata(self._path.name)
+        self._metadata = BagMetadata(self._path.name, {PACKAGE: project_version()})
         self._schemas: dict[str, int] = {}
         self._channels: dict[str, int] = {}
         self._stream = open(self._path, 'xb')

@@ -14,6 +14,7 @@
 
 """What rosbag2 wants to know of a bag before it opens it."""
 
+from collections.abc import Mapping
 import os
 from pathlib import Path
 from typing import Any
@@ -32,11 +33,13 @@ class BagMetadata:
     Topics, message counts and times of a bag of one file.
 
     :param file_name: of the mcap file, without its folder
+    :param custom_data: what else is to be known of the bag, words by words
     """
 
-    def __init__(self, file_name: str) -> None:
+    def __init__(self, file_name: str, custom_data: Mapping[str, str] | None = None) -> None:
         """Begin an empty bag."""
         self._file_name = file_name
+        self._custom_data = dict(custom_data or {})
         self._topics: dict[str, dict[str, Any]] = {}
         self._begin = _NO_TIME_YET
         self._end = 0
@@ -93,6 +96,6 @@ class BagMetadata:
                 'duration': {'nanoseconds': duration},
                 'message_count': message_count,
             }],
-            'custom_data': None,
+            'custom_data': self._custom_data or None,
             'ros_distro': os.environ.get('ROS_DISTRO', 'jazzy'),
         }

@@ -25,12 +25,14 @@ from cloth_sim_ros.sim.errors import ClothSimError
 from rosbags.interfaces import MessageDefinition
 from rosbags.interfaces import MessageDefinitionFormat
 from rosbags.interfaces.typing import Typesdict
+from rosbags.serde import SerdeError
 from rosbags.typesys import get_types_from_idl
 from rosbags.typesys import get_types_from_msg
 from rosbags.typesys import get_typestore
 from rosbags.typesys import Stores
 from rosbags.typesys.store import Typestore
 
+_TOO_LONG = 'size mismatch'
 _IDL_RULE = '=' * 80 + '\n'
 
 
@@ -55,7 +57,7 @@ class MessageDecoder:
         try:
             if name not in self._stores:
                 self._stores[name] = self._store(name)
-            return self._stores[name].deserialize_cdr(message.data, name)
+            return _decoded(self._stores[name], message.data, name)
         except Exception as error:  # what foreign text or a damaged byte raises can be anything
             raise ClothSimError(
                 f'a message of {message.topic} is no {name} ({error or type(error).__name__}): '
@@ -70,6 +72,20 @@ class MessageDecoder:
             return _parsed_store(
                 MessageDefinition(MessageDefinitionFormat.MSG, message_definition(name)), name)
         return get_typestore(Stores.ROS2_JAZZY)
+
+
+def _decoded(store: Typestore, data: bytes | memoryview, name: str) -> Any:
+    """Return the message at the beginning of ``data``."""
+    try:
+        return store.deserialize_cdr(data, name)
+    except SerdeError as error:
+        if _TOO_LONG not in str(error):
+            raise
+        # The middleware gives a message of nested lists more bytes than it fills, which rosbags
+        # takes for a mistake: parameters would not be readable.
+        definition = store.get_msgdef(name)
+        decode = definition.deserialize_cdr_le if data[1] else definition.deserialize_cdr_be
+        return decode(data[4:], 0, definition.cls, store)[0]
 
 
 # Most bags have the same definitions, which take longer to parse than a small bag to read.

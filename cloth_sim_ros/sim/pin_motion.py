@@ -100,6 +100,10 @@ class PinMotion:
         for entries in (self._paths, self._on_device, self._latest, self._earlier):
             entries.clear()
 
+    def leave_out_before(self, now: float) -> None:
+        """Drop the timed moves that would have begun before ``now`` [s]."""
+        self._waiting = [move for move in self._waiting if move.start >= now]
+
     def begin_step(self, begin: float, end: float) -> None:
         """Set the velocities of the step from ``begin`` to ``end`` [s]."""
         self._earlier = self._latest

@@ -109,6 +109,13 @@ class PushField:
         self._entries.append(entry)
         return AppliedPush(push, entry.nodes)
 
+    def take_up(self, pushes: Iterable[Push], now: float) -> None:
+        """Have ``pushes`` in place of all others; those that have begun act on who is there."""
+        self._entries = [_Entry(push) for push in pushes]
+        for entry in self._entries:
+            if entry.push.start <= now:
+                self._begin(entry)
+
     def clear(self) -> int:
         """Drop all pushes; return how many."""
         count = len(self._entries)

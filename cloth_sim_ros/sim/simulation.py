@@ -35,7 +35,6 @@ from cloth_sim_ros.sim.push_field import AppliedPush
 from cloth_sim_ros.sim.push_field import PushField
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.scene_fields import MODES
-from cloth_sim_ros.sim.scene_program import MOST_MAGNITUDE
 from cloth_sim_ros.sim.snapshot import Measures
 from cloth_sim_ros.sim.snapshot import Snapshot
 from cloth_sim_ros.sim.state import State
@@ -221,16 +220,35 @@ class Simulation:
 
         Pins are at rest then: moves under way end, those of the scene that are to come don't.
         """
-        shape = (self.scene.rows, self.scene.cols, 3)
-        for name, values in (('positions', positions), ('velocities', velocities)):
-            if np.shape(values) != shape or not np.all(np.abs(values) < MOST_MAGNITUDE):
-                raise ClothSimError(
-                    f'{name} must be {shape} numbers below {MOST_MAGNITUDE:g}, '
-                    f'got {np.shape(values)} up to {np.abs(values).max(initial=0.0):g}')
+        self._state.check(positions, velocities)
         self._context.make_current()
         self._state.write(np.asarray(positions), np.asarray(velocities))
         self._pin_motion.drop()
         self._mode.forget()
+
+    def go_on_from(
+            self, steps: int, positions: np.ndarray, velocities: np.ndarray, *,
+            pinned: np.ndarray, pushes: Sequence[Push] = ()) -> None:
+        """
+        Go on from the middle of a run, as far as that is known.
+
+        Moves of pins under way are not: call ``move_pin`` for them. What the mode kept from
+        earlier steps is dropped, and pushes under way act on the free nodes in their region now.
+
+        :param steps: of dt made before
+        :param positions: (rows, cols, 3) [m]
+        :param velocities: (rows, cols, 3) [m/s]; pins are at rest
+        :param pinned: (rows, cols) bool
+        :param pushes: all that act or will act, those of the scene as well
+        """
+        self._state.check(positions, velocities)
+        self._context.make_current()
+        self._state.pinned[:] = pinned
+        self._state.write(np.asarray(positions), np.asarray(velocities))
+        self._mode.forget()
+        self._begin_run(steps)
+        self._pushes.take_up(pushes, self.time)
+        self._pin_motion.leave_out_before(self.time)
 
     def reset(self) -> None:
         """Go back to the start: pose, pins, time, the scene's pushes and moves of pins."""
@@ -278,9 +296,9 @@ class Simulation:
         if self._owns_context:
             self._context.close()
 
-    def _begin_run(self) -> None:
-        self.steps = 0
-        self._target = 0.0
+    def _begin_run(self, steps: int = 0) -> None:
+        self.steps = steps
+        self._target = self.time
         if self._pushes is not None:
             self._pushes.delete()
         self._pushes = PushField(

@@ -16,7 +16,9 @@
 
 from cloth_sim_ros.gl.buffer import Buffer
 from cloth_sim_ros.sim import bindings
+from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.layout import Layout
+from cloth_sim_ros.sim.scene_program import MOST_MAGNITUDE
 import numpy as np
 
 _PAIRS = 3
@@ -50,6 +52,15 @@ class State:
     def free_count(self) -> int:
         """Nodes that are not pinned."""
         return int(self.pinned.size - np.count_nonzero(self.pinned))
+
+    def check(self, positions: np.ndarray, velocities: np.ndarray) -> None:
+        """Raise ClothSimError unless both are (rows, cols, 3) numbers that can be stepped."""
+        shape = (*self.pinned.shape, 3)
+        for name, values in (('positions', positions), ('velocities', velocities)):
+            if np.shape(values) != shape or not np.all(np.abs(values) < MOST_MAGNITUDE):
+                raise ClothSimError(
+                    f'{name} must be {shape} numbers below {MOST_MAGNITUDE:g}, '
+                    f'got {np.shape(values)} up to {np.abs(values).max(initial=0.0):g}')
 
     def write(self, positions: np.ndarray, velocities: np.ndarray) -> None:
         """Replace all positions [m] and velocities [m/s], (rows, cols, 3); pins are at rest."""

@@ -28,33 +28,35 @@ from cloth_sim_ros.sim.simulation import Simulation
 import numpy as np
 from rclpy.serialization import serialize_message
 
-_NODE_NAME = 'cloth_sim'
-
 
 class BatchRecording:
     """
     A recording of points, stats, wrenches and inputs.
 
     :param directory: folder that the recording's own folder is made in
+    :param node_name: for the names of the topics, with its namespace
+    :param verb: that warnings come from
     """
 
     def __init__(
-            self, simulation: Simulation, node_values: dict[str, Any], directory: str) -> None:
+            self, simulation: Simulation, node_values: dict[str, Any], directory: str, *,
+            node_name: str = 'cloth_sim', verb: str = 'run') -> None:
         """Open the recording and write what it begins with, the start pose too."""
         self._simulation = simulation
+        self._verb = verb
         self._frame_id = node_values['frame_id']
         self._points = PointsMessage(
             simulation.scene.rows, simulation.scene.cols, self._frame_id)
         self._wrenches = WrenchMessages(self._frame_id)
-        self._session = RecordingSession(directory, _NODE_NAME, self._say_lost)
+        self._session = RecordingSession(directory, node_name, self._say)
         self.path = self._session.start(node_values['recording.name'])
         values = {**simulation.scene.values, **node_values}
-        write_opening(self._session, simulation, values, f'/{_NODE_NAME}')
+        write_opening(self._session, simulation, values, f'/{node_name.strip("/")}')
         self._write_state(ClothState.RUNNING)
         reason = too_many_pins(np.count_nonzero(simulation.pinned_nodes()))
         self._has_wrenches = node_values['publish.wrenches'] and not reason
         if node_values['publish.wrenches'] and reason:
-            print(f'cloth_sim run: {reason}')
+            self._say(reason)
         self.write(0.0, 0.0)
 
     def write(self, step_wall_time: float, real_time_factor: float) -> None:
@@ -68,6 +70,14 @@ class BatchRecording:
         if self._has_wrenches:
             for data in self._wrenches.serialise(snapshot):
                 self._session.write('pins/wrenches', data, snapshot.time)
+
+    def send_message(self, key: str, message: Any, sim_time: float) -> None:
+        """Write ``message`` of the topic ``key`` at ``sim_time`` [s], as a node's outlet does."""
+        self._session.write(key, serialize_message(message), sim_time)
+
+    def rewind(self) -> None:
+        """Go on as simulated time is about to return to 0."""
+        self._session.rewind(self._simulation.time)
 
     def write_stop(self) -> None:
         """Write that the run has stopped before its end."""
@@ -83,6 +93,5 @@ class BatchRecording:
             recording_path=self.path)
         self._session.write('state', serialize_message(state), self._simulation.time)
 
-    @staticmethod
-    def _say_lost(reason: str) -> None:
-        print(f'cloth_sim run: {reason}')
+    def _say(self, reason: str) -> None:
+        print(f'cloth_sim {self._verb}: {reason}')

@@ -45,6 +45,7 @@ VERBS = {
     'analyze': 'analyse recordings: table, CSV, JSON and plots',
     'paper': 'make Fig. 10 and 11 of the paper',
     'render': 'draw the cloth of recordings, as a sheet of pictures or a video',
+    'resimulate': 'run a recorded simulation again, with the same or other settings',
 }
 INTERRUPTED = 130
 

@@ -58,6 +58,13 @@ def test_content_is_that_of_version_9(metadata, tmp_path):
     assert yaml.safe_load(metadata.text()) == read(tmp_path)
 
 
+def test_keeps_what_else_is_to_be_known(tmp_path):
+    """A recording would not say which version has made it."""
+    metadata = BagMetadata('a_0.mcap', {'maker': '1.2'})
+    metadata.write(tmp_path)
+    assert read(tmp_path)['custom_data'] == {'maker': '1.2'}
+
+
 def test_an_empty_bag_has_no_time_yet(metadata, tmp_path):
     """Players would find a negative duration and stop."""
     metadata.write(tmp_path)

@@ -21,6 +21,8 @@ from cloth_sim_ros.recording.bag_topic import RawMessage
 from cloth_sim_ros.recording.message_decoder import MessageDecoder
 from cloth_sim_ros.sim.errors import ClothSimError
 import pytest
+from rcl_interfaces.msg import Parameter
+from rcl_interfaces.msg import ParameterEvent
 from rclpy.serialization import serialize_message
 from rosbags.interfaces import MessageDefinition
 from rosbags.interfaces import MessageDefinitionFormat
@@ -69,3 +71,12 @@ def test_what_makes_no_sense_is_refused(type_name, data):
     """A damaged message, or one of another program, would end in a traceback."""
     with pytest.raises(ClothSimError, match=f'/topic is no {type_name} .*: give'):
         MessageDecoder([]).decode(RawMessage('/topic', type_name, 0, data))
+
+
+def test_bytes_that_nothing_fills_are_passed_over():
+    """Recorded parameters could not be read: the middleware makes them longer than they are."""
+    event = ParameterEvent(node='/a', new_parameters=[Parameter(name='b')] * 3)
+    kind = 'rcl_interfaces/msg/ParameterEvent'
+    data = serialize_message(event) + b'\x07' * 64
+    read = MessageDecoder([]).decode(RawMessage('/topic', kind, 0, data))
+    assert [parameter.name for parameter in read.new_parameters] == ['b'] * 3

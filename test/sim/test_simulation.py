@@ -57,6 +57,38 @@ def test_time_does_not_go_back(simulation: Simulation, seconds: float):
     assert simulation.steps == 0
 
 
+def test_goes_on_from_the_middle_of_a_run():
+    """A run could not be taken up from its recorded state, or pushes would come twice."""
+    timed = {
+        **_SMALL, 'pushes.start': (0.0, 0.1), 'pushes.duration': (0.05, 0.1),
+        'pushes.force': (0.0, 0.0, 1.0, 0.5, 0.0, 0.0), 'pin_moves.start': (0.01, 0.09),
+        'pin_moves.node': ('top_left', 'top_left'), 'pin_moves.speed': (10.0, 1.0),
+        'pin_moves.target': (-0.45, 0.5, 1.0, -0.4, 0.5, 1.0)}
+    first, second = (Simulation(Scene(timed)) for _ in range(2))
+    first.pin(3, 3)
+    first.step(20)
+    there = first.snapshot()
+    second.go_on_from(
+        20, there.positions, there.velocities, pinned=first.pinned_nodes(),
+        pushes=[applied.push for applied in first.pushes])
+    assert (second.time, second.pushes) == (first.time, first.pushes)
+    for steps in (1, 9, 20):
+        first.step(steps)
+        second.step(steps)
+        assert second.snapshot().records.tobytes() == first.snapshot().records.tobytes()
+    for simulation in (first, second):
+        simulation.close()
+
+
+def test_goes_on_from_numbers_only(simulation: Simulation):
+    """A state that is none would be stepped, and the cloth be lost."""
+    there = simulation.snapshot()
+    with pytest.raises(ClothSimError, match='velocities must be'):
+        simulation.go_on_from(
+            3, there.positions, there.velocities[:, 1:], pinned=simulation.pinned_nodes())
+    assert simulation.snapshot().records.tobytes() == there.records.tobytes()
+
+
 def test_reset_is_the_start_again(simulation: Simulation):
     """A second run would differ from the first."""
     start = simulation.snapshot()

@@ -1,0 +1,65 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Parameters in CDR, without the unused bytes that the middleware leaves behind nested lists."""
+
+from typing import Any
+
+from cloth_sim_ros.messages.cdr_writer import CdrWriter
+from rcl_interfaces.msg import Parameter
+from rcl_interfaces.msg import ParameterEvent
+from rcl_interfaces.msg import ParameterValue
+
+
+def serialise_parameter_event(event: ParameterEvent) -> bytes:
+    """
+    Return the CDR bytes of ``event``.
+
+    Those of the middleware are longer than the message, and strict readers such as rosbags refuse
+    them.
+    """
+    writer = CdrWriter()
+    writer.put('i', event.stamp.sec)
+    writer.put('I', event.stamp.nanosec)
+    writer.put_string(event.node)
+    for parameters in (
+            event.new_parameters, event.changed_parameters, event.deleted_parameters):
+        writer.put('I', len(parameters))
+        for parameter in parameters:
+            _put_parameter(writer, parameter)
+    return writer.finish()
+
+
+def _put_parameter(writer: CdrWriter, parameter: Parameter) -> None:
+    value: ParameterValue = parameter.value
+    writer.put_string(parameter.name)
+    writer.put('B', value.type)
+    writer.put('?', value.bool_value)
+    writer.put('q', value.integer_value)
+    writer.put('d', value.double_value)
+    writer.put_string(value.string_value)
+    _put_numbers(writer, 'B', [byte[0] for byte in value.byte_array_value])
+    _put_numbers(writer, '?', value.bool_array_value)
+    _put_numbers(writer, 'q', value.integer_array_value)
+    _put_numbers(writer, 'd', value.double_array_value)
+    writer.put('I', len(value.string_array_value))
+    for text in value.string_array_value:
+        writer.put_string(text)
+
+
+def _put_numbers(writer: CdrWriter, code: str, numbers: Any) -> None:
+    writer.put('I', len(numbers))
+    # Of an empty list nothing follows, not even what would align its elements.
+    if len(numbers):
+        writer.put(code, *numbers)

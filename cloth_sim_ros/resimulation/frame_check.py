@@ -1,0 +1,98 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Whether the frames of two runs are the same, and by how much they are not."""
+
+from dataclasses import dataclass
+
+from cloth_sim_ros.sim.snapshot import POINT_DTYPE
+import numpy as np
+
+
+@dataclass(frozen=True)
+class Difference:
+    """
+    Where two frames are furthest apart.
+
+    :param frame: its number, from 1
+    :param time: of the recorded frame [s], going on over resets
+    :param node: row and col
+    :param distance: of the two positions of that node [m]; 0 when only other fields differ
+    :param fields: those whose bits differ anywhere in the frame
+    """
+
+    frame: int
+    time: float
+    node: tuple[int, int]
+    distance: float
+    fields: tuple[str, ...]
+
+
+@dataclass
+class FrameCheck:
+    """
+    Compare frame by frame.
+
+    :param frames: compared so far
+    :param equal: of these, with the same bits in all fields
+    :param first: the first that was not equal
+    :param largest: the one with the largest distance of a node
+    :param last_rms: RMS distance of the nodes in the last frame [m]
+    :param missing_fields: of a point, those that the recording lacks
+    :param other_grids: frames that have other rows and cols, and were not compared
+    """
+
+    frames: int = 0
+    equal: int = 0
+    first: Difference | None = None
+    largest: Difference | None = None
+    last_rms: float = 0.0
+    missing_fields: tuple[str, ...] = ()
+    other_grids: int = 0
+
+    def compare(self, time: float, recorded: np.ndarray, made: np.ndarray) -> None:
+        """
+        Take a frame.
+
+        :param time: of the recorded frame [s]
+        :param recorded: (rows, cols) records with fields of POINT_DTYPE
+        :param made: the same of this run, of POINT_DTYPE
+        """
+        self.frames += 1
+        names = tuple(name for name in POINT_DTYPE.names if name in recorded.dtype.names)
+        self.missing_fields = tuple(name for name in POINT_DTYPE.names if name not in names)
+        unequal = {name: _bits(recorded, name) != _bits(made, name) for name in names}
+        fields = tuple(name for name in names if unequal[name].any())
+        if not fields:
+            self.equal += 1
+            self.last_rms = 0.0
+            return
+        away = np.stack([
+            recorded[axis].astype(float) - made[axis].astype(float) for axis in 'xyz'])
+        distances = np.sqrt((away**2).sum(axis=0))
+        self.last_rms = float(np.sqrt((distances**2).mean()))
+        # Where all positions are equal, a node whose other fields are not is of interest.
+        where = distances if distances.any() else np.any(list(unequal.values()), axis=0)
+        row, col = np.unravel_index(int(np.argmax(where)), where.shape)
+        difference = Difference(
+            self.frames, time, (int(row), int(col)), float(distances[row, col]), fields)
+        if self.first is None:
+            self.first = difference
+        if self.largest is None or difference.distance > self.largest.distance:
+            self.largest = difference
+
+
+def _bits(records: np.ndarray, name: str) -> np.ndarray:
+    kind = POINT_DTYPE.fields[name][0]
+    return np.ascontiguousarray(records[name]).astype(kind, copy=False).view(np.uint32)

@@ -1,0 +1,116 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Give a simulation the inputs of a recording."""
+
+from typing import Any
+
+from cloth_sim_ros.resimulation.listener import Listener
+from cloth_sim_ros.resimulation.recorded_push import parts
+from cloth_sim_ros.resimulation.recorded_push import recorded_push
+from cloth_sim_ros.sim.errors import ClothSimError
+from cloth_sim_ros.sim.simulation import Simulation
+
+# As cloth_sim_interfaces/msg/Command has them, which is not needed to read a recording.
+RESET, CLEAR_PUSHES = 'reset', 'clear_pushes'
+
+
+class InputReplay:
+    """
+    Takes inputs one by one, at the present moment of ``simulation``.
+
+    What cannot be done in this run is left out and noted in ``refused``: with other settings a
+    pin may not be there, or no node be where a push was.
+
+    ``resets`` and ``inputs`` count what was done, ``left_out_modes`` the switches not made.
+
+    :param keep_mode: True to make no switch of the mode
+    """
+
+    def __init__(self, simulation: Simulation, listener: Listener, *, keep_mode: bool) -> None:
+        """Begin without inputs."""
+        self._simulation = simulation
+        self._listener = listener
+        self._keep_mode = keep_mode
+        self._takers = {
+            'inputs/push': self._push, 'inputs/pin': self._pin,
+            'inputs/pin_target': self._pin_target, 'inputs/mode': self._mode,
+            'inputs/command': self._command, 'inputs/parameters': self._parameters}
+        self.refused: list[str] = []
+        self.inputs = 0
+        self.resets = 0
+        self.left_out_modes = 0
+
+    def take(self, key: str, message: Any) -> None:
+        """Do what the decoded ``message`` of the topic ``key`` says."""
+        now = self._simulation.time
+        try:
+            self._takers[key](message)
+        except ClothSimError as error:
+            self.refused.append(f'at {now:.6g} s: {error}')
+
+    def _push(self, message: Any) -> None:
+        push = recorded_push(message)
+        self._simulation.push(
+            push.force, duration=push.duration, region=push.region, center=push.center,
+            radius=push.radius, start=push.start)
+        self.inputs += 1
+        self._listener.push(push)
+
+    def _pin(self, message: Any) -> None:
+        row, col = int(message.row), int(message.col)
+        if message.pinned:
+            self._simulation.pin(row, col)
+        else:
+            self._simulation.release(row, col)
+        self.inputs += 1
+        self._listener.pin(row, col, bool(message.pinned))
+
+    def _pin_target(self, message: Any) -> None:
+        path = self._simulation.move_pin(
+            int(message.row), int(message.col), parts(message.target), message.speed)
+        self.inputs += 1
+        self._listener.pin_target(path.move)
+
+    def _mode(self, message: Any) -> None:
+        if self._keep_mode:
+            self.left_out_modes += 1
+            return
+        previous = self._simulation.set_mode(message.mode)
+        if message.mode != previous:
+            self.inputs += 1
+            self._listener.mode(message.mode, previous)
+
+    def _command(self, message: Any) -> None:
+        if message.command not in (RESET, CLEAR_PUSHES):
+            raise ClothSimError(
+                f'this version has no command {message.command!r}: it is left out')
+        self.inputs += 1
+        self._listener.command(message.command)
+        if message.command == RESET:
+            self._simulation.reset()
+            self.resets += 1
+        else:
+            self._simulation.clear_pushes()
+
+    def _parameters(self, message: Any) -> None:
+        if message.new_parameters:
+            raise ClothSimError(
+                'the recording begins anew: what follows is another run, record it by itself')
+        changed = [parameter.name for parameter in message.changed_parameters]
+        physical = [name for name in changed if name in self._simulation.scene.values]
+        if physical:
+            raise ClothSimError(
+                f'this version cannot change {", ".join(physical)} while running: '
+                'the change is left out')

@@ -1,0 +1,58 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Who is told of a run that is made again."""
+
+from cloth_sim_ros.sim.pin_move import PinMove
+from cloth_sim_ros.sim.push import Push
+
+
+class Listener:
+    """
+    Hears inputs as they are given, and frames, in the order of the recording.
+
+    The simulation is at the moment they belong to. To be derived from; does nothing by itself.
+    """
+
+    def begin(self) -> None:
+        """Hear that all is set that holds at the beginning."""
+
+    def push(self, push: Push) -> None:
+        """Hear of an accepted push."""
+
+    def pin(self, row: int, col: int, pinned: bool) -> None:
+        """Hear of a node that was pinned or released."""
+
+    def pin_target(self, move: PinMove) -> None:
+        """Hear of a pin that sets off."""
+
+    def mode(self, mode: str, previous: str) -> None:
+        """Hear of a switch of the mode."""
+
+    def command(self, command: str) -> None:
+        """Hear of a reset or a removal of all pushes that is about to be carried out."""
+
+    def frame(self, step_wall_time: float, real_time_factor: float) -> None:
+        """
+        Hear that the present moment is one of the recording's frames.
+
+        :param step_wall_time: of a step since the frame before [s]; 0 when there was none
+        :param real_time_factor: simulated time per wall time in these steps
+        """
+
+    def stop(self) -> None:
+        """Hear that the run has stopped, at its last finite state."""
+
+    def close(self) -> None:
+        """Hear that there is no more to come."""

@@ -1,0 +1,113 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""A recording as a run: what it begins with, and what followed."""
+
+from collections.abc import Iterator
+from itertools import chain
+from itertools import islice
+from typing import Any
+
+from cloth_sim_ros.analysis.recording import Entry
+from cloth_sim_ros.analysis.recording import Recording
+from cloth_sim_ros.resimulation.recorded_scene import RecordedScene
+from cloth_sim_ros.sim.errors import ClothSimError
+
+_PARAMETERS = 'inputs/parameters'
+_INPUTS = (
+    _PARAMETERS, 'inputs/mode', 'inputs/pin', 'inputs/pin_target', 'inputs/push',
+    'inputs/command')
+_SHOWN = ('points', 'stats', 'state')
+
+
+class RecordedRun:
+    """
+    Reads the beginning of a recording; the rest when it is asked for, one message at a time.
+
+    The simulator begins each recording with inputs that stand for all that went before: the
+    parameters, the mode, changed pins, pins under way, and pushes that act or will act.
+
+    ``path``, ``name`` and ``node`` are the recording's, ``scene`` has the parameters and the mode,
+    ``begin`` is the stamp of the beginning, ``opening`` has the inputs there, ``device`` is the
+    GL_RENDERER or empty.
+
+    :raises ClothSimError: when it can't be run again, because it does not begin so
+    """
+
+    def __init__(self, recording: Recording) -> None:
+        """Read up to what was shown first."""
+        self.path, self.name, self.node = recording.path, recording.name, recording.node
+        entries = recording.entries(*_INPUTS, *_SHOWN)
+        inputs: list[Entry] = []
+        shown: list[Entry] = []
+        for entry in entries:
+            if entry.key in _SHOWN:
+                shown.append(entry)
+                break
+            inputs.append(entry)
+        if not inputs and not shown:
+            raise recording.no_frame()
+        parameters = [
+            entry.message for entry in inputs
+            if entry.key == _PARAMETERS and entry.message.new_parameters]
+        if len(parameters) != 1:
+            raise _no_beginning(recording)
+        modes = [entry.message.mode for entry in inputs if entry.key == 'inputs/mode']
+        self.scene = RecordedScene.from_parameters(
+            parameters[0].new_parameters, modes[-1] if modes else '')
+        self.begin: Any = parameters[0].stamp
+        self.opening = tuple(inputs)
+        self._early = _up_to_the_first_cloud(shown, entries, self.begin)
+        self._rest = entries
+        states = [entry.message for entry in self._early if entry.key == 'state']
+        self.device: str = states[0].device if states else ''
+
+    @property
+    def first_cloud(self) -> Any:
+        """Get the decoded cloud of the beginning; None when it was not recorded."""
+        return next((
+            entry.message for entry in self._early
+            if entry.key == 'points' and _is_at(entry, self.begin)), None)
+
+    def entries(self) -> Iterator[Entry]:
+        """Yield what came after the opening, once."""
+        return chain(self._early, self._rest)
+
+
+def stamp_of(message: Any) -> Any:
+    """Return the simulated time that a decoded message carries."""
+    return message.header.stamp if hasattr(message, 'header') else message.stamp
+
+
+def _up_to_the_first_cloud(
+        shown: list[Entry], entries: Iterator[Entry], begin: Any) -> list[Entry]:
+    """Return ``shown`` and what follows it, up to the cloud of ``begin`` where there is one."""
+    early = list(shown)
+    for last in early:
+        # Grows while it is read: each entry asks for the one behind it.
+        if last.key != 'points' and _is_at(last, begin):
+            early.extend(islice(entries, 1))
+    return early
+
+
+def _is_at(entry: Entry, moment: Any) -> bool:
+    stamp = stamp_of(entry.message)
+    return (stamp.sec, stamp.nanosec) == (moment.sec, moment.nanosec)
+
+
+def _no_beginning(recording: Recording) -> ClothSimError:
+    return ClothSimError(
+        f'{recording.path} does not begin with the parameters of its run, without which it '
+        'cannot be made again: record with recording.enabled, `cloth_sim record start` or '
+        '`cloth_sim run --record`, which write them; `ros2 bag record` cannot')

@@ -1,0 +1,195 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Make a recorded run again."""
+
+from collections.abc import Iterator
+from collections.abc import Mapping
+import time
+from typing import Any
+
+from cloth_sim_ros.analysis.frame import Frame
+from cloth_sim_ros.analysis.recording import Entry
+from cloth_sim_ros.resimulation.frame_check import FrameCheck
+from cloth_sim_ros.resimulation.input_replay import InputReplay
+from cloth_sim_ros.resimulation.listener import Listener
+from cloth_sim_ros.resimulation.recorded_run import RecordedRun
+from cloth_sim_ros.resimulation.recorded_run import stamp_of
+from cloth_sim_ros.resimulation.run_start import RunStart
+from cloth_sim_ros.resimulation.run_start import WITHOUT_MEMORY
+from cloth_sim_ros.resimulation.step_clock import StepClock
+from cloth_sim_ros.sim.errors import ClothSimError
+from cloth_sim_ros.sim.errors import NonFiniteStateError
+from cloth_sim_ros.sim.simulation import Simulation
+
+_STOPPED = 'stopped'
+
+
+class Rerun:
+    """
+    A simulation that gets the inputs of a recording at their simulated times.
+
+    It makes as many steps of dt between them as the recorded run did, and is compared with it at
+    each recorded frame.
+
+    ``changed`` names the parameters that are not as recorded, ``check`` tells of the frames,
+    ``inputs`` counts what was done to the cloth, ``problem`` says why the run has stopped and is
+    empty when it has not.
+
+    :param changes: parameters of the scene in place of the recorded ones, by name; a mode holds
+        for the whole run
+    :raises ClothSimError: when it can't be made
+    :raises DeviceError: when there is no GL device for it
+    """
+
+    def __init__(self, run: RecordedRun, changes: Mapping[str, Any] | None = None) -> None:
+        """Make the simulation, at the moment at which the recording begins."""
+        changes = dict(changes or {})
+        scene = run.scene.scene(changes)
+        recorded = run.scene.as_recorded(changes)
+        self._run = run
+        self._keep_mode = 'mode' in changes
+        self.changed = run.scene.changed(scene)
+        self._clock = StepClock(recorded['dt'], scene['dt'])
+        self.simulation = Simulation(scene)
+        self.start = RunStart(run, recorded, self.simulation)
+        self.start.take_up(self._clock.steps(run.begin))
+        self.check = FrameCheck()
+        self.problem = ''
+        self._replay = InputReplay(self.simulation, Listener(), keep_mode=self._keep_mode)
+        self._unknown_after_stop: tuple[str, ...] = ()
+        self._is_at_stop = False
+        self._shown: tuple[int, int] | None = None
+        self._first = (0, self.simulation.steps)
+        self._worked = 0.0
+        self._has_cloud = False
+
+    @property
+    def refused(self) -> list[str]:
+        """Get the recorded inputs that could not be given, and why."""
+        return self.start.refused + self._replay.refused
+
+    @property
+    def inputs(self) -> int:
+        """Get the number of inputs given after the beginning."""
+        return self._replay.inputs
+
+    @property
+    def left_out_modes(self) -> int:
+        """Get the number of recorded switches of the mode that were not made."""
+        return self._replay.left_out_modes
+
+    @property
+    def unknown(self) -> tuple[str, ...]:
+        """Get what the recording does not tell, and the bits depend on."""
+        return self.start.unknown + self._unknown_after_stop
+
+    @property
+    def has_recorded_stop(self) -> bool:
+        """Tell whether the recording ends stopped."""
+        return self._is_at_stop
+
+    def make(self, listener: Listener) -> Iterator[float]:
+        """
+        Run; yield the time of each recorded frame [s], going on over resets.
+
+        :raises ClothSimError: when the recording is not in the order of time
+        """
+        self._replay = InputReplay(self.simulation, listener, keep_mode=self._keep_mode)
+        listener.begin()
+        try:
+            for entry in self._run.entries():
+                if entry.key == 'state':
+                    self._see_state(entry)
+                    continue
+                self._advance_to(entry)
+                if entry.key in ('points', 'stats'):
+                    if self._show(entry, listener):
+                        yield entry.time
+                else:
+                    self._replay.take(entry.key, entry.message)
+            self._try_the_stop()
+        except NonFiniteStateError as error:
+            self.problem = str(error)
+            if self._now() != self._shown:
+                self._tell(listener)
+            listener.stop()
+
+    def close(self) -> None:
+        """Give everything on the device back."""
+        self.simulation.close()
+
+    def _advance_to(self, entry: Entry) -> None:
+        self._is_at_stop = False
+        due = self._clock.steps(stamp_of(entry.message)) - self.simulation.steps
+        if due < 0:
+            raise ClothSimError(
+                f'{self._run.path} has a message on ~/{entry.key} of '
+                f'{self._clock.recorded_time(stamp_of(entry.message)):.6g} s after one of '
+                f'{self.simulation.time:.6g} s, without a reset: re-simulate the recording as it '
+                'was written, not one in another order')
+        begin = time.perf_counter()
+        try:
+            # It ends with a look at the state, so the device has done its work by then.
+            self.simulation.step(due)
+        finally:
+            self._worked += time.perf_counter() - begin
+
+    def _show(self, entry: Entry, listener: Listener) -> bool:
+        """Compare and tell of a frame; return whether it is a new one."""
+        if entry.key == 'stats' and self._has_cloud:
+            # It belongs to the cloud before it.
+            self._has_cloud = False
+            return False
+        self._has_cloud = entry.key == 'points'
+        if self._has_cloud:
+            self._compare(entry)
+        # With a longer dt, several recorded frames may lie within a step.
+        if 'dt' not in self.changed or self._now() != self._shown:
+            self._tell(listener)
+        return True
+
+    def _tell(self, listener: Listener) -> None:
+        resets, steps = self._now()
+        before = self._shown or self._first
+        made = steps - before[1] if resets == before[0] else steps
+        if made and self._worked:
+            listener.frame(
+                self._worked / made, made * self.simulation.dt / self._worked)
+        else:
+            listener.frame(0.0, 0.0)
+        self._shown, self._worked = self._now(), 0.0
+
+    def _compare(self, entry: Entry) -> None:
+        recorded = Frame.from_points(entry.time, entry.message).records
+        scene = self.simulation.scene
+        if recorded.shape != (scene.rows, scene.cols):
+            self.check.other_grids += 1
+            return
+        self.check.compare(entry.time, recorded, self.simulation.snapshot().records)
+
+    def _see_state(self, entry: Entry) -> None:
+        self._is_at_stop = entry.message.run_state == _STOPPED
+        mode = self.simulation.mode
+        if self._is_at_stop and mode not in WITHOUT_MEMORY:
+            self._unknown_after_stop = (
+                f'with which step mode {mode} began anew as the run stopped',)
+
+    def _try_the_stop(self) -> None:
+        """Where the recorded run could not go on, try to."""
+        if self._is_at_stop and not self.changed:
+            self.simulation.step()
+
+    def _now(self) -> tuple[int, int]:
+        return (self._replay.resets, self.simulation.steps)

@@ -1,0 +1,138 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Bring a simulation to where a recording begins."""
+
+from cloth_sim_ros.analysis.frame import Frame
+from cloth_sim_ros.analysis.recording import Entry
+from cloth_sim_ros.resimulation.input_replay import InputReplay
+from cloth_sim_ros.resimulation.listener import Listener
+from cloth_sim_ros.resimulation.recorded_push import recorded_push
+from cloth_sim_ros.resimulation.recorded_run import RecordedRun
+from cloth_sim_ros.sim.errors import ClothSimError
+from cloth_sim_ros.sim.push import Push
+from cloth_sim_ros.sim.scene import Scene
+from cloth_sim_ros.sim.simulation import Simulation
+import numpy as np
+
+WITHOUT_MEMORY = ('mass_spring',)
+_VELOCITY = ('vx', 'vy', 'vz')
+
+
+class RunStart:
+    """
+    The beginning of a recording: that of its run, or a moment in the middle of it.
+
+    ``unknown`` tells what the recording lacks of the time before, which leaves the bits open;
+    ``refused`` which of the recorded inputs can't be given in this run.
+
+    :param recorded: the scene as it was recorded
+    :param simulation: of the same scene, or of a changed one
+    """
+
+    def __init__(self, run: RecordedRun, recorded: Scene, simulation: Simulation) -> None:
+        """Sort out what was recorded."""
+        self._run = run
+        self._simulation = simulation
+        # A recording writes by itself what holds at its beginning.
+        self._replay = InputReplay(simulation, Listener(), keep_mode=True)
+        self._push_entries = self._opening('inputs/push')
+        self._pushes = tuple(recorded_push(entry.message) for entry in self._push_entries)
+        self._recorded_own = recorded.timed_pushes()
+        self.unknown: tuple[str, ...] = ()
+
+    @property
+    def refused(self) -> list[str]:
+        """Get the inputs that can't be given in this run."""
+        return self._replay.refused
+
+    def take_up(self, steps: int) -> None:
+        """
+        Set everything that holds after ``steps`` steps of dt.
+
+        :raises ClothSimError: when the recording does not hold the state in the middle of a run
+        """
+        if steps:
+            self._go_on(steps)
+        else:
+            self._begin()
+
+    def _begin(self) -> None:
+        for entry in (*self._opening('inputs/pin'), *self._opening('inputs/pin_target')):
+            self._replay.take(entry.key, entry.message)
+        # The simulation has those of its scene, which are first unless all were removed.
+        own = len(self._recorded_own)
+        if self._pushes[:own] != self._recorded_own:
+            own = 0
+            self._simulation.clear_pushes()
+        for entry in self._push_entries[own:]:
+            self._replay.take(entry.key, entry.message)
+
+    def _go_on(self, steps: int) -> None:
+        simulation = self._simulation
+        now = steps * simulation.dt
+        records = self._records(now)
+        simulation.go_on_from(
+            steps, _vectors(records, 'xyz'), _vectors(records, _VELOCITY),
+            pinned=self._pinned(), pushes=self._pushes_at(now))
+        for entry in self._opening('inputs/pin_target'):
+            self._replay.take(entry.key, entry.message)
+        unknown = []
+        if simulation.mode not in WITHOUT_MEMORY:
+            unknown.append(f'what mode {simulation.mode} kept from earlier steps')
+        if self._opening('inputs/pin_target'):
+            unknown.append('where the pins under way set off')
+        if any(push.region == 'sphere' and push.start < now for push in self._pushes):
+            unknown.append('which nodes a push under way took as it began')
+        self.unknown = tuple(unknown)
+
+    def _records(self, now: float) -> np.ndarray:
+        cloud = self._run.first_cloud
+        if cloud is None:
+            raise ClothSimError(
+                f'the recording begins in the middle of a run, at {now:.6g} s, without ~/points '
+                'of that moment: record with publish.points: true, or from the start')
+        records = Frame.from_points(now, cloud).records
+        rows, cols = self._simulation.scene.rows, self._simulation.scene.cols
+        if records.shape != (rows, cols):
+            raise ClothSimError(
+                f'the recording begins in the middle of a run, at {now:.6g} s, with '
+                f'{records.shape[0]} x {records.shape[1]} nodes, from which {rows} x {cols} '
+                'cannot go on: leave rows and cols as they are, or record from the start')
+        missing = [name for name in _VELOCITY if name not in records.dtype.names]
+        if missing:
+            raise ClothSimError(
+                f'the recording begins in the middle of a run, at {now:.6g} s, and its points '
+                f'have no field {missing[0]}: record from the start')
+        return records
+
+    def _pinned(self) -> np.ndarray:
+        pinned = self._simulation.scene.pinned_nodes()
+        for entry in self._opening('inputs/pin'):
+            pinned[entry.message.row, entry.message.col] = entry.message.pinned
+        return pinned
+
+    def _pushes_at(self, now: float) -> list[Push]:
+        own = self._simulation.scene.timed_pushes()
+        if own == self._recorded_own:
+            return list(self._pushes)
+        others = [push for push in self._pushes if push not in self._recorded_own]
+        return [push for push in own if push.end > now] + others
+
+    def _opening(self, key: str) -> list[Entry]:
+        return [entry for entry in self._run.opening if entry.key == key]
+
+
+def _vectors(records: np.ndarray, names: tuple[str, ...] | str) -> np.ndarray:
+    return np.stack([records[name] for name in names], axis=-1)

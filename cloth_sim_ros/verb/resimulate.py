@@ -1,0 +1,131 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+r"""
+Run a recorded simulation again, from the recording alone.
+
+Scene and inputs (pushes, pins, their targets, switches of the mode, resets) are those that were
+recorded, at their simulated times. As recorded, on the same device, the run has the same bits, and
+the exit code is 1 when it has not. With --set another scene gets the same inputs; a mode given so
+holds for the whole run. Without --out and --compare no ROS is needed.
+
+For example:
+  cloth_sim resimulate bags/my_run
+  cloth_sim resimulate bags/my_run --set mode=constraint --out bags --compare
+"""
+
+from argparse import ArgumentParser
+from argparse import Namespace
+from contextlib import AbstractContextManager
+from contextlib import nullcontext
+from tempfile import TemporaryDirectory
+from typing import Any
+
+from cloth_sim_ros.node.node_fields import NODE_FIELDS
+from cloth_sim_ros.recording.project_version import project_version
+from cloth_sim_ros.resimulation.listener import Listener
+from cloth_sim_ros.resimulation.recorded_run import RecordedRun
+from cloth_sim_ros.resimulation.recorded_version import recorded_version
+from cloth_sim_ros.resimulation.rerun import Rerun
+from cloth_sim_ros.resimulation.verdict import Verdict
+from cloth_sim_ros.resimulation.verdict import version_lines
+from cloth_sim_ros.sim.errors import ClothSimError
+from cloth_sim_ros.sim.scene import refuse_unknown
+from cloth_sim_ros.sim.scene_fields import SCENE_FIELDS
+from cloth_sim_ros.verb import analyze
+from cloth_sim_ros.verb.fresh_name import fresh_name
+from cloth_sim_ros.verb.recording_arguments import add_recording_arguments
+from cloth_sim_ros.verb.recording_arguments import open_recording
+from cloth_sim_ros.verb.scene_arguments import parse_change
+from tqdm import tqdm
+
+_BAR = '{percentage:3.0f}% |{bar}| {n}/{total} frames{postfix}'
+
+
+def add_arguments(parser: ArgumentParser) -> None:
+    """Add the arguments of this verb."""
+    add_recording_arguments(parser)
+    parser.add_argument('--set', action='append', default=[], metavar='name=value', dest='changes',
+                        help='change a parameter of the scene; can be given several times')
+    parser.add_argument('--out', metavar='DIR', help='record the new run into this folder')
+    parser.add_argument('--compare', action='store_true',
+                        help='compare both runs as `cloth_sim analyze` does; with --out, its '
+                             'files go there, too')
+
+
+def main(args: Namespace) -> int:
+    """Run again, and tell how that compares."""
+    changes = dict(parse_change(change) for change in args.changes)
+    _check_names(changes)
+    recording = open_recording(args)
+    with _folder(args) as folder:
+        run = RecordedRun(recording)
+        rerun = Rerun(run, changes)
+        listener = _listener(run, rerun, folder)
+        try:
+            _make(rerun, listener, recording.count('points') or recording.count('stats'))
+        finally:
+            listener.close()
+        verdict = Verdict(
+            rerun, run.device, (recorded_version(recording.path), project_version()))
+        lines = verdict.lines() + recording.problems + version_lines(
+            run.scene.missing, run.scene.unknown(NODE_FIELDS), frozenset(changes))
+        print('\n'.join(lines))
+        rerun.close()
+        if args.out:
+            print(f'recorded into {listener.path}')
+        if args.compare:
+            _compare(run, listener.path, f'{listener.path}_compared' if args.out else None)
+    return int(verdict.is_failure)
+
+
+def _folder(args: Namespace) -> AbstractContextManager[str | None]:
+    """Return where the new run is recorded: nowhere when nobody wants to read it."""
+    if args.compare and not args.out:
+        return TemporaryDirectory()
+    return nullcontext(args.out)
+
+
+def _compare(run: RecordedRun, new: str, out: str | None) -> None:
+    try:
+        analyze.main(Namespace(recordings=[str(run.path), new], node=run.node, out=out))
+    except ClothSimError as error:
+        print(error)
+
+
+def _check_names(changes: dict[str, Any]) -> None:
+    node_names = [field.name for field in NODE_FIELDS]
+    for name in changes:
+        if name in node_names:
+            raise ClothSimError(
+                f'{name} is no parameter of the scene: frames and inputs come from the '
+                'recording, and only the scene can be changed')
+    refuse_unknown(changes, SCENE_FIELDS)
+
+
+def _listener(run: RecordedRun, rerun: Rerun, folder: str | None) -> Listener:
+    if folder is None:
+        return Listener()
+    # The ROS packages are needed for a recording alone.
+    from cloth_sim_ros.verb.resimulated_recording import ResimulatedRecording
+    values = {field.name: run.scene.other(field) for field in NODE_FIELDS}
+    values['recording.name'] = fresh_name(folder, f'{run.name}_again')
+    return ResimulatedRecording(rerun.simulation, values, folder, run.node)
+
+
+def _make(rerun: Rerun, listener: Listener, frames: int) -> None:
+    with tqdm(total=frames, bar_format=_BAR, mininterval=0.2) as bar:
+        for time in rerun.make(listener):
+            bar.set_postfix_str(f'{time:.2f} s', refresh=False)
+            bar.update(min(1, bar.total - bar.n))

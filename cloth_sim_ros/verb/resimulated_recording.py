@@ -1,0 +1,95 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""The recording of a run that is made again."""
+
+from typing import Any
+
+from cloth_sim_interfaces.msg import Command
+from cloth_sim_ros.node.inputs import Inputs
+from cloth_sim_ros.resimulation.listener import Listener
+from cloth_sim_ros.sim.pin_move import PinMove
+from cloth_sim_ros.sim.push import Push
+from cloth_sim_ros.sim.simulation import Simulation
+from cloth_sim_ros.verb.batch_recording import BatchRecording
+
+
+class ResimulatedRecording(Listener):
+    """
+    Records inputs and frames as they are heard of, so that this run can be made again, too.
+
+    ``recording`` is None before it begins, and ``path``, its folder, empty.
+
+    :param node_values: the node's parameters by name
+    :param directory: folder that the recording's own folder is made in
+    :param node_name: of the recorded node, with its namespace
+    """
+
+    def __init__(
+            self, simulation: Simulation, node_values: dict[str, Any], directory: str,
+            node_name: str) -> None:
+        """Keep the parts; nothing is written yet."""
+        self._simulation = simulation
+        self._arguments = (simulation, node_values, directory)
+        self._node_name = node_name
+        self._frame_id = node_values['frame_id']
+        self.recording: BatchRecording | None = None
+        self._is_written = False
+        self.path = ''
+
+    def begin(self) -> None:
+        """Open the recording and write what it begins with, and its first frame."""
+        self.recording = BatchRecording(
+            *self._arguments, node_name=self._node_name, verb='resimulate')
+        self._is_written = True
+        self.path = self.recording.path
+        self._inputs = Inputs(
+            self.recording, self._simulation, self._frame_id, self._node_name)
+
+    def push(self, push: Push) -> None:
+        """Write a push."""
+        self._inputs.push(push)
+
+    def pin(self, row: int, col: int, pinned: bool) -> None:
+        """Write that a node was pinned or released."""
+        self._inputs.pin(row, col, pinned)
+
+    def pin_target(self, move: PinMove) -> None:
+        """Write that a pin sets off."""
+        self._inputs.pin_target(move)
+
+    def mode(self, mode: str, previous: str) -> None:
+        """Write a switch of the mode."""
+        self._inputs.mode(mode, previous)
+
+    def command(self, command: str) -> None:
+        """Write a command."""
+        self._inputs.command(command)
+        if command == Command.RESET:
+            self.recording.rewind()
+
+    def frame(self, step_wall_time: float, real_time_factor: float) -> None:
+        """Write the present moment, unless it is the beginning, which is written already."""
+        is_written, self._is_written = self._is_written, False
+        if not is_written or step_wall_time:
+            self.recording.write(step_wall_time, real_time_factor)
+
+    def stop(self) -> None:
+        """Write that the run has stopped."""
+        self.recording.write_stop()
+
+    def close(self) -> None:
+        """Finish the recording."""
+        if self.recording is not None:
+            self.recording.close()

@@ -1,0 +1,53 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Parameters as bytes."""
+
+from cloth_sim_ros.messages.inputs import parameters_message
+from cloth_sim_ros.messages.parameter_event import serialise_parameter_event
+from cloth_sim_ros.node.parameters import FIELDS
+from rcl_interfaces.msg import Parameter
+from rcl_interfaces.msg import ParameterEvent
+from rcl_interfaces.msg import ParameterValue
+from rclpy.serialization import deserialize_message
+from rosbags.typesys import get_typestore
+from rosbags.typesys import Stores
+
+EVERYTHING = ParameterEvent(
+    node='/a/node', deleted_parameters=[Parameter(name='gone')],
+    changed_parameters=[Parameter(name='all', value=ParameterValue(
+        type=9, bool_value=True, integer_value=-2**40, double_value=0.1, string_value='väl',
+        byte_array_value=[b'\x07', b'\xff'], bool_array_value=[True, False, True],
+        integer_array_value=[1, -5], double_array_value=[1e-300, 2.5],
+        string_array_value=['', 'two words']))])
+
+
+def all_of_a_node():
+    """Return all parameters with their defaults."""
+    return parameters_message({field.name: field.default for field in FIELDS}, FIELDS, 1.5, 'n')
+
+
+def test_reads_as_it_was():
+    """ROS would get other parameters."""
+    for event in (EVERYTHING, ParameterEvent(), all_of_a_node()):
+        assert deserialize_message(serialise_parameter_event(event), ParameterEvent) == event
+
+
+def test_has_no_byte_too_many():
+    """Strict readers of recordings would refuse the parameters."""
+    store = get_typestore(Stores.ROS2_JAZZY)
+    for event in (EVERYTHING, all_of_a_node()):
+        data = serialise_parameter_event(event)
+        decoded = store.deserialize_cdr(data, 'rcl_interfaces/msg/ParameterEvent')
+        assert bytes(store.serialize_cdr(decoded, decoded.__msgtype__)) == data

@@ -1,0 +1,94 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Runs that stop, as recorded or with other settings."""
+
+from cloth_sim_ros.resimulation.listener import Listener
+from cloth_sim_ros.sim.errors import NonFiniteStateError
+from cloth_sim_ros.sim.scene_fields import MODES
+from made_again import assert_same
+from made_again import Director
+from made_again import made_again
+import pytest
+
+
+class Stops(Listener):
+    """Counts the stops."""
+
+    def __init__(self) -> None:
+        """Begin without one."""
+        self.stops = 0
+
+    def stop(self) -> None:
+        """Count."""
+        self.stops += 1
+
+
+@pytest.mark.parametrize('mode', MODES)
+def test_a_run_that_stops_is_made_again_up_to_there(tmp_path, mode):
+    """A blow-up could not be looked into again, or come as a traceback."""
+    values = {'rows': 8, 'cols': 9, 'mode': mode}
+    with Director(tmp_path, values) as director:
+        director.step(10)
+        director.push((0.0, 0.0, 1e25), duration=0.01)
+        with pytest.raises(NonFiniteStateError) as lost:
+            director.step(1)
+        director.stop()
+    with made_again(director.path) as rerun:
+        assert rerun.has_recorded_stop
+        assert rerun.problem == str(lost.value)
+        assert rerun.check.equal == rerun.check.frames == 2
+
+
+def test_a_run_that_stops_goes_on_as_it_did(tmp_path):
+    """What was done after a stop would be lost."""
+    with Director(tmp_path, {'rows': 8, 'cols': 9}) as director:
+        director.step(10)
+        director.push((0.0, 0.0, 1e25), duration=0.01)
+        with pytest.raises(NonFiniteStateError):
+            director.step(1)
+        director.stop()
+        director.clear_pushes()
+        director.step(10)
+    assert_same(director.path, 3)
+
+
+def test_what_began_anew_at_a_stop_is_named(tmp_path):
+    """Bits would be promised that depend on the batches in which the node advanced."""
+    with Director(tmp_path, {'rows': 8, 'cols': 9, 'mode': 'adaptive'}) as director:
+        director.step(10)
+        director.push((0.0, 0.0, 1e25), duration=0.01)
+        with pytest.raises(NonFiniteStateError):
+            director.step(1)
+        director.stop()
+        director.clear_pushes()
+        director.step(10)
+    with made_again(director.path) as rerun:
+        assert rerun.unknown == ('with which step mode adaptive began anew as the run stopped',)
+        assert (rerun.problem, rerun.check.frames) == ('', 3)
+
+
+def test_a_new_blow_up_ends_the_run(tmp_path):
+    """A run with other settings that blows up would end as a traceback, or be called whole."""
+    with Director(tmp_path, {'rows': 8, 'cols': 9, 'node_mass': 1e6}) as director:
+        director.step(10)
+        director.push((0.0, 0.0, 1e20), duration=0.01)
+        director.step(10)
+    assert_same(director.path, 3)
+    listener = Stops()
+    with made_again(director.path, listener=listener, node_mass=1e-3) as rerun:
+        assert 'non-finite in the step from t = 0.05 s' in rerun.problem
+        assert not rerun.has_recorded_stop
+        assert rerun.check.frames == 2
+        assert listener.stops == 1

@@ -1,0 +1,226 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""`cloth_sim resimulate` as a user runs it, without a node."""
+
+from collections.abc import Callable
+import json
+from pathlib import Path
+
+from cloth_sim_interfaces.msg import ClothState
+from cloth_sim_ros.analysis.frames import read_frames
+from cloth_sim_ros.analysis.recording import Recording
+from cloth_sim_ros.messages.parameter_event import serialise_parameter_event
+from cloth_sim_ros.recording.project_version import project_version
+from cloth_sim_ros.recording.recorder import Recorder
+from cloth_sim_ros.verb.main import main
+from command import cloth_sim
+from made_again import Director
+import pytest
+from rcl_interfaces.msg import Parameter
+from rcl_interfaces.msg import ParameterEvent
+from rclpy.serialization import deserialize_message
+from rclpy.serialization import serialize_message
+
+SCENE = {'rows': 6, 'cols': 7}
+
+
+@pytest.fixture
+def bag(tmp_path) -> Path:
+    """Record a short run with a push and a switch of the mode."""
+    with Director(tmp_path, SCENE) as director:
+        director.step(4)
+        director.push((0.0, 0.0, 1.0), duration=0.1)
+        director.set_mode('adaptive')
+        director.step(6)
+    return director.path
+
+
+@pytest.fixture
+def again(capsys) -> Callable[..., tuple[int, list[str], str]]:
+    """Return a function that runs the verb and returns exit code, lines and errors."""
+    def run(*arguments: str | Path) -> tuple[int, list[str], str]:
+        capsys.readouterr()
+        code = main(['resimulate', *map(str, arguments)])
+        out, errors = capsys.readouterr()
+        return code, out.splitlines(), errors
+
+    return run
+
+
+def test_a_batch_run_is_made_again(tmp_path, again):
+    """A run without a node could not be made again, or not without ROS."""
+    scene = Path(__file__).parents[2] / 'config' / 'curtain.yaml'
+    assert main([
+        'run', str(scene), '--set', 'rows=12', '--set', 'pushes.start=[0.1, 0.22]', '--seconds',
+        '0.3', '--record', str(tmp_path), '--set', 'recording.name=batch']) == 0
+    assert again(tmp_path / 'batch')[:2] == (0, ['16 of 16 frames equal to the bit'])
+    blocked = (
+        'import sys\n'
+        'for name in ("rclpy", "cloth_sim_interfaces", "sensor_msgs"): sys.modules[name] = None')
+    done = cloth_sim('resimulate', str(tmp_path / 'batch'), before=blocked)
+    assert (done.returncode, done.stdout) == (0, '16 of 16 frames equal to the bit\n'), done.stderr
+
+
+def test_other_settings_are_said_and_recorded(bag, again, tmp_path):
+    """A user would take another experiment for the recorded one, or not find the new run."""
+    code, lines, _ = again(bag, '--set', 'mode=constraint', '--out', tmp_path / 'new')
+    assert code == 0
+    assert lines[0] == '1 of 3 frames equal to the bit'
+    assert lines[1].startswith('first difference: frame 2 (t = 0.02 s), node (')
+    assert 'bits may differ: mode set to other values' in lines
+    assert lines[-2].startswith('left out: 1 recorded switches of the mode, because --set mode')
+    new = tmp_path / 'new' / f'{bag.name}_again'
+    assert lines[-1] == f'recorded into {new}'
+    assert [frame.time for frame in read_frames(Recording(new))] == [0.0, 0.02, 0.05]
+    code, lines, _ = again(bag, '--out', tmp_path / 'new')
+    assert lines[-1] == f'recorded into {new}_1'
+
+
+def test_a_run_that_does_not_come_out_again_is_a_failure(tmp_path, again):
+    """A script would not notice that a run no longer has its bits."""
+    with Director(tmp_path, SCENE) as director:
+        director.step(4)
+        now = director.simulation.snapshot()
+        positions = now.positions.copy()
+        positions[2, 3, 1] += 1.0
+        director.simulation.set_state(positions, now.velocities)  # which no recording tells
+        director.step(0)
+    code, lines, _ = again(director.path)
+    assert code == 1
+    assert lines[0] == '2 of 3 frames equal to the bit'
+    assert lines[1].startswith('first difference: frame 3 (t = 0.02 s), node (2, 3), 1 m apart; y')
+    assert lines[-1].startswith('this run should have the same bits')
+
+
+def test_both_runs_are_compared(bag, again, tmp_path):
+    """A user would have to look for the new recording to compare it."""
+    changes = ['--set', 'mode=constraint']
+    code, lines, _ = again(bag, *changes, '--compare', '--out', tmp_path / 'new')
+    assert code == 0
+    assert any(line.startswith('compared ') for line in lines)
+    compared = tmp_path / 'new' / f'{bag.name}_again_compared'
+    assert (compared / 'comparison.json').is_file()
+    first, = json.loads((compared / 'comparison.json').read_text())
+    assert isinstance(first, dict)
+    before = set(tmp_path.rglob('*'))
+    code, lines, _ = again(bag, *changes, '--compare')
+    assert code == 0 and any(line.startswith('node distance') for line in lines)
+    assert set(tmp_path.rglob('*')) == before
+
+
+def test_clouds_of_other_sizes_are_compared_by_their_figures(bag, again):
+    """A comparison of two resolutions would end as an error, or compare other nodes."""
+    code, lines, _ = again(bag, '--set', 'rows=9', '--compare')
+    assert code == 0
+    assert lines[0].startswith('3 frames have other nodes than the 9 x 7 of this run')
+    assert sum('max strain' in line for line in lines) == 2
+    assert 'cannot be compared node by node' in lines[-1]
+
+
+def test_another_version_is_named(bag, again):
+    """A user would look for a mistake where the simulator has changed."""
+    metadata = bag / 'metadata.yaml'
+    text = metadata.read_text()
+    named = f'cloth_sim_ros: {project_version()}'
+    assert named in text
+    metadata.write_text(text.replace(named, 'cloth_sim_ros: 9.9.9'))
+    code, lines, _ = again(bag, '--set', 'gravity=[0.0, 0.0, -1.0]')
+    assert code == 0
+    named = (
+        'bits may differ: recorded by version 9.9.9 of cloth_sim_ros, this is version '
+        f'{project_version()}')
+    assert named in lines
+    assert again(bag)[1] == ['3 of 3 frames equal to the bit', named]
+
+
+def rewritten(bag: Path, change: Callable[[str, bytes], bytes | None]) -> Path:
+    """Return a copy of a recording whose messages went through ``change``."""
+    recorder = Recorder(bag.parent, 'rewritten', 'cloth_sim')
+    for raw in Recording(bag).raw_messages():
+        key = raw.topic.removeprefix('/cloth_sim/')
+        data = change(key, bytes(raw.data))
+        if data is not None:
+            recorder.write(key, data, raw.time * 1e-9)
+    recorder.close()
+    return recorder.path
+
+
+def test_what_another_version_lacks_is_named(bag, again):
+    """A user would not learn that the run rests on defaults, or lacks what nobody knows here."""
+    def change(key, data):
+        if key != 'inputs/parameters':
+            return data
+        event = deserialize_message(data, ParameterEvent)
+        event.new_parameters = [
+            parameter for parameter in event.new_parameters
+            if parameter.name != 'adaptive.sweeps'] + [Parameter(name='air.drag')]
+        return serialise_parameter_event(event)
+
+    path = rewritten(bag, change)
+    code, lines, _ = again(path)
+    assert (code, lines) == (0, [
+        '3 of 3 frames equal to the bit',
+        'not recorded, so the default is taken: adaptive.sweeps 3',
+        'recorded, but unknown here and left out: air.drag'])
+    assert 'not recorded' not in ''.join(again(path, '--set', 'adaptive.sweeps=3')[1])
+
+
+def test_another_device_is_named(bag, again):
+    """Bits would be expected from a device that rounds otherwise."""
+    def change(key, data):
+        if key != 'state':
+            return data
+        state = deserialize_message(data, ClothState)
+        state.device = 'GPU of somebody'
+        return serialize_message(state)
+
+    lines = again(rewritten(bag, change))[1]
+    assert lines[1].startswith('bits may differ: recorded on GPU of somebody, this is')
+
+
+def test_a_recording_without_points_is_made_again(bag, again, tmp_path):
+    """What was recorded without points would be lost."""
+    path = rewritten(bag, lambda key, data: None if key == 'points' else data)
+    code, lines, _ = again(path, '--out', tmp_path / 'new')
+    assert code == 0
+    assert lines[0] == 'no frame was recorded, so there is nothing to compare with'
+    new = Recording(tmp_path / 'new' / 'rewritten_again')
+    assert [frame.time for frame in read_frames(new)] == [0.0, 0.02, 0.05]
+
+
+@pytest.mark.parametrize(('arguments', 'message'), [
+    (['--set', 'rwos=3'], 'there is no parameter rwos: did you mean rows?'),
+    (['--set', 'dt=0.0'], 'dt 0.0 is outside its range'),
+    (['--set', 'publish.rate=10.0'], 'publish.rate is no parameter of the scene'),
+    (['--node', 'other'], 'holds no frame of the node /other'),
+    (['--out', '/proc/nothing'], '/proc/nothing'),
+    (['--set', 'rows=9000'], 'rows 9000 is outside its range'),
+])
+def test_what_is_wrong_is_said_in_one_line(bag, again, arguments, message):
+    """The user would get a traceback."""
+    code, _, errors = again(bag, *arguments)
+    assert code == 1
+    assert message in errors.splitlines()[-1]
+
+
+@pytest.mark.parametrize('content', [b'', b'no bag', bytes(range(256)) * 9])
+def test_what_is_no_recording_is_refused(tmp_path, again, content):
+    """A foreign file would end as a traceback."""
+    file = tmp_path / 'foreign_0.mcap'
+    file.write_bytes(content)
+    code, lines, errors = again(file)
+    assert (code, lines) == (1, [])
+    assert 'foreign_0.mcap' in errors
+    assert again(tmp_path / 'nowhere')[0] == 1
