@@ -29,11 +29,13 @@ ROOMS = {
     'reference': {'sim'},
     'messages': {'sim'},
     'recording': {'messages', 'sim'},
+    'playback': {'recording', 'messages', 'sim'},
     'node': {'recording', 'messages', 'sim', 'gl'},
     'study': {'recording', 'messages', 'sim', 'gl', 'reference'},
     'analysis': {'recording', 'messages', 'sim', 'gl'},
     'verb': {
-        'node', 'study', 'analysis', 'recording', 'messages', 'reference', 'sim', 'gl'},
+        'node', 'study', 'analysis', 'recording', 'messages', 'reference', 'sim', 'gl',
+        'playback'},
 }
 
 # These rooms must run where there is no ROS; they may import no more than this beside Python.

@@ -42,6 +42,7 @@ VERBS = {
     'record': 'start or stop a recording of a running node',
     'status': 'show what a running node is doing',
     'info': 'tell what a recording holds',
+    'play': 'publish a recording again',
     'picture': 'draw the cloth of a recording into a PNG file',
 }
 INTERRUPTED = 130
