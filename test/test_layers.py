@@ -29,13 +29,14 @@ ROOMS = {
     'reference': {'sim'},
     'messages': {'sim'},
     'recording': {'messages', 'sim'},
+    'playback': {'recording', 'messages', 'sim'},
     'node': {'recording', 'messages', 'sim', 'gl'},
     'study': {'recording', 'messages', 'sim', 'gl', 'reference'},
     'analysis': {'recording', 'messages', 'sim', 'gl'},
     'resimulation': {'analysis', 'recording', 'sim'},
     'verb': {
         'node', 'study', 'resimulation', 'analysis', 'recording', 'messages', 'reference', 'sim',
-        'gl'},
+        'gl', 'playback'},
 }
 
 # These rooms must run where there is no ROS; they may import no more than this beside Python.

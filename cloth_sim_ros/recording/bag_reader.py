@@ -67,10 +67,25 @@ class BagReader:
                     known, count=known.count + topic.count, qos=known.qos or topic.qos)
         return list(merged.values())
 
-    def messages(self, names: Collection[str] | None = None) -> Iterator[RawMessage]:
-        """Yield the messages of the topics ``names``, or of all, from first to last."""
+    @cached_property
+    def span(self) -> tuple[int, int]:
+        """Get the times of the first and the last message [ns]; ClothSimError without one."""
+        spans = [storage.span for storage in self._storages if storage.span is not None]
+        if not spans:
+            raise ClothSimError(f'{self.path} holds no message: give another recording')
+        return min(begin for begin, _ in spans), max(end for _, end in spans)
+
+    def messages(
+            self, names: Collection[str] | None = None, *, begin: int | None = None,
+            end: int | None = None) -> Iterator[RawMessage]:
+        """
+        Yield the messages of the topics ``names``, or of all, from first to last.
+
+        :param begin: time of the first one [ns]; None for the first of all
+        :param end: time before which the last one was recorded [ns]; None for the last of all
+        """
         for storage in self._storages:
-            yield from storage.messages(names)
+            yield from storage.messages(names, begin, end)
 
     def decode(self, message: RawMessage) -> Any:
         """Return the decoded message; ClothSimError when it can't be."""

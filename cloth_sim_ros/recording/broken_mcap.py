@@ -19,6 +19,7 @@ from collections import Counter
 from collections.abc import Collection
 from collections.abc import Iterator
 from functools import cached_property
+import math
 from pathlib import Path
 
 from cloth_sim_ros.recording.bag_topic import BagTopic
@@ -91,14 +92,36 @@ class BrokenMcap:
         counts += unpack()
         return channels.topics(counts)
 
-    def messages(self, names: Collection[str] | None) -> Iterator[RawMessage]:
-        """Yield the messages of the topics ``names``, or of all, as they stand in the file."""
+    @cached_property
+    def span(self) -> tuple[int, int] | None:
+        """Get the times of the first and the last message [ns]; None without one."""
+        times: list[int] = []
+        for record in self._records():
+            if isinstance(record, Chunk):
+                # Without a message a chunk has times too, of 0.
+                if record.message_end_time or any(
+                        isinstance(part, Message) for part in self._unpacked(record)):
+                    times += record.message_start_time, record.message_end_time
+            elif isinstance(record, Message):
+                times.append(record.log_time)
+        return (min(times), max(times)) if times else None
+
+    def messages(
+            self, names: Collection[str] | None, begin: int | None = None,
+            end: int | None = None) -> Iterator[RawMessage]:
+        """
+        Yield the messages of the topics ``names``, or of all, as they stand in the file.
+
+        Those from ``begin`` on and before ``end`` [ns], where these are given.
+        """
+        begin = -math.inf if begin is None else begin
+        end = math.inf if end is None else end
         channels = McapChannels()
         for record in self._flat_records():
             channels.read(record)
             if isinstance(record, Message) and record.channel_id in channels:
                 topic, type_name = channels.name(record.channel_id)
-                if names is None or topic in names:
+                if begin <= record.log_time < end and (names is None or topic in names):
                     yield RawMessage(topic, type_name, record.log_time, record.data)
 
     def _flat_records(self) -> Iterator[McapRecord]:

@@ -105,3 +105,13 @@ def _parsed(definition: MessageDefinition, name: str) -> Typesdict:
     for part in definition.data.split(_IDL_RULE)[1:]:
         types.update(get_types_from_idl(part.partition('\n')[2]))
     return types
+
+
+def recorded_type_hash(type_name: str, definition: MessageDefinition) -> str:
+    """Return the hash that publishers of a recorded type announced; empty when unknown."""
+    if definition.format is MessageDefinitionFormat.NONE:
+        return ''
+    try:
+        return _typestore(_parsed(definition, type_name)).hash_rihs01(type_name)
+    except Exception:  # what foreign text raises can be anything
+        return ''

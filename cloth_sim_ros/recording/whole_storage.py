@@ -40,9 +40,18 @@ class WholeStorage:
         self.problem = ''
         with Reader(path) as reader:
             self.topics = [_topic(connection) for connection in reader.connections]
+            # Times of the first and the last message [ns]; rosbags has the end one behind it.
+            self.span = (
+                (reader.start_time, reader.end_time - 1) if reader.message_count else None)
 
-    def messages(self, names: Collection[str] | None) -> Iterator[RawMessage]:
-        """Yield the messages of the topics ``names``, or of all, in the order of their times."""
+    def messages(
+            self, names: Collection[str] | None, begin: int | None = None,
+            end: int | None = None) -> Iterator[RawMessage]:
+        """
+        Yield the messages of the topics ``names``, or of all, in the order of their times.
+
+        Those from ``begin`` on and before ``end`` [ns], where these are given.
+        """
         try:
             # A reader of its own for each walk: two walks would move one file's place.
             with Reader(self.path) as reader:
@@ -50,7 +59,8 @@ class WholeStorage:
                     connection for connection in reader.connections
                     if names is None or connection.topic in names]
                 # No connection at all means every one to rosbags.
-                for connection, time, data in reader.messages(wanted) if wanted else ():
+                for connection, time, data in (
+                        reader.messages(wanted, begin, end) if wanted else ()):
                     yield RawMessage(connection.topic, connection.msgtype, time, data)
         except Exception as error:  # what a damaged byte raises can be anything
             self.problem = (

@@ -43,9 +43,10 @@ VERBS = {
     'status': 'show what a running node is doing',
     'info': 'tell what a recording holds',
     'analyze': 'analyse recordings: table, CSV, JSON and plots',
-    'paper': 'make Fig. 10 and 11 of the paper',
     'render': 'draw the cloth of recordings, as a sheet of pictures or a video',
+    'play': 'publish a recording again',
     'resimulate': 'run a recorded simulation again, with the same or other settings',
+    'paper': 'make Fig. 10 and 11 of the paper',
 }
 INTERRUPTED = 130
 
@@ -74,7 +75,7 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 
 def _no_verb(arguments: list[str]) -> int:
-    verbs = '\n'.join(f'  {name:8} {text}' for name, text in VERBS.items())
+    verbs = '\n'.join(f'  {name:10} {text}' for name, text in VERBS.items())
     parser = ArgumentParser(
         prog='cloth_sim', usage='cloth_sim VERB ...', formatter_class=RawDescriptionHelpFormatter,
         description=f'Simulate cloth, and talk to a running cloth_sim_node.\n\nverbs:\n{verbs}',

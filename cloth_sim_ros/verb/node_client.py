@@ -14,6 +14,7 @@
 
 """A running cloth_sim node, as a verb sees it."""
 
+from collections.abc import Callable
 import os
 import time
 from typing import Any
@@ -86,15 +87,25 @@ class NodeClient:
             raise ClothSimError(response.message)
         return response
 
-    def read(self, kind: type, name: str, quality: QoSProfile) -> Any:
-        """Return one message of the node's topic ``name``; ClothSimError when none comes."""
+    def read(
+            self, kind: type, name: str, quality: QoSProfile,
+            until: Callable[[Any], bool] = lambda message: True) -> Any:
+        """
+        Return the first message of the node's topic ``name`` that ``until`` likes.
+
+        :raises ClothSimError: when no message comes
+        """
         received: list[Any] = []
-        self._node.create_subscription(
+        subscription = self._node.create_subscription(
             kind, f'{self._target}/{name}', received.append, quality)
         deadline = time.monotonic() + self._timeout
-        while not received:
+        count = 0
+        while not any(map(until, received)):
+            if len(received) > count:
+                count, deadline = len(received), time.monotonic() + self._timeout
             self._wait(deadline, f'nothing comes on {self._target}/{name}')
-        return received[0]
+        self._node.destroy_subscription(subscription)
+        return next(filter(until, received))
 
     def _wait(self, deadline: float, problem: str) -> None:
         if time.monotonic() > deadline:

@@ -1,0 +1,62 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""The Python class of a message type that a recording names."""
+
+from importlib import import_module
+import re
+
+from cloth_sim_ros.recording.message_decoder import recorded_type_hash
+from cloth_sim_ros.recording.message_definition import type_hash
+from cloth_sim_ros.sim.errors import ClothSimError
+from rclpy.type_support import check_for_type_support
+from rosbags.interfaces import MessageDefinition
+from rosidl_generator_py.import_type_support_impl import UnsupportedTypeSupport
+
+_TYPE_NAME = re.compile(r'([a-z][a-z0-9_]*)/msg/([A-Z][A-Za-z0-9]*)')
+
+
+def message_class(type_name: str, definition: MessageDefinition) -> type:
+    """
+    Return the class of ``type_name``, such as std_msgs/msg/Header.
+
+    :param definition: of the recorded messages, as far as the bag holds it
+    :raises ClothSimError: when it is not installed, or not as it was when recorded
+    """
+    match = _TYPE_NAME.fullmatch(type_name)
+    if match is None:
+        raise ClothSimError(
+            f'{type_name!r} is no message type: record it anew, with a type like '
+            'std_msgs/msg/Header')
+    package, name = match.groups()
+    try:
+        found = getattr(import_module(f'{package}.msg'), name)
+        check_for_type_support(found)
+    except (ImportError, AttributeError, UnsupportedTypeSupport) as error:
+        raise ClothSimError(
+            f'the message type {type_name} is not installed: install or build the package '
+            f'{package}, and source its setup') from error
+    if not _is_as_installed(type_name, definition):
+        raise ClothSimError(
+            f'the message type {type_name} was another one when this was recorded: play it with '
+            f'the {package} of that time')
+    return found
+
+
+def _is_as_installed(type_name: str, definition: MessageDefinition) -> bool:
+    recorded = recorded_type_hash(type_name, definition)
+    try:
+        return recorded in ('', type_hash(type_name))
+    except (ClothSimError, OSError):
+        return True  # an installed package without its files can't tell

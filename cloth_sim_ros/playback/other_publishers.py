@@ -1,0 +1,50 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Who else publishes the topics that are to be played."""
+
+from collections.abc import Iterable
+
+from rclpy.node import Node
+
+
+def other_publishers(node: Node, topics: Iterable[str]) -> dict[str, list[str]]:
+    """Return the topics that other nodes publish, by the full names of those nodes."""
+    own = _full_name(node.get_namespace(), node.get_name())
+    found: dict[str, list[str]] = {}
+    for topic in topics:
+        names = [
+            _full_name(publisher.node_namespace, publisher.node_name)
+            for publisher in node.get_publishers_info_by_topic(topic)]
+        if own in names:
+            # One of them is this node itself; a second one of its name is another player.
+            names.remove(own)
+        for name in names:
+            found.setdefault(name, []).append(topic)
+    return found
+
+
+def warning_of(others: dict[str, list[str]]) -> str:
+    """Return what to tell about ``others``; empty when there are none."""
+    if not others:
+        return ''
+    name, topics = max(others.items(), key=lambda item: len(item[1]))
+    more = f' and {len(topics) - 1} more of these topics' if len(topics) > 1 else ''
+    return (
+        f'{name} publishes {topics[0]}{more} as well, and readers get both mixed: stop it, or '
+        'give the played topics another name with --as')
+
+
+def _full_name(namespace: str, name: str) -> str:
+    return f'{namespace.rstrip("/")}/{name}'

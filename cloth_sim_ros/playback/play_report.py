@@ -1,0 +1,56 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""What came of playing a recording."""
+
+from dataclasses import dataclass
+from dataclasses import field
+
+# Later than this [s] is worth a word; schedulers alone make a few milliseconds.
+_LATE = 0.05
+
+
+@dataclass
+class PlayReport:
+    """
+    What came of playing a recording.
+
+    :param messages: that were published
+    :param rounds: begun, more than one with --loop
+    :param furthest_behind: of any message, behind its time on the wall clock [s]
+    :param slipped: by how much the schedule was moved, as it could not be kept [s]
+    :param overruns: messages sent to readers that had not taken those before, by topic
+    """
+
+    messages: int = 0
+    rounds: int = 0
+    furthest_behind: float = 0.0
+    slipped: float = 0.0
+    overruns: dict[str, int] = field(default_factory=dict)
+
+    def sentences(self) -> list[str]:
+        """Return it in words: what was played, then what went wrong."""
+        rounds = f' in {self.rounds} rounds' if self.rounds > 1 else ''
+        behind = 'in time' if self.furthest_behind < _LATE else (
+            f'at most {self.furthest_behind:.2g} s late')
+        found = [f'played {self.messages} messages{rounds}, {behind}']
+        if self.slipped:
+            found.append(
+                f'this took {self.slipped:.2g} s longer than it should have, as machine or '
+                'readers could not keep up: nothing was left out, but give a lower --rate')
+        for topic, count in self.overruns.items():
+            found.append(
+                f'a reader of {topic} may have lost up to {count} messages, as it did not take '
+                'them in time: give a lower --rate, or a longer queue to that reader')
+        return found

@@ -1,0 +1,71 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""One topic of a recording on its way out."""
+
+from rclpy.duration import Duration
+from rclpy.node import Node
+from rclpy.qos import QoSProfile
+from rclpy.qos import ReliabilityPolicy
+
+# For a reader to take what it has been sent [s].
+_PATIENCE = 0.2
+
+
+class PlayedTopic:
+    """
+    Publish serialised messages no faster than reliable readers take them.
+
+    A reliable publisher keeps its last ``depth`` messages until every reader has them, and drops
+    the oldest without a word when one more comes. So it is given no more than that at once.
+
+    ``overruns`` counts messages that were sent although a reader had not taken the last ones.
+
+    :param name: in the graph, with its namespace
+    :param kept: how many of its messages still hold for those who come late
+    """
+
+    def __init__(
+            self, node: Node, name: str, message_class: type, quality: QoSProfile,
+            kept: int = 0) -> None:
+        """Make the publisher."""
+        self.name = name
+        self.message_class = message_class
+        self.kept = kept
+        self.overruns = 0
+        self._publisher = node.create_publisher(message_class, name, quality)
+        self._is_reliable = quality.reliability == ReliabilityPolicy.RELIABLE
+        self._depth = quality.depth
+        self._waiting = 0
+        self._is_stuck = False
+
+    def publish(self, data: bytes) -> None:
+        """Publish ``data``, a serialised message."""
+        if self._is_reliable and self._waiting >= self._depth:
+            # A reader that has hung is waited for once, and then no more until it is back.
+            if self.settle(0.0 if self._is_stuck else _PATIENCE):
+                self._is_stuck = False
+            else:
+                self._is_stuck = True
+                self.overruns += 1
+        self._publisher.publish(data)
+        self._waiting += 1
+
+    def settle(self, patience: float) -> bool:
+        """Wait up to ``patience`` [s] until all readers have all of it; tell whether they have."""
+        done = self._publisher.get_subscription_count() == 0 or (
+            self._publisher.wait_for_all_acked(Duration(seconds=patience)))
+        if done:
+            self._waiting = 0
+        return done

@@ -1,0 +1,43 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""The topic /clock, for a recording that has none."""
+
+from builtin_interfaces.msg import Time
+from cloth_sim_ros.messages.topics import TOPICS
+from cloth_sim_ros.playback.header_stamp import has_header
+from cloth_sim_ros.playback.header_stamp import header_stamp
+from rclpy.node import Node
+from rclpy.qos import QoSProfile
+from rosgraph_msgs.msg import Clock
+
+
+class SimulatedClock:
+    """Publish the stamp of each frame ahead of it, as a node with publish.clock does."""
+
+    def __init__(self, node: Node) -> None:
+        """Make the publisher."""
+        topic = TOPICS['clock']
+        self._publisher = node.create_publisher(
+            topic.message, topic.name, QoSProfile(depth=topic.depth))
+        self._latest: Time | None = None
+
+    def read(self, message_class: type, data: bytes) -> None:
+        """Take up the stamp of a serialised message of the cloth, if it has one."""
+        if not has_header(message_class):
+            return
+        stamp = header_stamp(data)
+        if stamp != self._latest:
+            self._latest = stamp
+            self._publisher.publish(Clock(clock=stamp))

@@ -1,0 +1,100 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""
+Publish a recording again: the same messages on the same topics, at the pace they were recorded.
+
+Plays recordings of this project and of `ros2 bag record`. The pace is that of simulated time, or
+of the wall clock in a bag of `ros2 bag record`. The player is the node /cloth_sim_player;
+`cloth_sim pause --node cloth_sim_player` and `cloth_sim resume --node cloth_sim_player` stop it
+and let it go on. Ctrl-C ends it.
+
+For example:
+  cloth_sim play bags/drop_test
+  cloth_sim play bags/drop_test --rate 0.2 --start 1.5 --loop
+  cloth_sim play bags/drop_test --as replay/cloth_sim
+"""
+
+from argparse import ArgumentParser
+from argparse import Namespace
+import sys
+
+from cloth_sim_ros.analysis.recorded_node import find_node
+from cloth_sim_ros.playback.play_clock import PlayClock
+from cloth_sim_ros.playback.play_options import PlayOptions
+from cloth_sim_ros.playback.player import Player
+from cloth_sim_ros.playback.player_node import PlayerNode
+from cloth_sim_ros.playback.stop_signals import StopSignals
+from cloth_sim_ros.recording.bag_reader import BagReader
+from cloth_sim_ros.verb.play_progress import PlayProgress
+from cloth_sim_ros.verb.recording_arguments import add_recording_arguments
+
+
+def add_arguments(parser: ArgumentParser) -> None:
+    """Add the arguments of this verb."""
+    add_recording_arguments(parser)
+    parser.add_argument(
+        '--rate', type=float, default=1.0, metavar='R',
+        help='recorded seconds in a second of wall time (default: %(default)s)')
+    parser.add_argument('--loop', action='store_true', help='begin again at the end')
+    parser.add_argument(
+        '--start', type=float, default=0.0, metavar='S',
+        help='begin so long after the begin of the recording [s]; topology, state and parameters '
+             'from before are sent first')
+    parser.add_argument(
+        '--duration', type=float, default=float('inf'), metavar='S',
+        help='play so much of it [s] (default: all)')
+    parser.add_argument(
+        '--topics', nargs='+', default=(), metavar='TOPIC', help='play these (default: all)')
+    parser.add_argument(
+        '--as', metavar='NAME', dest='played_node', default='',
+        help='publish the topics of the recorded node as those of this one')
+    parser.add_argument(
+        '--clock', action='store_true',
+        help='publish simulated time on /clock; a recorded /clock is played in any case')
+    parser.add_argument('--paused', action='store_true', help='wait for cloth_sim resume')
+    parser.add_argument(
+        '--delay', type=float, default=1.0, metavar='S',
+        help='wait so long first, as readers need time to find the player [s] '
+             '(default: %(default)s)')
+
+
+def main(args: Namespace) -> int:
+    """Play, and say how it went."""
+    with StopSignals() as signals, PlayProgress() as progress:
+        bag = BagReader(args.recording)
+        options = _options(args, bag)
+        clock = PlayClock(options.rate)
+        with PlayerNode(clock) as node:
+            player = Player(
+                bag, options, node, clock, stopped=lambda: signals.came, warn=progress.warn,
+                progress=progress.show)
+            progress.begin(*player.span)
+            report = player.play()
+    told, *problems = report.sentences()
+    print(told)
+    for problem in [*problems, *bag.problems]:
+        print(f'cloth_sim play: {problem}', file=sys.stderr)
+    return 0
+
+
+def _options(args: Namespace, bag: BagReader) -> PlayOptions:
+    node = args.node
+    if node is None:
+        is_needed = args.played_node or args.clock
+        node = find_node(bag.topics, bag.path) if is_needed else ''
+    return PlayOptions(
+        rate=args.rate, loop=args.loop, start=args.start, duration=args.duration,
+        topics=tuple(args.topics), paused=args.paused, clock=args.clock, delay=args.delay,
+        node=node, played_node=args.played_node)

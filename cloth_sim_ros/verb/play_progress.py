@@ -1,0 +1,59 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""How far playing has come, on a terminal."""
+
+import sys
+
+from tqdm import tqdm
+
+_BAR = '{percentage:3.0f}% |{bar}| {n:.2f}/{total:.2f} s'
+
+
+class PlayProgress:
+    """A progress bar, shown where somebody watches; a context manager that removes it."""
+
+    def __init__(self) -> None:
+        """Show nothing yet."""
+        self._bar: tqdm | None = None
+        self._start = 0.0
+
+    def __enter__(self) -> 'PlayProgress':
+        """Return itself."""
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        """Leave the terminal in order."""
+        if self._bar is not None:
+            self._bar.close()
+
+    def begin(self, start: float, end: float) -> None:
+        """Show a bar from ``start`` to ``end`` [s] of the recording."""
+        self._start = start
+        self._bar = tqdm(
+            total=end - start, bar_format=_BAR, mininterval=0.1, leave=False,
+            disable=not sys.stderr.isatty())
+
+    def show(self, seconds: float) -> None:
+        """Show that all up to ``seconds`` of the recording is played."""
+        if self._bar is None or self._bar.disable:
+            return
+        done = min(seconds - self._start, self._bar.total)
+        if done < self._bar.n:
+            self._bar.reset()
+        self._bar.update(done - self._bar.n)
+
+    def warn(self, sentence: str) -> None:
+        """Print a sentence above the bar."""
+        tqdm.write(f'cloth_sim play: {sentence}', file=sys.stderr)

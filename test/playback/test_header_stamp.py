@@ -1,0 +1,48 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Stamps of messages that are not decoded."""
+
+from builtin_interfaces.msg import Time
+from cloth_sim_interfaces.msg import ClothStats
+from cloth_sim_ros.playback.header_stamp import has_header
+from cloth_sim_ros.playback.header_stamp import header_stamp
+import pytest
+from rclpy.serialization import serialize_message
+from rosgraph_msgs.msg import Clock
+from sensor_msgs.msg import PointCloud2
+from shape_msgs.msg import Mesh
+from std_msgs.msg import Header
+
+
+@pytest.mark.parametrize('message_class', [ClothStats, PointCloud2])
+@pytest.mark.parametrize('time', [(0, 0), (3, 20_000_000), (2**31 - 1, 999_999_999), (-2, 5)])
+def test_stamp_is_that_of_the_message(message_class, time):
+    """The clock would tell another time than the messages."""
+    stamp = Time(sec=time[0], nanosec=time[1])
+    message = message_class(header=Header(stamp=stamp, frame_id='world'))
+    assert has_header(message_class)
+    assert header_stamp(serialize_message(message)) == stamp
+
+
+def test_big_endian_is_read():
+    """A recording of another machine would give times of centuries."""
+    data = b'\x00\x00\x00\x00' + (7).to_bytes(4, 'big') + (8).to_bytes(4, 'big')
+    assert header_stamp(data) == Time(sec=7, nanosec=8)
+
+
+@pytest.mark.parametrize('message_class', [Mesh, Clock])
+def test_others_have_no_stamp(message_class):
+    """Some other number of the message would be taken for a time."""
+    assert not has_header(message_class)

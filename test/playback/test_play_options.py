@@ -1,0 +1,39 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""What can be asked of the player."""
+
+from cloth_sim_ros.playback.play_options import PlayOptions
+from cloth_sim_ros.sim.errors import ClothSimError
+import pytest
+
+
+@pytest.mark.parametrize('wrong', [
+    {'rate': 0.0}, {'rate': -1.0}, {'rate': float('nan')}, {'rate': float('inf')},
+    {'start': -0.1}, {'duration': -1.0}, {'delay': float('nan')}])
+def test_numbers_outside_their_range_are_refused(wrong):
+    """Playing would hang, or run backwards."""
+    name, = wrong
+    with pytest.raises(ClothSimError, match=f'--{name} .* is outside its range: give a value'):
+        PlayOptions(**wrong)
+
+
+@pytest.mark.parametrize(('topic', 'played'), [
+    ('/cloth_sim/points', '/b/cloth/points'),
+    ('/cloth_sim/pins/wrenches', '/b/cloth/pins/wrenches'),
+    ('/diagnostics', '/diagnostics'), ('/cloth_sim_2/points', '/cloth_sim_2/points')])
+def test_topics_of_the_node_get_the_other_name(topic, played):
+    """Another node's topics would be renamed, or this one's left."""
+    assert PlayOptions(played_node='b/cloth').played_name(topic) == played
+    assert PlayOptions().played_name(topic) == topic

@@ -1,0 +1,242 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""What is played reaches its readers as it was recorded."""
+
+from pathlib import Path
+import time
+
+from builtin_interfaces.msg import Time
+from cloth_sim_interfaces.msg import ClothState
+from cloth_sim_interfaces.msg import ClothStats
+from cloth_sim_ros.messages.topics import TOPICS
+from cloth_sim_ros.recording.bag_reader import BagReader
+from cloth_sim_ros.recording.recorder import Recorder
+from copied_bag import copy_bag
+from copied_bag import WALL
+from player_process import PlayerProcess
+import pytest
+from rclpy.serialization import deserialize_message
+from rclpy.serialization import serialize_message
+from rosgraph_msgs.msg import Clock
+from sensor_msgs.msg import PointCloud2
+from shape_msgs.msg import Mesh
+
+FRAMES = 51
+
+
+@pytest.fixture
+def player(tmp_path):
+    """Return a function that starts a player which waits for resume."""
+    running = []
+
+    def start(bag, *arguments):
+        running.append(PlayerProcess(tmp_path, bag, '--paused', '--delay', 0, *arguments))
+        return running[-1]
+
+    yield start
+    for process in running:
+        process.__exit__()
+
+
+def recorded(bag, **limits):
+    """Return the decoded messages of a bag by their topics, in their order."""
+    classes = {topic.type_name: topic.message for topic in TOPICS.values()}
+    found = {}
+    for raw in BagReader(bag).messages(**limits):
+        found.setdefault(raw.topic, []).append(
+            deserialize_message(raw.data, classes[raw.type_name]))
+    return found
+
+
+def listen(client, name, kind):
+    """Return the list that all messages of a topic go into."""
+    received = []
+    client.node.create_subscription(kind, name, received.append, 1000)
+    return received
+
+
+def listen_to_all(client, messages):
+    """Listen to the topics of ``messages``."""
+    return {name: listen(client, name, type(of[0])) for name, of in messages.items()}
+
+
+def stamp(message):
+    """Return the stamp of a message [ns]."""
+    return message.header.stamp.sec * 10**9 + message.header.stamp.nanosec
+
+
+@pytest.mark.parametrize('storage', [None, 'sqlite3'])
+def test_every_message_comes_in_order_with_its_values(storage, bag, client, player, tmp_path):
+    """A played recording would not be the one that was made, or not that of `ros2 bag record`."""
+    source = Path(bag) if storage is None else copy_bag(Path(bag), tmp_path / 'copy', storage)
+    expected = recorded(source)
+    assert len(expected['/cloth_sim/points']) == FRAMES
+    heard = listen_to_all(client, expected)
+    # At a pace that no machine of the tests keeps up with: late, but whole.
+    process = player(source, '--rate', 1000)
+    process.resume(client)
+    assert process.wait(client) == 0, process.problems
+    for name, messages in expected.items():
+        assert heard[name] == messages, name
+    assert f'played {sum(map(len, expected.values()))} messages' in process.output
+
+
+def test_the_pace_is_that_of_the_recording_times_the_rate(bag, client, player, tmp_path):
+    """Slow motion would not be slow, or a wall-clock bag be played as if simulated."""
+    wall_bag = copy_bag(Path(bag), tmp_path / 'copy')
+    begin, end = BagReader(wall_bag).span
+    assert begin == WALL
+    assert (end - begin) * 1e-9 == pytest.approx(3.0)
+    took = {}
+    for name, source, rate in [('simulated', bag, 4.0), ('wall', wall_bag, 2.0)]:
+        times = []
+        subscription = client.node.create_subscription(
+            ClothStats, '/cloth_sim/stats', lambda _, to=times: to.append(time.monotonic()), 1000)
+        process = player(source, '--rate', rate, '--topics', '/cloth_sim/stats')
+        process.resume(client)
+        assert process.wait(client) == 0, process.problems
+        assert len(times) == FRAMES
+        took[name] = times[-1] - times[0]
+        client.node.destroy_subscription(subscription)
+    # 0.25 and 1.5 s. A busy machine makes each longer, but none shorter than it should be by more
+    # than the first message came late.
+    assert took['wall'] > 1.2
+    assert took['wall'] > 2.0 * took['simulated']
+
+
+def test_a_late_start_has_what_holds_from_before(bag, client, player):
+    """A viewer would have no surface to draw, and nobody the parameters."""
+    begin, _ = BagReader(bag).span
+    start = begin + 600_000_000
+    expected = recorded(bag, begin=start)
+    before = recorded(bag, end=start)
+    expected.setdefault('/cloth_sim/state', [])
+    for key in ('topology', 'state', 'inputs/parameters'):
+        name = f'/cloth_sim/{key}'
+        expected[name] = before[name] + expected.get(name, [])
+    names = ['topology', 'state', 'inputs/parameters', 'points', 'inputs/mode']
+    heard = listen_to_all(client, {
+        f'/cloth_sim/{key}': before[f'/cloth_sim/{key}'] for key in names})
+    process = player(bag, '--rate', 10, '--start', 0.6)
+    process.resume(client)
+    assert process.wait(client) == 0, process.problems
+    for key in names:
+        name = f'/cloth_sim/{key}'
+        assert heard[name] == expected.get(name, []), name
+    assert stamp(heard['/cloth_sim/points'][0]) == 600_000_000
+
+
+def test_who_comes_late_gets_topology_and_state(bag, client, player):
+    """A viewer that is opened while playing would not show the surface."""
+    expected = recorded(bag)
+    process = player(bag, '--rate', 0.02)
+    process.resume(client)
+    points = client.watch(PointCloud2, '/cloth_sim/points')
+    client.spin_until(lambda: points.messages, 'a frame is played')
+    assert client.read_kept(Mesh, '/cloth_sim/topology') == expected['/cloth_sim/topology'][0]
+    assert client.read_kept(ClothState, '/cloth_sim/state') == expected['/cloth_sim/state'][0]
+
+
+def test_a_loop_begins_again_with_the_first_stamp(bag, client, player):
+    """A short recording could not be watched, or its second round had other stamps."""
+    heard = listen(client, '/cloth_sim/stats', ClothStats)
+    process = player(bag, '--loop', '--rate', 20, '--start', 0.2, '--duration', 0.6)
+    process.resume(client)
+    client.spin_until(lambda: len(heard) > 70, 'two rounds and a part are played')
+    one_round = [number * 20_000_000 for number in range(10, 41)]
+    assert [stamp(stats) for stats in heard[:62]] == 2 * one_round
+    process.process.terminate()
+    assert process.wait(client) == 0
+    assert 'rounds' in process.output
+
+
+def test_a_pause_stops_the_messages(bag, client, player):
+    """A moment could not be looked at."""
+    heard = listen(client, '/cloth_sim/stats', ClothStats)
+    process = player(bag)
+    process.resume(client)
+    client.spin_until(lambda: heard, 'it plays')
+    process.pause(client)
+    client.spin_for(0.2)
+    count = len(heard)
+    client.spin_for(0.5)
+    assert len(heard) == count < FRAMES
+    process.resume(client)
+    assert process.wait(client) == 0
+    assert len(heard) == FRAMES
+
+
+def test_what_was_cut_off_is_played_to_its_end(bag, client, player, tmp_path):
+    """The recording of a run that was killed could not be watched."""
+    file, = Path(bag).glob('*.mcap')
+    cut = tmp_path / 'cut.mcap'
+    whole = file.read_bytes()
+    # In the index at the end: all messages are there, but no summary.
+    cut.write_bytes(whole[:-200])
+    expected = recorded(cut)
+    assert expected
+    heard = listen_to_all(client, expected)
+    process = player(cut, '--rate', 100)
+    process.resume(client)
+    assert process.wait(client) == 0, process.problems
+    assert heard == expected
+    assert 'cut off' in process.problems
+
+
+def test_the_clock_tells_the_stamps_where_none_is_recorded(bag, client, player):
+    """Nodes with use_sim_time would stand still."""
+    clock = listen(client, '/clock', Clock)
+    stats = listen(client, '/cloth_sim/stats', ClothStats)
+    process = player(bag, '--clock', '--rate', 10)
+    process.resume(client)
+    assert process.wait(client) == 0, process.problems
+    assert len(clock) == FRAMES
+    assert [message.clock for message in clock] == [message.header.stamp for message in stats]
+
+
+def test_a_recorded_clock_is_played_and_no_other(client, player, tmp_path):
+    """Two clocks would pull the time of every node back and forth."""
+    recorder = Recorder(tmp_path, 'run')
+    for number in range(20):
+        recorder.write('clock', serialize_message(Clock(clock=Time(sec=100 + number))), number)
+        recorder.write('stats', serialize_message(ClothStats(steps=number)), number)
+    recorder.close()
+    clock = listen(client, '/clock', Clock)
+    process = player(recorder.path, '--clock', '--rate', 100)
+    process.resume(client)
+    assert process.wait(client) == 0, process.problems
+    assert [message.clock.sec for message in clock] == list(range(100, 120))
+
+
+def test_topics_of_the_node_can_get_another_name(bag, client, player):
+    """A recording could not be watched beside the node it came from."""
+    name = '/replay/cloth_sim/stats'
+    renamed = listen(client, name, ClothStats)
+    original = listen(client, '/cloth_sim/stats', ClothStats)
+    process = player(bag, '--rate', 10, '--as', 'replay/cloth_sim')
+    process.resume(client)
+    assert process.wait(client) == 0, process.problems
+    assert len(renamed) == FRAMES
+    assert not original
+
+
+def test_another_publisher_is_named(bag, client, tmp_path):
+    """A user would watch a mixture of two cloths and not know why."""
+    publisher = client.node.create_publisher(ClothStats, '/cloth_sim/stats', 10)
+    with PlayerProcess(tmp_path, bag, '--rate', 10) as process:
+        assert process.wait(client) == 0, process.problems
+    assert '/test_client publishes /cloth_sim/stats as well' in process.problems
+    assert 'cloth_sim_player publishes' not in process.problems
+    client.node.destroy_publisher(publisher)
