@@ -16,11 +16,11 @@
 
 from dataclasses import dataclass
 
-from cloth_sim_interfaces.msg import ClothState
-from cloth_sim_ros.analysis.recording import Recording
+from cloth_sim_ros.analysis.run import Run
+import numpy as np
 
 
-@dataclass
+@dataclass(frozen=True)
 class RunOutcome:
     """
     Peaks are those of the recorded frames.
@@ -46,28 +46,18 @@ class RunOutcome:
     device: str = ''
     stopped: bool = False
 
-
-def read_outcome(recording: Recording) -> RunOutcome:
-    """Read ``recording`` once; ClothSimError when it holds no frame."""
-    outcome = RunOutcome()
-    frames, moved, substeps, steps = 0, 0, 0, 0
-    for entry in recording.entries('stats', 'state'):
-        message = entry.message
-        if entry.key == 'state':
-            outcome.device = message.device
-            outcome.stopped = message.run_state == ClothState.STOPPED
-            continue
-        outcome.end, outcome.dt = entry.time, message.dt
-        outcome.max_strain = max(outcome.max_strain, message.max_strain)
-        outcome.kinetic_energy = max(outcome.kinetic_energy, message.kinetic_energy)
-        outcome.stability_margin = max(outcome.stability_margin, message.stability_margin)
-        frames += 1
-        if message.steps > steps:
-            outcome.wall_seconds += message.step_wall_time * (message.steps - steps)
-            moved += 1
-            substeps += message.substeps
-        steps = message.steps
-    if not frames:
-        raise recording.no_frame()
-    outcome.substeps = substeps / max(moved, 1)
-    return outcome
+    @classmethod
+    def of(cls, run: Run) -> 'RunOutcome':
+        """Return the outcome of ``run``, which was recorded without a reset."""
+        columns = run.columns
+        dt = float(columns['dt'][-1])
+        steps = np.round(np.diff(columns['time']) / dt)
+        moved = steps > 0.0
+        return cls(
+            end=float(columns['time'][-1]), dt=dt,
+            substeps=float(columns['substeps'][1:][moved].mean()) if moved.any() else 0.0,
+            max_strain=float(columns['max_strain'].max()),
+            kinetic_energy=float(columns['kinetic_energy'].max()),
+            stability_margin=float(columns['stability_margin'].max()),
+            wall_seconds=float(np.sum(steps * columns['step_wall_time'][1:])),
+            device=run.device, stopped=run.stopped)

@@ -62,7 +62,8 @@ class Rerun:
         self._keep_mode = 'mode' in changes
         self.changed = run.scene.changed(scene)
         self._clock = StepClock(recorded['dt'], scene['dt'])
-        self.simulation = Simulation(scene)
+        # What was recorded beyond the stability limit is made again as it was.
+        self.simulation = Simulation(scene, check_stability=bool(self.changed))
         self.start = RunStart(run, recorded, self.simulation)
         self.start.take_up(self._clock.steps(run.begin))
         self.check = FrameCheck()

@@ -30,7 +30,8 @@ import sys
 
 from cloth_sim_ros.analysis.outcome_table import outcome_table
 from cloth_sim_ros.analysis.recording import Recording
-from cloth_sim_ros.analysis.run_outcome import read_outcome
+from cloth_sim_ros.analysis.run import Run
+from cloth_sim_ros.analysis.run_outcome import RunOutcome
 from cloth_sim_ros.analysis.run_sheet import write_run_sheet
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.scene import Scene
@@ -76,7 +77,7 @@ def main(args: Namespace) -> int:
         if problem:
             print(f'{run.label}: {problem}')
         recording = Recording(folder / run.name)
-        outcome = read_outcome(recording)
+        outcome = RunOutcome.of(Run(recording))
         rows.append((run.label, outcome, allowed_strain(scene)))
         shown.append((run.label, recording, outcome))
     print(outcome_table(rows))

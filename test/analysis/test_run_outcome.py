@@ -16,7 +16,7 @@
 
 from cloth_sim_ros.analysis.outcome_table import outcome_table
 from cloth_sim_ros.analysis.recording import Recording
-from cloth_sim_ros.analysis.run_outcome import read_outcome
+from cloth_sim_ros.analysis.run import Run
 from cloth_sim_ros.analysis.run_outcome import RunOutcome
 from cloth_sim_ros.messages.points import PointsMessage
 from cloth_sim_ros.messages.state import state_message
@@ -51,7 +51,7 @@ def recording(tmp_path):
 
 def test_peaks_are_those_of_all_frames(recording):
     """A peak would be missed, or steps counted twice."""
-    outcome = read_outcome(recording)
+    outcome = RunOutcome.of(Run(recording))
     assert outcome.end == pytest.approx(0.3)
     assert outcome.dt == 0.01
     assert outcome.device == 'a device'
@@ -64,14 +64,14 @@ def test_peaks_are_those_of_all_frames(recording):
 
 def test_a_stop_is_told(recording):
     """A run that broke off would look like one that came to its end."""
-    assert read_outcome(recording).stopped
+    assert RunOutcome.of(Run(recording)).stopped
 
 
 def test_a_recording_without_frames_is_refused(tmp_path):
     """A row of zeros would stand in the table."""
     Recorder(tmp_path, 'empty', 'cloth_sim').close()
     with pytest.raises(ClothSimError, match='no frame'):
-        read_outcome(Recording(tmp_path / 'empty'))
+        Run(Recording(tmp_path / 'empty'))
 
 
 def test_the_table_says_what_is_beyond_the_limit_of_a_method():

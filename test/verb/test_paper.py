@@ -88,6 +88,16 @@ def test_the_run_beyond_the_limit_stops_and_the_others_do_not(made, stats):
         assert (0.2 < end < SECONDS) if stopped else end == pytest.approx(SECONDS)
 
 
+@pytest.mark.parametrize('figure, name', [
+    ('fig10', 'stiff_paper'), ('fig11', 'adaptive_paper_dt_0.02')])
+def test_a_run_beyond_the_limit_can_be_made_again(made, capsys, figure, name):
+    """A blow-up could be looked at, but not be made again, as its step is refused elsewhere."""
+    assert main(['resimulate', str(made[figure] / name)]) == 0
+    out = capsys.readouterr().out
+    assert 'frames equal to the bit' in out
+    assert ('as the recorded one did' in out) == (name == 'stiff_paper')
+
+
 def test_the_reason_of_a_stop_is_told(told):
     """A user would have to guess why a row of the picture ends."""
     _, out = told['fig10']
