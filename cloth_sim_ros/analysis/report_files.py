@@ -15,6 +15,7 @@
 
 """Analyses as files: CSV, JSON and PNG."""
 
+from collections.abc import Iterator
 from collections.abc import Mapping
 from collections.abc import Sequence
 import csv
@@ -57,7 +58,7 @@ def write_frames(run: Run, path: Path) -> None:
     """Write a row for each frame; a cell is empty where the recording says nothing."""
     names = [name for name in COLUMNS if run.has(name)]
     cells = [_cells(name, run.columns[name]) for name in names]
-    modes = [run.modes.at(time) for time in run.columns['time'].tolist()]
+    modes = (run.modes.at(time) for time in run.columns['time'])
     write_csv(path, [*names, 'mode'], zip(*cells, modes))
 
 
@@ -124,9 +125,11 @@ def write_plot(figure: Figure, path: Path) -> None:
         raise _no_file(path, error) from error
 
 
-def _cells(name: str, values: np.ndarray) -> list[Any]:
+def _cells(name: str, values: np.ndarray) -> Iterator[str]:
+    # One at a time: as text, a long run takes ten times the room of its numbers.
     form = '.0f' if name in _WHOLE else '.9g'
-    return [f'{value:{form}}' if math.isfinite(value) else '' for value in values.tolist()]
+    for value in values:
+        yield f'{value:{form}}' if math.isfinite(value) else ''
 
 
 def _plain(value: Any) -> Any:

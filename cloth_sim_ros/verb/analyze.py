@@ -27,8 +27,6 @@ For example:
 
 from argparse import ArgumentParser
 from argparse import Namespace
-from collections.abc import Iterable
-from collections.abc import Iterator
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -36,7 +34,6 @@ from pathlib import Path
 from cloth_sim_ros.analysis.comparison import compare
 from cloth_sim_ros.analysis.comparison import Comparison
 from cloth_sim_ros.analysis.comparison_lines import comparison_lines
-from cloth_sim_ros.analysis.recording import Entry
 from cloth_sim_ros.analysis.recording import Recording
 from cloth_sim_ros.analysis.report_files import comparison_values
 from cloth_sim_ros.analysis.report_files import make_folder
@@ -49,8 +46,8 @@ from cloth_sim_ros.analysis.run import Run
 from cloth_sim_ros.analysis.summary import Summary
 from cloth_sim_ros.analysis.summary_lines import summary_lines
 from cloth_sim_ros.analysis.summary_lines import text_table
+from cloth_sim_ros.verb.reading_progress import ReadingProgress
 from cloth_sim_ros.verb.recording_arguments import add_node_argument
-from tqdm import tqdm
 
 
 def add_arguments(parser: ArgumentParser) -> None:
@@ -71,14 +68,14 @@ def main(args: Namespace) -> int:
     # Told before minutes of reading, not after.
     folder = make_folder(args.out) if args.out else None
     for recording, name in zip(recordings, names):
-        run = Run(recording, _progress(name))
+        run = Run(recording, ReadingProgress(name))
         summary = Summary.of(run)
         print(f'{recording.path}\n{text_table(summary_lines(summary))}\n')
         if folder:
             _write_run(run, summary, make_folder(folder / name))
     comparisons = [
         replace(
-            compare(recordings[0], other, _progress(f'{name} against {names[0]}')),
+            compare(recordings[0], other, ReadingProgress(f'{name} against {names[0]}')),
             first=names[0], second=name)
         for other, name in zip(recordings[1:], names[1:])]
     for comparison in comparisons:
@@ -115,18 +112,3 @@ def _names(recordings: Sequence[Recording]) -> list[str]:
         others = names.count(recording.name)
         names.append(f'{recording.name}_{others + 1}' if others else recording.name)
     return names
-
-
-def _progress(name: str):
-    """Return what shows how much of the recording ``name`` has been read."""
-    bar = tqdm(total=0, desc=name, unit=' messages', mininterval=0.2, leave=False)
-
-    def watch(entries: Iterable[Entry], count: int) -> Iterator[Entry]:
-        bar.total += count
-        for entry in entries:
-            bar.update()
-            yield entry
-        if bar.n >= bar.total:
-            bar.close()
-
-    return watch

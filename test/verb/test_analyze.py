@@ -197,7 +197,8 @@ def outcome(path, capsys):
         assert 'cloth  ' in shown.out and 'state  ' in shown.out
         return shown.out
     assert code == 1
-    reason = shown.err.rpartition('cloth_sim analyze: ')[2]
+    before, _, reason = shown.err.rpartition('cloth_sim analyze: ')
+    assert before.rpartition('\r')[2] == ''
     assert reason.count('\n') == 1 and len(reason) < 500
     return reason
 
