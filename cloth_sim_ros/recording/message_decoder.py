@@ -112,6 +112,6 @@ def recorded_type_hash(type_name: str, definition: MessageDefinition) -> str:
     if definition.format is MessageDefinitionFormat.NONE:
         return ''
     try:
-        return _typestore(_parsed(definition, type_name)).hash_rihs01(type_name)
+        return _parsed_store(definition, type_name).hash_rihs01(type_name)
     except Exception:  # what foreign text raises can be anything
         return ''
