@@ -43,6 +43,7 @@ VERBS = {
     'status': 'show what a running node is doing',
     'info': 'tell what a recording holds',
     'picture': 'draw the cloth of a recording into a PNG file',
+    'study': 'measure error against cost, and where a scene stops being stable',
 }
 INTERRUPTED = 130
 
