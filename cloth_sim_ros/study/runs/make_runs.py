@@ -62,8 +62,8 @@ def make_runs(
             with closing(_make_alone(todo) if alone else _make(todo, workers)) as made:
                 for result in made:
                     results.add(result)
-                    if not result.is_done:
-                        bar.write(f'{result.outcome}: {result.reason}')
+                    if result.outcome == FAILED:
+                        bar.write(f'failed: {result.reason}')
                     bar.update()
     return [results.find(run.key) for run in runs]
 

@@ -20,11 +20,13 @@ import time
 from typing import Any
 
 from cloth_sim_ros.sim.errors import ClothSimError
+from cloth_sim_ros.sim.errors import NonFiniteStateError
 from cloth_sim_ros.study.runs.result import describe
 from cloth_sim_ros.study.runs.result import DONE
 from cloth_sim_ros.study.runs.result import FAILED
 from cloth_sim_ros.study.runs.result import REFUSED
 from cloth_sim_ros.study.runs.result import Result
+from cloth_sim_ros.study.runs.result import STOPPED
 from cloth_sim_ros.study.runs.result import unmade
 from cloth_sim_ros.study.runs.run import Run
 import numpy as np
@@ -50,7 +52,8 @@ def perform(run: Run, shares_processor: bool) -> Result:
             device=values.pop('device'), wall_seconds=time.perf_counter() - begin, arrays=arrays)
         result.line()
     except ClothSimError as error:
-        return unmade(run, REFUSED, str(error), wall_seconds=time.perf_counter() - begin)
+        outcome = STOPPED if isinstance(error, NonFiniteStateError) else REFUSED
+        return unmade(run, outcome, str(error), wall_seconds=time.perf_counter() - begin)
     # One run of many: whatever is wrong with it, the others are made.
     except Exception as error:
         return unmade(

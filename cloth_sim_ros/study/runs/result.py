@@ -26,6 +26,7 @@ import numpy as np
 
 DONE = 'done'
 REFUSED = 'refused'
+STOPPED = 'stopped'
 FAILED = 'failed'
 
 
@@ -34,8 +35,8 @@ class Result:
     """
     What became of one run.
 
-    :param outcome: done; refused, with the reason that the simulation gave; or failed, with the
-        error, and made again when the study is continued
+    :param outcome: done; refused, with the reason that the simulation gave; stopped, where its
+        state was lost; or failed, with the error, and made again when the study is continued
     :param scene: parameters that the run was given
     :param scene_sha256: fingerprint of all parameters, defaults included
     :param values: what the function returned, without arrays
