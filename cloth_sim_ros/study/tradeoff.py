@@ -25,7 +25,7 @@ which tells in plain words what came out. With a budget, a parameter file for th
 For example:
   cloth_sim study tradeoff config/drape.yaml
   cloth_sim study tradeoff config/drape.yaml --budget-rtf 1
-  cloth_sim study tradeoff config/drape.yaml --budget-error 1e-3 --params fast.yaml
+  cloth_sim study tradeoff config/drape.yaml --budget-error 1e-3 --write fast.yaml
   cloth_sim study tradeoff config/drape.yaml --check fast.yaml
 """
 
@@ -60,7 +60,7 @@ def add_arguments(parser: ArgumentParser) -> None:
                         help='choose the most exact setting with this real-time factor or more')
     budget.add_argument('--check', metavar='PARAMS.yaml',
                         help='measure a choice again, and tell whether it keeps to its budget')
-    parser.add_argument('--params', metavar='PARAMS.yaml',
+    parser.add_argument('--write', metavar='PARAMS.yaml',
                         help='where the choice is written (default: params.yaml in --out)')
 
 
@@ -75,7 +75,7 @@ def main(args: Namespace) -> int:
         measured = measure(args.scene, grid, results, workers_of(args))
         _write(Path(args.out), measured, args.scene_file)
     if budget is not None:
-        path = Path(args.params or Path(args.out) / 'params.yaml')
+        path = Path(args.write or Path(args.out) / 'params.yaml')
         row = budget.choose(measured)
         write_choice(path, row, budget, args.scene_file, args.scene)
         print(f'{budget.in_words()}: {row.setting.method}, {row.setting.label}; written to {path}')

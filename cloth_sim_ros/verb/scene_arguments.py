@@ -29,8 +29,11 @@ import yaml
 
 
 def add_scene_arguments(parser: ArgumentParser) -> None:
-    """Add the scene file and --set."""
+    """Add the scene file, --params and --set."""
     parser.add_argument('scene', metavar='SCENE.yaml', help='ROS parameter file of the scene')
+    parser.add_argument('--params', action='append', default=[], metavar='PARAMS.yaml',
+                        help='parameters that go over those of the scene; can be given several '
+                             'times')
     parser.add_argument('--set', action='append', default=[], metavar='name=value', dest='changes',
                         help='change a parameter; can be given several times')
 
@@ -42,6 +45,8 @@ def read_scene(args: Namespace) -> tuple[Scene, dict[str, Any]]:
     :raises ClothSimError: when the file or a --set is not right
     """
     given = load_parameters(args.scene)
+    for path in args.params:
+        given.update(load_parameters(path))
     given.update(parse_change(change) for change in args.changes)
     refuse_unknown(given, SCENE_FIELDS + NODE_FIELDS)
     node_values = {

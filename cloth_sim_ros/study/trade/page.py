@@ -35,11 +35,11 @@ def page(measured: Measured, scene_name: str) -> str:
     device = next(row.run.device for row in measured.rows if row.run.is_done)
     parts = [
         f'# Error against cost: {scene_name}',
-        f'{scene.rows} x {scene.cols} nodes, {measured.grid.times[-1]:g} s simulated, on {device}. '
-        'An error is the RMS distance of nodes from the reference over the times that count, '
-        'over the longer side of the cloth. Cost is wall time in a simulated second, by the median of '
-        f'{measured.grid.rounds} rounds in turn with nothing beside them; with a ~ it is '
-        'processor time of a run beside others, of settings that were not near the front.',
+        f'{scene.rows} x {scene.cols} nodes, {measured.grid.times[-1]:g} s simulated, on '
+        f'{device}. An error is the RMS distance of nodes from the reference over the times that '
+        'count, over the longer side of the cloth. Cost is wall time in a simulated second, by '
+        f'the median of {measured.grid.rounds} rounds in turn with nothing beside them; with a ~ '
+        'it is processor time of a run beside others, of settings that were not near the front.',
         '## What it was measured against', _references(measured),
         '## What a real-time budget buys on this scene', _speeds(measured),
         '## Which mode is fastest within an error', _winners(measured),
@@ -109,9 +109,10 @@ def _crossing(measured: Measured) -> str:
             first = cheaper[0]
             sentences.append(
                 f'- {variant.name}: below the {_cost(explicit[0])} s of mass_spring there is '
-                f'{first.setting.method}, {first.setting.label}: {_cost(first)} s, with an error of '
-                f'{first.own.position:.1e} against {explicit[0].own.position:.1e}, and a '
-                f'largest strain of {first.own.peak_strain:.2f} against {explicit[0].own.peak_strain:.2f}.')
+                f'{first.setting.method}, {first.setting.label}: {_cost(first)} s, with an error '
+                f'of {first.own.position:.1e} against {explicit[0].own.position:.1e}, and a '
+                f'largest strain of {first.own.peak_strain:.2f} against '
+                f'{explicit[0].own.peak_strain:.2f}.')
         else:
             sentences.append(
                 f'- {variant.name}: nothing that was measured is cheaper than mass_spring with '
@@ -133,8 +134,8 @@ def _floors(measured: Measured) -> str:
         (row for row in measured.rows_of(Variant()) if row.scene is not None),
         key=lambda row: row.scene.position)
     return (
-        'Distance of each reference from that of the scene as it is, at common points of the cloth '
-        '(bilinear between nodes). Another number of nodes has other random offsets at the start, '
+        'Distance of each reference from that of the scene as it is, at common points of the '
+        'cloth (bilinear between nodes). Another number of nodes has other random offsets at the start, '
         'where the scene asks for them.\n\n'
         + _table(('scene', 'model', 'model error'), rows)
         + f'\n\nThe least error of any setting on the scene itself is {least.scene.position:.1e} '
