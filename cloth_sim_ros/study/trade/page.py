@@ -135,8 +135,8 @@ def _floors(measured: Measured) -> str:
         key=lambda row: row.scene.position)
     return (
         'Distance of each reference from that of the scene as it is, at common points of the '
-        'cloth (bilinear between nodes). Another number of nodes has other random offsets at the start, '
-        'where the scene asks for them.\n\n'
+        'cloth (bilinear between nodes). Another number of nodes has other random offsets at the '
+        'start, where the scene asks for them.\n\n'
         + _table(('scene', 'model', 'model error'), rows)
         + f'\n\nThe least error of any setting on the scene itself is {least.scene.position:.1e} '
         f'({least.setting.method}, {least.setting.label}). {_rounding(measured)}')
