@@ -53,6 +53,8 @@ def add_arguments(parser: ArgumentParser) -> None:
     parser.add_argument('--grid', metavar='GRID.yaml',
                         help='what to measure (default: config/studies/tradeoff.yaml)')
     add_run_arguments(parser, 'studies/tradeoff')
+    parser.add_argument('--figure', metavar='FIGURE.png',
+                        help='where the figure is written (default: tradeoff.png in --out)')
     budget = parser.add_mutually_exclusive_group()
     budget.add_argument('--budget-error', type=float, metavar='E',
                         help='choose the fastest setting with this error or less')
@@ -73,7 +75,7 @@ def main(args: Namespace) -> int:
             from cloth_sim_ros.study.trade.check import check
             return check(Path(args.check), args.scene, grid, results, workers_of(args))
         measured = measure(args.scene, grid, results, workers_of(args))
-        _write(Path(args.out), measured, args.scene_file)
+        _write(Path(args.out), measured, args)
     if budget is not None:
         path = Path(args.write or Path(args.out) / 'params.yaml')
         row = budget.choose(measured)
@@ -82,14 +84,17 @@ def main(args: Namespace) -> int:
     return 0
 
 
-def _write(folder: Path, measured: Measured, scene_file: str) -> None:
+def _write(folder: Path, measured: Measured, args: Namespace) -> None:
     # Slow to import, and of use at the end alone.
     from cloth_sim_ros.study.trade.page import page
     from cloth_sim_ros.study.trade.plot import write_plot
-    write_table(folder, measured.rows)
-    write_plot(folder / 'tradeoff.png', measured)
-    text = page(measured, scene_file)
-    (folder / 'tradeoff.md').write_text(text, encoding='utf-8')
+    text = page(measured, args.scene_file)
+    try:
+        write_table(folder, measured.rows)
+        write_plot(Path(args.figure or folder / 'tradeoff.png'), measured)
+        (folder / 'tradeoff.md').write_text(text, encoding='utf-8')
+    except OSError as error:
+        raise ClothSimError(f'the results cannot be written: {error}') from error
     print(text)
     print(f'all of it is in {folder}')
 

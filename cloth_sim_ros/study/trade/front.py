@@ -18,28 +18,31 @@ from collections.abc import Iterable
 
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.study.trade.row import Row
+from cloth_sim_ros.study.trade.row import WORST_ERROR
 
 
 def front(rows: Iterable[Row], *, of_scene: bool) -> list[Row]:
-    """Return the rows that are more exact than all that cost less, cheapest first."""
+    """Return the timed rows that are more exact than all that cost less, cheapest first."""
     kept: list[Row] = []
-    for row in sorted(_with_error(rows, of_scene), key=lambda row: row.cost):
+    choices = [row for row in rows if row.is_choice(of_scene)]
+    for row in sorted(choices, key=lambda row: row.cost):
         if not kept or row.error(of_scene) < kept[-1].error(of_scene):
             kept.append(row)
     return kept
 
 
 def near_front(rows: Iterable[Row], margin: float) -> list[Row]:
-    """Return the rows that none as exact beats by ``margin`` or more in cost."""
+    """Return the useful rows that none as exact beats by ``margin`` or more in cost."""
     rows = list(rows)
     near = []
     for row in rows:
         for of_scene in (False, True):
             error = row.error(of_scene)
-            if error is not None and not any(
+            if error is not None and error <= WORST_ERROR and not any(
                     other.error(of_scene) <= error and margin * other.cost < row.cost
-                    for other in _with_error(rows, of_scene)
-                    if of_scene or other.setting.model == row.setting.model):
+                    for other in rows
+                    if other.error(of_scene) is not None
+                    and (of_scene or other.setting.model == row.setting.model)):
                 near.append(row)
                 break
     return near
@@ -70,8 +73,4 @@ def most_accurate_at(rows: Iterable[Row], real_time_factor: float) -> Row:
 
 
 def _timed(rows: Iterable[Row]) -> list[Row]:
-    return [row for row in _with_error(rows, True) if row.rounds]
-
-
-def _with_error(rows: Iterable[Row], of_scene: bool) -> list[Row]:
-    return [row for row in rows if row.error(of_scene) is not None]
+    return [row for row in rows if row.is_choice(True)]

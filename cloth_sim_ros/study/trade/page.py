@@ -22,6 +22,7 @@ from cloth_sim_ros.study.trade.compared import Measured
 from cloth_sim_ros.study.trade.front import front
 from cloth_sim_ros.study.trade.path import distances
 from cloth_sim_ros.study.trade.row import Row
+from cloth_sim_ros.study.trade.row import WORST_ERROR
 from cloth_sim_ros.study.trade.variant import Variant
 import numpy as np
 
@@ -39,7 +40,8 @@ def page(measured: Measured, scene_name: str) -> str:
         f'{device}. An error is the RMS distance of nodes from the reference over the times that '
         'count, over the longer side of the cloth. Cost is wall time in a simulated second, by '
         f'the median of {measured.grid.rounds} rounds in turn with nothing beside them; with a ~ '
-        'it is processor time of a run beside others, of settings that were not near the front.',
+        'it is processor time of a run beside others, of settings that were not near the front. '
+        f'Settings off by more than {WORST_ERROR:g} of the side are left out.',
         '## What it was measured against', _references(measured),
         '## What a real-time budget buys on this scene', _speeds(measured),
         '## Which mode is fastest within an error', _winners(measured),
@@ -68,7 +70,7 @@ def _references(measured: Measured) -> str:
 
 
 def _speeds(measured: Measured) -> str:
-    timed = [row for row in measured.rows_of(Variant()) if row.rounds]
+    timed = [row for row in measured.rows_of(Variant()) if row.is_choice(True)]
     rows = []
     for speed in _SPEEDS:
         fitting = [row for row in timed if 1.0 / row.cost >= speed]
@@ -84,7 +86,7 @@ def _winners(measured: Measured) -> str:
         cells = []
         for error in _ERRORS:
             fitting = [row for row in measured.rows_of(variant)
-                       if row.own is not None and row.setting.model == 'springs'
+                       if row.is_choice(False) and row.setting.model == 'springs'
                        and row.own.position <= error]
             best = min(fitting, key=lambda row: row.cost, default=None)
             cells.append(
@@ -106,7 +108,7 @@ def _crossing(measured: Measured) -> str:
             continue
         cheaper = [row for row in best if row.cost < explicit[0].cost]
         if cheaper:
-            first = cheaper[0]
+            first = cheaper[-1]
             sentences.append(
                 f'- {variant.name}: below the {_cost(explicit[0])} s of mass_spring there is '
                 f'{first.setting.method}, {first.setting.label}: {_cost(first)} s, with an error '

@@ -19,9 +19,11 @@ from pathlib import Path
 from cloth_sim_ros.study.trade.compared import Measured
 from cloth_sim_ros.study.trade.front import front
 from cloth_sim_ros.study.trade.row import Row
+from cloth_sim_ros.study.trade.row import WORST_ERROR
 from cloth_sim_ros.study.trade.variant import Variant
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+import numpy as np
 
 _COLOURS = ('#0072b2', '#d55e00', '#009e73', '#cc79a7', '#e69f00', '#56b4e9')
 _COLUMNS = 2
@@ -46,7 +48,8 @@ def write_plot(path: Path, measured: Measured) -> None:
 
 
 def _drawable(rows: list[Row], variant: Variant) -> list[Row]:
-    return [row for row in rows if row.error(variant.is_scene) is not None]
+    return [row for row in rows
+            if (row.error(variant.is_scene) or np.inf) <= WORST_ERROR]
 
 
 def _draw(

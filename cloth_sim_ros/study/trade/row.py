@@ -22,6 +22,10 @@ from cloth_sim_ros.study.trade.setting import Setting
 from cloth_sim_ros.study.trade.variant import Variant
 
 
+# Of the side: what is off by more shows another motion, and is no choice at any cost.
+WORST_ERROR = 0.1
+
+
 @dataclass(frozen=True)
 class Row:
     """
@@ -54,6 +58,11 @@ class Row:
         """Return the error in position; None where there is none."""
         errors = self.scene if of_scene else self.own
         return errors.position if errors else None
+
+    def is_choice(self, of_scene: bool) -> bool:
+        """Tell whether it was timed, and is no nonsense."""
+        error = self.error(of_scene)
+        return bool(self.rounds) and error is not None and error <= WORST_ERROR
 
     def as_dict(self) -> dict[str, object]:
         """Return a flat line of the table."""
