@@ -42,12 +42,13 @@ def check(
     :param results: where the reference of the scene may be already
     :raises ClothSimError: when the choice can't be run
     """
-    values, budget = read_choice(path)
+    values, budget, told = read_choice(path)
     row = measure_again(values, scene, grid, results, workers)
     factor = 1.0 / row.cost
     holds = budget.holds(row.scene.position, factor)
     print(
-        f'{path}: error {row.scene.position:.2e} of the side, real-time factor {factor:.2f}: '
+        f'{path} tells: {told}\nmeasured again: error {row.scene.position:.2e} of the side, '
+        f'real-time factor {factor:.2f}: '
         f'{"holds" if holds else "does not hold"} ({budget.line()})')
     return 0 if holds else 1
 

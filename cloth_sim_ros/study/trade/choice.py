@@ -30,6 +30,7 @@ from cloth_sim_ros.study.trade.variant import Variant
 import yaml
 
 _ERROR, _SPEED = 'budget-error', 'budget-rtf'
+_OWN_ERROR, _OWN_SPEED = 'error', 'real-time factor'
 
 
 @dataclass(frozen=True)
@@ -92,8 +93,8 @@ def write_choice(
         f'scene sha256: {Run("", dict(scene.values)).scene_sha256}',
         f'nodes: {scene.rows} x {scene.cols}',
         budget.line(),
-        f'error: {row.scene.position:.2e} of the side',
-        f'real-time factor: {1.0 / row.cost:.2f}',
+        f'{_OWN_ERROR}: {row.scene.position:.2e} of the side',
+        f'{_OWN_SPEED}: {1.0 / row.cost:.2f}',
         f'largest strain: {row.scene.peak_strain:.3f}']
     body = yaml.safe_dump({'/**': {'ros__parameters': values}}, sort_keys=False)
     try:
@@ -103,15 +104,18 @@ def write_choice(
         raise ClothSimError(f'{path} cannot be written: {error}') from error
 
 
-def read_choice(path: Path) -> tuple[dict[str, Any], Budget]:
-    """Return parameters and budget of a file that ``write_choice`` made."""
+def read_choice(path: Path) -> tuple[dict[str, Any], Budget, str]:
+    """Return parameters and budget of a file that ``write_choice`` made, and what it tells."""
     values = load_parameters(path)
-    for line in path.read_text(encoding='utf-8').splitlines():
-        name, _, text = line.removeprefix('# ').partition(': ')
-        if name == _ERROR:
-            return values, Budget(error=float(text))
-        if name == _SPEED:
-            return values, Budget(real_time_factor=float(text))
+    told = dict(
+        line.removeprefix('# ').split(': ', 1)
+        for line in path.read_text(encoding='utf-8').splitlines()
+        if line.startswith('# ') and ': ' in line)
+    summary = f'error {told.get(_OWN_ERROR)}, real-time factor {told.get(_OWN_SPEED)}'
+    if _ERROR in told:
+        return values, Budget(error=float(told[_ERROR])), summary
+    if _SPEED in told:
+        return values, Budget(real_time_factor=float(told[_SPEED])), summary
     raise ClothSimError(
         f'{path} does not tell what it was chosen by: give a file that --budget-error or '
         '--budget-rtf wrote')

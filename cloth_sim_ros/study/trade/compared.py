@@ -89,7 +89,8 @@ def compare(
         references.update({
             (variant, model): finest(results) for model, results in by_model.items()})
         springs = references.get((variant, 'springs'))
-        times[variant] = springs.converged_times(grid.converged * side) if springs else 0
+        allowed = side * (grid.converged if variant.is_scene else grid.variants_converged)
+        times[variant] = springs.converged_times(allowed) if springs else 0
     truth = references.get((Variant(), own_model(scene)))
     if truth is None or not times[Variant()]:
         failed = next((result for result in rungs[Variant()] if not result.is_done), None)

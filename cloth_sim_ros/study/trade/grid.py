@@ -38,6 +38,8 @@ class Grid:
     """
     What is measured; the file that ships with the project tells what each part is.
 
+    :param converged: what the reference may change by, over the side, where a time counts
+    :param variants_converged: the same for other variants than the scene itself
     :param settings: of each method in turn; the last one of a method is its finest
     """
 
@@ -46,6 +48,7 @@ class Grid:
     variants: tuple[Variant, ...]
     reference_refine: tuple[int, ...]
     converged: float
+    variants_converged: float
     float64_node_steps: float
     rounds: int
     margin: float
@@ -85,6 +88,7 @@ def grid_of(given: Any, name: str = 'the grid') -> Grid:
             variants=(Variant(), *(Variant(**variant) for variant in given['variants'])),
             reference_refine=tuple(map(int, reference['refine'])),
             converged=float(reference['converged']),
+            variants_converged=float(reference['variants_converged']),
             float64_node_steps=float(reference['float64_node_steps']),
             rounds=int(cost['rounds']), margin=float(cost['margin']),
             settings=tuple(

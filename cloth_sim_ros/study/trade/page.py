@@ -64,7 +64,8 @@ def _references(measured: Measured) -> str:
         'Springs: mass-spring runs finer and finer, extrapolated. Hard edges and limited springs: '
         'the finest setting of the grid. The change is what the last refinement did to the '
         f'reference, at t = {moments} s, over the side. Times count while that of the springs is '
-        f'{measured.grid.converged:g} or less: later the cloth is chaotic, and two runs differ '
+        f'{measured.grid.converged:g} or less ({measured.grid.variants_converged:g} where the '
+        'scene was changed): later the cloth is chaotic, and two runs differ '
         'whatever made them differ.\n\n' + _table(
             ('scene', 'model', 'computed on', 'change', 'times that count [s]'), rows))
 

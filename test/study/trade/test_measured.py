@@ -120,4 +120,5 @@ def test_a_scene_without_a_reference_is_told(tmp_path):
     """Errors against a motion that has not converged would be taken for errors of settings."""
     with pytest.raises(ClothSimError, match='has not converged to 1e-12'):
         small_study(tmp_path, reference={
-            'refine': [1, 2, 4], 'converged': 1e-12, 'float64_node_steps': 1e7})
+            'refine': [1, 2, 4], 'converged': 1e-12, 'variants_converged': 1e-12,
+            'float64_node_steps': 1e7})
