@@ -15,17 +15,20 @@
 
 """A recording to read: messages of one node, from first to last, one in memory at a time."""
 
+from collections.abc import Iterable
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 from typing import Any
 
+from cloth_sim_ros.analysis.recorded_node import find_node
+from cloth_sim_ros.analysis.recorded_node import TYPES
 from cloth_sim_ros.analysis.steady_time import SteadyTime
+from cloth_sim_ros.recording.bag_reader import BagReader
+from cloth_sim_ros.recording.bag_topic import BagTopic
+from cloth_sim_ros.recording.bag_topic import RawMessage
 from cloth_sim_ros.sim.errors import ClothSimError
-from mcap.exceptions import EndOfFile
-from mcap.exceptions import InvalidMagic
-from mcap.reader import NonSeekingReader
-from mcap_ros2.decoder import DecoderFactory
 
 
 @dataclass(frozen=True)
@@ -45,34 +48,77 @@ class Entry:
 
 class Recording:
     """
-    The mcap files of one recording folder, or one mcap file.
+    A bag with the topics of a cloth_sim node: this project's, or of `ros2 bag record`.
 
     A recording that was cut off is read up to its last whole record.
 
-    :param node: name of the node, with its namespace
+    :param path: folder with mcap or sqlite3 files, or one such file
+    :param node: name of the node, with its namespace; None finds it
     :raises ClothSimError: when there is nothing that can be read
     """
 
-    def __init__(self, path: str | Path, node: str = 'cloth_sim') -> None:
-        """Find the files."""
+    def __init__(self, path: str | Path, node: str | None = None) -> None:
+        """Open the files."""
         self.path = Path(path)
-        self.node = f'/{node.strip("/")}'
-        self._files = _find_files(self.path)
+        self._bag = BagReader(self.path)
+        self._given_node = node
+
+    @cached_property
+    def node(self) -> str:
+        """Get the name of the node; ClothSimError when several could be meant, or none."""
+        if self._given_node is not None:
+            return f'/{self._given_node.strip("/")}'
+        return find_node(self.topics, self.path)
+
+    @property
+    def topics(self) -> list[BagTopic]:
+        """Get all topics of the bag, with their types and the qualities of service offered."""
+        return self._bag.topics
+
+    @property
+    def problems(self) -> list[str]:
+        """Get what could not be read, one sentence each; complete when all has been read."""
+        return self._bag.problems
+
+    def count(self, *keys: str) -> int:
+        """Return the number of messages of the topics ``keys``."""
+        return sum(topic.count for topic in self._known_topics(keys))
+
+    def keys(self) -> set[str]:
+        """Return the topics of the node that are in the bag and of the type they should be."""
+        return {topic.name[len(self.node) + 1:] for topic in self._known_topics(TYPES)}
 
     def entries(self, *keys: str) -> Iterator[Entry]:
         """
         Yield the messages of the topics ``keys`` as they were recorded.
 
-        :raises ClothSimError: when a file is no recording
+        Topics of another type than the node's are left out.
+
+        :raises ClothSimError: when a message makes no sense
         """
-        names = {f'{self.node}/{key}': key for key in keys}
+        # Resets are always read: the time must not depend on what else is.
+        names = {
+            topic.name: topic.type_name for topic in self._known_topics({*keys, 'inputs/command'})}
+        begin = len(self.node) + 1
         time = SteadyTime()
-        for file in self._files:
-            for name, message in _decoded(file, list(names)):
-                header = getattr(message, 'header', None)
-                if header is not None:
-                    time.read(header.stamp)
-                yield Entry(names[name], time.now, message)
+        for raw in self._bag.messages(names) if names else ():
+            if raw.type_name != names[raw.topic]:
+                continue
+            message = self._bag.decode(raw)
+            header = getattr(message, 'header', None)
+            if header is not None:
+                time.read(header.stamp, raw.topic)
+            key = raw.topic[begin:]
+            if key in keys:
+                yield Entry(key, time.now, message)
+
+    def raw_messages(self) -> Iterator[RawMessage]:
+        """Yield all messages of all topics as they were recorded, of other nodes too."""
+        return self._bag.messages()
+
+    def decode(self, message: RawMessage) -> Any:
+        """Return the decoded message; ClothSimError when it can't be."""
+        return self._bag.decode(message)
 
     def no_frame(self) -> ClothSimError:
         """Return the error of those who find no frame of the cloth."""
@@ -80,29 +126,7 @@ class Recording:
             f'{self.path} holds no frame of the node {self.node}: name the recorded node with '
             '--node, or record with publish.points: true')
 
-
-def _decoded(file: Path, topics: list[str]) -> Iterator[tuple[str, Any]]:
-    with open(file, 'rb') as stream:
-        reader = NonSeekingReader(stream, decoder_factories=[DecoderFactory()])
-        try:
-            for _, channel, _, message in reader.iter_decoded_messages(
-                    topics, log_time_order=False):
-                yield channel.topic, message
-        except InvalidMagic as error:
-            raise ClothSimError(
-                f'{file} is no mcap file: give the folder of a recording') from error
-        except EndOfFile:
-            # A killed run ends in half a record; all before it counts.
-            return
-
-
-def _find_files(path: Path) -> list[Path]:
-    if path.is_file():
-        return [path]
-    if not path.is_dir():
-        raise ClothSimError(f'there is no recording {path}: give its folder or its mcap file')
-    # rosbag2 numbers the files of a split recording without leading zeros.
-    files = sorted(path.glob('*.mcap'), key=lambda file: (len(file.name), file.name))
-    if not files:
-        raise ClothSimError(f'{path} holds no mcap file: give the folder of a recording')
-    return files
+    def _known_topics(self, keys: Iterable[str]) -> list[BagTopic]:
+        wanted = {f'{self.node}/{key}': TYPES[key] for key in keys}
+        return [
+            topic for topic in self.topics if wanted.get(topic.name) == topic.type_name]

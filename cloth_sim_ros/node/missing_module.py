@@ -30,4 +30,6 @@ def way_out(error: ImportError) -> str:
         return (
             f'ROS 2 is not here ({package} is missing): source /opt/ros/jazzy/setup.bash, '
             'or run ./scripts/setup.sh and then `. .venv/bin/activate`')
+    if package in ('rosbags', 'mcap'):
+        return f'{package}, which reads recordings, is not here: run `pip install {package}`'
     raise error

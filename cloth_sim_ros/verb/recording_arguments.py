@@ -25,10 +25,17 @@ from cloth_sim_ros.analysis.recording import Recording
 
 def add_recording_arguments(parser: ArgumentParser) -> None:
     """Add the recording and the name of its node."""
-    parser.add_argument('recording', metavar='BAG', help='folder of the recording')
     parser.add_argument(
-        '--node', default='cloth_sim', metavar='NAME',
-        help='name of the recorded node, with its namespace (default: %(default)s)')
+        'recording', metavar='BAG',
+        help='folder of the recording, of this project or of ros2 bag, or its mcap or db3 file')
+    add_node_argument(parser)
+
+
+def add_node_argument(parser: ArgumentParser) -> None:
+    """Add the name of the recorded node."""
+    parser.add_argument(
+        '--node', metavar='NAME',
+        help='name of the recorded node, with its namespace; needed where there are several')
 
 
 def open_recording(args: Namespace) -> Recording:

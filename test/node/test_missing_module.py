@@ -34,3 +34,8 @@ def test_does_not_guess():
     """Another missing module would be taken for a missing ROS."""
     with pytest.raises(ModuleNotFoundError):
         way_out(ModuleNotFoundError(name='cloth_sim_ros.typo'))
+
+
+def test_says_what_reads_recordings():
+    """A user whose rosdep left out the pip packages would get a traceback."""
+    assert 'pip install rosbags' in way_out(ModuleNotFoundError(name='rosbags'))

@@ -1,0 +1,114 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+
+"""Any bag, opened: this project's, those of `ros2 bag record`, whole or broken."""
+
+from collections.abc import Collection
+from collections.abc import Iterator
+from dataclasses import replace
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+from cloth_sim_ros.recording.bag_topic import BagTopic
+from cloth_sim_ros.recording.bag_topic import RawMessage
+from cloth_sim_ros.recording.broken_mcap import BrokenMcap
+from cloth_sim_ros.recording.message_decoder import MessageDecoder
+from cloth_sim_ros.recording.storage_files import is_compressed
+from cloth_sim_ros.recording.storage_files import storage_files
+from cloth_sim_ros.recording.whole_storage import WholeStorage
+from cloth_sim_ros.sim.errors import ClothSimError
+
+
+class BagReader:
+    """
+    The messages of a bag, one in memory at a time.
+
+    Reads a folder with mcap or sqlite3 files, with or without its metadata.yaml, or one such
+    file. An mcap file that was cut off is read up to its last whole record. Messages can be
+    walked through as often as wanted, also by several at a time.
+
+    :raises ClothSimError: when there is nothing that can be read
+    """
+
+    def __init__(self, path: str | Path) -> None:
+        """Open the files."""
+        self.path = Path(path)
+        self._unread: list[str] = []
+        self._storages = self._open()
+
+    @property
+    def problems(self) -> list[str]:
+        """Get what could not be read, one sentence each; complete after messages() has ended."""
+        found = [storage.problem for storage in self._storages if storage.problem]
+        return self._unread + found
+
+    @cached_property
+    def topics(self) -> list[BagTopic]:
+        """Get the topics, those of several files together; one name may have several types."""
+        merged: dict[tuple[str, str], BagTopic] = {}
+        for storage in self._storages:
+            for topic in storage.topics:
+                key = topic.name, topic.type_name
+                known = merged.get(key)
+                merged[key] = topic if known is None else replace(
+                    known, count=known.count + topic.count, qos=known.qos or topic.qos)
+        return list(merged.values())
+
+    def messages(self, names: Collection[str] | None = None) -> Iterator[RawMessage]:
+        """Yield the messages of the topics ``names``, or of all, from first to last."""
+        for storage in self._storages:
+            yield from storage.messages(names)
+
+    def decode(self, message: RawMessage) -> Any:
+        """Return the decoded message; ClothSimError when it can't be."""
+        return self._decoder.decode(message)
+
+    @cached_property
+    def _decoder(self) -> MessageDecoder:
+        return MessageDecoder(self.topics)
+
+    def _open(self) -> list[WholeStorage | BrokenMcap]:
+        if self.path.is_dir() and is_compressed(self.path):
+            try:
+                return [WholeStorage(self.path)]
+            except Exception as error:
+                raise ClothSimError(
+                    f'{self.path} cannot be read ({error}): decompress it, or record it anew'
+                ) from error
+        opened = []
+        errors = []
+        files = storage_files(self.path)
+        for file in files:
+            try:
+                opened.append(_storage(file))
+            except ClothSimError as error:
+                errors.append(error)
+        if not opened:
+            raise errors[0]
+        self._unread = [str(error) for error in errors]
+        return opened
+
+
+def _storage(file: Path) -> WholeStorage | BrokenMcap:
+    try:
+        return WholeStorage(file)
+    except Exception as error:  # what a broken file raises can be anything
+        if file.suffix == '.mcap':
+            return BrokenMcap(file)
+        raise ClothSimError(
+            f'{file} is no whole sqlite3 bag ({error or type(error).__name__}): give another '
+            f'one, or save what is left by `sqlite3 {file.name} .recover | sqlite3 whole.db3`'
+        ) from error

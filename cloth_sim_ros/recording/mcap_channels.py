@@ -1,0 +1,76 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+
+"""What the records of an mcap file have said of its topics so far."""
+
+from collections.abc import Mapping
+
+from cloth_sim_ros.recording.bag_topic import BagTopic
+from mcap.records import Channel
+from mcap.records import McapRecord
+from mcap.records import Schema
+from rosbags.interfaces import MessageDefinition
+from rosbags.interfaces import MessageDefinitionFormat
+from rosbags.interfaces import Qos
+from rosbags.rosbag2.metadata import parse_qos
+
+_FORMATS = {'ros2msg': MessageDefinitionFormat.MSG, 'ros2idl': MessageDefinitionFormat.IDL}
+
+
+class McapChannels:
+    """The channels of an mcap file by their number, with the schemas they name."""
+
+    def __init__(self) -> None:
+        """Begin with none."""
+        self._schemas: dict[int, Schema] = {}
+        self._channels: dict[int, Channel] = {}
+
+    def read(self, record: McapRecord) -> None:
+        """Take up a schema or a channel; any other record is passed over."""
+        if isinstance(record, Schema):
+            self._schemas[record.id] = record
+        elif isinstance(record, Channel):
+            self._channels[record.id] = record
+
+    def __contains__(self, number: int) -> bool:
+        """Tell whether the channel ``number`` is known."""
+        return number in self._channels
+
+    def name(self, number: int) -> tuple[str, str]:
+        """Return topic and type of a channel; the type is empty when its schema is missing."""
+        channel = self._channels[number]
+        schema = self._schemas.get(channel.schema_id)
+        return channel.topic, schema.name if schema is not None else ''
+
+    def topics(self, counts: Mapping[int, int]) -> list[BagTopic]:
+        """Return all channels as topics, with the numbers of their messages."""
+        return [
+            BagTopic(
+                *self.name(number), _qos(channel),
+                counts[number], _definition(self._schemas.get(channel.schema_id)))
+            for number, channel in self._channels.items()]
+
+
+def _qos(channel: Channel) -> tuple[Qos, ...]:
+    try:
+        return tuple(parse_qos(channel.metadata.get('offered_qos_profiles', '')))
+    except Exception:  # of another writer, in another form: nothing is read by it
+        return ()
+
+
+def _definition(schema: Schema | None) -> MessageDefinition:
+    if schema is None or schema.encoding not in _FORMATS:
+        return MessageDefinition(MessageDefinitionFormat.NONE, '')
+    return MessageDefinition(_FORMATS[schema.encoding], schema.data.decode(errors='replace'))

@@ -1,0 +1,40 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+
+"""A recording of the recorder, small, with topics of several types."""
+
+from cloth_sim_interfaces.msg import ClothStats
+from cloth_sim_ros.messages.inputs import mode_message
+from cloth_sim_ros.recording.recorder import Recorder
+from made_cloud import make_cloud
+import pytest
+from rclpy.serialization import serialize_message
+
+FRAMES = 30
+SIDE = 64
+
+
+@pytest.fixture(scope='session')
+def recorded(tmp_path_factory):
+    """Return the folder of 30 frames at 50 Hz of 64 x 64 nodes that don't compress."""
+    recorder = Recorder(tmp_path_factory.mktemp('recorded'), 'run', 'cloth_sim')
+    recorder.write(
+        'inputs/mode', serialize_message(mode_message('adaptive', '', 0.0, 'world')), 0.0)
+    for number in range(FRAMES):
+        time = number / 50
+        recorder.write('points', make_cloud(SIDE, SIDE, number)[0], time)
+        recorder.write('stats', serialize_message(ClothStats(steps=number)), time)
+    recorder.close()
+    return recorder.path
