@@ -18,11 +18,10 @@ from collections.abc import Iterable
 
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.study.trade.row import Row
-from cloth_sim_ros.study.trade.row import WORST_ERROR
 
 
 def front(rows: Iterable[Row], *, of_scene: bool) -> list[Row]:
-    """Return the timed rows that are more exact than all that cost less, cheapest first."""
+    """Return the choices that are more exact than all that cost less, cheapest first."""
     kept: list[Row] = []
     choices = [row for row in rows if row.is_choice(of_scene)]
     for row in sorted(choices, key=lambda row: row.cost):
@@ -31,21 +30,13 @@ def front(rows: Iterable[Row], *, of_scene: bool) -> list[Row]:
     return kept
 
 
-def near_front(rows: Iterable[Row], margin: float) -> list[Row]:
+def near_front(rows: Iterable[Row], margin: float, *, of_scene: bool) -> list[Row]:
     """Return the useful rows that none as exact beats by ``margin`` or more in cost."""
-    rows = list(rows)
-    near = []
-    for row in rows:
-        for of_scene in (False, True):
-            error = row.error(of_scene)
-            if error is not None and error <= WORST_ERROR and not any(
-                    other.error(of_scene) <= error and margin * other.cost < row.cost
-                    for other in rows
-                    if other.error(of_scene) is not None
-                    and (of_scene or other.setting.model == row.setting.model)):
-                near.append(row)
-                break
-    return near
+    useful = [row for row in rows if row.is_useful(of_scene)]
+    return [
+        row for row in useful if not any(
+            other.error(of_scene) <= row.error(of_scene) and margin * other.cost < row.cost
+            for other in useful)]
 
 
 def fastest_within(rows: Iterable[Row], error: float) -> Row:

@@ -59,8 +59,10 @@ def _timed(plan: Plan, measured: Measured, results: ResultsFolder) -> list[Row]:
         rows = measured.rows_of(variant)
         # What runs on a GPU is not seen in the processor's time.
         known = all(is_software(row.run.device) for row in rows if row.run.is_done)
-        chosen[variant] = near_front(rows, measured.grid.margin) if known else [
-            row for row in rows if row.run.is_done]
+        of_scene = variant.is_scene
+        chosen[variant] = [row for row in rows if row.is_useful(of_scene)]
+        if known:
+            chosen[variant] = near_front(rows, measured.grid.margin, of_scene=of_scene)
     runs: dict[Variant, Run] = {
         variant: plan.cost(variant, [row.setting for row in rows])
         for variant, rows in chosen.items() if rows}

@@ -87,8 +87,7 @@ def _winners(measured: Measured) -> str:
         cells = []
         for error in _ERRORS:
             fitting = [row for row in measured.rows_of(variant)
-                       if row.is_choice(False) and row.setting.model == 'springs'
-                       and row.own.position <= error]
+                       if row.is_choice(False) and row.own.position <= error]
             best = min(fitting, key=lambda row: row.cost, default=None)
             cells.append(
                 f'{best.setting.method}, {best.setting.label}: {_cost(best)}' if best else '-')
@@ -102,8 +101,7 @@ def _winners(measured: Measured) -> str:
 def _crossing(measured: Measured) -> str:
     sentences = []
     for variant in measured.grid.variants:
-        rows = [row for row in measured.rows_of(variant) if row.setting.model == 'springs']
-        best = front(rows, of_scene=False)
+        best = front(measured.rows_of(variant), of_scene=False)
         explicit = [row for row in best if row.setting.method == 'mass_spring']
         if not explicit:
             continue

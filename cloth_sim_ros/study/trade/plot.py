@@ -23,7 +23,6 @@ from cloth_sim_ros.study.trade.row import WORST_ERROR
 from cloth_sim_ros.study.trade.variant import Variant
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-import numpy as np
 
 _COLOURS = ('#0072b2', '#d55e00', '#009e73', '#cc79a7', '#e69f00', '#56b4e9')
 _COLUMNS = 2
@@ -48,8 +47,8 @@ def write_plot(path: Path, measured: Measured) -> None:
 
 
 def _drawable(rows: list[Row], variant: Variant) -> list[Row]:
-    return [row for row in rows
-            if (row.error(variant.is_scene) or np.inf) <= WORST_ERROR]
+    # What is its own reference has no error to show.
+    return [row for row in rows if 0.0 < (row.error(variant.is_scene) or 0.0) <= WORST_ERROR]
 
 
 def _draw(
@@ -63,10 +62,7 @@ def _draw(
                 [row.cost for row in points], [row.error(variant.is_scene) for row in points],
                 s=26, color=colour, facecolors=colour if is_timed else 'none',
                 label=method if is_timed else None, zorder=3)
-    # Errors against different models are not to be compared.
-    best = front(
-        (row for row in rows if variant.is_scene or row.setting.model == 'springs'),
-        of_scene=variant.is_scene)
+    best = front(rows, of_scene=variant.is_scene)
     panel.plot(
         [row.cost for row in best], [row.error(variant.is_scene) for row in best],
         color='0.4', linewidth=1.0, label='Pareto front')

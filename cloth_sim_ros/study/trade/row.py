@@ -59,10 +59,19 @@ class Row:
         errors = self.scene if of_scene else self.own
         return errors.position if errors else None
 
-    def is_choice(self, of_scene: bool) -> bool:
-        """Tell whether it was timed, and is no nonsense."""
+    def is_useful(self, of_scene: bool) -> bool:
+        """
+        Tell whether it shows the same motion, and may be compared with the other rows.
+
+        Errors against a scene's own model are compared where the model is that of springs.
+        """
         error = self.error(of_scene)
-        return bool(self.rounds) and error is not None and error <= WORST_ERROR
+        return error is not None and error <= WORST_ERROR and (
+            of_scene or self.setting.model == 'springs')
+
+    def is_choice(self, of_scene: bool) -> bool:
+        """Tell whether it is useful, and was timed."""
+        return self.is_useful(of_scene) and bool(self.rounds)
 
     def as_dict(self) -> dict[str, object]:
         """Return a flat line of the table."""
