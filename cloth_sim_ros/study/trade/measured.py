@@ -15,6 +15,7 @@
 """Make the runs of a study of the trade."""
 
 from dataclasses import replace
+import statistics
 
 from cloth_sim_ros.gl.context import is_software
 from cloth_sim_ros.sim.scene import Scene
@@ -67,13 +68,18 @@ def _timed(plan: Plan, measured: Measured, results: ResultsFolder) -> list[Row]:
         variant: plan.cost(variant, [row.setting for row in rows])
         for variant, rows in chosen.items() if rows}
     made = make_runs(list(runs.values()), results, Workers(), title='cost', alone=True)
-    timed = {}
+    rounds, shares = {}, {}
     for variant, result in zip(runs, made):
         if result.is_done:
-            timed.update({
-                (variant, row.setting.method, row.setting.label): tuple(rounds)
-                for row, rounds in zip(chosen[variant], result.values['wall_seconds'])})
+            own = [tuple(wall) for wall in result.values['wall_seconds']]
+            rounds.update(zip(map(_name, chosen[variant]), own))
+            shares[variant] = statistics.median(
+                statistics.median(wall) / row.run.values['processor_seconds']
+                for wall, row in zip(own, chosen[variant]))
     return [
-        replace(row, rounds=timed.get(
-            (row.variant, row.setting.method, row.setting.label), ()))
+        replace(row, rounds=rounds.get(_name(row), ()), wall_share=shares.get(row.variant, 1.0))
         for row in measured.rows]
+
+
+def _name(row: Row) -> tuple[Variant, str, str]:
+    return row.variant, row.setting.method, row.setting.label

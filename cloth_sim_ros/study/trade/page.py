@@ -40,7 +40,7 @@ def page(measured: Measured, scene_name: str) -> str:
         f'{device}. An error is the RMS distance of nodes from the reference over the times that '
         'count, over the longer side of the cloth. Cost is wall time in a simulated second, by '
         f'the median of {measured.grid.rounds} rounds in turn with nothing beside them; with a ~ '
-        'it is processor time of a run beside others, of settings that were not near the front. '
+        'it is what processor time lets expect, of settings that were not near the front. '
         f'Settings off by more than {WORST_ERROR:g} of the side are left out.',
         '## What it was measured against', _references(measured),
         '## What a real-time budget buys on this scene', _speeds(measured),
@@ -112,8 +112,8 @@ def _crossing(measured: Measured) -> str:
                 f'- {variant.name}: below the {_cost(explicit[0])} s of mass_spring there is '
                 f'{first.setting.method}, {first.setting.label}: {_cost(first)} s, with an error '
                 f'of {first.own.position:.1e} against {explicit[0].own.position:.1e}, and a '
-                f'largest strain of {first.own.peak_strain:.2f} against '
-                f'{explicit[0].own.peak_strain:.2f}.')
+                f'largest strain of {first.own.peak_strain:.2g} against '
+                f'{explicit[0].own.peak_strain:.2g}.')
         else:
             sentences.append(
                 f'- {variant.name}: nothing that was measured is cheaper than mass_spring with '

@@ -19,7 +19,6 @@ from pathlib import Path
 from cloth_sim_ros.study.trade.compared import Measured
 from cloth_sim_ros.study.trade.front import front
 from cloth_sim_ros.study.trade.row import Row
-from cloth_sim_ros.study.trade.row import WORST_ERROR
 from cloth_sim_ros.study.trade.variant import Variant
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -47,8 +46,7 @@ def write_plot(path: Path, measured: Measured) -> None:
 
 
 def _drawable(rows: list[Row], variant: Variant) -> list[Row]:
-    # What is its own reference has no error to show.
-    return [row for row in rows if 0.0 < (row.error(variant.is_scene) or 0.0) <= WORST_ERROR]
+    return [row for row in rows if row.is_useful(variant.is_scene)]
 
 
 def _draw(
@@ -70,6 +68,7 @@ def _draw(
         panel.annotate(
             row.setting.label, (row.cost, row.error(variant.is_scene)), fontsize=7,
             xytext=(4, 4), textcoords='offset points')
+    panel.scatter([], [], s=26, color='0.4', facecolors='none', label='not timed: an estimate')
     panel.axvline(1.0, color='0.7', linewidth=1.0, linestyle='--', label='real time')
     panel.set(xscale='log', yscale='log', xlabel='wall time of a simulated second [s]')
     own = 'position error / side'
@@ -78,4 +77,4 @@ def _draw(
     panel.set_title(
         f'{variant.name}: {first.get("rows", 32)} x {first.get("cols", 32)} nodes', fontsize=10)
     panel.grid(True, which='major', color='0.9')
-    panel.margins(x=0.18, y=0.12)
+    panel.margins(x=0.22, y=0.12)

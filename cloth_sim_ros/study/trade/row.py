@@ -35,6 +35,7 @@ class Row:
     :param own: against the reference of its own model; None where there is none
     :param scene: against the reference of the scene as it was given
     :param rounds: wall time in a simulated second of each round; empty where it was not timed
+    :param wall_share: wall time over processor time, of rows of the variant that were timed
     """
 
     variant: Variant
@@ -43,6 +44,7 @@ class Row:
     own: Errors | None
     scene: Errors | None
     rounds: tuple[float, ...] = ()
+    wall_share: float = 1.0
 
     @property
     def wall_seconds(self) -> float | None:
@@ -51,8 +53,8 @@ class Row:
 
     @property
     def cost(self) -> float:
-        """Return the wall time, or the processor time where that is all there is."""
-        return self.wall_seconds or self.run.values['processor_seconds']
+        """Return the wall time, or what the processor time lets expect of it."""
+        return self.wall_seconds or self.wall_share * self.run.values['processor_seconds']
 
     def error(self, of_scene: bool) -> float | None:
         """Return the error in position; None where there is none."""
