@@ -109,10 +109,14 @@ def compare(
             # The finest run of a model is its reference, and has no error to tell.
             if reference is not None and times[variant] and reference.run != result.key:
                 own = errors(path, reference.path, scene, *_counting(grid, times[variant]))
-            of_scene = errors(
-                path.on_nodes_of(scene.rows, scene.cols), truth.path, scene,
-                *_counting(grid, times[Variant()]))
+            if truth.run != result.key:
+                of_scene = errors(
+                    path.on_nodes_of(scene.rows, scene.cols), truth.path, scene,
+                    *_counting(grid, times[Variant()]))
         rows.append(Row(variant, setting, result, own, of_scene))
+    if not any(row.scene for row in rows if row.variant.is_scene):
+        reason = next((row.run.reason for row in rows if row.run.reason), 'there are none')
+        raise ClothSimError(f'no setting of the grid could be compared on the scene: {reason}')
     return Measured(scene, grid, references, times, rows)
 
 

@@ -116,6 +116,12 @@ def test_nothing_is_made_twice(study):
     assert again.rows[0].scene == measured.rows[0].scene
 
 
+def test_a_grid_without_a_setting_that_runs_is_told(tmp_path):
+    """A study of nothing but refused settings would end in a traceback."""
+    with pytest.raises(ClothSimError, match='could be compared on the scene: .*stability limit'):
+        small_study(tmp_path, methods={'unstable': UNSTABLE})
+
+
 def test_a_scene_without_a_reference_is_told(tmp_path):
     """Errors against a motion that has not converged would be taken for errors of settings."""
     with pytest.raises(ClothSimError, match='has not converged to 1e-12'):
