@@ -51,7 +51,7 @@ class Context:
         self.make_current()
         self.device = GL.glGetString(GL.GL_RENDERER).decode()
         self.version = GL.glGetString(GL.GL_VERSION).decode()
-        self.is_software = _is_software(self.device)
+        self.is_software = is_software(self.device)
         self.max_buffer_bytes = _integer(GL.GL_MAX_SHADER_STORAGE_BLOCK_SIZE)
         self.max_texture_texels = _integer(GL.GL_MAX_TEXTURE_BUFFER_SIZE)
 
@@ -83,7 +83,7 @@ def _best_context() -> tuple[EGL.EGLDisplay, EGL.EGLContext]:
         if context is None:
             continue
         EGL.eglMakeCurrent(display, EGL.EGL_NO_SURFACE, EGL.EGL_NO_SURFACE, context)
-        if not _is_software(GL.glGetString(GL.GL_RENDERER).decode()):
+        if not is_software(GL.glGetString(GL.GL_RENDERER).decode()):
             return display, context
         software = software or (display, context)
         if software[1] is not context:
@@ -113,7 +113,7 @@ def _make_context(display: EGL.EGLDisplay) -> EGL.EGLContext | None:
     return context or None
 
 
-def _is_software(renderer: str) -> bool:
+def is_software(renderer: str) -> bool:
     return any(name in renderer.lower() for name in _SOFTWARE)
 
 

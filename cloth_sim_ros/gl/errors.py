@@ -21,3 +21,7 @@ class DeviceError(RuntimeError):
 
 class ShaderError(RuntimeError):
     """A shader does not compile or link; carries the offending lines."""
+
+
+class MissingFilesError(RuntimeError):
+    """Files that belong to the code are not where they are installed."""

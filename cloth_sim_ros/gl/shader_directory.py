@@ -16,19 +16,9 @@
 
 from pathlib import Path
 
-from cloth_sim_ros.gl.errors import ShaderError
-
-_INSTALLED = Path('share', 'cloth_sim_ros', 'shaders')
+from cloth_sim_ros.gl.shared_directory import shared_directory
 
 
 def shader_directory() -> Path:
     """Return the folder of the shaders that belong to this code."""
-    here = Path(__file__).resolve()
-    in_source = here.parents[2] / 'shaders'
-    if in_source.is_dir():
-        return in_source
-    for parent in here.parents:
-        if (parent / _INSTALLED).is_dir():
-            return parent / _INSTALLED
-    raise ShaderError(
-        f'no shaders lie beside {here.parents[1]}: install the package again, it brings them')
+    return shared_directory('shaders')

@@ -12,14 +12,16 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""The version of this project, as recordings name it."""
+"""The version of this project, as recordings and the results of studies name it."""
 
+from functools import cache
 from importlib.metadata import PackageNotFoundError
 from importlib.metadata import version
 
 PACKAGE = 'cloth_sim_ros'
 
 
+@cache
 def project_version() -> str:
     """Return the version of the installed package; empty where it is not installed."""
     try:

@@ -24,6 +24,7 @@ from cloth_sim_ros.sim.field import Field
 from cloth_sim_ros.sim.pin_move import PinMove
 from cloth_sim_ros.sim.pins import only_node
 from cloth_sim_ros.sim.pins import pinned_nodes
+from cloth_sim_ros.sim.presets import with_preset
 from cloth_sim_ros.sim.push import Push
 from cloth_sim_ros.sim.scene_fields import FAMILIES
 from cloth_sim_ros.sim.scene_fields import SCENE_FIELDS
@@ -40,8 +41,8 @@ class Scene:
 
     def __init__(self, values: Mapping[str, Any] | None = None) -> None:
         """Check ``values`` against the field table."""
-        given = dict(values or {})
-        refuse_unknown(given, SCENE_FIELDS)
+        refuse_unknown(values or {}, SCENE_FIELDS)
+        given = with_preset(values or {})
         self.values = {
             field.name: field.check(given.get(field.name, field.default))
             for field in SCENE_FIELDS}

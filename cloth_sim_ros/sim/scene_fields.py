@@ -19,8 +19,12 @@ from cloth_sim_ros.sim.field import Field
 MOST_SUBSTEPS = 100000
 MODES = ('mass_spring', 'constraint', 'adaptive')
 FAMILIES = ('structural', 'shear', 'bend')
+NO_PRESET = 'none'
+PRESETS = ('fast', 'balanced', 'accurate')
 
 SCENE_FIELDS = (
+    Field('preset', str, NO_PRESET, 'measured choice of how to step the scene, of what is not set '
+          'here: config/presets/ tells', choices=(NO_PRESET, *PRESETS)),
     Field('mode', str, 'mass_spring', 'simulation mode at the start', choices=MODES, live=True),
     Field('rows', int, 32, 'nodes along the height', low=1, high=8192),
     Field('cols', int, 32, 'nodes along the width', low=1, high=8192),
@@ -57,6 +61,8 @@ SCENE_FIELDS = (
     Field('dt', float, 0.005, 'time step', 's', low=1e-7, high=1.0),
     Field('auto_substeps', bool, True, 'split dt so that each substep keeps to 0.85 of the '
           'stability limit, and is stable in any shape'),
+    Field('refine', int, 1, 'times the substeps that auto_substeps finds necessary: more are '
+          'slower and more exact', low=1, high=1000),
     Field('substeps', int, 1, 'substeps in each dt when auto_substeps is false',
           low=1, high=MOST_SUBSTEPS),
     Field('constraint.hard', str, ('structural', 'shear'), 'edges that keep their length in mode '

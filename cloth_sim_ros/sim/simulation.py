@@ -41,7 +41,7 @@ from cloth_sim_ros.sim.state import State
 import numpy as np
 
 # Below this many nodes llvmpipe is faster without its worker threads (docs/performance.md).
-_SINGLE_THREAD_NODES = 128 * 128
+SINGLE_THREAD_NODES = 128 * 128
 
 
 class Simulation:
@@ -66,7 +66,7 @@ class Simulation:
         _check_mode(scene['mode'])
         self._owns_context = context is None
         self._context = context or Context(
-            single_thread=scene.node_count < _SINGLE_THREAD_NODES)
+            single_thread=scene.node_count < SINGLE_THREAD_NODES)
         self._context.make_current()
         self.device = self._context.device
         self.layout = choose_layout(scene, self._context)

@@ -88,8 +88,8 @@ class StiffenedLimit:
 
 
 def choose_substeps(scene: Scene) -> int:
-    """Return how many substeps of dt keep to the safe length; at least 1."""
-    return max(1, math.ceil(scene['dt'] / safe_substep(scene) - 1e-9))
+    """Return how many substeps auto_substeps makes of dt: what is safe, times refine."""
+    return scene['refine'] * max(1, math.ceil(scene['dt'] / safe_substep(scene) - 1e-9))
 
 
 def _least_limit(scene: Scene, kappa: np.ndarray, gamma: np.ndarray) -> float:

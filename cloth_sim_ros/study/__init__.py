@@ -12,4 +12,4 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""Measure the simulation: speed, start-up."""
+"""Measure the simulation: speed, start-up, error against cost."""

@@ -47,6 +47,7 @@ VERBS = {
     'play': 'publish a recording again',
     'resimulate': 'run a recorded simulation again, with the same or other settings',
     'paper': 'make Fig. 10 and 11 of the paper',
+    'study': 'measure error against cost, and where a scene stops being stable',
 }
 INTERRUPTED = 130
 

@@ -31,8 +31,11 @@ import yaml
 
 
 def add_scene_arguments(parser: ArgumentParser) -> None:
-    """Add the scene file and --set."""
+    """Add the scene file, --params and --set."""
     parser.add_argument('scene', metavar='SCENE.yaml', help='ROS parameter file of the scene')
+    parser.add_argument('--params', action='append', default=[], metavar='PARAMS.yaml',
+                        help='parameters that go over those of the scene; can be given several '
+                             'times')
     parser.add_argument('--set', action='append', default=[], metavar='name=value', dest='changes',
                         help='change a parameter; can be given several times')
 
@@ -43,7 +46,11 @@ def read_scene(args: Namespace) -> tuple[Scene, dict[str, Any]]:
 
     :raises ClothSimError: when the file or a --set is not right
     """
-    return scene_from(args.scene, dict(map(parse_change, args.changes)))
+    given: dict[str, Any] = {}
+    for path in args.params:
+        given.update(load_parameters(path))
+    given.update(map(parse_change, args.changes))
+    return scene_from(args.scene, given)
 
 
 def scene_from(

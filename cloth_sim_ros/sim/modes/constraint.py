@@ -139,7 +139,9 @@ class Constraint:
             wanted = self._dt / longest - _NOTHING if longest > 0.0 else math.inf
             most = self._scene['constraint.max_substeps']
             # What is no number becomes the most, too.
-            self.substeps = max(1, math.ceil(wanted)) if wanted < most else most
+            self.substeps = most
+            if wanted < most:
+                self.substeps = min(self._scene['refine'] * max(1, math.ceil(wanted)), most)
         return misfit
 
     def _law(self, length: float) -> EdgeLaw:

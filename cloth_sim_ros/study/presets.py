@@ -1,0 +1,73 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""
+Make the values of the parameter `preset` from a study of the trade on a scene.
+
+Settings that step the springs as they are compete; a preset does not make another cloth of it.
+What each preset is chosen by stands in its file, with error and real-time factor.
+
+For example:
+  cloth_sim study presets config/drape.yaml
+  cloth_sim study presets config/drape.yaml --write config/presets
+"""
+
+from argparse import ArgumentParser
+from argparse import Namespace
+from dataclasses import replace
+from pathlib import Path
+
+from cloth_sim_ros.sim.scene_fields import PRESETS
+from cloth_sim_ros.study.runs.arguments import add_run_arguments
+from cloth_sim_ros.study.runs.arguments import workers_of
+from cloth_sim_ros.study.runs.results_folder import ResultsFolder
+from cloth_sim_ros.study.trade.choice import Budget
+from cloth_sim_ros.study.trade.choice import write_choice
+from cloth_sim_ros.study.trade.grid import default_grid_path
+from cloth_sim_ros.study.trade.grid import load_grid
+from cloth_sim_ros.study.trade.measured import measure
+from cloth_sim_ros.study.trade.variant import Variant
+
+TAKES_SCENE = True
+
+# Each is the fastest setting within an error, over the side of the cloth.
+BUDGETS = {name: Budget(error=error) for name, error in zip(PRESETS, (1e-2, 1e-4, 5e-5))}
+
+
+def add_arguments(parser: ArgumentParser) -> None:
+    """Add the arguments of this study."""
+    parser.add_argument('--grid', metavar='GRID.yaml',
+                        help='settings that compete (default: those of config/studies/'
+                             'tradeoff.yaml)')
+    parser.add_argument('--write', metavar='DIR',
+                        help='where the presets are written (default: presets in --out)')
+    add_run_arguments(parser, 'studies/tradeoff')
+
+
+def main(args: Namespace) -> int:
+    """Choose and write the presets."""
+    grid = load_grid(args.grid or default_grid_path())
+    grid = replace(grid, variants=(Variant(),), settings=tuple(
+        setting for setting in grid.settings if setting.model == 'springs'))
+    with ResultsFolder(args.out) as results:
+        measured = measure(args.scene, grid, results, workers_of(args))
+    folder = Path(args.write or Path(args.out) / 'presets')
+    for name, budget in BUDGETS.items():
+        row = budget.choose(measured)
+        write_choice(
+            folder / f'{name}.yaml', row, budget, args.scene_file, args.scene,
+            only_changes=False)
+        print(f'{name}: {budget.in_words()}: {row.setting.method}, {row.setting.label}')
+    print(f'written to {folder}')
+    return 0

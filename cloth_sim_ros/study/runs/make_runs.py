@@ -1,0 +1,127 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Make the runs of a study that are not there yet, and keep each as it ends."""
+
+from collections.abc import Iterable
+from collections.abc import Iterator
+from collections.abc import Sequence
+from concurrent.futures import BrokenExecutor
+from concurrent.futures import Executor
+from concurrent.futures import FIRST_COMPLETED
+from concurrent.futures import Future
+from concurrent.futures import wait
+from contextlib import closing
+from itertools import islice
+
+from cloth_sim_ros.sim.errors import ClothSimError
+from cloth_sim_ros.study.runs.perform import perform
+from cloth_sim_ros.study.runs.result import FAILED
+from cloth_sim_ros.study.runs.result import Result
+from cloth_sim_ros.study.runs.result import unmade
+from cloth_sim_ros.study.runs.results_folder import ResultsFolder
+from cloth_sim_ros.study.runs.run import Run
+from cloth_sim_ros.study.runs.workers import Workers
+from tqdm import tqdm
+
+_BAR = '{desc} |{bar}| {n_fmt}/{total_fmt} runs, {elapsed}{postfix}'
+
+
+def make_runs(
+        runs: Sequence[Run], results: ResultsFolder, workers: Workers, *, title: str,
+        alone: bool = False) -> list[Result]:
+    """
+    Return the result of each run, in their order.
+
+    A run that ``results`` holds is not made again, unless it failed. Interrupted, all that have
+    ended are kept.
+
+    :param title: in front of the progress bar
+    :param alone: one at a time, each in a fresh process of this machine: to measure wall time
+    """
+    distinct = {run.key: run for run in runs}
+    found = {key: results.find(key) for key in distinct}
+    todo = [distinct[key] for key, result in found.items()
+            if result is None or not result.is_final]
+    if todo:
+        with tqdm(
+                total=len(distinct), initial=len(distinct) - len(todo), bar_format=_BAR,
+                desc=title) as bar:
+            # Closed at once, so that an interrupt ends the processes.
+            with closing(_make_alone(todo) if alone else _make(todo, workers)) as made:
+                for result in made:
+                    results.add(result)
+                    if result.outcome == FAILED:
+                        bar.write(f'failed: {result.reason}')
+                    bar.update()
+    return [results.find(run.key) for run in runs]
+
+
+def _make(runs: Sequence[Run], workers: Workers) -> Iterator[Result]:
+    left = list(runs)
+    while left:
+        processes = min(workers.processes, len(left))
+        suspects: list[Run] = []
+        done = set()
+        with workers.executor(processes) as (executor, at_once):
+            for run, result in _ended(executor, left, at_once):
+                done.add(run.key)
+                if result is None:
+                    suspects.append(run)
+                else:
+                    yield result
+        left = [run for run in left if run.key not in done]
+        # Any of the runs that were under way may be the one that ended its process.
+        yield from _make_alone(suspects)
+
+
+def _make_alone(runs: Iterable[Run]) -> Iterator[Result]:
+    for run in runs:
+        with Workers().executor(1) as (executor, _):
+            for _, result in _ended(executor, [run], 1):
+                yield result or unmade(
+                    run, FAILED, 'its process ended without a result, as one does that runs out '
+                    'of memory')
+
+
+def _ended(
+        executor: Executor, runs: Sequence[Run],
+        at_once: int) -> Iterator[tuple[Run, Result | None]]:
+    """Yield each run with its result; None where the process that made it may have died."""
+    waiting = iter(runs)
+    under_way: dict[Future[Result], Run] = {}
+    is_broken = False
+    while True:
+        if not is_broken:
+            try:
+                for run in islice(waiting, at_once - len(under_way)):
+                    under_way[executor.submit(perform, run, at_once > 1)] = run
+            except BrokenExecutor:
+                is_broken = True
+        if not under_way:
+            return
+        for future in wait(under_way, return_when=FIRST_COMPLETED).done:
+            run = under_way.pop(future)
+            if future.cancelled():
+                raise ClothSimError(
+                    'the Dask scheduler is gone: start it again, and the study, which goes on '
+                    'where it was')
+            error = future.exception()
+            if isinstance(error, BrokenExecutor):
+                is_broken = True
+                yield run, None
+            elif error is not None:
+                yield run, unmade(run, FAILED, f'{type(error).__name__}: {error}')
+            else:
+                yield run, future.result()

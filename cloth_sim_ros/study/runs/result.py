@@ -1,0 +1,89 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""What became of a run: one line of JSON, and arrays beside it."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from dataclasses import field
+import json
+from typing import Any
+
+from cloth_sim_ros.recording.project_version import project_version
+from cloth_sim_ros.study.runs.run import Run
+import numpy as np
+
+DONE = 'done'
+REFUSED = 'refused'
+STOPPED = 'stopped'
+FAILED = 'failed'
+
+
+@dataclass(frozen=True)
+class Result:
+    """
+    What became of one run.
+
+    :param outcome: done; refused, with the reason that the simulation gave; stopped, where its
+        state was lost; or failed, with the error, and made again when the study is continued
+    :param scene: parameters that the run was given
+    :param scene_sha256: fingerprint of all parameters, defaults included
+    :param values: what the function returned, without arrays
+    :param device: that it ran on; empty where that is not known
+    :param wall_seconds: from begin to end of the function; others may have run beside it
+    :param arrays: what the function returned as arrays, by name; kept in a file of their own
+    """
+
+    key: str
+    function: str
+    outcome: str
+    reason: str
+    scene: Mapping[str, Any]
+    scene_sha256: str
+    settings: Mapping[str, Any]
+    values: Mapping[str, Any]
+    device: str
+    version: str
+    wall_seconds: float
+    arrays: Mapping[str, np.ndarray] = field(default_factory=dict)
+
+    @property
+    def is_done(self) -> bool:
+        """Return whether there are values."""
+        return self.outcome == DONE
+
+    @property
+    def is_final(self) -> bool:
+        """Return whether the run need not be made again."""
+        return self.outcome != FAILED
+
+    def line(self) -> str:
+        """Return the line of JSON, without arrays."""
+        plain = {name: value for name, value in vars(self).items() if name != 'arrays'}
+        return json.dumps({**plain, 'arrays': sorted(self.arrays)}, allow_nan=False)
+
+
+def unmade(run: Run, outcome: str, reason: str, **known: Any) -> Result:
+    """Return the result of a run that has no values."""
+    return Result(**{
+        **describe(run), 'outcome': outcome, 'reason': reason, 'values': {}, 'device': '',
+        'wall_seconds': 0.0, **known})
+
+
+def describe(run: Run) -> dict[str, Any]:
+    """Return what the result of ``run`` repeats of it."""
+    return {
+        'key': run.key, 'function': run.function, 'scene': dict(run.scene),
+        'scene_sha256': run.scene_sha256, 'settings': dict(run.settings),
+        'version': project_version()}

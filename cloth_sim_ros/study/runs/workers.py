@@ -1,0 +1,92 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Who makes the runs: processes of this machine, or those of a Dask scheduler."""
+
+from collections.abc import Iterator
+from concurrent.futures import Executor
+from concurrent.futures import ProcessPoolExecutor
+from contextlib import contextmanager
+from dataclasses import dataclass
+import multiprocessing
+import os
+import signal
+from threading import Thread
+
+from cloth_sim_ros.sim.errors import ClothSimError
+
+
+@dataclass(frozen=True)
+class Workers:
+    """
+    Where runs are made.
+
+    :param jobs: processes of this machine; None for as many as it lets this process use
+    :param scheduler: address of a Dask scheduler, which takes the place of these processes
+    """
+
+    jobs: int | None = None
+    scheduler: str = ''
+
+    @property
+    def processes(self) -> int:
+        """Return how many processes of this machine make runs at the same time."""
+        return self.jobs or len(os.sched_getaffinity(0))
+
+    @contextmanager
+    def executor(self, processes: int) -> Iterator[tuple[Executor, int]]:
+        """
+        Lend an executor, and how many runs it makes at the same time.
+
+        :param processes: of this machine
+        :raises ClothSimError: when the scheduler can't be used
+        """
+        if self.scheduler:
+            # Optional, and slow to import.
+            from cloth_sim_ros.study.runs.dask_cluster import dask_executor
+            with dask_executor(self.scheduler) as lent:
+                yield lent
+            return
+        others = set(multiprocessing.active_children())
+        # A GL context does not survive a fork.
+        executor = ProcessPoolExecutor(
+            processes, mp_context=multiprocessing.get_context('spawn'),
+            initializer=_end_with_parent)
+        try:
+            yield executor, processes
+        except BaseException:
+            executor.shutdown(wait=False, cancel_futures=True)
+            for process in set(multiprocessing.active_children()) - others:
+                process.terminate()
+            raise
+        executor.shutdown()
+
+
+def _end_with_parent() -> None:
+    # Ctrl-C reaches every process of the terminal: the parent says what there is to say.
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
+    # Where the parent is killed, a worker would wait for more runs for ever.
+    Thread(target=_wait_for_parent, daemon=True).start()
+
+
+def _wait_for_parent() -> None:
+    multiprocessing.parent_process().join()
+    os._exit(1)
+
+
+def checked_workers(jobs: int | None, scheduler: str) -> Workers:
+    """Return the workers; ClothSimError when there can't be so many."""
+    if jobs is not None and jobs < 1:
+        raise ClothSimError(f'--jobs must be 1 or more, got {jobs}')
+    return Workers(jobs, scheduler)

@@ -1,0 +1,121 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""A chosen setting as a parameter file that node and `cloth_sim run` take."""
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from cloth_sim_ros.sim.errors import ClothSimError
+from cloth_sim_ros.sim.scene import Scene
+from cloth_sim_ros.sim.scene_file import load_parameters
+from cloth_sim_ros.study.runs.run import Run
+from cloth_sim_ros.study.trade.compared import Measured
+from cloth_sim_ros.study.trade.front import fastest_within
+from cloth_sim_ros.study.trade.front import most_accurate_at
+from cloth_sim_ros.study.trade.row import Row
+from cloth_sim_ros.study.trade.variant import Variant
+import yaml
+
+_ERROR, _SPEED = 'budget-error', 'budget-rtf'
+_OWN_ERROR, _OWN_SPEED = 'error', 'real-time factor'
+
+
+@dataclass(frozen=True)
+class Budget:
+    """
+    What a setting is chosen by; one of the two is None.
+
+    :param error: the largest one allowed, over the side of the cloth
+    :param real_time_factor: the least one allowed
+    """
+
+    error: float | None = None
+    real_time_factor: float | None = None
+
+    def choose(self, measured: Measured) -> Row:
+        """Return the fastest setting within the error, or the most exact fast enough."""
+        rows = measured.rows_of(Variant())
+        if self.error is not None:
+            return fastest_within(rows, self.error)
+        return most_accurate_at(rows, self.real_time_factor)
+
+    def holds(self, error: float, real_time_factor: float) -> bool:
+        """Tell whether what was measured keeps to it."""
+        if self.error is not None:
+            return error <= self.error
+        return real_time_factor >= self.real_time_factor
+
+    def in_words(self) -> str:
+        """Return what was chosen by."""
+        if self.error is not None:
+            return f'the fastest setting with an error of {self.error:g} of the side or less'
+        return (
+            f'the most exact setting with a real-time factor of {self.real_time_factor:g} or more')
+
+    def line(self) -> str:
+        """Return the line that ``read_budget`` finds."""
+        if self.error is not None:
+            return f'{_ERROR}: {self.error:g}'
+        return f'{_SPEED}: {self.real_time_factor:g}'
+
+
+def write_choice(
+        path: Path, row: Row, budget: Budget, scene_name: str, scene: Scene, *,
+        only_changes: bool = True) -> None:
+    """
+    Write the parameters of ``row``, and where they come from.
+
+    :param only_changes: leave out those that ``scene`` has already
+    :raises ClothSimError: when the file can't be written
+    """
+    values = row.setting.values
+    if only_changes:
+        changed = Scene({**scene.values, **values})
+        values = {name: value for name, value in values.items() if changed[name] != scene[name]}
+    head = [
+        f'For {scene_name}: {budget.in_words()}.',
+        'Written by `cloth_sim study`; give it after the file of the scene.',
+        f'device: {row.run.device}',
+        f'version: {row.run.version}',
+        f'scene sha256: {Run("", dict(scene.values)).scene_sha256}',
+        f'nodes: {scene.rows} x {scene.cols}',
+        budget.line(),
+        f'{_OWN_ERROR}: {row.scene.position:.2e} of the side',
+        f'{_OWN_SPEED}: {1.0 / row.cost:.2f}',
+        f'largest strain: {row.scene.peak_strain:.3f}']
+    body = yaml.safe_dump({'/**': {'ros__parameters': values}}, sort_keys=False)
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(''.join(f'# {line}\n' for line in head) + body, encoding='utf-8')
+    except OSError as error:
+        raise ClothSimError(f'{path} cannot be written: {error}') from error
+
+
+def read_choice(path: Path) -> tuple[dict[str, Any], Budget, str]:
+    """Return parameters and budget of a file that ``write_choice`` made, and what it tells."""
+    values = load_parameters(path)
+    told = dict(
+        line.removeprefix('# ').split(': ', 1)
+        for line in path.read_text(encoding='utf-8').splitlines()
+        if line.startswith('# ') and ': ' in line)
+    summary = f'error {told.get(_OWN_ERROR)}, real-time factor {told.get(_OWN_SPEED)}'
+    if _ERROR in told:
+        return values, Budget(error=float(told[_ERROR])), summary
+    if _SPEED in told:
+        return values, Budget(real_time_factor=float(told[_SPEED])), summary
+    raise ClothSimError(
+        f'{path} does not tell what it was chosen by: give a file that --budget-error or '
+        '--budget-rtf wrote')

@@ -1,0 +1,67 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Which settings no other one beats."""
+
+from collections.abc import Iterable
+
+from cloth_sim_ros.sim.errors import ClothSimError
+from cloth_sim_ros.study.trade.row import Row
+
+
+def front(rows: Iterable[Row], *, of_scene: bool) -> list[Row]:
+    """Return the choices that are more exact than all that cost less, cheapest first."""
+    kept: list[Row] = []
+    choices = [row for row in rows if row.is_choice(of_scene)]
+    for row in sorted(choices, key=lambda row: row.cost):
+        if not kept or row.error(of_scene) < kept[-1].error(of_scene):
+            kept.append(row)
+    return kept
+
+
+def near_front(rows: Iterable[Row], margin: float, *, of_scene: bool) -> list[Row]:
+    """Return the useful rows that none as exact beats by ``margin`` or more in cost."""
+    useful = [row for row in rows if row.is_useful(of_scene)]
+    return [
+        row for row in useful if not any(
+            other.error(of_scene) <= row.error(of_scene) and margin * other.cost < row.cost
+            for other in useful)]
+
+
+def fastest_within(rows: Iterable[Row], error: float) -> Row:
+    """Return the fastest timed row of which the error is ``error`` or less."""
+    timed = _timed(rows)
+    fitting = [row for row in timed if row.error(True) <= error]
+    if not fitting:
+        least = min((row.error(True) for row in timed), default=float('nan'))
+        raise ClothSimError(
+            f'no setting keeps to an error of {error:g} of the side, the least is {least:.2g}: '
+            'give a larger --budget-error, or finer settings in a --grid')
+    return min(fitting, key=lambda row: row.cost)
+
+
+def most_accurate_at(rows: Iterable[Row], real_time_factor: float) -> Row:
+    """Return the timed row with the least error of those that are fast enough."""
+    timed = _timed(rows)
+    fitting = [row for row in timed if 1.0 / row.cost >= real_time_factor]
+    if not fitting:
+        most = max((1.0 / row.cost for row in timed), default=float('nan'))
+        raise ClothSimError(
+            f'no setting has a real-time factor of {real_time_factor:g}, the largest is '
+            f'{most:.2g}: give a smaller --budget-rtf, or take fewer nodes')
+    return min(fitting, key=lambda row: row.error(True))
+
+
+def _timed(rows: Iterable[Row]) -> list[Row]:
+    return [row for row in rows if row.is_choice(True)]

@@ -1,0 +1,118 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""What a study of the trade measures, read from a YAML file."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from itertools import product
+from pathlib import Path
+from typing import Any
+
+from cloth_sim_ros.gl.shared_directory import shared_directory
+from cloth_sim_ros.sim.errors import ClothSimError
+from cloth_sim_ros.sim.scene import refuse_unknown
+from cloth_sim_ros.sim.scene_fields import SCENE_FIELDS
+from cloth_sim_ros.sim.scene_file import parse_value
+from cloth_sim_ros.study.trade.setting import Setting
+from cloth_sim_ros.study.trade.variant import Variant
+import yaml
+
+MODELS = ('springs', 'hard', 'limited')
+_PARTS = ('times', 'frame', 'variants', 'reference', 'cost', 'methods')
+
+
+@dataclass(frozen=True)
+class Grid:
+    """
+    What is measured; the file that ships with the project tells what each part is.
+
+    :param converged: what the reference may change by, over the side, where a time counts
+    :param variants_converged: the same for other variants than the scene itself
+    :param settings: of each method in turn; the last one of a method is its finest
+    """
+
+    times: tuple[float, ...]
+    frame: float
+    variants: tuple[Variant, ...]
+    reference_refine: tuple[int, ...]
+    converged: float
+    variants_converged: float
+    float64_node_steps: float
+    rounds: int
+    margin: float
+    settings: tuple[Setting, ...]
+
+
+def default_grid_path() -> Path:
+    """Return the grid that is used when none is given."""
+    return shared_directory('config') / 'studies' / 'tradeoff.yaml'
+
+
+def load_grid(path: str | Path) -> Grid:
+    """
+    Return the grid in the file at ``path``.
+
+    :raises ClothSimError: when it can't be read, or is no grid
+    """
+    try:
+        given = parse_value(Path(path).read_text(encoding='utf-8'))
+    except (OSError, UnicodeDecodeError) as error:
+        raise ClothSimError(f'{path} cannot be read: {error}') from error
+    except yaml.YAMLError as error:
+        raise ClothSimError(f'{path} is not valid YAML: {error}') from error
+    return grid_of(given, str(path))
+
+
+def grid_of(given: Any, name: str = 'the grid') -> Grid:
+    """Return the grid that ``given`` describes; ClothSimError when it describes none."""
+    if not isinstance(given, Mapping) or set(given) != set(_PARTS):
+        found = sorted(given) if isinstance(given, Mapping) else type(given).__name__
+        raise ClothSimError(
+            f'{name} needs {", ".join(_PARTS)}, got {found}: start from {default_grid_path()}')
+    try:
+        reference, cost = given['reference'], given['cost']
+        grid = Grid(
+            times=tuple(sorted(map(float, given['times']))), frame=float(given['frame']),
+            variants=(Variant(), *(Variant(**variant) for variant in given['variants'])),
+            reference_refine=tuple(map(int, reference['refine'])),
+            converged=float(reference['converged']),
+            variants_converged=float(reference['variants_converged']),
+            float64_node_steps=float(reference['float64_node_steps']),
+            rounds=int(cost['rounds']), margin=float(cost['margin']),
+            settings=tuple(
+                setting for method, parts in given['methods'].items()
+                for setting in _settings(method, parts)))
+    except (TypeError, KeyError, ValueError, AttributeError) as error:
+        if isinstance(error, ClothSimError):
+            raise
+        raise ClothSimError(
+            f'{name} is not written as {default_grid_path()} is: {type(error).__name__} {error}'
+        ) from error
+    if len(grid.reference_refine) < 3:
+        raise ClothSimError(
+            f'reference.refine of {name} has {len(grid.reference_refine)} entries, and it takes '
+            '3 to tell how far the reference has converged: give [1, 2, 4] or more')
+    return grid
+
+
+def _settings(method: str, parts: Mapping[str, Any]) -> list[Setting]:
+    model, fixed, over = (parts[name] for name in ('model', 'set', 'over'))
+    if model not in MODELS:
+        raise ClothSimError(
+            f'the model of {method} must be one of {", ".join(MODELS)}, got {model!r}')
+    refuse_unknown({**fixed, **over}, SCENE_FIELDS)
+    return [
+        Setting(method, model, dict(fixed), dict(zip(over, chosen)))
+        for chosen in product(*over.values())]

@@ -1,0 +1,85 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Make the runs of a study of the trade."""
+
+from dataclasses import replace
+import statistics
+
+from cloth_sim_ros.gl.context import is_software
+from cloth_sim_ros.sim.scene import Scene
+from cloth_sim_ros.study.runs.make_runs import make_runs
+from cloth_sim_ros.study.runs.results_folder import ResultsFolder
+from cloth_sim_ros.study.runs.run import Run
+from cloth_sim_ros.study.runs.workers import Workers
+from cloth_sim_ros.study.trade.compared import compare
+from cloth_sim_ros.study.trade.compared import Measured
+from cloth_sim_ros.study.trade.front import near_front
+from cloth_sim_ros.study.trade.grid import Grid
+from cloth_sim_ros.study.trade.plan import Plan
+from cloth_sim_ros.study.trade.row import Row
+from cloth_sim_ros.study.trade.variant import Variant
+
+
+def measure(scene: Scene, grid: Grid, results: ResultsFolder, workers: Workers) -> Measured:
+    """
+    Make what is not there yet, and return everything.
+
+    :raises ClothSimError: when there is no reference for the scene itself
+    """
+    plan = Plan(scene, grid)
+    tasks = [(variant, setting) for variant in grid.variants for setting in grid.settings]
+    rungs = {variant: plan.references(variant) for variant in grid.variants}
+    # The longest first, so that no process ends up alone with one.
+    runs = [run for variant in grid.variants for run in reversed(rungs[variant])]
+    runs += [plan.trajectory(*task) for task in tasks]
+    made = {
+        result.key: result
+        for result in make_runs(runs, results, workers, title='accuracy')}
+    ran = [(*task, made[plan.trajectory(*task).key]) for task in tasks]
+    measured = compare(scene, grid, ran, {
+        variant: [made[run.key] for run in runs] for variant, runs in rungs.items()})
+    return replace(measured, rows=_timed(plan, measured, results))
+
+
+def _timed(plan: Plan, measured: Measured, results: ResultsFolder) -> list[Row]:
+    """Return the rows with the wall time of those that may matter."""
+    chosen = {}
+    for variant in measured.grid.variants:
+        rows = measured.rows_of(variant)
+        # What runs on a GPU is not seen in the processor's time.
+        known = all(is_software(row.run.device) for row in rows if row.run.is_done)
+        of_scene = variant.is_scene
+        chosen[variant] = [row for row in rows if row.is_useful(of_scene)]
+        if known:
+            chosen[variant] = near_front(rows, measured.grid.margin, of_scene=of_scene)
+    runs: dict[Variant, Run] = {
+        variant: plan.cost(variant, [row.setting for row in rows])
+        for variant, rows in chosen.items() if rows}
+    made = make_runs(list(runs.values()), results, Workers(), title='cost', alone=True)
+    rounds, shares = {}, {}
+    for variant, result in zip(runs, made):
+        if result.is_done:
+            own = [tuple(wall) for wall in result.values['wall_seconds']]
+            rounds.update(zip(map(_name, chosen[variant]), own))
+            shares[variant] = statistics.median(
+                statistics.median(wall) / row.run.values['processor_seconds']
+                for wall, row in zip(own, chosen[variant]))
+    return [
+        replace(row, rounds=rounds.get(_name(row), ()), wall_share=shares.get(row.variant, 1.0))
+        for row in measured.rows]
+
+
+def _name(row: Row) -> tuple[Variant, str, str]:
+    return row.variant, row.setting.method, row.setting.label

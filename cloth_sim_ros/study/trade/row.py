@@ -1,0 +1,95 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""One setting on one variant of a scene: its errors, and what it costs."""
+
+from dataclasses import dataclass
+
+from cloth_sim_ros.study.runs.result import Result
+from cloth_sim_ros.study.trade.errors import Errors
+from cloth_sim_ros.study.trade.setting import Setting
+from cloth_sim_ros.study.trade.variant import Variant
+
+
+# Of the side: what is off by more shows another motion, and is no choice at any cost.
+WORST_ERROR = 0.1
+
+
+@dataclass(frozen=True)
+class Row:
+    """
+    What was measured of a setting.
+
+    :param run: the result errors were measured on
+    :param own: against the reference of its own model; None where there is none
+    :param scene: against the reference of the scene as it was given
+    :param rounds: wall time in a simulated second of each round; empty where it was not timed
+    :param wall_share: wall time over processor time, of rows of the variant that were timed
+    """
+
+    variant: Variant
+    setting: Setting
+    run: Result
+    own: Errors | None
+    scene: Errors | None
+    rounds: tuple[float, ...] = ()
+    wall_share: float = 1.0
+
+    @property
+    def wall_seconds(self) -> float | None:
+        """Return the median wall time in a simulated second; None where it was not timed."""
+        return sorted(self.rounds)[len(self.rounds) // 2] if self.rounds else None
+
+    @property
+    def cost(self) -> float:
+        """Return the wall time, or what the processor time lets expect of it."""
+        return self.wall_seconds or self.wall_share * self.run.values['processor_seconds']
+
+    def error(self, of_scene: bool) -> float | None:
+        """Return the error in position; None where there is none."""
+        errors = self.scene if of_scene else self.own
+        return errors.position if errors else None
+
+    def is_useful(self, of_scene: bool) -> bool:
+        """
+        Tell whether it shows the same motion, and may be compared with the other rows.
+
+        Errors against a scene's own model are compared where the model is that of springs.
+        """
+        error = self.error(of_scene)
+        return error is not None and error <= WORST_ERROR and (
+            of_scene or self.setting.model == 'springs')
+
+    def is_choice(self, of_scene: bool) -> bool:
+        """Tell whether it is useful, and was timed."""
+        return self.is_useful(of_scene) and bool(self.rounds)
+
+    def as_dict(self) -> dict[str, object]:
+        """Return a flat line of the table."""
+        values = self.run.values
+        line: dict[str, object] = {
+            'resolution': self.variant.resolution, 'stiffness': self.variant.stiffness,
+            'method': self.setting.method, 'model': self.setting.model,
+            'setting': self.setting.label, 'outcome': self.run.outcome}
+        for prefix, errors in (('', self.own), ('scene_', self.scene)):
+            for name in ('position', 'strain', 'energy'):
+                line[f'{prefix}{name}_error'] = getattr(errors, name) if errors else None
+        line['peak_strain'] = self.own.peak_strain if self.own else None
+        line.update({name: values.get(name) for name in (
+            'substeps', 'passes', 'processor_seconds')})
+        wall = self.wall_seconds
+        line.update({
+            'wall_seconds': wall, 'real_time_factor': 1.0 / wall if wall else None,
+            'reason': self.run.reason, 'device': self.run.device, 'run': self.run.key})
+        return line

@@ -1,0 +1,69 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Simulate a scene and return where the cloth has been: the run that errors are measured on."""
+
+from collections.abc import Sequence
+import time
+from typing import Any
+
+from cloth_sim_ros.sim.errors import ClothSimError
+from cloth_sim_ros.sim.scene import Scene
+from cloth_sim_ros.sim.simulation import Simulation
+from cloth_sim_ros.study.trade.work import Work
+import numpy as np
+
+ENERGIES = ('kinetic_energy', 'elastic_energy', 'gravitational_energy')
+
+
+def trajectory(
+        scene: dict[str, Any], *, times: Sequence[float], frame: float) -> dict[str, Any]:
+    """
+    Return positions at ``times``, strain and energies at every ``frame``, and the work.
+
+    :param times: [s], whole frames and ascending
+    :param frame: [s], whole steps of dt
+    :return: positions (times, rows, cols, 3) [m], strains (frames,), energies (frames, 3) [J],
+        processor time, and passes over the springs, each in a simulated second
+    :raises ClothSimError: when the scene is refused or its state is lost
+    """
+    simulation = Simulation(Scene(scene))
+    for moment in (frame, *times):
+        if abs(moment / simulation.dt - round(moment / simulation.dt)) > 1e-6:
+            raise ClothSimError(
+                f'dt {simulation.dt:g} s does not divide {moment:g} s, at which runs are '
+                'compared: take another dt, or other times in the grid')
+    # The first step compiles what the device puts off until then.
+    simulation.step()
+    simulation.reset()
+    work = Work(simulation)
+    positions, strains, energies = [], [], []
+    processor = 0.0
+    for number in range(1, round(times[-1] / frame) + 1):
+        begin = time.process_time()
+        steps = simulation.advance(frame)
+        simulation.finish()
+        processor += time.process_time() - begin
+        work.add(steps)
+        measures = simulation.measure()
+        strains.append(measures.max_strain)
+        energies.append([getattr(measures, name) for name in ENERGIES])
+        if any(abs(number * frame - moment) < 1e-6 for moment in times):
+            positions.append(np.array(simulation.snapshot().positions))
+    result = {
+        'device': simulation.device, 'positions': np.array(positions),
+        'strains': np.array(strains), 'energies': np.array(energies),
+        'processor_seconds': processor / times[-1], **work.in_a_second(times[-1])}
+    simulation.close()
+    return result

@@ -1,0 +1,53 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""How often a run passes over the springs, whatever the device and its load."""
+
+from cloth_sim_ros.sim.simulation import Simulation
+
+# Of the springs of the cloth in an iteration of each solver: the product, and the cycle.
+_PASSES = {'multigrid': 6, 'block_jacobi': 1}
+
+
+class Work:
+    """
+    Adds up passes over the springs, looked at once a frame.
+
+    A substep of springs is one pass, and a sweep of the adaptive mode one more while an edge is
+    at its limit. A substep of mode constraint has those of its solver, by the longest solve
+    of the last step.
+    """
+
+    def __init__(self, simulation: Simulation) -> None:
+        """Begin with nothing."""
+        self._simulation = simulation
+        self._passes = 0.0
+        self._substeps = 0.0
+
+    def add(self, steps: int) -> None:
+        """Count ``steps`` of dt that were like the last one."""
+        snapshot, scene = self._simulation.snapshot(), self._simulation.scene
+        passes = 1
+        if snapshot.mode == 'constraint':
+            passes = (
+                scene['constraint.newton_iterations'] * max(snapshot.solver_iterations, 1)
+                * _PASSES[scene['solver.preconditioner']])
+        elif snapshot.mode == 'adaptive' and snapshot.active_constraints:
+            passes += scene['adaptive.sweeps']
+        self._substeps += steps * snapshot.substeps
+        self._passes += steps * snapshot.substeps * passes
+
+    def in_a_second(self, seconds: float) -> dict[str, float]:
+        """Return substeps and passes in a simulated second, of ``seconds`` simulated."""
+        return {'substeps': self._substeps / seconds, 'passes': self._passes / seconds}

@@ -1,0 +1,110 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+r"""
+Measure error against cost of modes and settings on a scene, and choose among them.
+
+Errors are those of positions against a converged run, RMS over times and nodes, over the side of
+the cloth. Runs are spread over processes; the wall time of settings that may matter is measured
+afterwards, one at a time. A study that was stopped goes on where it was.
+
+Into --out go results.jsonl (every run), table.csv and table.jsonl, tradeoff.png, and tradeoff.md,
+which tells in plain words what came out. With a budget, a parameter file for the node as well.
+
+For example:
+  cloth_sim study tradeoff config/drape.yaml
+  cloth_sim study tradeoff config/drape.yaml --budget-rtf 1
+  cloth_sim study tradeoff config/drape.yaml --budget-error 1e-3 --write fast.yaml
+  cloth_sim study tradeoff config/drape.yaml --check fast.yaml
+"""
+
+from argparse import ArgumentParser
+from argparse import Namespace
+from pathlib import Path
+
+from cloth_sim_ros.sim.errors import ClothSimError
+from cloth_sim_ros.study.runs.arguments import add_run_arguments
+from cloth_sim_ros.study.runs.arguments import workers_of
+from cloth_sim_ros.study.runs.results_folder import ResultsFolder
+from cloth_sim_ros.study.trade.choice import Budget
+from cloth_sim_ros.study.trade.choice import write_choice
+from cloth_sim_ros.study.trade.compared import Measured
+from cloth_sim_ros.study.trade.grid import default_grid_path
+from cloth_sim_ros.study.trade.grid import load_grid
+from cloth_sim_ros.study.trade.measured import measure
+from cloth_sim_ros.study.trade.table import write_table
+
+TAKES_SCENE = True
+
+
+def add_arguments(parser: ArgumentParser) -> None:
+    """Add the arguments of this study."""
+    parser.add_argument('--grid', metavar='GRID.yaml',
+                        help='what to measure (default: config/studies/tradeoff.yaml)')
+    add_run_arguments(parser, 'studies/tradeoff')
+    parser.add_argument('--figure', metavar='FIGURE.png',
+                        help='where the figure is written (default: tradeoff.png in --out)')
+    budget = parser.add_mutually_exclusive_group()
+    budget.add_argument('--budget-error', type=float, metavar='E',
+                        help='choose the fastest setting with this error or less')
+    budget.add_argument('--budget-rtf', type=float, metavar='R',
+                        help='choose the most exact setting with this real-time factor or more')
+    budget.add_argument('--check', metavar='PARAMS.yaml',
+                        help='measure a choice again, and tell whether it keeps to its budget')
+    parser.add_argument('--write', metavar='PARAMS.yaml',
+                        help='where the choice is written (default: params.yaml in --out)')
+
+
+def main(args: Namespace) -> int:
+    """Make the runs and tell what came out."""
+    budget = _budget(args)
+    grid = load_grid(args.grid or default_grid_path())
+    with ResultsFolder(args.out) as results:
+        if args.check:
+            from cloth_sim_ros.study.trade.check import check
+            return check(Path(args.check), args.scene, grid, results, workers_of(args))
+        measured = measure(args.scene, grid, results, workers_of(args))
+        _write(Path(args.out), measured, args)
+    if budget is not None:
+        path = Path(args.write or Path(args.out) / 'params.yaml')
+        row = budget.choose(measured)
+        write_choice(path, row, budget, args.scene_file, args.scene)
+        print(f'{budget.in_words()}: {row.setting.method}, {row.setting.label}; written to {path}')
+    return 0
+
+
+def _write(folder: Path, measured: Measured, args: Namespace) -> None:
+    # Slow to import, and of use at the end alone.
+    from cloth_sim_ros.study.trade.page import page
+    from cloth_sim_ros.study.trade.plot import write_plot
+    text = page(measured, args.scene_file)
+    try:
+        write_table(folder, measured.rows)
+        write_plot(Path(args.figure or folder / 'tradeoff.png'), measured)
+        (folder / 'tradeoff.md').write_text(text, encoding='utf-8')
+    except OSError as error:
+        raise ClothSimError(f'the results cannot be written: {error}') from error
+    print(text)
+    print(f'all of it is in {folder}')
+
+
+def _budget(args: Namespace) -> Budget | None:
+    for name in ('budget_error', 'budget_rtf'):
+        value = getattr(args, name)
+        if value is not None and not value > 0.0:
+            raise ClothSimError(
+                f'--{name.replace("_", "-")} must be above 0, got {value:g}')
+    if args.budget_error is not None:
+        return Budget(error=args.budget_error)
+    return Budget(real_time_factor=args.budget_rtf) if args.budget_rtf is not None else None

@@ -1,0 +1,86 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Presets say how to step, and leave what is given alone."""
+
+from cloth_sim_ros.gl.shared_directory import shared_directory
+from cloth_sim_ros.sim.errors import ClothSimError
+from cloth_sim_ros.sim.scene import Scene
+from cloth_sim_ros.sim.scene_fields import PRESETS
+from cloth_sim_ros.sim.scene_file import load_parameters
+from cloth_sim_ros.sim.simulation import Simulation
+import pytest
+
+# What a preset may set: how the scene is stepped, and not what it is.
+_STEPPING = {
+    'mode', 'dt', 'auto_substeps', 'refine', 'substeps', 'constraint.hard', 'constraint.springs',
+    'constraint.newton_iterations', 'solver.tolerance'}
+
+
+def values_of(preset):
+    """Return what the file of a preset sets."""
+    return load_parameters(shared_directory('config') / 'presets' / f'{preset}.yaml')
+
+
+@pytest.mark.parametrize('preset', PRESETS)
+def test_it_sets_what_is_left_out(preset):
+    """A preset would do nothing, or change the cloth itself."""
+    values = values_of(preset)
+    assert values and set(values) <= _STEPPING
+    scene = Scene({'preset': preset, 'rows': 5})
+    assert {name: scene[name] for name in values} == values
+    # All that stays cloth: hard edges would make another one of it.
+    assert scene['mode'] == 'mass_spring' or scene['constraint.hard'] == ()
+
+
+@pytest.mark.parametrize('preset', PRESETS)
+def test_what_is_given_wins(preset):
+    """A user's own dt would be lost."""
+    given = {'preset': preset, 'dt': 0.003, 'refine': 7, 'mode': 'adaptive'}
+    scene = Scene(given)
+    assert {name: scene[name] for name in given} == given
+    assert Scene(scene.values).values == scene.values
+
+
+def test_none_is_the_default():
+    """A scene would be stepped in another way than its parameters say."""
+    assert Scene()['preset'] == 'none'
+    assert Scene({'preset': 'none'}).values == Scene().values
+
+
+def test_an_unknown_one_is_refused():
+    """A mistyped preset would be passed over in silence."""
+    with pytest.raises(ClothSimError, match='fast, balanced, accurate'):
+        Scene({'preset': 'quick'})
+
+
+@pytest.mark.parametrize('preset', PRESETS)
+def test_its_file_tells_where_it_comes_from(preset):
+    """A user could not tell on what a preset was measured."""
+    text = (shared_directory('config') / 'presets' / f'{preset}.yaml').read_text()
+    for name in ('For ', 'device: ', 'version: ', 'scene sha256: ', 'budget-', 'error: '):
+        assert f'# {name}' in text, name
+
+
+@pytest.mark.parametrize('mode', ['mass_spring', 'constraint', 'adaptive'])
+def test_refine_multiplies_the_substeps(mode):
+    """Presets that differ in it would be the same."""
+    counts = []
+    for refine in (1, 3):
+        simulation = Simulation(Scene({
+            'mode': mode, 'rows': 12, 'cols': 9, 'dt': 0.01, 'refine': refine}))
+        simulation.step()
+        counts.append(simulation.substeps)
+        simulation.close()
+    assert counts[1] == 3 * counts[0]

@@ -1,0 +1,153 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Runs are made once, by several processes, and none is lost."""
+
+import json
+import os
+from pathlib import Path
+import signal
+import subprocess
+import sys
+import time
+
+from cloth_sim_ros.study.runs.make_runs import make_runs
+from cloth_sim_ros.study.runs.results_folder import LINES
+from cloth_sim_ros.study.runs.results_folder import ResultsFolder
+from cloth_sim_ros.study.runs.run import Run
+from cloth_sim_ros.study.runs.workers import Workers
+import pytest
+
+SCENE = {'rows': 6, 'cols': 5}
+TWO = Workers(jobs=2)
+
+
+def squares(numbers, **settings):
+    """Return runs that square these numbers."""
+    return [Run('study_runs:square', {}, {'number': number, **settings}) for number in numbers]
+
+
+def lines_of(folder):
+    """Return the lines of a study's file."""
+    return [json.loads(line) for line in (folder / LINES).read_text().splitlines()]
+
+
+def make(runs, folder, **options):
+    """Make runs with two processes."""
+    with ResultsFolder(folder) as results:
+        return make_runs(runs, results, TWO, title='test', **options)
+
+
+def test_results_come_in_the_order_of_the_runs(tmp_path):
+    """A result would be taken for that of another run."""
+    results = make(squares([3, 1, 2, 3]), tmp_path)
+    assert [result.values['square'] for result in results] == [9, 1, 4, 9]
+    assert len(lines_of(tmp_path)) == 3
+
+
+def test_work_is_spread(tmp_path):
+    """All runs would be made by one process, or processes would fight for the processors."""
+    place = tmp_path / 'place'
+    place.mkdir()
+    runs = [Run('study_runs:meet', {}, {'folder': str(place), 'name': name, 'others': 1})
+            for name in 'ab']
+    results = make(runs, tmp_path / 'study')
+    assert [result.outcome for result in results] == ['done', 'done']
+    assert {result.values['threads'] for result in results} == {'0'}
+
+
+def test_a_run_is_made_once(tmp_path):
+    """A continued study would make again what it has."""
+    calls = tmp_path / 'calls'
+    calls.mkdir()
+    make(squares(range(3), folder=str(calls)), tmp_path / 'study')
+    results = make(squares(range(5), folder=str(calls)), tmp_path / 'study')
+    assert [result.values['square'] for result in results] == [0, 1, 4, 9, 16]
+    assert len(list(calls.iterdir())) == 5
+
+
+def test_a_line_tells_what_it_is_of(tmp_path):
+    """A result could not be made again, or be compared with another machine's."""
+    make([Run('study_runs:drop', SCENE, {'seconds': 0.01})], tmp_path)
+    line, = lines_of(tmp_path)
+    assert line['scene'] == SCENE and line['settings'] == {'seconds': 0.01}
+    assert line['outcome'] == 'done' and line['device'] and line['version']
+    assert line['scene_sha256'] == Run('f', {**SCENE, 'cols': 5, 'dt': 0.005}).scene_sha256
+    assert line['scene_sha256'] != Run('f', {**SCENE, 'dt': 0.004}).scene_sha256
+
+
+def test_arrays_are_kept(tmp_path):
+    """A continued study would have lost the positions it compares."""
+    runs = [Run('study_runs:drop', SCENE, {'seconds': 0.01})]
+    first, = make(runs, tmp_path)
+    again, = make(runs, tmp_path)
+    assert first.arrays['positions'].shape == (6, 5, 3)
+    assert (again.arrays['positions'] == first.arrays['positions']).all()
+    for path in (tmp_path / 'arrays').iterdir():
+        path.write_bytes(b'half')
+    mended, = make(runs, tmp_path)
+    assert (mended.arrays['positions'] == first.arrays['positions']).all()
+
+
+def test_what_goes_wrong_is_a_line(tmp_path):
+    """One bad run would end the study, or vanish from it."""
+    runs = [
+        Run('study_runs:drop', {**SCENE, 'rows': 0}, {'seconds': 0.01}),
+        Run('study_runs:fail'), Run('study_runs:die'), *squares(range(4))]
+    refused, failed, died, *rest = make(runs, tmp_path)
+    assert refused.outcome == 'refused' and 'rows' in refused.reason
+    assert failed.outcome == 'failed' and failed.reason == 'ZeroDivisionError: as asked'
+    assert died.outcome == 'failed' and 'process ended' in died.reason
+    assert [result.values['square'] for result in rest] == [0, 1, 4, 9]
+    assert len(lines_of(tmp_path)) == len(runs)
+
+
+def test_alone_each_run_has_a_fresh_process(tmp_path):
+    """A measured wall time would hold what other runs do."""
+    results = make(squares(range(2)), tmp_path, alone=True)
+    assert len({result.values['process'] for result in results}) == 2
+    threads = os.environ.get('LP_NUM_THREADS', '')
+    assert {result.values['threads'] for result in results} == {threads}
+
+
+@pytest.mark.parametrize('stop', [signal.SIGINT, signal.SIGKILL])
+def test_a_stopped_study_goes_on(tmp_path, stop):
+    """What was done would be lost, or processes would stay behind."""
+    program = (
+        'from cloth_sim_ros.study.runs.make_runs import make_runs\n'
+        'from cloth_sim_ros.study.runs.results_folder import ResultsFolder\n'
+        'from cloth_sim_ros.study.runs.run import Run\n'
+        'from cloth_sim_ros.study.runs.workers import Workers\n'
+        'import os\n'
+        'if __name__ == "__main__":\n'
+        f'    runs = [Run("study_runs:square", {{}}, {{"number": n}}) for n in range(3)]\n'
+        f'    runs.append(Run("study_runs:sleep", {{}}, {{"seconds": 60.0}}))\n'
+        f'    with ResultsFolder({str(tmp_path)!r}) as results:\n'
+        '        make_runs(runs, results, Workers(2), title="test")\n')
+    script = tmp_path / 'study.py'
+    script.write_text(program)
+    study = subprocess.Popen([sys.executable, script], stderr=subprocess.PIPE)
+    deadline = time.monotonic() + 30.0
+    while not ((tmp_path / LINES).exists() and len(lines_of(tmp_path)) == 3):
+        assert time.monotonic() < deadline
+        time.sleep(0.05)
+    study.send_signal(stop)
+    # Its end is the end of its workers, too: they hold the other end of this pipe.
+    study.communicate(timeout=30.0)
+    with open(tmp_path / LINES, 'a') as file:
+        file.write('{"key": "half a li')
+    results = make(squares(range(4)), tmp_path)
+    assert [result.values['square'] for result in results] == [0, 1, 4, 9]
+    assert len(lines_of(tmp_path)) == 4
+    assert Path(script).exists()

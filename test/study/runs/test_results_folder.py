@@ -1,0 +1,56 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Results that are kept are found again."""
+
+from cloth_sim_ros.sim.errors import ClothSimError
+from cloth_sim_ros.study.runs.result import unmade
+from cloth_sim_ros.study.runs.results_folder import LINES
+from cloth_sim_ros.study.runs.results_folder import ResultsFolder
+from cloth_sim_ros.study.runs.run import Run
+import pytest
+
+RUN = Run('study_runs:square', {}, {'number': 2})
+
+
+def test_two_studies_do_not_write_into_one_folder(tmp_path):
+    """Lines of two studies would be mixed, or one would make what the other makes."""
+    with ResultsFolder(tmp_path):
+        with pytest.raises(ClothSimError, match='another study is writing'):
+            ResultsFolder(tmp_path)
+    ResultsFolder(tmp_path).__exit__()
+
+
+def test_a_strange_line_is_named(tmp_path):
+    """A damaged file would end in a traceback, or be written over."""
+    (tmp_path / LINES).write_text('{"key": 1}\nnonsense\n')
+    with pytest.raises(ClothSimError, match='line 2 of'):
+        ResultsFolder(tmp_path)
+
+
+def test_the_later_line_counts(tmp_path):
+    """A run that failed once would have failed for ever."""
+    with ResultsFolder(tmp_path) as results:
+        results.add(unmade(RUN, 'failed', 'first'))
+        results.add(unmade(RUN, 'refused', 'second'))
+    with ResultsFolder(tmp_path) as results:
+        assert results.find(RUN.key).reason == 'second'
+        assert results.find('another') is None
+
+
+def test_a_folder_that_cannot_be_is_told(tmp_path):
+    """A mistyped --out would end in a traceback."""
+    (tmp_path / 'file').touch()
+    with pytest.raises(ClothSimError, match='give another --out'):
+        ResultsFolder(tmp_path / 'file')

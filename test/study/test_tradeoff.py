@@ -1,0 +1,74 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""The study as its user runs it."""
+
+import json
+
+from cloth_sim_ros.sim.scene_file import load_parameters
+from cloth_sim_ros.verb.main import main
+from made_study import GRID
+from made_study import SOFT
+import pytest
+import yaml
+
+
+@pytest.fixture(scope='module')
+def folder(tmp_path_factory):
+    """Write a scene and a grid."""
+    folder = tmp_path_factory.mktemp('tradeoff')
+    scene = yaml.safe_dump({'/**': {'ros__parameters': SOFT}})
+    (folder / 'scene.yaml').write_text(scene)
+    (folder / 'grid.yaml').write_text(yaml.safe_dump(GRID))
+    return folder
+
+
+def study(folder, *arguments):
+    """Run the study and return its exit code."""
+    return main([
+        'study', 'tradeoff', str(folder / 'scene.yaml'), '--grid', str(folder / 'grid.yaml'),
+        '--out', str(folder / 'out'), '--jobs', '1', *arguments])
+
+
+def test_it_writes_its_results_and_a_choice_that_holds(folder, capsys):
+    """A user would have no table, no figure, or a choice that the node does not take."""
+    assert study(folder, '--budget-error', '0.05') == 0
+    out = folder / 'out'
+    lines = [json.loads(line) for line in (out / 'table.jsonl').read_text().splitlines()]
+    assert len(lines) == 3 and all(line['device'] for line in lines)
+    assert (out / 'tradeoff.png').read_bytes().startswith(b'\x89PNG')
+    assert '## What a real-time budget buys' in (out / 'tradeoff.md').read_text()
+    chosen = load_parameters(out / 'params.yaml')
+    # What differs from the scene: its mode is that already.
+    assert set(chosen) <= {'dt', 'refine'} and chosen['dt'] == 0.02
+    assert '# error: ' in (out / 'params.yaml').read_text()
+    capsys.readouterr()
+    assert study(folder, '--check', str(out / 'params.yaml')) == 0
+    assert 'holds (budget-error: 0.05)' in capsys.readouterr().out
+    assert main(['run', str(folder / 'scene.yaml'), '--params', str(out / 'params.yaml'),
+                 '--seconds', '0.02', '--json']) == 0
+    assert json.loads(capsys.readouterr().out)['dt'] == 0.02
+
+
+@pytest.mark.parametrize('arguments, told', [
+    (['--budget-error', '-1'], '--budget-error must be above 0'),
+    (['--jobs', '0'], '--jobs must be 1 or more'),
+    (['--budget-error', '1e-9'], 'give a larger --budget-error'),
+    (['--check', 'nothing.yaml'], 'cannot be read'),
+])
+def test_what_is_wrong_is_told(folder, capsys, arguments, told):
+    """A mistake would end in a traceback, or in a choice nobody asked for."""
+    assert study(folder, *arguments) == 1
+    error = capsys.readouterr().err.splitlines()[-1]
+    assert error.startswith('cloth_sim study: ') and told in error

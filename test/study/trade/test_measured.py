@@ -1,0 +1,130 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""A study finds what is known of a scene."""
+
+import json
+
+from cloth_sim_ros.sim.errors import ClothSimError
+from cloth_sim_ros.study.runs.results_folder import LINES
+from cloth_sim_ros.study.trade.choice import Budget
+from cloth_sim_ros.study.trade.page import page
+from cloth_sim_ros.study.trade.table import write_table
+from cloth_sim_ros.study.trade.variant import Variant
+from made_study import small_study
+import numpy as np
+import pytest
+
+LIMITED = {
+    'model': 'limited', 'set': {'mode': 'adaptive', 'adaptive.threshold': 0.5, 'dt': 0.02},
+    'over': {'refine': [1, 4]}}
+UNSTABLE = {
+    'model': 'springs', 'set': {'mode': 'mass_spring', 'auto_substeps': False},
+    'over': {'dt': [0.02]}}
+
+
+@pytest.fixture(scope='module')
+def study(tmp_path_factory):
+    """Make one study with a coarse variant, a limit nothing reaches, and a refused setting."""
+    folder = tmp_path_factory.mktemp('study')
+    spring = {'model': 'springs', 'set': {'mode': 'mass_spring', 'dt': 0.02},
+              'over': {'refine': [1, 2, 4]}}
+    return small_study(
+        folder, variants=[{'resolution': 0.5}],
+        methods={'mass_spring': spring, 'adaptive': LIMITED, 'unstable': UNSTABLE}), folder
+
+
+def rows_of(measured, method, variant=None):
+    """Return the rows of a method, in the order of the grid."""
+    return [row for row in measured.rows_of(variant or Variant()) if row.setting.method == method]
+
+
+def test_the_order_of_mass_spring_is_one(study):
+    """Errors of a study would not be those of the time step."""
+    rows = rows_of(study[0], 'mass_spring')
+    substeps = np.array([row.run.values['substeps'] for row in rows])
+    for name in ('own', 'scene'):
+        errors = np.array([getattr(row, name).position for row in rows])
+        slopes = -np.diff(np.log(errors)) / np.diff(np.log(substeps))
+        print(f'measured {slopes.round(3)} of 0.95 to 1.1 allowed: order of the {name} error')
+        assert np.all((slopes > 0.95) & (slopes < 1.1))
+
+
+def test_a_limit_that_nothing_reaches_changes_nothing(study):
+    """Two methods that make the same steps would have different errors."""
+    spring, limited = (rows_of(study[0], name)[0] for name in ('mass_spring', 'adaptive'))
+    assert limited.scene == spring.scene
+    # The finest of its own model is what the others are measured against.
+    assert rows_of(study[0], 'adaptive')[1].own is None
+
+
+def test_a_coarse_cloth_has_the_error_of_its_model(study):
+    """Finer steps of a coarse cloth would seem to bring it to the scene."""
+    coarse = rows_of(study[0], 'mass_spring', Variant(resolution=0.5))
+    assert coarse[-1].own.position < 0.3 * coarse[0].own.position
+    assert coarse[-1].scene.position > 3.0 * coarse[-1].own.position
+    assert coarse[-1].scene.position > 0.6 * coarse[0].scene.position
+
+
+def test_what_was_refused_is_told(study, tmp_path):
+    """A setting that cannot be run would vanish from the table, or end the study."""
+    measured = study[0]
+    write_table(tmp_path, measured.rows)
+    lines = [json.loads(line) for line in (tmp_path / 'table.jsonl').read_text().splitlines()]
+    refused = [line for line in lines if line['method'] == 'unstable']
+    assert [line['outcome'] for line in refused] == ['refused'] * 2
+    assert all('stability limit' in line['reason'] for line in refused)
+    assert len((tmp_path / 'table.csv').read_text().splitlines()) == 1 + len(lines)
+    assert '| the scene | unstable | refused | 1 |' in page(measured, 'soft.yaml')
+
+
+def test_what_may_matter_is_timed(study):
+    """A choice would be made by the time of runs that shared the processor."""
+    rows = rows_of(study[0], 'mass_spring')
+    assert rows[0].rounds and rows[-1].rounds
+    assert all(row.wall_seconds > 0.0 for row in rows if row.rounds)
+
+
+def test_a_budget_chooses_by_error(study):
+    """The setting that is written would not keep to what was asked."""
+    errors = sorted(row.scene.position for row in rows_of(study[0], 'mass_spring'))
+    chosen = Budget(error=1.01 * errors[0]).choose(study[0])
+    assert chosen.scene.position == errors[0]
+    with pytest.raises(ClothSimError, match='give a larger --budget-error'):
+        Budget(error=0.5 * errors[0]).choose(study[0])
+    with pytest.raises(ClothSimError, match='give a smaller --budget-rtf'):
+        Budget(real_time_factor=1e9).choose(study[0])
+
+
+def test_nothing_is_made_twice(study):
+    """A finished study would be made again to look at it."""
+    measured, folder = study
+    lines = (folder / LINES).read_text()
+    again = small_study(folder)
+    assert (folder / LINES).read_text().startswith(lines)
+    assert again.rows[0].scene == measured.rows[0].scene
+
+
+def test_a_grid_without_a_setting_that_runs_is_told(tmp_path):
+    """A study of nothing but refused settings would end in a traceback."""
+    with pytest.raises(ClothSimError, match='could be compared on the scene: .*stability limit'):
+        small_study(tmp_path, methods={'unstable': UNSTABLE})
+
+
+def test_a_scene_without_a_reference_is_told(tmp_path):
+    """Errors against a motion that has not converged would be taken for errors of settings."""
+    with pytest.raises(ClothSimError, match='has not converged to 1e-12'):
+        small_study(tmp_path, reference={
+            'refine': [1, 2, 4], 'converged': 1e-12, 'variants_converged': 1e-12,
+            'float64_node_steps': 1e7})

@@ -1,0 +1,71 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Functions that runs of the tests name: a worker imports them from here."""
+
+import os
+from pathlib import Path
+import signal
+import time
+from typing import Any
+
+from cloth_sim_ros.sim.scene import Scene
+from cloth_sim_ros.sim.simulation import Simulation
+import numpy as np
+
+
+def square(scene: dict[str, Any], *, number: float, folder: str = '') -> dict[str, Any]:
+    """Return the square, and leave a file in ``folder`` that tells of the call."""
+    if folder:
+        Path(folder, f'{number}-{os.getpid()}-{time.monotonic_ns()}').touch()
+    return {'square': number**2, 'device': 'none', 'process': os.getpid(),
+            'threads': os.environ.get('LP_NUM_THREADS', '')}
+
+
+def drop(scene: dict[str, Any], *, seconds: float) -> dict[str, Any]:
+    """Simulate ``seconds`` and return the positions."""
+    simulation = Simulation(Scene(scene))
+    simulation.advance(seconds)
+    snapshot = simulation.snapshot()
+    result = {'device': simulation.device, 'max_strain': snapshot.max_strain,
+              'positions': np.array(snapshot.positions)}
+    simulation.close()
+    return result
+
+
+def fail(scene: dict[str, Any]) -> dict[str, Any]:
+    """Raise what no run expects."""
+    raise ZeroDivisionError('as asked')
+
+
+def die(scene: dict[str, Any]) -> dict[str, Any]:
+    """End the process, as the system does when memory is short."""
+    os.kill(os.getpid(), signal.SIGKILL)
+
+
+def meet(scene: dict[str, Any], *, folder: str, name: str, others: int) -> dict[str, Any]:
+    """Wait until ``others`` runs have come to ``folder``, too."""
+    Path(folder, name).touch()
+    deadline = time.monotonic() + 30.0
+    while len(list(Path(folder).iterdir())) <= others:
+        if time.monotonic() > deadline:
+            raise TimeoutError('nobody came')
+        time.sleep(0.01)
+    return {'device': 'none', 'threads': os.environ.get('LP_NUM_THREADS', '')}
+
+
+def sleep(scene: dict[str, Any], *, seconds: float) -> dict[str, Any]:
+    """Take ``seconds``."""
+    time.sleep(seconds)
+    return {'device': 'none'}
