@@ -116,7 +116,9 @@ def test_figures_are_shown_small_and_with_their_command(figure):
     assert figure.stat().st_size < 500_000
 
 
-@pytest.mark.parametrize('scene', sorted((ROOT / 'config').rglob('*.yaml')), ids=lambda p: p.name)
+@pytest.mark.parametrize(
+    'scene', sorted([*(ROOT / 'config').glob('*.yaml'), *(ROOT / 'config' / 'paper').glob('*')]),
+    ids=lambda p: p.name)
 def test_every_scene_is_told(scene):
     """A user would not learn of a scene."""
     assert f'`{scene.relative_to(ROOT)}`' in README
