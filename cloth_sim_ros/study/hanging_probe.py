@@ -29,7 +29,7 @@ from cloth_sim_ros.study.probe_outcome import ProbeOutcome
 import numpy as np
 
 # Of the spacing, out of the plane: edges get longer by its square only.
-_JITTER = 1e-3
+_JITTER = 1e-5
 _STEPS = 200
 _LOOKS = 20
 
