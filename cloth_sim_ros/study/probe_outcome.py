@@ -14,8 +14,8 @@
 
 """What a run that asks for stability came to, and when a growth counts as unstable."""
 
-from dataclasses import asdict
 from dataclasses import dataclass
+import math
 
 STABLE = 'stable'
 UNSTABLE = 'unstable'
@@ -43,8 +43,8 @@ class ProbeOutcome:
     detail: str = ''
 
     def as_dict(self) -> dict[str, object]:
-        """Return plain values for JSON."""
-        return asdict(self)
+        """Return plain values for JSON, which has no infinity: None in its place."""
+        return {**vars(self), 'growth': self.growth if math.isfinite(self.growth) else None}
 
 
 def grown(growth: float, substeps: int, detail: str = '') -> ProbeOutcome:

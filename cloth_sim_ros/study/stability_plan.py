@@ -20,9 +20,12 @@ from typing import Any
 from cloth_sim_ros.sim.scene import FAMILIES
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.scene_fields import MODES
+from cloth_sim_ros.study.runs.run import Run
 from cloth_sim_ros.study.stability_runs import with_stiffness
 import numpy as np
 
+_RUNS = 'cloth_sim_ros.study.stability_runs'
+_POINT, _EDGE = f'{_RUNS}:run_point', f'{_RUNS}:run_edge'
 _GRAVITY = 9.81
 STIFFNESS_FACTORS = (1e-2, 1e3)
 DTS = (1e-5, 1e-1)
@@ -34,7 +37,7 @@ PUSHES = (0.0, 1.0, 5.0, 20.0)
 _PUSH_START, _PUSH_SECONDS = 0.05, 0.1
 
 
-def map_points(values: Mapping[str, Any], cells: int) -> list[dict[str, Any]]:
+def map_points(values: Mapping[str, Any], cells: int) -> list[Run]:
     """
     Return the points of the maps, dt over stiffness, of each mode.
 
@@ -43,19 +46,18 @@ def map_points(values: Mapping[str, Any], cells: int) -> list[dict[str, Any]]:
     factors = np.geomspace(*STIFFNESS_FACTORS, cells)
     dts = np.geomspace(*DTS, cells)
     return [
-        {'kind': 'point', 'scene': dict(values), 'mode': mode, 'forced': forced,
-         'stiffness_factor': float(f'{factor:.6g}'), 'dt': float(f'{dt:.6g}')}
+        Run(_POINT, {**values, 'mode': mode},
+            {'factor': float(f'{factor:.6g}'), 'dt': float(f'{dt:.6g}'), 'forced': forced})
         for mode in MODES for forced in (True, False) for factor in factors for dt in dts]
 
 
-def edges(values: Mapping[str, Any]) -> list[dict[str, Any]]:
+def edges(values: Mapping[str, Any]) -> list[Run]:
     """Return the edges to be found: each varies one property of the scene."""
-    rows = []
+    runs = []
 
     def add(probe: str, mode: str, vary: str, value: float, changed: Mapping[str, Any]) -> None:
-        rows.append({
-            'kind': 'edge', 'probe': probe, 'mode': mode, 'vary': vary, 'value': value,
-            'scene': dict(changed)})
+        runs.append(Run(
+            _EDGE, {**changed, 'mode': mode}, {'probe': probe, 'vary': vary, 'value': value}))
 
     for size in SIZES['rest']:
         add('rest', 'mass_spring', 'nodes', size, _of_size(values, size))
@@ -80,7 +82,7 @@ def edges(values: Mapping[str, Any]) -> list[dict[str, Any]]:
     for solves in (1, 2, 3):
         add('hanging', 'constraint', 'solves', solves, {
             **_of_size(values, SIZES['hanging'][1]), 'constraint.newton_iterations': solves})
-    return rows
+    return runs
 
 
 def _of_size(values: Mapping[str, Any], size: int) -> dict[str, Any]:

@@ -12,11 +12,7 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""
-The runs of the stability study, each a plain description that becomes a plain result.
-
-A point of a map has the kind 'point', an edge found by bisection the kind 'edge'.
-"""
+"""The runs of the stability study: points of its maps, and edges found by bisection."""
 
 from collections.abc import Mapping
 import math
@@ -36,7 +32,9 @@ from cloth_sim_ros.study.hanging_probe import hanging_probe
 from cloth_sim_ros.study.lattice_limit import lattice_limit
 from cloth_sim_ros.study.moving_probe import moving_probe
 from cloth_sim_ros.study.probe_outcome import ProbeOutcome
+from cloth_sim_ros.study.probe_outcome import REFUSED
 from cloth_sim_ros.study.probe_outcome import STABLE
+from cloth_sim_ros.study.process_context import process_context
 from cloth_sim_ros.study.rest_probe import rest_probe
 from cloth_sim_ros.study.rest_probe import rest_scene
 
@@ -46,17 +44,52 @@ _MOST_STEPS = {'mass_spring': 2000, 'adaptive': 2000, 'constraint': 300}
 _LONGEST_DT = 1.0
 
 
-def run_stability(
-        description: Mapping[str, Any], context: Context | None = None) -> dict[str, Any]:
+def run_point(
+        scene: Mapping[str, Any], *, factor: float, dt: float, forced: bool) -> dict[str, Any]:
     """
-    Return ``description`` with what came out.
+    Return what one point of the map of a mode came to.
 
-    :param description: kind, mode, scene and, for a point, forced, stiffness_factor and dt [s];
-        for an edge, the probe: rest, hanging or moving
+    :param scene: scene parameters, the mode among them
+    :param factor: that all stiffness is multiplied by
+    :param dt: [s]
+    :param forced: one step a dt, whatever the limit, of the cloth at rest; otherwise the scene as
+        it moves, in the substeps that the project chooses by itself
     """
-    if description['kind'] == 'point':
-        return {**description, **_point(description, context)}
-    return {**description, **_edge(description, context)}
+    context = process_context()
+    values = with_stiffness(scene, factor)
+    if forced:
+        probe = hanging_probe if values['mode'] == 'constraint' else rest_probe
+        outcome = probe(values, dt, context=context)
+        refused = _is_refused(values, dt)
+    else:
+        outcome = _moving({**values, 'auto_substeps': True}, dt, context)
+        refused = outcome.outcome == REFUSED
+    return {**outcome.as_dict(), 'refused': refused, 'device': context.device}
+
+
+def run_edge(scene: Mapping[str, Any], *, probe: str, vary: str, value: float) -> dict[str, Any]:
+    """
+    Return where ``scene`` ceases to be stable, found by bisection, and where it should.
+
+    :param probe: rest or moving with springs, hanging in mode constraint
+    :param vary: what of the scene was varied, and to what ``value``; told, not used
+    """
+    context = process_context()
+    limit = predicted_limit(scene, scene['mode'])
+    result = {'predicted': limit}
+    if probe == 'rest':
+        result['lattice'] = lattice_limit(Scene(rest_scene(scene)))
+    if probe == 'moving':
+        result['any_shape'] = any_shape_limit(Scene(scene))
+    edge = bisect_edge(
+        lambda dt: _probed(scene, probe, dt, context).outcome == STABLE, limit,
+        longest=_LONGEST_DT, width=0.02 if probe == 'moving' else 0.005)
+    measured = edge.middle if math.isfinite(edge.middle) else None
+    return {
+        **result, 'stable': edge.stable,
+        'unstable': edge.unstable if math.isfinite(edge.unstable) else None,
+        'measured': measured, 'ratio': measured / limit if measured else None,
+        'device': context.device}
 
 
 def with_stiffness(values: Mapping[str, Any], factor: float) -> dict[str, Any]:
@@ -73,48 +106,16 @@ def predicted_limit(values: Mapping[str, Any], mode: str) -> float:
     return stability_limit(Scene(rest_scene(values)))
 
 
-def _point(description: Mapping[str, Any], context: Context | None) -> dict[str, Any]:
-    mode, dt = description['mode'], description['dt']
-    values = {**with_stiffness(description['scene'], description['stiffness_factor']),
-              'mode': mode}
-    if description['forced']:
-        probe = hanging_probe if mode == 'constraint' else rest_probe
-        outcome = probe(values, dt, context=context)
-        return {**outcome.as_dict(), 'refused': _is_refused(values, dt)}
-    outcome = _moving({**values, 'auto_substeps': True}, dt, context)
-    return {**outcome.as_dict(), 'refused': outcome.outcome == 'refused'}
-
-
-def _edge(description: Mapping[str, Any], context: Context | None) -> dict[str, Any]:
-    mode, probe = description['mode'], description['probe']
-    values = {**description['scene'], 'mode': mode}
-    predicted = predicted_limit(values, mode)
-    result = {'predicted': predicted}
-
-    def is_stable(dt: float) -> bool:
-        if probe == 'moving':
-            forced = {**values, 'auto_substeps': False, 'substeps': 1}
-            outcome = _moving(forced, dt, context, check_stability=False)
-        else:
-            run = hanging_probe if probe == 'hanging' else rest_probe
-            outcome = run(values, dt, context=context)
-        return outcome.outcome == STABLE
-
-    if probe == 'rest':
-        result['lattice'] = lattice_limit(Scene(rest_scene(values)))
+def _probed(
+        values: Mapping[str, Any], probe: str, dt: float, context: Context) -> ProbeOutcome:
     if probe == 'moving':
-        result['any_shape'] = any_shape_limit(Scene(values))
-    edge = bisect_edge(
-        is_stable, predicted, longest=_LONGEST_DT, width=0.02 if probe == 'moving' else 0.005)
-    measured = edge.middle if math.isfinite(edge.middle) else None
-    return {
-        **result, 'stable': edge.stable,
-        'unstable': edge.unstable if math.isfinite(edge.unstable) else None,
-        'measured': measured, 'ratio': measured / predicted if measured else None}
+        forced = {**values, 'auto_substeps': False, 'substeps': 1}
+        return _moving(forced, dt, context, check_stability=False)
+    return (hanging_probe if probe == 'hanging' else rest_probe)(values, dt, context=context)
 
 
 def _moving(
-        values: Mapping[str, Any], dt: float, context: Context | None,
+        values: Mapping[str, Any], dt: float, context: Context,
         check_stability: bool = True) -> ProbeOutcome:
     if values['mode'] == 'constraint':
         # Hard edges that begin off their length bring energy with them.
@@ -129,8 +130,7 @@ def _is_refused(values: Mapping[str, Any], dt: float) -> bool:
     if values['mode'] == 'constraint':
         return False
     try:
-        spring_substeps(
-            Scene({**rest_scene(values), 'dt': dt}), values['mode'])
+        spring_substeps(Scene({**rest_scene(values), 'dt': dt}), values['mode'])
     except ClothSimError:
         return True
     return False

@@ -23,4 +23,5 @@ and --set, and `args.scene` is the Scene when main is called.
 STUDIES = {
     'tradeoff': 'error against cost of modes and settings on a scene',
     'presets': 'the values of the parameter preset, from a tradeoff',
+    'stability': 'where each mode ceases to be stable, measured and predicted',
 }
