@@ -24,4 +24,5 @@ STUDIES = {
     'tradeoff': 'error against cost of modes and settings on a scene',
     'presets': 'the values of the parameter preset, from a tradeoff',
     'stability': 'where each mode ceases to be stable, measured and predicted',
+    'extremes': 'scenes at the end of what can be asked for, in every mode',
 }
