@@ -19,6 +19,7 @@ import re
 
 from cloth_sim_ros.gl import quick_calls
 from cloth_sim_ros.gl.errors import ShaderError
+from cloth_sim_ros.gl.inventory import note_program
 from cloth_sim_ros.gl.quick_calls import Call
 from cloth_sim_ros.gl.shader_source import ShaderSource
 import numpy as np
@@ -33,12 +34,16 @@ class Program:
     """
     A compute shader on the device.
 
+    ``dispatches`` counts its runs, those among them that the device may have left out.
+
     :raises ShaderError: with file, line and text of what the compiler refuses
     """
 
     def __init__(self, source: ShaderSource) -> None:
         """Compile and link ``source``."""
         self.name = source.name
+        self.source = source
+        self.dispatches = 0
         shader = GL.glCreateShader(GL.GL_COMPUTE_SHADER)
         GL.glShaderSource(shader, source.text)
         GL.glCompileShader(shader)
@@ -53,6 +58,7 @@ class Program:
         if not GL.glGetProgramiv(self._program, GL.GL_LINK_STATUS):
             raise ShaderError(explain(source, _text(GL.glGetProgramInfoLog(self._program))))
         self._locations: dict[str, int] = {}
+        note_program(self)
 
     def use(self) -> None:
         """Make this the program that ``set`` and ``dispatch`` act on."""
@@ -88,11 +94,14 @@ class Program:
             raise ShaderError(
                 f'{self.name} needs {groups_x} x {groups_y} workgroups, at most {_MOST_GROUPS} '
                 'are allowed a side: use fewer nodes')
+        self.dispatches += 1
         quick_calls.dispatch(groups_x, groups_y, 1)
 
     def indirect_calls(self, offset: int, **uniforms: int) -> list[Call]:
         """
         Return the calls that run the program on the workgroups that stand at ``offset`` [bytes].
+
+        Whoever makes them tells ``submitted``.
 
         :param uniforms: int uniforms to set before
         """
@@ -101,6 +110,10 @@ class Program:
             *((quick_calls.set_uniform_int, (self._location(name), value))
               for name, value in uniforms.items()),
             (quick_calls.dispatch_indirect, (offset,))]
+
+    def submitted(self, count: int) -> None:
+        """Count ``count`` times that the ``indirect_calls`` were made."""
+        self.dispatches += count
 
     def _location(self, name: str) -> int:
         if name not in self._locations:

@@ -34,8 +34,7 @@ class EnergyAccount:
     are linear, is H = E + h sum(m v . a) / 2: that is what is accounted for in the modes that step
     so.
 
-    Mode constraint holds edges without elastic energy, so it is left out there, but for what
-    edges begin with: off their lengths they are springs until they have hardened.
+    Mode constraint holds edges without elastic energy, so it is left out there.
 
     :param run: as it begins; it is stepped by ``step`` alone
     """
@@ -51,8 +50,7 @@ class EnergyAccount:
         self.seen = self._look()
         self.begin = self.seen
         self._begin_energy = self._energy(self.seen)
-        if not self._is_symplectic:
-            self._begin_energy += self.seen.elastic_energy
+        self._begin_energy += self._uncertain(self.seen)
         self._most = self._begin_energy - self.seen.gravitational_energy
         self._gain = 0.0
 
@@ -124,15 +122,29 @@ class EnergyAccount:
             return seen.kinetic_energy
         return seen.kinetic_energy + seen.elastic_energy + self._half_a_step(seen)
 
+    def _uncertain(self, seen: Snapshot) -> float:
+        """Return the energy [J] that the state at the start may have besides what it tells."""
+        if not self._is_symplectic:
+            # Edges that are off their length are springs until they have hardened.
+            return seen.elastic_energy
+        # What is set as the velocity now is taken as that of half a substep ago.
+        free, forces = self._forces(seen)
+        kick = 0.5 * self._run.dt / self._run.substeps / self._run.scene.node_mass
+        return 0.5 * self._run.scene.node_mass * kick**2 * float(np.sum(forces**2))
+
     def _half_a_step(self, seen: Snapshot) -> float:
         """Return h sum(m v . a) / 2 [J]."""
+        free, forces = self._forces(seen)
+        velocities = seen.velocities[tuple(free.T)].astype(float)
+        return 0.5 * self._run.dt / seen.substeps * float(np.sum(velocities * forces))
+
+    def _forces(self, seen: Snapshot) -> tuple[np.ndarray, np.ndarray]:
+        """Return the free nodes, (n, 2), and the forces of gravity and edges on them [N]."""
         free = np.argwhere(~self._run.pinned_nodes())
         # What would hold a node still is the opposite of the force on it.
         held = pin_forces(
             self._run.scene, seen.positions, seen.tension, free, np.zeros((len(free), 3)))
-        velocities = seen.velocities[tuple(free.T)].astype(float)
-        length = self._run.dt / seen.substeps
-        return -0.5 * length * float(np.sum(velocities * held.forces))
+        return free, -held.forces
 
     def _rounding(self) -> float:
         scene = self._run.scene

@@ -19,27 +19,35 @@ from collections.abc import Sequence
 
 from cloth_sim_ros.study.extreme import OUTCOMES
 from cloth_sim_ros.study.extreme_scenes import EXTREMES
+from cloth_sim_ros.study.nonsense import MOST_GAIN
 from cloth_sim_ros.study.runs.result import Result
 
 _RIGHT = 'as it should'
+_REPORTED = 'reported'
 _KNOWN = 'known limit'
 _NONSENSE = 'NONSENSE'
 _OTHERWISE = 'OTHERWISE'
 
 
 def verdict(result: Result) -> str:
-    """Return whether a row is right, a known limit, nonsense, or came out otherwise."""
+    """
+    Return whether a row is right, nonsense, a known limit, or came out otherwise.
+
+    'reported' is what has gone wrong and says so, in its snapshot and in ~/diagnostics.
+    """
     extreme = EXTREMES[result.settings['name']]
     if not result.is_done:
         return _OTHERWISE
     if result.values['nonsense']:
         return _KNOWN if extreme.known_limit else _NONSENSE
-    return _RIGHT if result.values['outcome'] in extreme.expected else _OTHERWISE
+    if result.values['outcome'] not in extreme.expected:
+        return _OTHERWISE
+    return _REPORTED if result.values['gained'] > MOST_GAIN else _RIGHT
 
 
 def is_right(result: Result) -> bool:
-    """Return whether a row is as it should be, or a limit that is written down."""
-    return verdict(result) in (_RIGHT, _KNOWN)
+    """Return whether a row is as it should be, or says what is wrong, or is a limit written down."""
+    return verdict(result) in (_RIGHT, _REPORTED, _KNOWN)
 
 
 def extreme_table(results: Sequence[Result]) -> str:
@@ -64,5 +72,6 @@ def extreme_table(results: Sequence[Result]) -> str:
     lines += ['', f'{len(results)} rows: '
               + ', '.join(f'{counts[outcome]} {outcome}' for outcome in OUTCOMES)
               + f'; {verdicts[_NONSENSE]} nonsense, {verdicts[_OTHERWISE]} otherwise than they '
-              f'should, {verdicts[_KNOWN]} at a known limit.']
+              f'should, {verdicts[_REPORTED]} gone wrong and reported, {verdicts[_KNOWN]} at a '
+              'known limit.']
     return '\n'.join(lines) + '\n'
