@@ -34,6 +34,7 @@ from typing import Any
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.study.cost_report import cost_table
 from cloth_sim_ros.study.cost_report import passes_report
+from cloth_sim_ros.study.feature_costs import ALL_OUTPUTS
 from cloth_sim_ros.study.feature_costs import WHOLE
 from cloth_sim_ros.study.features import has_feature
 from cloth_sim_ros.study.features import OUTPUTS
@@ -81,8 +82,9 @@ def main(args: Namespace) -> int:
     absent = [feature for feature in SCENE_FEATURES if feature not in present]
     outputs = [] if args.without_messages else list(OUTPUTS)
     timing = Run(f'{_RUNS}:time_variants', values, {
-        'features': [*present, *outputs], 'outputs': outputs, 'rounds': args.rounds,
-        'round_seconds': args.seconds, 'frame_seconds': 1.0 / args.rate})
+        'features': [*present, *outputs, *([ALL_OUTPUTS] if outputs else [])],
+        'outputs': outputs, 'rounds': args.rounds, 'round_seconds': args.seconds,
+        'frame_seconds': 1.0 / args.rate})
     folder = Path(args.out)
     with ResultsFolder(folder) as results:
         workers = workers_of(args)

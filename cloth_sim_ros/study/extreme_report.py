@@ -39,7 +39,7 @@ def verdict(result: Result) -> str:
     if not result.is_done:
         return _OTHERWISE
     if result.values['nonsense']:
-        return _KNOWN if extreme.known_limit else _NONSENSE
+        return _KNOWN if extreme.limit_in(result.scene['mode']) else _NONSENSE
     if result.values['outcome'] not in extreme.expected:
         return _OTHERWISE
     return _REPORTED if result.values['gained'] > MOST_GAIN else _RIGHT

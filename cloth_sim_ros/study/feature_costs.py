@@ -33,6 +33,7 @@ from cloth_sim_ros.study.process_context import process_context
 import numpy as np
 
 WHOLE = 'everything'
+ALL_OUTPUTS = 'all messages and the recording'
 _SINGLE_THREAD_NODES = 128 * 128
 
 
@@ -73,7 +74,7 @@ def time_variants(
 
     Variants are timed in turn, so that their ratio holds on a machine whose speed drifts.
 
-    :param features: left out, one at a time; of SCENE_FEATURES or of ``outputs``
+    :param features: left out, one at a time; of SCENE_FEATURES or of ``outputs``, or ALL_OUTPUTS
     :param outputs: that are made of each frame, of OUTPUTS
     :param rounds: how often each has its turn
     :param round_seconds: simulated in a turn [s]
@@ -89,7 +90,8 @@ def time_variants(
         for number, name in enumerate(names):
             run = Simulation(Scene(_variant(scene, name)), context=context)
             stack.callback(run.close)
-            kept = [output for output in outputs if output != name]
+            kept = [] if name == ALL_OUTPUTS else [
+                output for output in outputs if output != name]
             maker = None
             if kept:
                 # ROS packages are needed for messages alone.
