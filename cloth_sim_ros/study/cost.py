@@ -32,15 +32,15 @@ from pathlib import Path
 from typing import Any
 
 from cloth_sim_ros.sim.errors import ClothSimError
-from cloth_sim_ros.study.cost_report import cost_table
-from cloth_sim_ros.study.cost_report import passes_report
-from cloth_sim_ros.study.feature_costs import ALL_OUTPUTS
-from cloth_sim_ros.study.feature_costs import WHOLE
-from cloth_sim_ros.study.features import has_feature
-from cloth_sim_ros.study.features import OUTPUTS
-from cloth_sim_ros.study.features import SCENE_FEATURES
-from cloth_sim_ros.study.pass_list import pass_list
-from cloth_sim_ros.study.pass_list import pass_table
+from cloth_sim_ros.study.feature.costs import ALL_OUTPUTS
+from cloth_sim_ros.study.feature.costs import WHOLE
+from cloth_sim_ros.study.feature.features import has_feature
+from cloth_sim_ros.study.feature.features import OUTPUTS
+from cloth_sim_ros.study.feature.features import SCENE_FEATURES
+from cloth_sim_ros.study.feature.pass_list import pass_list
+from cloth_sim_ros.study.feature.pass_list import pass_table
+from cloth_sim_ros.study.feature.report import cost_table
+from cloth_sim_ros.study.feature.report import passes_report
 from cloth_sim_ros.study.runs.arguments import add_run_arguments
 from cloth_sim_ros.study.runs.arguments import workers_of
 from cloth_sim_ros.study.runs.make_runs import make_runs
@@ -50,7 +50,7 @@ from cloth_sim_ros.study.runs.run import Run
 from cloth_sim_ros.study.scene_values import given_values
 
 TAKES_SCENE = True
-_RUNS = 'cloth_sim_ros.study.feature_costs'
+_RUNS = 'cloth_sim_ros.study.feature.costs'
 
 
 def add_arguments(parser: ArgumentParser) -> None:

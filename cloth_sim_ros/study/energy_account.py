@@ -36,6 +36,8 @@ class EnergyAccount:
 
     Mode constraint holds edges without elastic energy, so it is left out there.
 
+    The work of pins that move is that of the forces on them at the end of each step.
+
     :param run: as it begins; it is stepped by ``step`` alone
     """
 
@@ -89,7 +91,8 @@ class EnergyAccount:
         self._most = max(self._most, self._moving(now))
 
     def _shares(
-            self, begin: float, end: float, before: Snapshot) -> list[tuple[np.ndarray, np.ndarray]]:
+            self, begin: float, end: float,
+            before: Snapshot) -> list[tuple[np.ndarray, np.ndarray]]:
         """Return the nodes of each push that acts, and its force [N] for the share it acts in."""
         shares = []
         for push in (applied.push for applied in self._run.pushes):
@@ -158,5 +161,3 @@ class EnergyAccount:
             # Without damping, what each substep rounds adds up like a random walk.
             energy = 12.0 * stiffest * scene.node_count * reach**2 * (1.0 + 0.01 * self._substeps)
         return energy + 1e-6 * abs(self.begin.gravitational_energy)
-
-

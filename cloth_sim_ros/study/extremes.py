@@ -28,16 +28,16 @@ from argparse import ArgumentParser
 from argparse import Namespace
 from pathlib import Path
 
-from cloth_sim_ros.study.extreme_report import extreme_table
-from cloth_sim_ros.study.extreme_report import is_right
-from cloth_sim_ros.study.extreme_scenes import EXTREMES
+from cloth_sim_ros.study.extremity.report import extreme_table
+from cloth_sim_ros.study.extremity.report import is_right
+from cloth_sim_ros.study.extremity.scenes import EXTREMES
 from cloth_sim_ros.study.runs.arguments import add_run_arguments
 from cloth_sim_ros.study.runs.arguments import workers_of
 from cloth_sim_ros.study.runs.make_runs import make_runs
 from cloth_sim_ros.study.runs.results_folder import ResultsFolder
 from cloth_sim_ros.study.runs.run import Run
 
-_FUNCTION = 'cloth_sim_ros.study.extreme_run:run_by_name'
+_FUNCTION = 'cloth_sim_ros.study.extremity.run:run_by_name'
 
 
 def add_arguments(parser: ArgumentParser) -> None:

@@ -34,10 +34,10 @@ from cloth_sim_ros.study.runs.arguments import workers_of
 from cloth_sim_ros.study.runs.make_runs import make_runs
 from cloth_sim_ros.study.runs.results_folder import ResultsFolder
 from cloth_sim_ros.study.scene_values import given_values
-from cloth_sim_ros.study.stability_plan import edges
-from cloth_sim_ros.study.stability_plan import map_points
-from cloth_sim_ros.study.stability_report import edge_table
-from cloth_sim_ros.study.stability_report import map_table
+from cloth_sim_ros.study.stable.plan import edges
+from cloth_sim_ros.study.stable.plan import map_points
+from cloth_sim_ros.study.stable.report import edge_table
+from cloth_sim_ros.study.stable.report import map_table
 
 TAKES_SCENE = True
 
@@ -64,8 +64,8 @@ def main(args: Namespace) -> int:
     text = edge_table(found) + ('\n' + map_table(mapped) if mapped else '')
     (folder / 'stability.md').write_text(text, encoding='utf-8')
     # Matplotlib is slow to import.
-    from cloth_sim_ros.study.stability_figures import draw_edges
-    from cloth_sim_ros.study.stability_figures import draw_maps
+    from cloth_sim_ros.study.stable.figures import draw_edges
+    from cloth_sim_ros.study.stable.figures import draw_maps
     draw_edges(found, folder / 'edges.png')
     if mapped:
         draw_maps(mapped, folder / 'maps.png')

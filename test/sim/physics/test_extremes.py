@@ -24,8 +24,8 @@ from collections.abc import Iterator
 from cloth_sim_ros.gl.context import Context
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.simulation import Simulation
-from cloth_sim_ros.study.extreme_run import run_extreme
-from cloth_sim_ros.study.extreme_scenes import EXTREMES
+from cloth_sim_ros.study.extremity.run import run_extreme
+from cloth_sim_ros.study.extremity.scenes import EXTREMES
 import numpy as np
 import pytest
 

@@ -21,11 +21,11 @@ from typing import Any
 from cloth_sim_ros.gl.context import Context
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.simulation import Simulation
-from cloth_sim_ros.study.hanging_cloth import hang
-from cloth_sim_ros.study.hanging_cloth import hanging_scene
-from cloth_sim_ros.study.probe_outcome import grown
-from cloth_sim_ros.study.probe_outcome import GROWN
-from cloth_sim_ros.study.probe_outcome import ProbeOutcome
+from cloth_sim_ros.study.stable.hanging_cloth import hang
+from cloth_sim_ros.study.stable.hanging_cloth import hanging_scene
+from cloth_sim_ros.study.stable.probe_outcome import GROWN
+from cloth_sim_ros.study.stable.probe_outcome import grown
+from cloth_sim_ros.study.stable.probe_outcome import ProbeOutcome
 import numpy as np
 
 # Of the spacing, out of the plane: edges get longer by its square only.

@@ -25,10 +25,10 @@ from cloth_sim_ros.sim.errors import NonFiniteStateError
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.simulation import Simulation
 from cloth_sim_ros.study.energy_account import EnergyAccount
-from cloth_sim_ros.study.probe_outcome import ProbeOutcome
-from cloth_sim_ros.study.probe_outcome import REFUSED
-from cloth_sim_ros.study.probe_outcome import STABLE
-from cloth_sim_ros.study.probe_outcome import UNSTABLE
+from cloth_sim_ros.study.stable.probe_outcome import ProbeOutcome
+from cloth_sim_ros.study.stable.probe_outcome import REFUSED
+from cloth_sim_ros.study.stable.probe_outcome import STABLE
+from cloth_sim_ros.study.stable.probe_outcome import UNSTABLE
 
 # Of the most kinetic and elastic energy: gained from nothing, more than the scheme's own error.
 MOST_GAIN = 0.1

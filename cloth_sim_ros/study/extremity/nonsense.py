@@ -18,7 +18,7 @@ from cloth_sim_ros.sim.scene import FAMILIES
 from cloth_sim_ros.sim.simulation import Simulation
 from cloth_sim_ros.sim.snapshot import Snapshot
 from cloth_sim_ros.study.energy_account import EnergyAccount
-from cloth_sim_ros.study.extreme import Extreme
+from cloth_sim_ros.study.extremity.extreme import Extreme
 import numpy as np
 
 # Of the most kinetic and elastic energy: gained from nothing.

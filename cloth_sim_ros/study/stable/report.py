@@ -18,10 +18,10 @@ from collections import Counter
 from collections.abc import Sequence
 
 from cloth_sim_ros.sim.scene_fields import MODES
-from cloth_sim_ros.study.probe_outcome import REFUSED
-from cloth_sim_ros.study.probe_outcome import STABLE
-from cloth_sim_ros.study.probe_outcome import UNSTABLE
 from cloth_sim_ros.study.runs.result import Result
+from cloth_sim_ros.study.stable.probe_outcome import REFUSED
+from cloth_sim_ros.study.stable.probe_outcome import STABLE
+from cloth_sim_ros.study.stable.probe_outcome import UNSTABLE
 
 PROBES = {'rest': 'at rest', 'hanging': 'hanging', 'moving': 'moving'}
 

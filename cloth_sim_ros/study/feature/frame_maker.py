@@ -53,7 +53,7 @@ class FrameMaker:
         self._folder = folder
         self._recorder: Recorder | None = None
 
-    def open(self) -> None:
+    def begin(self) -> None:
         """Begin a recording, if there is to be one."""
         if 'recording' in self._outputs:
             self._recorder = Recorder(self._folder)

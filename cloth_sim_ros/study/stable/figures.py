@@ -21,13 +21,13 @@ from typing import Any
 
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.scene_fields import MODES
-from cloth_sim_ros.study.probe_outcome import REFUSED
-from cloth_sim_ros.study.probe_outcome import STABLE
-from cloth_sim_ros.study.probe_outcome import UNSTABLE
 from cloth_sim_ros.study.runs.result import Result
-from cloth_sim_ros.study.stability_report import points_of
-from cloth_sim_ros.study.stability_runs import predicted_limit
-from cloth_sim_ros.study.stability_runs import with_stiffness
+from cloth_sim_ros.study.stable.probe_outcome import REFUSED
+from cloth_sim_ros.study.stable.probe_outcome import STABLE
+from cloth_sim_ros.study.stable.probe_outcome import UNSTABLE
+from cloth_sim_ros.study.stable.report import points_of
+from cloth_sim_ros.study.stable.runs import predicted_limit
+from cloth_sim_ros.study.stable.runs import with_stiffness
 from matplotlib.axes import Axes
 from matplotlib.colors import ListedColormap
 from matplotlib.figure import Figure
@@ -42,12 +42,12 @@ _INK = '#202020'
 _DPI = 110
 _LINE_POINTS = 30
 _EDGE_PANELS = {
-    ('rest', 'nodes'): 'nodes along the longer side',
+    ('rest', 'nodes'): 'nodes along the side',
     ('rest', 'stiffness'): 'stiffness, over that of the scene',
     ('rest', 'damping'): 'damping, over that of the scene',
     ('rest', 'mass'): 'mass, over that of the scene',
     ('moving', 'push'): 'push, over the weight',
-    ('hanging', 'nodes, one solve'): 'nodes along the longer side, mode constraint',
+    ('hanging', 'nodes, one solve'): 'nodes along the side, mode constraint',
 }
 
 
@@ -71,7 +71,7 @@ def draw_maps(results: Sequence[Result], path: Path) -> None:
             Patch(facecolor=_COLORS[REFUSED], label='refused: too many substeps'),
             Line2D([], [], color=_INK, marker='x', linestyle='none',
                    label='refused unless one insists'),
-            Line2D([], [], color='k', label='closed form')],
+            Line2D([], [], color='k', label='closed form for one step a dt')],
         loc='outside lower center', ncols=5, frameon=False)
     figure.savefig(path, dpi=_DPI)
 
@@ -95,6 +95,8 @@ def draw_edges(results: Sequence[Result], path: Path) -> None:
 
 
 def _draw_map(axes: Axes, results: Sequence[Result]) -> None:
+    if not results:
+        return
     factors = sorted({result.settings['factor'] for result in results})
     dts = sorted({result.settings['dt'] for result in results})
     grid = np.full((len(dts), len(factors)), np.nan)
@@ -143,11 +145,14 @@ def _draw_edge(axes: Axes, results: Sequence[Result], label: str) -> None:
         axes.set_xscale('log')
     else:
         axes.set_xscale('symlog', linthresh=min(place for place in places if place > 0.0))
+    axes.set_xticks(places, [f'{place:g}' for place in places])
+    axes.set_xticks([], minor=True)
     axes.set_yscale('log')
     low, high = axes.get_ylim()
     if high < 3.0 * low:
         axes.set_ylim(low / 1.5, high * 1.5)
     axes.grid(True, which='major', color='#dddddd')
+    axes.set_axisbelow(True)
 
 
 def _widest(results: Sequence[Result]) -> str:

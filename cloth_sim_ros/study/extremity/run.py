@@ -26,15 +26,15 @@ from cloth_sim_ros.sim.errors import NonFiniteStateError
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.simulation import Simulation
 from cloth_sim_ros.study.energy_account import EnergyAccount
-from cloth_sim_ros.study.extreme import Extreme
-from cloth_sim_ros.study.extreme import REFUSED
-from cloth_sim_ros.study.extreme import RUNS
-from cloth_sim_ros.study.extreme import STOPS
-from cloth_sim_ros.study.extreme_scenes import EXTREMES
-from cloth_sim_ros.study.nonsense import message_nonsense
-from cloth_sim_ros.study.nonsense import MOST_GAIN
-from cloth_sim_ros.study.nonsense import nonsense_of
-from cloth_sim_ros.study.nonsense import tells_of
+from cloth_sim_ros.study.extremity.extreme import Extreme
+from cloth_sim_ros.study.extremity.extreme import REFUSED
+from cloth_sim_ros.study.extremity.extreme import RUNS
+from cloth_sim_ros.study.extremity.extreme import STOPS
+from cloth_sim_ros.study.extremity.nonsense import message_nonsense
+from cloth_sim_ros.study.extremity.nonsense import MOST_GAIN
+from cloth_sim_ros.study.extremity.nonsense import nonsense_of
+from cloth_sim_ros.study.extremity.nonsense import tells_of
+from cloth_sim_ros.study.extremity.scenes import EXTREMES
 from cloth_sim_ros.study.process_context import process_context
 import numpy as np
 

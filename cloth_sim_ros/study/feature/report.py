@@ -19,10 +19,10 @@ from collections.abc import Mapping
 from collections.abc import Sequence
 from typing import Any
 
-from cloth_sim_ros.study.features import SCENE_FEATURES
-from cloth_sim_ros.study.feature_costs import WHOLE
-from cloth_sim_ros.study.pass_list import modelled
-from cloth_sim_ros.study.pass_list import pass_table
+from cloth_sim_ros.study.feature.costs import WHOLE
+from cloth_sim_ros.study.feature.features import SCENE_FEATURES
+from cloth_sim_ros.study.feature.pass_list import modelled
+from cloth_sim_ros.study.feature.pass_list import pass_table
 
 
 def cost_table(

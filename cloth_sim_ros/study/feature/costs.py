@@ -26,9 +26,9 @@ from typing import Any
 from cloth_sim_ros.gl.context import Context
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.simulation import Simulation
-from cloth_sim_ros.study.features import SCENE_FEATURES
-from cloth_sim_ros.study.features import without
-from cloth_sim_ros.study.pass_list import pass_list
+from cloth_sim_ros.study.feature.features import SCENE_FEATURES
+from cloth_sim_ros.study.feature.features import without
+from cloth_sim_ros.study.feature.pass_list import pass_list
 from cloth_sim_ros.study.process_context import process_context
 import numpy as np
 
@@ -95,7 +95,7 @@ def time_variants(
             maker = None
             if kept:
                 # ROS packages are needed for messages alone.
-                from cloth_sim_ros.study.frame_maker import FrameMaker
+                from cloth_sim_ros.study.feature.frame_maker import FrameMaker
                 maker = FrameMaker(run, kept, folder / str(number))
             turns.append((run, maker))
         frames = max(1, round(round_seconds / frame_seconds))
@@ -118,7 +118,7 @@ def _turn(run: Simulation, maker: Any, frames: int, frame_seconds: float) -> flo
     # Each turn is the same motion from the start: pushes come again, and nothing drifts.
     run.reset()
     if maker is not None:
-        maker.open()
+        maker.begin()
     run.finish()
     begin = time.perf_counter()
     for _ in range(frames):
@@ -134,5 +134,3 @@ def _turn(run: Simulation, maker: Any, frames: int, frame_seconds: float) -> flo
 
 def _variant(scene: Mapping[str, Any], feature: str) -> dict[str, Any]:
     return without(scene, feature) if feature in SCENE_FEATURES else dict(scene)
-
-

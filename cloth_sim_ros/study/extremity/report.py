@@ -17,9 +17,9 @@
 from collections import Counter
 from collections.abc import Sequence
 
-from cloth_sim_ros.study.extreme import OUTCOMES
-from cloth_sim_ros.study.extreme_scenes import EXTREMES
-from cloth_sim_ros.study.nonsense import MOST_GAIN
+from cloth_sim_ros.study.extremity.extreme import OUTCOMES
+from cloth_sim_ros.study.extremity.nonsense import MOST_GAIN
+from cloth_sim_ros.study.extremity.scenes import EXTREMES
 from cloth_sim_ros.study.runs.result import Result
 
 _RIGHT = 'as it should'
@@ -46,13 +46,14 @@ def verdict(result: Result) -> str:
 
 
 def is_right(result: Result) -> bool:
-    """Return whether a row is as it should be, or says what is wrong, or is a limit written down."""
+    """Return whether a row is as it should be, says what is wrong, or is a known limit."""
     return verdict(result) in (_RIGHT, _REPORTED, _KNOWN)
 
 
 def extreme_table(results: Sequence[Result]) -> str:
     """Return a row for each scene and mode in Markdown, and how many there are of each kind."""
-    lines = ['| group | scene | mode | outcome | verdict | detail |', '|---|---|---|---|---|---|']
+    lines = [
+        '| group | scene | mode | outcome | verdict | detail |', '|---|---|---|---|---|---|']
     for result in results:
         extreme = EXTREMES[result.settings['name']]
         if result.is_done:

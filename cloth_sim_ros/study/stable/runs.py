@@ -25,18 +25,18 @@ from cloth_sim_ros.sim.scene import FAMILIES
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.stability import any_shape_limit
 from cloth_sim_ros.sim.stability import stability_limit
-from cloth_sim_ros.study.edge_bisection import bisect_edge
-from cloth_sim_ros.study.hanging_cloth import hang
-from cloth_sim_ros.study.hanging_cloth import hanging_scene
-from cloth_sim_ros.study.hanging_probe import hanging_probe
-from cloth_sim_ros.study.lattice_limit import lattice_limit
-from cloth_sim_ros.study.moving_probe import moving_probe
-from cloth_sim_ros.study.probe_outcome import ProbeOutcome
-from cloth_sim_ros.study.probe_outcome import REFUSED
-from cloth_sim_ros.study.probe_outcome import STABLE
 from cloth_sim_ros.study.process_context import process_context
-from cloth_sim_ros.study.rest_probe import rest_probe
-from cloth_sim_ros.study.rest_probe import rest_scene
+from cloth_sim_ros.study.stable.edge_bisection import bisect_edge
+from cloth_sim_ros.study.stable.hanging_cloth import hang
+from cloth_sim_ros.study.stable.hanging_cloth import hanging_scene
+from cloth_sim_ros.study.stable.hanging_probe import hanging_probe
+from cloth_sim_ros.study.stable.lattice_limit import lattice_limit
+from cloth_sim_ros.study.stable.moving_probe import moving_probe
+from cloth_sim_ros.study.stable.probe_outcome import ProbeOutcome
+from cloth_sim_ros.study.stable.probe_outcome import REFUSED
+from cloth_sim_ros.study.stable.probe_outcome import STABLE
+from cloth_sim_ros.study.stable.rest_probe import rest_probe
+from cloth_sim_ros.study.stable.rest_probe import rest_scene
 
 # Of a scene that moves: enough for its first fall, and for what grows to be seen.
 MOVING_SECONDS = 0.5

@@ -34,9 +34,9 @@ def pass_list(
     """
     Return the passes of the scene of ``values``, its buffers and their bytes, as plain values.
 
-    A pass has its file, the choices it was compiled with and reads, and its runs in each step of dt: the mean over
-    ``seconds`` [s] and one step at least. Runs of the solver's iterations count as submitted: the
-    device leaves out those it does not need.
+    A pass has its file, the choices it was compiled with and reads, and its runs in each step of
+    dt: the mean over ``seconds`` [s] and one step at least. Runs of the solver's iterations count
+    as submitted: the device leaves out those it does not need.
 
     :param looks: take a snapshot at the end, and list its pass; its run is no part of a step
     """

@@ -22,9 +22,9 @@ from typing import Any
 from cloth_sim_ros.gl.context import Context
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.simulation import Simulation
-from cloth_sim_ros.study.probe_outcome import grown
-from cloth_sim_ros.study.probe_outcome import GROWN
-from cloth_sim_ros.study.probe_outcome import ProbeOutcome
+from cloth_sim_ros.study.stable.probe_outcome import GROWN
+from cloth_sim_ros.study.stable.probe_outcome import grown
+from cloth_sim_ros.study.stable.probe_outcome import ProbeOutcome
 
 # Small, so that springs answer in proportion; large beside what float32 rounds of a position.
 JITTER = 1e-3

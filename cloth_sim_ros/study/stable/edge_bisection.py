@@ -19,7 +19,7 @@ from dataclasses import dataclass
 import math
 
 _FACTOR = 2.0
-_MOST_WIDENINGS = 6
+_MOST_WIDENINGS = 8
 
 
 @dataclass(frozen=True)

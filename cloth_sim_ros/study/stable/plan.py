@@ -21,10 +21,10 @@ from cloth_sim_ros.sim.scene import FAMILIES
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.scene_fields import MODES
 from cloth_sim_ros.study.runs.run import Run
-from cloth_sim_ros.study.stability_runs import with_stiffness
+from cloth_sim_ros.study.stable.runs import with_stiffness
 import numpy as np
 
-_RUNS = 'cloth_sim_ros.study.stability_runs'
+_RUNS = 'cloth_sim_ros.study.stable.runs'
 _POINT, _EDGE = f'{_RUNS}:run_point', f'{_RUNS}:run_edge'
 _GRAVITY = 9.81
 STIFFNESS_FACTORS = (1e-2, 1e3)
@@ -71,6 +71,7 @@ def edges(values: Mapping[str, Any]) -> list[Run]:
         add('rest', 'adaptive', 'damping', factor, _damped(values, factor))
     for push in PUSHES:
         add('moving', 'mass_spring', 'push', push, _pushed(values, push))
+        add('moving', 'mass_spring', 'push, undamped', push, _damped(_pushed(values, push), 0.0))
     one_solve = {**values, 'constraint.newton_iterations': 1}
     for size in SIZES['hanging']:
         add('hanging', 'constraint', 'nodes, one solve', size, _of_size(one_solve, size))

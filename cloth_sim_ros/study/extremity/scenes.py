@@ -16,12 +16,12 @@
 
 from itertools import product
 
-from cloth_sim_ros.study.extreme import Extreme
-from cloth_sim_ros.study.extreme import OUTCOMES
-from cloth_sim_ros.study.extreme import REFUSED
-from cloth_sim_ros.study.extreme import RUNS
-from cloth_sim_ros.study.extreme import STOPS
-from cloth_sim_ros.study.extreme import of_all
+from cloth_sim_ros.study.extremity.extreme import Extreme
+from cloth_sim_ros.study.extremity.extreme import of_all
+from cloth_sim_ros.study.extremity.extreme import OUTCOMES
+from cloth_sim_ros.study.extremity.extreme import REFUSED
+from cloth_sim_ros.study.extremity.extreme import RUNS
+from cloth_sim_ros.study.extremity.extreme import STOPS
 from cloth_sim_ros.study.random_limits import random_scene
 import numpy as np
 
