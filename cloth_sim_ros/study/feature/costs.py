@@ -79,7 +79,8 @@ def time_variants(
     :param rounds: how often each has its turn
     :param round_seconds: simulated in a turn [s]
     :param frame_seconds: simulated between frames [s]
-    :return: for each feature the ratios of all rounds and their median, and the substeps
+    :return: for each feature the ratios of all rounds and their median, that of processor times,
+        which a busy machine disturbs less, and the substeps
     """
     names = [WHOLE, *features]
     context = Context(single_thread=Scene(scene).node_count < _SINGLE_THREAD_NODES)
@@ -105,22 +106,33 @@ def time_variants(
         substeps = [run.substeps for run, _ in turns]
     return {
         'variants': {
-            name: {
-                'ratios': [row[number] / row[0] for row in times],
-                'ratio': statistics.median(row[number] / row[0] for row in times),
-                'seconds': statistics.median(row[number] for row in times),
-                'substeps': substeps[number]}
+            name: {**_ratios([row[number] for row in times], [row[0] for row in times]),
+                   'substeps': substeps[number]}
             for number, name in enumerate(names)},
         'device': context.device}
 
 
-def _turn(run: Simulation, maker: Any, frames: int, frame_seconds: float) -> float:
+def _ratios(
+        turns: Sequence[tuple[float, float]], whole: Sequence[tuple[float, float]]
+        ) -> dict[str, Any]:
+    """Return wall and processor times over those of the whole, and the wall time itself [s]."""
+    walls, processors = (
+        [turn[kind] / other[kind] for turn, other in zip(turns, whole)] for kind in (0, 1))
+    return {
+        'ratios': walls, 'ratio': statistics.median(walls),
+        'processor_ratio': statistics.median(processors),
+        'seconds': statistics.median(wall for wall, _ in turns)}
+
+
+def _turn(
+        run: Simulation, maker: Any, frames: int, frame_seconds: float) -> tuple[float, float]:
+    """Return the wall time and the processor time of a turn [s]."""
     # Each turn is the same motion from the start: pushes come again, and nothing drifts.
     run.reset()
     if maker is not None:
         maker.begin()
     run.finish()
-    begin = time.perf_counter()
+    begin, begin_processor = time.perf_counter(), time.process_time()
     for _ in range(frames):
         run.advance(frame_seconds)
         if maker is not None:
@@ -129,7 +141,7 @@ def _turn(run: Simulation, maker: Any, frames: int, frame_seconds: float) -> flo
     if maker is not None:
         # What a recording writes beside the steps belongs to this turn.
         maker.close()
-    return time.perf_counter() - begin
+    return time.perf_counter() - begin, time.process_time() - begin_processor
 
 
 def _variant(scene: Mapping[str, Any], feature: str) -> dict[str, Any]:

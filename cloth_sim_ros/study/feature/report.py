@@ -36,9 +36,10 @@ def cost_table(
     :param seconds: simulated until results are compared [s]
     """
     lines = [
-        '| left out | wall time over that with everything, median (rounds) | substeps a dt '
+        '| left out | wall time over that with everything, median (rounds) | processor time '
+        '| substeps a dt '
         f'| RMS distance of nodes after {seconds:g} s, over the side | largest strain: change |',
-        '|---|---|---|---|---|']
+        '|---|---|---|---|---|---|']
     for name, variant in timing['variants'].items():
         if name == WHOLE:
             continue
@@ -49,9 +50,9 @@ def cost_table(
             f'of {loss["whole_strain"]:.2g}')
         lines.append(
             f'| {name} | {variant["ratio"]:.2f} ({min(ratios):.2f} to {max(ratios):.2f}) '
-            f'| {variant["substeps"]} | {lost} |')
+            f'| {variant["processor_ratio"]:.2f} | {variant["substeps"]} | {lost} |')
     for name in absent:
-        lines.append(f'| {name} | not in this scene | | none, the same bits | |')
+        lines.append(f'| {name} | not in this scene | | | none, the same bits | |')
     whole = timing['variants'][WHOLE]
     lines += ['', f'With everything a round takes {whole["seconds"]:.3g} s of wall time, in '
               f'{whole["substeps"]} substeps a dt, on {device}.']
