@@ -33,6 +33,8 @@ from cloth_sim_ros.study.process_context import process_context
 import numpy as np
 
 WHOLE = 'everything'
+# Left out to see how far the ratios of equal variants are from 1.
+NOTHING = 'nothing, to compare'
 ALL_OUTPUTS = 'all messages and the recording'
 _SINGLE_THREAD_NODES = 128 * 128
 
@@ -82,7 +84,7 @@ def time_variants(
     :return: for each feature the ratios of all rounds and their median, that of processor times,
         which a busy machine disturbs less, and the substeps
     """
-    names = [WHOLE, *features]
+    names = [WHOLE, NOTHING, *features]
     context = Context(single_thread=Scene(scene).node_count < _SINGLE_THREAD_NODES)
     with ExitStack() as stack:
         stack.callback(context.close)
@@ -101,8 +103,8 @@ def time_variants(
             turns.append((run, maker))
         frames = max(1, round(round_seconds / frame_seconds))
         # The first turn compiles what the device puts off until then.
-        times = [[_turn(*turn, frames, frame_seconds) for turn in turns]
-                 for _ in range(rounds + 1)][1:]
+        times = [_round(turns, number, frames, frame_seconds)
+                 for number in range(rounds + 1)][1:]
         substeps = [run.substeps for run, _ in turns]
     return {
         'variants': {
@@ -110,6 +112,16 @@ def time_variants(
                    'substeps': substeps[number]}
             for number, name in enumerate(names)},
         'device': context.device}
+
+
+def _round(
+        turns: Sequence[tuple[Simulation, Any]], first: int, frames: int,
+        frame_seconds: float) -> list[tuple[float, float]]:
+    """Return the times of all variants, beginning with another one in each round."""
+    count = len(turns)
+    order = [(first + place) % count for place in range(count)]
+    made = {number: _turn(*turns[number], frames, frame_seconds) for number in order}
+    return [made[number] for number in range(count)]
 
 
 def _ratios(

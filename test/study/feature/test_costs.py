@@ -17,6 +17,7 @@
 from cloth_sim_ros.study.feature.costs import ALL_OUTPUTS
 from cloth_sim_ros.study.feature.costs import compare_results
 from cloth_sim_ros.study.feature.costs import list_passes
+from cloth_sim_ros.study.feature.costs import NOTHING
 from cloth_sim_ros.study.feature.costs import time_variants
 from cloth_sim_ros.study.feature.costs import WHOLE
 from cloth_sim_ros.study.feature.features import OUTPUTS
@@ -32,7 +33,7 @@ def test_all_variants_have_their_turns():
     found = time_variants(
         SCENE, features=['damping', 'pushes', *OUTPUTS, ALL_OUTPUTS], outputs=OUTPUTS, rounds=3,
         round_seconds=0.04, frame_seconds=0.02)
-    assert list(found['variants']) == [WHOLE, 'damping', 'pushes', *OUTPUTS, ALL_OUTPUTS]
+    assert list(found['variants']) == [WHOLE, NOTHING, 'damping', 'pushes', *OUTPUTS, ALL_OUTPUTS]
     for name, variant in found['variants'].items():
         assert len(variant['ratios']) == 3 and min(variant['ratios']) > 0.0, name
     assert found['variants'][WHOLE]['ratios'] == [1.0, 1.0, 1.0]
