@@ -26,6 +26,7 @@ from cloth_sim_ros.study.stable.probe_outcome import REFUSED
 from cloth_sim_ros.study.stable.probe_outcome import STABLE
 from cloth_sim_ros.study.stable.probe_outcome import UNSTABLE
 from cloth_sim_ros.study.stable.report import points_of
+from cloth_sim_ros.study.stable.report import steps_of
 from cloth_sim_ros.study.stable.runs import predicted_limit
 from cloth_sim_ros.study.stable.runs import with_stiffness
 from matplotlib.axes import Axes
@@ -46,7 +47,7 @@ _EDGE_PANELS = {
     ('rest', 'stiffness'): 'stiffness, over that of the scene',
     ('rest', 'damping'): 'damping, over that of the scene',
     ('rest', 'mass'): 'mass, over that of the scene',
-    ('moving', 'push'): 'push, over the weight',
+    ('moving', 'push, undamped'): 'push, over the weight; no damping',
     ('hanging', 'nodes, one solve'): 'nodes along the side, mode constraint',
 }
 
@@ -58,8 +59,7 @@ def draw_maps(results: Sequence[Result], path: Path) -> None:
     for row, forced in enumerate((True, False)):
         for axes, mode in zip(panels[row], MODES):
             _draw_map(axes, points_of(results, mode, forced))
-            axes.set_title(f'{mode}, ' + ('one step a dt, at rest' if forced
-                                          else 'by default, moving'), fontsize=10)
+            axes.set_title(f'{mode}, {steps_of(mode, forced)}', fontsize=10)
     for axes in panels[1]:
         axes.set_xlabel(f'stiffness of {_widest(results)} springs [N/m]')
     for axes in panels[:, 0]:

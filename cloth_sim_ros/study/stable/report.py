@@ -58,10 +58,17 @@ def map_table(results: Sequence[Result]) -> str:
                 f'{count} {name}' for name, count in counts.items()
                 if name not in (STABLE, UNSTABLE, REFUSED))
             lines.append(
-                f'| {mode} | {"one a dt, at rest" if forced else "by default, moving"} '
-                f'| {counts[STABLE]} | {counts[UNSTABLE]} | {counts[REFUSED]} |'
+                f'| {mode} | {steps_of(mode, forced)} | {counts[STABLE]} | {counts[UNSTABLE]} '
+                f'| {counts[REFUSED]} |'
                 + (f' {others}' if others else ''))
     return '\n'.join(lines) + '\n'
+
+
+def steps_of(mode: str, forced: bool) -> str:
+    """Return how the steps of a map are made, and what its cloth does."""
+    if not forced:
+        return 'by default, moving'
+    return f'one step a dt, {"hanging" if mode == "constraint" else "at rest"}'
 
 
 def points_of(results: Sequence[Result], mode: str, forced: bool) -> list[Result]:

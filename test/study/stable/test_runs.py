@@ -109,7 +109,7 @@ def test_tables_and_figures(tmp_path):
              if run.settings['probe'] == 'rest' and run.settings['value'] == 8]
     assert all(result.is_done for result in points + found)
     # 4 points a map, of which half have the longest dt.
-    assert '| mass_spring | one a dt, at rest | 2 | 2 | 0 |' in map_table(points)
+    assert '| mass_spring | one step a dt, at rest | 2 | 2 | 0 |' in map_table(points)
     row = edge_table(found).splitlines()[2]
     assert float(row.split('|')[-2]) == pytest.approx(1.0, abs=0.05)
     draw_maps(points, tmp_path / 'maps.png')
