@@ -47,11 +47,17 @@ def add_arguments(parser: ArgumentParser) -> None:
     parser.add_argument('--cells', type=int, default=9, metavar='N',
                         help='points along each axis of a map, 0 for no maps '
                              '(default: %(default)s)')
+    parser.add_argument('--figure', action='append', default=[], metavar='FILE.png', type=Path,
+                        dest='figures', help='where the figure of the maps goes, and given once '
+                        'more that of the edges (default: maps.png and edges.png in --out)')
     add_run_arguments(parser, 'studies/stability')
 
 
 def main(args: Namespace) -> int:
     """Make the runs, and write tables and figures."""
+    if len(args.figures) > 2:
+        raise ClothSimError(
+            f'--figure was given {len(args.figures)} times and there are 2 figures: leave some out')
     if args.cells != 0 and args.cells < 2:
         raise ClothSimError(f'--cells must be 2 or more, or 0 for no maps, got {args.cells}')
     values = given_values(args.scene)
@@ -66,9 +72,12 @@ def main(args: Namespace) -> int:
     # Matplotlib is slow to import.
     from cloth_sim_ros.study.stable.figures import draw_edges
     from cloth_sim_ros.study.stable.figures import draw_maps
-    draw_edges(found, folder / 'edges.png')
+    maps, edge_figure = [*args.figures, *(
+        folder / name for name in ('maps.png', 'edges.png')[len(args.figures):])]
+    draw_edges(found, edge_figure)
     if mapped:
-        draw_maps(mapped, folder / 'maps.png')
+        draw_maps(mapped, maps)
     print(text)
-    print(f'tables and figures are in {folder}')
+    print(f'tables are in {folder / "stability.md"}, figures in {edge_figure}'
+          + (f' and {maps}' if mapped else ''))
     return 0

@@ -82,12 +82,20 @@ def compiled(listed: Mapping[str, Any]) -> Counter:
 
 
 def _differences(whole: Mapping[str, Any], other: Mapping[str, Any]) -> str:
-    gone = compiled(whole) - compiled(other)
-    come = compiled(other) - compiled(whole)
-    left = {shader for shader, _ in come}
-    words = [f'{shader} gone' for shader, _ in gone if shader not in left]
-    words += [f'{shader} with {what or "nothing"}' for shader, what in come]
-    return '; '.join(words) or 'none'
+    """Return what ``other`` compiles otherwise, shaders with the same difference together."""
+    gone, come = compiled(whole) - compiled(other), compiled(other) - compiled(whole)
+    changes: dict[str, list[str]] = {}
+    for shader, what in gone:
+        others = [set(choices.split(', ')) for name, choices in come if name == shader]
+        choices = set(what.split(', '))
+        # Of several forms of a shader, the one that is nearest.
+        nearest = max(others, key=lambda each: len(each & choices), default=None)
+        words = 'gone' if nearest is None else ', '.join(
+            [f'without {name}' for name in sorted(choices - nearest)]
+            + [f'with {name}' for name in sorted(nearest - choices)])
+        changes.setdefault(words, []).append(shader)
+    return '; '.join(f'{words}: {", ".join(shaders)}' for words, shaders in changes.items()) or (
+        'none')
 
 
 def _row(name: str, words: str, listed: Mapping[str, Any]) -> str:

@@ -123,6 +123,6 @@ def test_the_report_tells_what_is_gone(context):
     others = {name: pass_list(without(FULL, name), context=context)
               for name in ('mode', 'bend springs')}
     text = passes_report(whole, others, ['damping'])
-    assert 'limit_sweep.comp gone' in text
-    assert 'mass_spring_step.comp with' in text
+    assert '| mode | gone: strain_watch.comp, mass_spring_step.comp, limit_sweep.comp' in text
+    assert '| bend springs | without bend: mass_spring_step.comp' in text
     assert '| damping | not in this scene' in text
