@@ -21,9 +21,13 @@ from cloth_sim_ros.sim.scene_fields import SCENE_FIELDS
 
 
 def given_values(scene: Scene) -> dict[str, Any]:
-    """Return what makes ``scene`` again, as plain values: what differs from the defaults."""
+    """
+    Return what makes ``scene`` again, as plain values: what differs from the defaults.
+
+    What a preset has set is told value by value, so that another one in its place is taken.
+    """
     values = {
         field.name: scene[field.name] for field in SCENE_FIELDS
-        if scene[field.name] != field.check(field.default)}
+        if field.name != 'preset' and scene[field.name] != field.check(field.default)}
     return {name: list(value) if isinstance(value, tuple) else value
             for name, value in values.items()}

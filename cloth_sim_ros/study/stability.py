@@ -57,7 +57,8 @@ def main(args: Namespace) -> int:
     """Make the runs, and write tables and figures."""
     if len(args.figures) > 2:
         raise ClothSimError(
-            f'--figure was given {len(args.figures)} times and there are 2 figures: leave some out')
+            f'--figure was given {len(args.figures)} times and there are 2 figures: leave some '
+            'out')
     if args.cells != 0 and args.cells < 2:
         raise ClothSimError(f'--cells must be 2 or more, or 0 for no maps, got {args.cells}')
     values = given_values(args.scene)
