@@ -16,6 +16,8 @@
 
 import ctypes
 
+from cloth_sim_ros.gl.inventory import drop_buffer
+from cloth_sim_ros.gl.inventory import note_buffer
 from cloth_sim_ros.gl.quick_calls import Call
 from cloth_sim_ros.gl.quick_calls import memory_barrier
 import numpy as np
@@ -43,6 +45,7 @@ class Buffer:
         GL.glBindBuffer(GL.GL_SHADER_STORAGE_BUFFER, self._buffer)
         GL.glBufferData(
             GL.GL_SHADER_STORAGE_BUFFER, self.bytes, content, GL.GL_DYNAMIC_COPY)
+        note_buffer(self)
 
     def bind_storage(self, binding: int) -> None:
         """Let shaders reach it as the storage block ``binding``."""
@@ -82,6 +85,7 @@ class Buffer:
         if self._texture is not None:
             GL.glDeleteTextures(1, [self._texture])
         GL.glDeleteBuffers(1, [self._buffer])
+        drop_buffer(self)
 
 
 def most_bytes() -> int:

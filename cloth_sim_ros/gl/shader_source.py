@@ -23,6 +23,7 @@ from cloth_sim_ros.gl.shader_directory import shader_directory
 
 VERSION_LINE = '#version 430 core'
 _INCLUDE = re.compile(r'\s*#include\s+"([^"]+)"\s*$')
+_WORD = re.compile(r'\w+')
 
 
 class ShaderSource:
@@ -36,9 +37,10 @@ class ShaderSource:
     def __init__(self, name: str, defines: Mapping[str, object] | None = None) -> None:
         """Read the file and everything it includes, each once."""
         self.name = name
+        self.defines = dict(defines or {})
         self._lines: list[str] = [VERSION_LINE]
         self._origins: list[str] = ['version']
-        for key, value in (defines or {}).items():
+        for key, value in self.defines.items():
             self._append(f'#define {key} {value}', 'define')
         self._read(name, set())
 
@@ -46,6 +48,14 @@ class ShaderSource:
     def text(self) -> str:
         """Return the whole shader."""
         return '\n'.join(self._lines) + '\n'
+
+    @property
+    def used_defines(self) -> dict[str, object]:
+        """Return those of the choices that the shader reads, names and values."""
+        words = set(_WORD.findall('\n'.join(
+            line for line, origin in zip(self._lines, self._origins) if origin != 'define')))
+        return {key: value for key, value in self.defines.items()
+                if key.partition('(')[0] in words}
 
     def origin(self, line: int) -> str:
         """Return 'file:line' and the text of line ``line`` (from 1) of the whole."""

@@ -23,4 +23,7 @@ and --set, and `args.scene` is the Scene when main is called.
 STUDIES = {
     'tradeoff': 'error against cost of modes and settings on a scene',
     'presets': 'the values of the parameter preset, from a tradeoff',
+    'stability': 'where each mode ceases to be stable, measured and predicted',
+    'extremes': 'scenes at the end of what can be asked for, in every mode',
+    'cost': 'what each feature of a scene costs, and what a result loses without it',
 }

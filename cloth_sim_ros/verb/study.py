@@ -18,6 +18,9 @@ Study a scene: how exact and how fast settings are, and where they end.
 For example:
   cloth_sim study tradeoff config/drape.yaml
   cloth_sim study tradeoff config/drape.yaml --budget-rtf 1 --out studies/drape
+  cloth_sim study stability config/drape.yaml
+  cloth_sim study extremes
+  cloth_sim study cost config/drape.yaml --passes
   cloth_sim study tradeoff --help
 """
 

@@ -142,6 +142,8 @@ class Solver:
         # Most of these run nothing: what they cost is the calls.
         for call, arguments in (self._iterations - 1) * self._further_calls:
             call(*arguments)
+        for each in self._further:
+            each.submitted(self._iterations - 1)
         self._update.run()
         self._tally.add()
         if self._tensions is not None:
@@ -232,8 +234,9 @@ class Solver:
             'reduce.comp', GROUPS_COUNT=len(dispatches),
             GROUPS_OF_EACH=', '.join(f'ivec2({x}, {y})' for x, y in dispatches))
         self._iteration.append(SolverPass(reduce, (1, 1)))
+        self._further = [self._update, *self._iteration]
         self._further_calls = [
-            call for each in (self._update, *self._iteration) for call in each.calls_if_going()]
+            call for each in self._further for call in each.calls_if_going()]
         self._further_calls.append(DISPATCHES_VISIBLE)
         self._buffers = SolverBuffers(levels, len(dispatches))
         reduce.set_int('sum_count', self._buffers.sum_count)

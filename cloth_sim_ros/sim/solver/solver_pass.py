@@ -69,6 +69,10 @@ class SolverPass:
         """Return what runs the pass unless the device has decided to stop."""
         return [*self._program.indirect_calls(self._offset, **self._uniforms), WRITES_VISIBLE]
 
+    def submitted(self, count: int) -> None:
+        """Count ``count`` times that ``calls_if_going`` were made."""
+        self._program.submitted(count)
+
     def _use(self) -> None:
         self._program.use()
         for name, value in self._uniforms.items():

@@ -1,0 +1,75 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""What a piece of work has compiled, allocated and run on the device."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from cloth_sim_ros.gl.buffer import Buffer
+    from cloth_sim_ros.gl.program import Program
+
+_taken: list[Inventory] = []
+
+
+class Inventory:
+    """The programs compiled, and the buffers allocated and not given back, while it was taken."""
+
+    def __init__(self) -> None:
+        """Begin with nothing."""
+        self.programs: list[Program] = []
+        self.buffers: list[Buffer] = []
+
+    @property
+    def buffer_bytes(self) -> int:
+        """Return how much memory the buffers have."""
+        return sum(buffer.bytes for buffer in self.buffers)
+
+    def dispatches(self) -> list[int]:
+        """Return how often each program has been run, or submitted to a device that decides."""
+        return [program.dispatches for program in self.programs]
+
+
+@contextmanager
+def take_inventory() -> Iterator[Inventory]:
+    """Lend an inventory of all that is compiled and allocated until the end of the block."""
+    inventory = Inventory()
+    _taken.append(inventory)
+    try:
+        yield inventory
+    finally:
+        _taken.remove(inventory)
+
+
+def note_program(program: Program) -> None:
+    """Put a program that was compiled into the inventories being taken."""
+    for inventory in _taken:
+        inventory.programs.append(program)
+
+
+def note_buffer(buffer: Buffer) -> None:
+    """Put a buffer that was allocated into the inventories being taken."""
+    for inventory in _taken:
+        inventory.buffers.append(buffer)
+
+
+def drop_buffer(buffer: Buffer) -> None:
+    """Take a buffer that was given back out of them."""
+    for inventory in _taken:
+        if buffer in inventory.buffers:
+            inventory.buffers.remove(buffer)

@@ -1,0 +1,69 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+r"""
+Run extreme scenes in every mode: each runs finite, is refused, or stops and says why.
+
+A row is nonsense when numbers are not finite and nobody says so, energy comes from nothing, hard
+edges are off, a free cloth does not fall as it should, or a message names no way out. The exit
+code is 1 where a row is nonsense or comes out otherwise than it should, known limits apart.
+
+For example:
+  cloth_sim study extremes
+  cloth_sim study extremes --long --jobs 2 --out studies/extremes
+"""
+
+from argparse import ArgumentParser
+from argparse import Namespace
+from pathlib import Path
+
+from cloth_sim_ros.study.extremity.report import extreme_table
+from cloth_sim_ros.study.extremity.report import is_right
+from cloth_sim_ros.study.extremity.scenes import EXTREMES
+from cloth_sim_ros.study.runs.arguments import add_run_arguments
+from cloth_sim_ros.study.runs.arguments import workers_of
+from cloth_sim_ros.study.runs.make_runs import make_runs
+from cloth_sim_ros.study.runs.results_folder import ResultsFolder
+from cloth_sim_ros.study.runs.run import Run
+
+_FUNCTION = 'cloth_sim_ros.study.extremity.run:run_by_name'
+
+
+def add_arguments(parser: ArgumentParser) -> None:
+    """Add the arguments of this study."""
+    parser.add_argument('--long', action='store_true',
+                        help='also those that take minutes: a grid of stiffness, mass and dt, '
+                             'random scenes, a million nodes')
+    add_run_arguments(parser, 'studies/extremes')
+
+
+def main(args: Namespace) -> int:
+    """Make the runs and write the table."""
+    runs = extreme_runs(with_long=args.long)
+    folder = Path(args.out)
+    with ResultsFolder(folder) as results:
+        found = make_runs(runs, results, workers_of(args), title='extremes')
+    text = extreme_table(found)
+    (folder / 'extremes.md').write_text(text, encoding='utf-8')
+    print(text)
+    print(f'the table is in {folder / "extremes.md"}')
+    return 0 if all(map(is_right, found)) else 1
+
+
+def extreme_runs(*, with_long: bool) -> list[Run]:
+    """Return a run for each extreme and each of its modes."""
+    return [
+        Run(_FUNCTION, {'mode': mode}, {'name': name})
+        for name, extreme in EXTREMES.items() if with_long or not extreme.is_long
+        for mode in extreme.modes]

@@ -1,0 +1,78 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""The table of the extremes."""
+
+from collections import Counter
+from collections.abc import Sequence
+
+from cloth_sim_ros.study.extremity.extreme import OUTCOMES
+from cloth_sim_ros.study.extremity.nonsense import MOST_GAIN
+from cloth_sim_ros.study.extremity.scenes import EXTREMES
+from cloth_sim_ros.study.runs.result import Result
+
+_RIGHT = 'as it should'
+_REPORTED = 'reported'
+_KNOWN = 'known limit'
+_NONSENSE = 'NONSENSE'
+_OTHERWISE = 'OTHERWISE'
+
+
+def verdict(result: Result) -> str:
+    """
+    Return whether a row is right, nonsense, a known limit, or came out otherwise.
+
+    'reported' is what has gone wrong and says so, in its snapshot and in ~/diagnostics.
+    """
+    extreme = EXTREMES[result.settings['name']]
+    if not result.is_done:
+        return _OTHERWISE
+    if result.values['nonsense']:
+        return _KNOWN if extreme.limit_in(result.scene['mode']) else _NONSENSE
+    if result.values['outcome'] not in extreme.expected:
+        return _OTHERWISE
+    return _REPORTED if result.values['gained'] > MOST_GAIN else _RIGHT
+
+
+def is_right(result: Result) -> bool:
+    """Return whether a row is as it should be, says what is wrong, or is a known limit."""
+    return verdict(result) in (_RIGHT, _REPORTED, _KNOWN)
+
+
+def extreme_table(results: Sequence[Result]) -> str:
+    """Return a row for each scene and mode in Markdown, and how many there are of each kind."""
+    lines = [
+        '| group | scene | mode | outcome | verdict | detail |', '|---|---|---|---|---|---|']
+    for result in results:
+        extreme = EXTREMES[result.settings['name']]
+        if result.is_done:
+            outcome, detail = result.values['outcome'], result.values['detail']
+        else:
+            outcome, detail = result.outcome, result.reason
+        wrong = '; '.join(result.values.get('nonsense', ()))
+        said = verdict(result)
+        if said == _KNOWN:
+            said += f' ({extreme.known_limit})'
+        lines.append(
+            f'| {extreme.group} | {result.settings["name"]} | {result.scene["mode"]} | {outcome} '
+            f'| {said} | {wrong + "; " if wrong else ""}{detail} |')
+    counts = Counter(
+        result.values['outcome'] if result.is_done else result.outcome for result in results)
+    verdicts = Counter(map(verdict, results))
+    lines += ['', f'{len(results)} rows: '
+              + ', '.join(f'{counts[outcome]} {outcome}' for outcome in OUTCOMES)
+              + f'; {verdicts[_NONSENSE]} nonsense, {verdicts[_OTHERWISE]} otherwise than they '
+              f'should, {verdicts[_REPORTED]} gone wrong and reported, {verdicts[_KNOWN]} at a '
+              'known limit.']
+    return '\n'.join(lines) + '\n'

@@ -1,0 +1,68 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""The features of a scene that can be left out, and the scene without each."""
+
+from collections.abc import Mapping
+from typing import Any
+
+from cloth_sim_ros.sim.scene import Scene
+
+# What a frame makes for others, besides the steps.
+OUTPUTS = ('points', 'markers', 'stats', 'wrenches', 'recording')
+_BEND, _SHEAR = 'bend springs', 'shear springs'
+_DAMPING, _MODE = 'damping', 'mode'
+_PUSHES, _PIN_MOVES = 'pushes', 'pins that move'
+SCENE_FEATURES = (_BEND, _SHEAR, _DAMPING, _MODE, _PUSHES, _PIN_MOVES)
+
+
+def has_feature(values: Mapping[str, Any], feature: str) -> bool:
+    """Return whether the scene of ``values`` has one of SCENE_FEATURES."""
+    scene = Scene(values)
+    if feature in (_BEND, _SHEAR):
+        return _has_edges(scene, feature.split()[0])
+    return {
+        _DAMPING: any(scene.damping(family) > 0.0 for family in ('structural', 'shear', 'bend')),
+        _MODE: scene['mode'] != 'mass_spring',
+        _PUSHES: bool(scene['pushes.start']),
+        _PIN_MOVES: bool(scene['pin_moves.start']),
+    }[feature]
+
+
+def without(values: Mapping[str, Any], feature: str) -> dict[str, Any]:
+    """Return the scene of ``values`` without one of SCENE_FEATURES; plain springs for the mode."""
+    if feature in (_BEND, _SHEAR):
+        return _without_family(values, feature.split()[0])
+    if feature == _DAMPING:
+        return {**values, **{f'damping.{family}': 0.0
+                             for family in ('structural', 'shear', 'bend')}}
+    if feature == _MODE:
+        return {**values, 'mode': 'mass_spring'}
+    prefix = 'pushes.' if feature == _PUSHES else 'pin_moves.'
+    return {name: value for name, value in values.items() if not name.startswith(prefix)}
+
+
+def _has_edges(scene: Scene, family: str) -> bool:
+    if scene['mode'] != 'constraint':
+        return scene.models(family)
+    return family in scene['constraint.hard'] or (
+        family in scene['constraint.springs'] and scene.models(family))
+
+
+def _without_family(values: Mapping[str, Any], family: str) -> dict[str, Any]:
+    scene = Scene(values)
+    return {
+        **values, f'stiffness.{family}': 0.0, f'damping.{family}': 0.0,
+        **{name: [other for other in scene[name] if other != family]
+           for name in ('constraint.hard', 'constraint.springs')}}

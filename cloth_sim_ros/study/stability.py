@@ -1,0 +1,84 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+r"""
+Map where a scene is stable, over dt and stiffness, and hold the edges to their closed forms.
+
+For each mode: the cloth at rest with one step a dt, whatever the limit, and the scene as it moves
+in the substeps that are chosen by themselves. Then edges found by bisection, over resolution,
+stiffness, damping, mass, pushes and solves. docs/stability.md says what counts as unstable.
+
+For example:
+  cloth_sim study stability config/drape.yaml --set rows=24 --set cols=24
+  cloth_sim study stability config/drape.yaml --cells 13 --jobs 2 --out studies/stability
+"""
+
+from argparse import ArgumentParser
+from argparse import Namespace
+from pathlib import Path
+
+from cloth_sim_ros.sim.errors import ClothSimError
+from cloth_sim_ros.study.runs.arguments import add_run_arguments
+from cloth_sim_ros.study.runs.arguments import workers_of
+from cloth_sim_ros.study.runs.make_runs import make_runs
+from cloth_sim_ros.study.runs.results_folder import ResultsFolder
+from cloth_sim_ros.study.scene_values import given_values
+from cloth_sim_ros.study.stable.plan import edges
+from cloth_sim_ros.study.stable.plan import map_points
+from cloth_sim_ros.study.stable.report import edge_table
+from cloth_sim_ros.study.stable.report import map_table
+
+TAKES_SCENE = True
+
+
+def add_arguments(parser: ArgumentParser) -> None:
+    """Add the arguments of this study."""
+    parser.add_argument('--cells', type=int, default=9, metavar='N',
+                        help='points along each axis of a map, 0 for no maps '
+                             '(default: %(default)s)')
+    parser.add_argument('--figure', action='append', default=[], metavar='FILE.png', type=Path,
+                        dest='figures', help='where the figure of the maps goes, and given once '
+                        'more that of the edges (default: maps.png and edges.png in --out)')
+    add_run_arguments(parser, 'studies/stability')
+
+
+def main(args: Namespace) -> int:
+    """Make the runs, and write tables and figures."""
+    if len(args.figures) > 2:
+        raise ClothSimError(
+            f'--figure was given {len(args.figures)} times and there are 2 figures: leave some '
+            'out')
+    if args.cells != 0 and args.cells < 2:
+        raise ClothSimError(f'--cells must be 2 or more, or 0 for no maps, got {args.cells}')
+    values = given_values(args.scene)
+    folder = Path(args.out)
+    points = map_points(values, args.cells) if args.cells else []
+    with ResultsFolder(folder) as results:
+        workers = workers_of(args)
+        found = make_runs(edges(values), results, workers, title='edges')
+        mapped = make_runs(points, results, workers, title='maps')
+    text = edge_table(found) + ('\n' + map_table(mapped) if mapped else '')
+    (folder / 'stability.md').write_text(text, encoding='utf-8')
+    # Matplotlib is slow to import.
+    from cloth_sim_ros.study.stable.figures import draw_edges
+    from cloth_sim_ros.study.stable.figures import draw_maps
+    maps, edge_figure = [*args.figures, *(
+        folder / name for name in ('maps.png', 'edges.png')[len(args.figures):])]
+    draw_edges(found, edge_figure)
+    if mapped:
+        draw_maps(mapped, maps)
+    print(text)
+    print(f'tables are in {folder / "stability.md"}, figures in {edge_figure}'
+          + (f' and {maps}' if mapped else ''))
+    return 0

@@ -1,0 +1,73 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Find where a cloth ceases to be stable, between a step that is and one that is not."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+import math
+
+_FACTOR = 2.0
+_MOST_WIDENINGS = 8
+
+
+@dataclass(frozen=True)
+class Edge:
+    """
+    The longest step seen to be stable and the shortest seen not to be [s].
+
+    :param stable: 0 where none was stable
+    :param unstable: infinite where all were
+    """
+
+    stable: float
+    unstable: float
+
+    @property
+    def middle(self) -> float:
+        """Return the edge, the geometric mean of both [s]; 0 or infinite where there is none."""
+        if self.stable == 0.0 or math.isinf(self.unstable):
+            return self.stable and self.unstable
+        return math.sqrt(self.stable * self.unstable)
+
+
+def bisect_edge(
+        is_stable: Callable[[float], bool], guess: float, *, width: float = 0.005,
+        longest: float = math.inf) -> Edge:
+    """
+    Return the edge of ``is_stable``, a function of the step, which lies near ``guess`` [s].
+
+    :param width: of what is left between both sides, over the edge
+    :param longest: step that is tried [s]
+    """
+    stable, unstable = 0.0, math.inf
+    step = min(guess / math.sqrt(_FACTOR), longest)
+    for _ in range(_MOST_WIDENINGS):
+        if is_stable(step):
+            stable = step
+            if math.isfinite(unstable) or step >= longest:
+                break
+            step = min(step * _FACTOR, longest)
+        else:
+            unstable = step
+            if stable:
+                break
+            step /= _FACTOR
+    while stable and math.isfinite(unstable) and unstable > (1.0 + width) * stable:
+        middle = math.sqrt(stable * unstable)
+        if is_stable(middle):
+            stable = middle
+        else:
+            unstable = middle
+    return Edge(stable, unstable)

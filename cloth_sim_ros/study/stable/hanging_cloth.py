@@ -1,0 +1,117 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""A cloth that hangs from its top edge, at rest: its tensions, and the step that they allow."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+import math
+from typing import Any
+
+from cloth_sim_ros.reference.edges import edges_of
+from cloth_sim_ros.sim.scene import FAMILIES
+from cloth_sim_ros.sim.scene import Scene
+import numpy as np
+from scipy import sparse
+from scipy.sparse.linalg import eigsh
+from scipy.sparse.linalg import splu
+
+_GRAVITY = 9.81
+# Of the stiffness of hard edges: what holds a cloth without shear, whose rows may slide.
+_HOLD = 1e-9
+_DENSE = 64
+
+
+@dataclass(frozen=True)
+class HangingCloth:
+    """
+    The rest state of a cloth in mode constraint, to first order in what its springs give.
+
+    :param positions: (rows, cols, 3) [m], in the plane y = 0
+    :param limit: the longest stable step [s] of explicit forces across the edges
+    """
+
+    positions: np.ndarray
+    limit: float
+
+
+def hanging_scene(values: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the cloth of ``values``, hanging upright from its top edge and left alone."""
+    alone = {name: value for name, value in values.items()
+             if not name.startswith(('pushes.', 'pin_moves.'))}
+    pull = float(np.linalg.norm(Scene(values)['gravity'])) or _GRAVITY
+    return {
+        **alone, 'mode': 'constraint', 'gravity': [0.0, 0.0, -pull], 'start.pose': 'hanging',
+        'start.jitter': 0.0, 'start.z': 0.0, 'pins': ['top_edge'], 'auto_substeps': False,
+        'substeps': 1}
+
+
+def hang(scene: Scene) -> HangingCloth:
+    """
+    Return how the cloth of a ``hanging_scene`` comes to rest.
+
+    Edges pull across their direction with T / l for each metre. In a linearised step that pull is
+    explicit, so it is stable while h < 2 / sqrt(largest eigenvalue of M^-1 K_geo)
+    (docs/numerics_implicit.md), here of the motion out of the plane.
+    """
+    edges = edges_of(scene, always=scene['constraint.hard'])
+    used = edges.of((*scene['constraint.hard'], *scene['constraint.springs']))
+    rest = scene.rest_positions()
+    flat = rest.reshape(-1, 3)
+    free = ~scene.pinned_nodes().ravel()
+    stiffness = _stiffness(scene, edges)[used]
+    jacobian = edges.jacobian(edges.directions(flat), len(flat))[used]
+    # The plane of the cloth: x and z of the free nodes.
+    moves = np.repeat(free, 3) & np.tile([True, False, True], len(flat))
+    weight = scene.node_mass * np.tile(scene['gravity'], len(flat))[moves]
+    within = jacobian[:, moves]
+    matrix = within.T @ sparse.diags(stiffness) @ within
+    matrix = matrix + sparse.diags(np.full(matrix.shape[0], _HOLD * stiffness.max()))
+    shift = np.zeros(3 * len(flat))
+    shift[moves] = splu(matrix.tocsc()).solve(weight)
+    tension = stiffness * (jacobian @ shift)
+    positions = flat + shift.reshape(-1, 3)
+    pull = tension / edges.lengths(positions)[used]
+    first, second = edges.first[used], edges.second[used]
+    return HangingCloth(
+        positions.reshape(rest.shape),
+        2.0 / math.sqrt(_largest(first, second, pull, free) / scene.node_mass))
+
+
+def _stiffness(scene: Scene, edges: object) -> np.ndarray:
+    """Return that of springs, and for hard edges one at which the cloth hardly gives [N/m]."""
+    hard = 1e6 * max(
+        scene.node_count * scene.node_mass * float(np.linalg.norm(scene['gravity']))
+        / min(scene.spacing), max(scene.stiffness(family) for family in FAMILIES))
+    # Hard edges yield with the inverse masses of their ends: pinned ones have one of them.
+    pinned = scene.pinned_nodes().ravel()
+    half = pinned[edges.first] | pinned[edges.second]
+    return np.where(
+        edges.of(scene['constraint.hard']), np.where(half, 2.0 * hard, hard), edges.stiffness)
+
+
+def _largest(
+        first: np.ndarray, second: np.ndarray, pull: np.ndarray, free: np.ndarray) -> float:
+    """Return the largest eigenvalue of the graph with the weights ``pull``, of free nodes."""
+    count = len(free)
+    matrix = sparse.coo_matrix(
+        (np.concatenate((pull, pull, -pull, -pull)),
+         (np.concatenate((first, second, first, second)),
+          np.concatenate((first, second, second, first)))), shape=(count, count))
+    matrix = matrix.tocsr()[free][:, free]
+    if matrix.shape[0] < _DENSE:
+        return float(np.linalg.eigvalsh(matrix.toarray())[-1])
+    # A fixed start: the same scene gives the same figure.
+    start = np.random.default_rng(0).uniform(-1.0, 1.0, matrix.shape[0])
+    return float(eigsh(matrix, k=1, which='LA', v0=start, return_eigenvectors=False)[0])

@@ -1,0 +1,136 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""The runs of the stability study: points of its maps, and edges found by bisection."""
+
+from collections.abc import Mapping
+import math
+from typing import Any
+
+from cloth_sim_ros.gl.context import Context
+from cloth_sim_ros.sim.errors import ClothSimError
+from cloth_sim_ros.sim.modes.spring_substeps import spring_substeps
+from cloth_sim_ros.sim.scene import FAMILIES
+from cloth_sim_ros.sim.scene import Scene
+from cloth_sim_ros.sim.stability import any_shape_limit
+from cloth_sim_ros.sim.stability import stability_limit
+from cloth_sim_ros.study.process_context import process_context
+from cloth_sim_ros.study.stable.edge_bisection import bisect_edge
+from cloth_sim_ros.study.stable.hanging_cloth import hang
+from cloth_sim_ros.study.stable.hanging_cloth import hanging_scene
+from cloth_sim_ros.study.stable.hanging_probe import hanging_probe
+from cloth_sim_ros.study.stable.lattice_limit import lattice_limit
+from cloth_sim_ros.study.stable.moving_probe import moving_probe
+from cloth_sim_ros.study.stable.probe_outcome import ProbeOutcome
+from cloth_sim_ros.study.stable.probe_outcome import REFUSED
+from cloth_sim_ros.study.stable.probe_outcome import STABLE
+from cloth_sim_ros.study.stable.rest_probe import rest_probe
+from cloth_sim_ros.study.stable.rest_probe import rest_scene
+
+# Of a scene that moves: enough for its first fall, and for what grows to be seen.
+MOVING_SECONDS = 0.5
+_MOST_STEPS = {'mass_spring': 2000, 'adaptive': 2000, 'constraint': 300}
+_LONGEST_DT = 1.0
+
+
+def run_point(
+        scene: Mapping[str, Any], *, factor: float, dt: float, forced: bool) -> dict[str, Any]:
+    """
+    Return what one point of the map of a mode came to.
+
+    :param scene: scene parameters, the mode among them
+    :param factor: that all stiffness is multiplied by
+    :param dt: [s]
+    :param forced: one step a dt, whatever the limit, of the cloth at rest; otherwise the scene as
+        it moves, in the substeps that the project chooses by itself
+    """
+    context = process_context()
+    values = with_stiffness(scene, factor)
+    if forced:
+        probe = hanging_probe if values['mode'] == 'constraint' else rest_probe
+        outcome = probe(values, dt, context=context)
+        refused = _is_refused(values, dt)
+    else:
+        outcome = _moving({**values, 'auto_substeps': True}, dt, context)
+        refused = outcome.outcome == REFUSED
+    return {**outcome.as_dict(), 'refused': refused, 'device': context.device}
+
+
+def run_edge(scene: Mapping[str, Any], *, probe: str, vary: str, value: float) -> dict[str, Any]:
+    """
+    Return where ``scene`` ceases to be stable, found by bisection, and where it should.
+
+    :param probe: rest or moving with springs, hanging in mode constraint
+    :param vary: what of the scene was varied, and to what ``value``; told, not used
+    """
+    context = process_context()
+    limit = predicted_limit(scene, scene['mode'])
+    result = {'predicted': limit}
+    if probe == 'rest':
+        result['lattice'] = lattice_limit(Scene(rest_scene(scene)))
+    if probe == 'moving':
+        result['any_shape'] = any_shape_limit(Scene(scene))
+    edge = bisect_edge(
+        lambda dt: _probed(scene, probe, dt, context).outcome == STABLE, limit,
+        longest=_LONGEST_DT, width=0.02 if probe == 'moving' else 0.005)
+    measured = edge.middle if math.isfinite(edge.middle) else None
+    return {
+        **result, 'stable': edge.stable,
+        'unstable': edge.unstable if math.isfinite(edge.unstable) else None,
+        'measured': measured, 'ratio': measured / limit if measured else None,
+        'device': context.device}
+
+
+def with_stiffness(values: Mapping[str, Any], factor: float) -> dict[str, Any]:
+    """Return the scene of ``values`` with all springs ``factor`` times as stiff."""
+    scene = Scene(values)
+    return {**values, **{
+        f'stiffness.{family}': factor * scene.stiffness(family) for family in FAMILIES}}
+
+
+def predicted_limit(values: Mapping[str, Any], mode: str) -> float:
+    """Return the longest stable step [s] in ``mode``, from its closed form."""
+    if mode == 'constraint':
+        return hang(Scene(hanging_scene(values))).limit
+    return stability_limit(Scene(rest_scene(values)))
+
+
+def _probed(
+        values: Mapping[str, Any], probe: str, dt: float, context: Context) -> ProbeOutcome:
+    if probe == 'moving':
+        forced = {**values, 'auto_substeps': False, 'substeps': 1}
+        return _moving(forced, dt, context, check_stability=False)
+    return (hanging_probe if probe == 'hanging' else rest_probe)(values, dt, context=context)
+
+
+def _moving(
+        values: Mapping[str, Any], dt: float, context: Context,
+        check_stability: bool = True) -> ProbeOutcome:
+    if values['mode'] == 'constraint':
+        # Hard edges that begin off their length bring energy with them.
+        values = {**values, 'start.jitter': 0.0}
+    return moving_probe(
+        values, dt, seconds=MOVING_SECONDS, most_steps=_MOST_STEPS[values['mode']],
+        check_stability=check_stability, context=context)
+
+
+def _is_refused(values: Mapping[str, Any], dt: float) -> bool:
+    """Tell whether the scene is refused with ``dt``, one step a dt, when nobody insists."""
+    if values['mode'] == 'constraint':
+        return False
+    try:
+        spring_substeps(Scene({**rest_scene(values), 'dt': dt}), values['mode'])
+    except ClothSimError:
+        return True
+    return False

@@ -1,0 +1,76 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Energy that was given is told from energy that came from nowhere."""
+
+from cloth_sim_ros.gl.context import Context
+from cloth_sim_ros.sim.scene import Scene
+from cloth_sim_ros.sim.simulation import Simulation
+from cloth_sim_ros.study.energy_account import EnergyAccount
+import pytest
+
+MODES = ('mass_spring', 'adaptive', 'constraint')
+SCENE = {'rows': 8, 'cols': 8, 'dt': 0.002}
+
+
+@pytest.fixture
+def simulate():
+    """Return a function from scene values to a simulation, which ends with the test."""
+    context = Context(single_thread=True)
+    opened = []
+
+    def start(values):
+        opened.append(Simulation(Scene({**SCENE, **values}), context=context))
+        return opened[-1]
+
+    yield start
+    for run in opened:
+        run.close()
+    context.close()
+
+
+@pytest.mark.parametrize('mode', MODES)
+@pytest.mark.parametrize('given', [
+    {}, {'pushes.start': [0.05], 'pushes.duration': [0.013], 'pushes.force': [3.0, 0.0, 8.0]},
+    {'pushes.start': [0.0], 'pushes.duration': [0.1], 'pushes.force': [0.0, 0.5, 0.5],
+     'pushes.center': [0.0, 0.0, 1.0], 'pushes.radius': [0.3]},
+    {'pin_moves.start': [0.0], 'pin_moves.node': ['top_left'],
+     'pin_moves.target': [-0.2, 0.4, 1.3], 'pin_moves.speed': [0.5]}])
+def test_work_that_is_done_is_no_gain(simulate, mode, given):
+    """A push or a pin that moves would be taken for a blow-up."""
+    account = EnergyAccount(simulate({'mode': mode, **given}))
+    account.step(60)
+    assert account.gained < 0.05
+    if given:
+        assert account.seen.total_energy > account.begin.total_energy - 0.5
+
+
+@pytest.mark.parametrize('mode', MODES)
+def test_energy_from_nowhere_is_found(simulate, mode):
+    """A blow-up would be taken for a swing."""
+    run = simulate({'mode': mode})
+    account = EnergyAccount(run)
+    account.step(100)
+    run.set_state(account.seen.positions, 2.0 * account.seen.velocities)
+    account.step(1)
+    assert account.gained > 0.5
+
+
+def test_a_state_at_the_springs_limit_keeps_its_energy(simulate):
+    """Velocities half a substep before their positions would be taken for a gain."""
+    run = simulate({'mode': 'mass_spring', 'dt': 0.02, 'start.jitter': 0.3,
+                    'gravity': [0.0, 0.0, 0.0]})
+    account = EnergyAccount(run)
+    account.step(20)
+    assert account.gained < 0.1
