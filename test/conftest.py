@@ -18,6 +18,8 @@ import os
 import random
 import socket
 
+from cloth_sim_ros.gl.context import Context
+from cloth_sim_ros.gl.errors import DeviceError
 import pytest
 
 # Where ROS's own domain_coordinator claims domains too, so that both respect each other.
@@ -41,6 +43,20 @@ def claim_domain() -> tuple[int, socket.socket]:
 
 
 CLAIM = pytest.StashKey[socket.socket]()
+
+
+@pytest.fixture(scope='session', autouse=True)
+def without_worker_threads() -> None:
+    """
+    Have llvmpipe run in this process without worker threads, whichever test makes a context first.
+
+    It reads that once. Threads make small cloths slower, and float atomics, which the paper's
+    solver needs, add up in another order each time.
+    """
+    try:
+        Context(single_thread=True).close()
+    except DeviceError:
+        pass  # the tests that need a device say so themselves
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:
