@@ -32,11 +32,14 @@ from cloth_sim_ros.analysis.run import Run
 from cloth_sim_ros.analysis.strain_plot import strain_histogram
 from cloth_sim_ros.analysis.summary import Summary
 from cloth_sim_ros.sim.errors import ClothSimError
+from matplotlib import rc_context
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 import numpy as np
 
 _DOTS_PER_INCH = 110
+# In one piece, the outline of a line of ten minutes takes up to 40 MiB.
+_POINTS_AT_ONCE = 2000
 _WHOLE = {
     'resets', 'substeps', 'solver_iterations', 'solver_reached', 'active_constraints',
     'constraint_switches'}
@@ -120,7 +123,8 @@ def write_csv(path: Path, names: Sequence[str], rows: Any) -> None:
 def write_plot(figure: Figure, path: Path) -> None:
     """Write ``figure`` as a PNG file."""
     try:
-        FigureCanvasAgg(figure).print_figure(path, dpi=_DOTS_PER_INCH, format='png')
+        with rc_context({'agg.path.chunksize': _POINTS_AT_ONCE}):
+            FigureCanvasAgg(figure).print_figure(path, dpi=_DOTS_PER_INCH, format='png')
     except OSError as error:
         raise _no_file(path, error) from error
 

@@ -1,0 +1,54 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Reports as files."""
+
+from pathlib import Path
+import subprocess
+import sys
+
+import pytest
+
+# 300000 points that go up and down: the outline of such a line fills the whole plot.
+_DRAW = """
+import sys
+from pathlib import Path
+from cloth_sim_ros.analysis.report_files import write_plot
+from matplotlib.figure import Figure
+import numpy as np
+
+def most():
+    with open('/proc/self/status') as file:
+        return next(int(line.split()[1]) for line in file if line.startswith('VmHWM'))
+
+def draw(count):
+    figure = Figure()
+    figure.subplots().plot(np.arange(count), np.random.default_rng(1).random(count))
+    write_plot(figure, Path(sys.argv[1]))
+
+draw(10)
+before = most()
+draw(300_000)
+print((most() - before) / 1024)
+"""
+
+
+@pytest.mark.skipif(not Path('/proc/self/status').is_file(), reason='tells the most memory')
+def test_long_lines_are_drawn_in_little_memory(tmp_path):
+    """The plots of a long run would take more memory than reading it."""
+    done = subprocess.run(
+        [sys.executable, '-c', _DRAW, str(tmp_path / 'plot.png')], check=True,
+        stdout=subprocess.PIPE, text=True)
+    # The points alone, as matplotlib keeps them, take 20 MiB; in one piece it would be 180.
+    assert float(done.stdout) < 60
