@@ -137,7 +137,10 @@ def test_a_stopped_study_goes_on(tmp_path, stop):
         '        make_runs(runs, results, Workers(2), title="test")\n')
     script = tmp_path / 'study.py'
     script.write_text(program)
-    study = subprocess.Popen([sys.executable, script], stderr=subprocess.PIPE)
+    # What pytest has put on the path of this process, the study needs as well.
+    study = subprocess.Popen(
+        [sys.executable, script], stderr=subprocess.PIPE,
+        env={**os.environ, 'PYTHONPATH': os.pathsep.join(sys.path)})
     deadline = time.monotonic() + 30.0
     while not ((tmp_path / LINES).exists() and len(lines_of(tmp_path)) == 3):
         assert time.monotonic() < deadline
