@@ -22,6 +22,7 @@ from cloth_sim_ros.sim.forcing import Forcing
 from cloth_sim_ros.sim.layout import Layout
 from cloth_sim_ros.sim.modes.free_motion import FreeMotion
 from cloth_sim_ros.sim.modes.hardening import Hardening
+from cloth_sim_ros.sim.modes.rest_offsets import RestOffsets
 from cloth_sim_ros.sim.modes.turn_watch import TurnWatch
 from cloth_sim_ros.sim.push_field import PushField
 from cloth_sim_ros.sim.scene import FAMILIES
@@ -67,6 +68,9 @@ class Constraint:
         self._watch = TurnWatch(scene, layout, families, self._solver.tensions)
         self._free_motion = FreeMotion(scene, layout)
         self._hardening = Hardening(scene['constraint.hardening_time'])
+        self._offsets = RestOffsets(
+            scene, layout, scene['constraint.hard'], scene['constraint.hardening_time'],
+            self._solver.tensions)
         self.forget()
 
     def step(self, state: State, begin: float, pushes: PushField) -> None:
@@ -75,7 +79,9 @@ class Constraint:
         misfit = self._choose_substeps(state, pushes.forcing(begin, begin + self._dt))
         length = self._dt / self.substeps
         self._hardening.see(misfit / length)
-        self._solver.set_law(self._law(length))
+        law = self._law(length)
+        self._solver.set_law(law)
+        self._offsets.take_up(state, law)
         is_held = bool(state.pinned.any())
         for substep in range(self.substeps):
             start = begin + substep * length
@@ -86,6 +92,7 @@ class Constraint:
                 self._free_motion.aim_at(state, forcing, pushes.still, length)
                 self._substep(state, *_split(forcing, length))
                 self._free_motion.restore(state, pushes.still, length)
+            self._offsets.spend(length)
         self._hardening.spend(self._dt)
 
     def forget(self) -> None:
@@ -95,6 +102,7 @@ class Constraint:
         self._solver.forget()
         self._free_motion.forget()
         self._hardening.forget()
+        self._offsets.forget()
         self._solver.submit(self._most_iterations)
 
     def report(self) -> dict[str, float]:
@@ -153,13 +161,14 @@ class Constraint:
     def _substep(
             self, state: State, forcing: Forcing,
             common_change: tuple[float, float, float] = (0.0, 0.0, 0.0)) -> None:
+        share = self._offsets.share(self._dt / self.substeps)
         self._solver.assemble(state)
-        self._solver.make_right_side(state, forcing)
+        self._solver.make_right_side(state, forcing, share)
         self._solver.solve()
         self._solver.apply(state, common_change=common_change)
         for _ in range(self._solves - 1):
             self._solver.assemble(state)
-            self._solver.make_later_right_side()
+            self._solver.make_later_right_side(share)
             self._solver.solve()
             self._solver.apply(state, further=True)
 
