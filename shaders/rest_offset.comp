@@ -37,6 +37,8 @@ void offset(vec4 here, bool is_free, int row, int col, int drow, int dcol, int f
     int entry = tension_entry(TENSION_OFFSET, SOLVER_INDEX(row, col), drow, dcol);
     float before = offset_share * tension[entry];
     float extension = length(there.xyz - here.xyz) - rest_length[rest];
+    // An edge that has come back by itself, past what it was off by, needs it no more.
+    before = before > 0.0 ? clamp(extension, 0.0, before) : clamp(extension, before, 0.0);
     float now = extension - ratio * (extension - before);
     if (ratio > 1.0) {
         // Edges that become softer give back what they had, and no more.

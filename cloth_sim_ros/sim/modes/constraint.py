@@ -78,7 +78,7 @@ class Constraint:
         self._submit_enough()
         misfit = self._choose_substeps(state, pushes.forcing(begin, begin + self._dt))
         length = self._dt / self.substeps
-        self._hardening.see(misfit / length)
+        self._hardening.see(misfit / length, misfit)
         law = self._law(length)
         self._solver.set_law(law)
         self._offsets.take_up(state, law)
