@@ -35,6 +35,9 @@ import numpy as np
 
 # Of a substep: rounding that is no reason for another one.
 _NOTHING = 1e-9
+# Of the stable substep: when it shrinks below the first from one dt to the next, edges are being
+# caught, and it is taken to shrink as much again, but not below the second.
+_CAUGHT, _LEAST_SHARE = 0.8, 0.6
 # Iterations submitted in a dt, for each that a solve of the last dt has needed, and besides.
 _MORE, _AT_LEAST = 3, 15
 
@@ -99,6 +102,7 @@ class Constraint:
         """Take the next state as it comes, stretched or not."""
         self.substeps = 1 if self._scene['auto_substeps'] else self._scene['substeps']
         self.stability_limit = math.inf
+        self._limit_before = math.inf
         self._solver.forget()
         self._free_motion.forget()
         self._hardening.forget()
@@ -142,7 +146,7 @@ class Constraint:
     def _choose_substeps(self, state: State, forcing: Forcing) -> float:
         turning, self.stability_limit, misfit = self._watch.look(state, forcing, self._dt)
         if self._scene['auto_substeps']:
-            longest = min(turning, self.stability_limit)
+            longest = min(turning, self._foresee_limit())
             # Nodes that are pushed absurdly turn their edges at once.
             wanted = self._dt / longest - _NOTHING if longest > 0.0 else math.inf
             most = self._scene['constraint.max_substeps']
@@ -151,6 +155,12 @@ class Constraint:
             if wanted < most:
                 self.substeps = min(self._scene['refine'] * max(1, math.ceil(wanted)), most)
         return misfit
+
+    def _foresee_limit(self) -> float:
+        before, self._limit_before = self._limit_before, self.stability_limit
+        if self.stability_limit < _CAUGHT * before < math.inf:
+            return self.stability_limit * max(self.stability_limit / before, _LEAST_SHARE)
+        return self.stability_limit
 
     def _law(self, length: float) -> EdgeLaw:
         return edge_law(
