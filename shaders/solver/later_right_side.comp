@@ -29,6 +29,7 @@ layout(local_size_x = LOCAL_X, local_size_y = LOCAL_Y) in;
 uniform float edge_keeps[3];   // share of its tension that an edge keeps: structural, shear, bend
 uniform float rest_length[5];  // [m] along a row, along a column, diagonal, two along each
 uniform float substep;         // [s]
+uniform float offset_share;    // of the offsets of rest lengths, at the end of the step
 
 vec3 change[TILE][TILE];
 
@@ -40,8 +41,9 @@ void add_to_change(ivec2 first, int row, int col, int drow, int dcol, int family
     float inverse_length = inversesqrt(square);
     float share = edge_share(from, to, family);
     int index = tile_index(first, row, col);
+    float offset = offset_share * tension[tension_entry(TENSION_OFFSET, index, drow, dcol)];
     float added = share * edge_weights[family] / (substep * substep)
-        * (square * inverse_length - rest_length[rest]);
+        * (square * inverse_length - rest_length[rest] - offset);
 #if HAS_LAG
     added -= tension[tension_entry(TENSION_LAG, index, drow, dcol)];
 #endif

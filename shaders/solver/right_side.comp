@@ -17,7 +17,7 @@
 // edges of frozen direction change in the velocity. Each edge pulls by edge_pulls times its
 // extension and edge_weights times the rate of its length.
 // FORESEES_TURN: an edge also pulls back what moving across its direction will lengthen it by.
-// KEEPS_TENSION: begin each edge's tension with its pull.
+// KEEPS_TENSION: begin each edge's tension with its pull, and allow for offsets of rest lengths.
 
 #include "solver/levels.glsl"
 #include "solver/vectors.glsl"
@@ -28,7 +28,7 @@
 #include "applied_acceleration.glsl"
 
 #if KEEPS_TENSION
-#define TENSION_ACCESS writeonly
+#define TENSION_ACCESS
 #include "solver/tension.glsl"
 #endif
 
@@ -37,6 +37,9 @@ layout(local_size_x = LOCAL_X, local_size_y = LOCAL_Y) in;
 uniform float edge_pulls[3];   // [1/s] structural, shear, bend
 uniform float rest_length[5];  // [m] along a row, along a column, diagonal, two along each
 uniform float substep;         // [s]
+#if KEEPS_TENSION
+uniform float offset_share;   // of the offsets of rest lengths, at the end of the step
+#endif
 #if KEEPS_TENSION && HAS_LAG
 uniform float edge_lags[3];    // [1/s2] damping over the length of the step
 #endif
@@ -68,10 +71,13 @@ void add_to_change(ivec2 first, int row, int col, int drow, int dcol, int family
 #endif
     float share = edge_share(from, to, family);
     float extension = l - rest_length[rest];
+#if KEEPS_TENSION
+    int index = tile_index(first, row, col);
+    extension -= offset_share * tension[tension_entry(TENSION_OFFSET, index, drow, dcol)];
+#endif
     float pull = share * (edge_pulls[family] * extension + edge_weights[family] * rate);
 #if KEEPS_TENSION
     if (is_in_block(row, col)) {
-        int index = tile_index(first, row, col);
         tension[tension_entry(TENSION_BEGUN, index, drow, dcol)] = pull / substep;
 #if HAS_LAG
         tension[tension_entry(TENSION_LAG, index, drow, dcol)] =

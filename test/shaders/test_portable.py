@@ -48,6 +48,8 @@ _FORMS = {
     'paper_update.comp': {'UPDATE_LOCAL': 1024},
     **{f'paper_solver/{name}.comp': paper_solver_defines(150, 63) for name in (
         'constraint', 'direction', 'dot', 'scalars', 'spmm', 'spmv', 'update')},
+    'rest_offset.comp': {
+        'STORED': 200, 'SOLVER_INDEX(row, col)': 'node_index(row, col)'},
     'rigid_sums.comp': {'STRIP': 16},
     'solver/coarsest.comp': {'COARSEST_ROWS': 4, 'COARSEST_COLS': 5, 'COARSEST_STEPS': 6},
     'solver/later_right_side.comp': {'HAS_LAG': 1},

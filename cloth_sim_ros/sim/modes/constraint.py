@@ -22,6 +22,7 @@ from cloth_sim_ros.sim.forcing import Forcing
 from cloth_sim_ros.sim.layout import Layout
 from cloth_sim_ros.sim.modes.free_motion import FreeMotion
 from cloth_sim_ros.sim.modes.hardening import Hardening
+from cloth_sim_ros.sim.modes.rest_offsets import RestOffsets
 from cloth_sim_ros.sim.modes.turn_watch import TurnWatch
 from cloth_sim_ros.sim.push_field import PushField
 from cloth_sim_ros.sim.scene import FAMILIES
@@ -34,6 +35,9 @@ import numpy as np
 
 # Of a substep: rounding that is no reason for another one.
 _NOTHING = 1e-9
+# Of the stable substep: when it shrinks below the first from one dt to the next, edges are being
+# caught, and it is taken to shrink as much again, but not below the second.
+_CAUGHT, _LEAST_SHARE = 0.8, 0.6
 # Iterations submitted in a dt, for each that a solve of the last dt has needed, and besides.
 _MORE, _AT_LEAST = 3, 15
 
@@ -67,6 +71,9 @@ class Constraint:
         self._watch = TurnWatch(scene, layout, families, self._solver.tensions)
         self._free_motion = FreeMotion(scene, layout)
         self._hardening = Hardening(scene['constraint.hardening_time'])
+        self._offsets = RestOffsets(
+            scene, layout, scene['constraint.hard'], scene['constraint.hardening_time'],
+            self._solver.tensions)
         self.forget()
 
     def step(self, state: State, begin: float, pushes: PushField) -> None:
@@ -74,8 +81,10 @@ class Constraint:
         self._submit_enough()
         misfit = self._choose_substeps(state, pushes.forcing(begin, begin + self._dt))
         length = self._dt / self.substeps
-        self._hardening.see(misfit / length)
-        self._solver.set_law(self._law(length))
+        self._hardening.see(misfit / length, misfit)
+        law = self._law(length)
+        self._solver.set_law(law)
+        self._offsets.take_up(state, law)
         is_held = bool(state.pinned.any())
         for substep in range(self.substeps):
             start = begin + substep * length
@@ -86,15 +95,18 @@ class Constraint:
                 self._free_motion.aim_at(state, forcing, pushes.still, length)
                 self._substep(state, *_split(forcing, length))
                 self._free_motion.restore(state, pushes.still, length)
+            self._offsets.spend(length)
         self._hardening.spend(self._dt)
 
     def forget(self) -> None:
         """Take the next state as it comes, stretched or not."""
         self.substeps = 1 if self._scene['auto_substeps'] else self._scene['substeps']
         self.stability_limit = math.inf
+        self._limit_before = math.inf
         self._solver.forget()
         self._free_motion.forget()
         self._hardening.forget()
+        self._offsets.forget()
         self._solver.submit(self._most_iterations)
 
     def report(self) -> dict[str, float]:
@@ -134,7 +146,7 @@ class Constraint:
     def _choose_substeps(self, state: State, forcing: Forcing) -> float:
         turning, self.stability_limit, misfit = self._watch.look(state, forcing, self._dt)
         if self._scene['auto_substeps']:
-            longest = min(turning, self.stability_limit)
+            longest = min(turning, self._foresee_limit())
             # Nodes that are pushed absurdly turn their edges at once.
             wanted = self._dt / longest - _NOTHING if longest > 0.0 else math.inf
             most = self._scene['constraint.max_substeps']
@@ -143,6 +155,12 @@ class Constraint:
             if wanted < most:
                 self.substeps = min(self._scene['refine'] * max(1, math.ceil(wanted)), most)
         return misfit
+
+    def _foresee_limit(self) -> float:
+        before, self._limit_before = self._limit_before, self.stability_limit
+        if self.stability_limit < _CAUGHT * before < math.inf:
+            return self.stability_limit * max(self.stability_limit / before, _LEAST_SHARE)
+        return self.stability_limit
 
     def _law(self, length: float) -> EdgeLaw:
         return edge_law(
@@ -153,13 +171,14 @@ class Constraint:
     def _substep(
             self, state: State, forcing: Forcing,
             common_change: tuple[float, float, float] = (0.0, 0.0, 0.0)) -> None:
+        share = self._offsets.share(self._dt / self.substeps)
         self._solver.assemble(state)
-        self._solver.make_right_side(state, forcing)
+        self._solver.make_right_side(state, forcing, share)
         self._solver.solve()
         self._solver.apply(state, common_change=common_change)
         for _ in range(self._solves - 1):
             self._solver.assemble(state)
-            self._solver.make_later_right_side()
+            self._solver.make_later_right_side(share)
             self._solver.solve()
             self._solver.apply(state, further=True)
 

@@ -14,6 +14,8 @@
 
 """How hard edges are whose cloth comes stretched from where it was no constraint."""
 
+import math
+
 # [m/s]: a cloth whose edges come back slower is held at once.
 _SLOW = 0.05
 
@@ -25,7 +27,7 @@ class Hardening:
     Held to its rest length at once, a stretched cloth would be thrown together: its edges would
     come back at the speed of their extension over a step, and go on at that.
 
-    :param time: [s]; 0 holds edges at once
+    :param time: at most [s]; 0 holds edges at once
     """
 
     def __init__(self, time: float) -> None:
@@ -36,23 +38,32 @@ class Hardening:
     @property
     def hardness(self) -> float:
         """Return how far it has come, from 0 to 1."""
-        return min(self._age / self._time, 1.0) if self._is_going else 1.0
+        return min(self._age / self._due, 1.0) if self._is_going else 1.0
 
-    def see(self, speed: float) -> None:
-        """Take the ``speed`` [m/s] at which edges held now would come back; the first counts."""
+    def see(self, speed: float, misfit: float = math.inf) -> None:
+        """
+        Take the ``speed`` [m/s] at which edges held now would come back; the first counts.
+
+        :param misfit: by which they are off their length [m]
+        """
         if self._is_new:
             # What is no number goes the gentle way, too.
             self._is_going = self._time > 0.0 and not speed <= _SLOW
+            # No longer than it takes to come back slowly: springs too soft for the cloth let it
+            # fall meanwhile.
+            enough = misfit / _SLOW
+            self._due = enough if enough < self._time else self._time
         self._is_new = False
 
     def spend(self, length: float) -> None:
         """Go on by ``length`` [s]."""
         if self._is_going:
             self._age += length
-            self._is_going = self._age < self._time
+            self._is_going = self._age < self._due
 
     def forget(self) -> None:
         """Wait for what is seen next."""
         self._is_new = True
+        self._due = self._time
         self._is_going = False
         self._age = 0.0

@@ -49,6 +49,11 @@ class EdgeLaw:
     lags: tuple[float, ...]
 
     @property
+    def stiffnesses(self) -> tuple[float, ...]:
+        """Return the stiffness over the node mass between two free nodes [1/s2]."""
+        return tuple(pull / self.length for pull in self.pulls)
+
+    @property
     def largest_weight(self) -> float:
         """Return the weight of the heaviest edge."""
         return max(

@@ -41,10 +41,15 @@ class RightSide:
             **programs.defines, 'FORESEES_TURN': int(foresees_turn),
             'KEEPS_TENSION': int(keeps_tension), 'HAS_LAG': int(has_lag)})
         self._groups = levels.cloth.groups
+        self._keeps_tension = keeps_tension
         self._law_in: dict[bool, EdgeLaw] = {}
 
-    def run(self, law: EdgeLaw, forcing: Forcing) -> None:
-        """Make the right side of the state that is bound."""
+    def run(self, law: EdgeLaw, forcing: Forcing, offset_share: float) -> None:
+        """
+        Make the right side of the state that is bound.
+
+        :param offset_share: of the offsets of rest lengths, which ``keeps_tension`` has
+        """
         program = self._program.use_for_step(forcing, law.length)
         if self._law_in.get(forcing.has_regions) != law:
             program.set_floats('edge_weights', law.weights)
@@ -52,5 +57,7 @@ class RightSide:
             program.set_floats('edge_pulls', law.pulls)
             program.set_floats('edge_lags', law.lags)
             self._law_in[forcing.has_regions] = law
+        if self._keeps_tension:
+            program.set_float('offset_share', offset_share)
         program.dispatch(*self._groups)
         shader_writes_visible()

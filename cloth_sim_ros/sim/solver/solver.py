@@ -105,22 +105,25 @@ class Solver:
         for each in (self._take_up, self._assemble, *self._preconditioner.assembly):
             each.run()
 
-    def make_right_side(self, state: State, forcing: Forcing) -> None:
+    def make_right_side(
+            self, state: State, forcing: Forcing, offset_share: float = 0.0) -> None:
         """
         Make b = h (M a - J^T pull C) - J^T a J v, after ``assemble``.
 
         :param forcing: what accelerates the nodes besides the edges
+        :param offset_share: of the offsets of rest lengths, in effect at the end of the step
         """
         self._buffers.bind()
         state.bind_in()
         if self._tensions is not None:
             self._tensions.bind()
-        self._right_side.run(self._law, forcing)
+        self._right_side.run(self._law, forcing, offset_share)
 
-    def make_later_right_side(self) -> None:
+    def make_later_right_side(self, offset_share: float = 0.0) -> None:
         """Make b of what is left of each edge's law, after ``apply`` and another ``assemble``."""
         self._buffers.bind()
         self._tensions.bind()
+        self._tensions.later_right_side.set_float('offset_share', offset_share)
         self._tensions.later_right_side.run()
 
     def set_right_side(self, values: np.ndarray) -> None:

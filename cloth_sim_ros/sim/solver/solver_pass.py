@@ -48,6 +48,11 @@ class SolverPass:
         self._program.use()
         self._program.set_int(name, value)
 
+    def set_float(self, name: str, value: float) -> None:
+        """Set a float uniform of the program."""
+        self._program.use()
+        self._program.set_float(name, value)
+
     def set_vectors(self, name: str, vectors: Sequence[float]) -> None:
         """Set a vec3 uniform of the program."""
         self._program.use()

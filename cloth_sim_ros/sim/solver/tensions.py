@@ -42,7 +42,7 @@ class Tensions:
         """Compile the passes and allocate the tensions, zero at first."""
         self.cloth: Layout = levels.cloth
         self._node_mass = scene.node_mass
-        self._zeros = np.zeros((3 if has_lag else 2, self.cloth.stored, _ROOM), dtype=np.float32)
+        self._zeros = np.zeros((4 if has_lag else 3, self.cloth.stored, _ROOM), dtype=np.float32)
         self.buffer = Buffer(self._zeros)
         later = programs.make('later_right_side.comp', HAS_LAG=int(has_lag))
         later.set_floats('rest_length', rest_lengths(scene))

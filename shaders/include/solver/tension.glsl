@@ -15,12 +15,14 @@
 // The tension of each edge over the node mass [m/s2], above 0 where it pulls; stored at the node
 // it begins at, six edges a node. Twice: what the right side of a solve begins it with, and what
 // was found with the solution, since neighbours still read the one while the other is written.
-// HAS_LAG: a third time, for what damping makes of the extension before the step.
+// A third time [m], for what its rest length is off by.
+// HAS_LAG: a fourth time, for what damping makes of the extension before the step.
 // TENSION_ACCESS: readonly, writeonly or nothing.
 
 #define TENSION_FOUND 0
 #define TENSION_BEGUN 1
-#define TENSION_LAG 2
+#define TENSION_OFFSET 2
+#define TENSION_LAG 3
 #define TENSIONS_OF_A_NODE 8
 
 layout(std430, binding = SOLVER_TENSION) TENSION_ACCESS buffer Tension { float tension[]; };
