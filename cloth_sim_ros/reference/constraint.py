@@ -71,6 +71,7 @@ class ConstraintReference(ReferenceCloth):
         # last dt, and the force of each pin on the cloth over the last dt [N].
         self.tension = np.zeros(len(self.edges))
         self.substeps = 0
+        self._limit_before = math.inf
         self.reactions = np.zeros_like(self.positions)
         self._pin_impulse = np.zeros_like(self.positions)
 
@@ -99,9 +100,15 @@ class ConstraintReference(ReferenceCloth):
         foreseen = self._foreseen_velocities().reshape(-1, 3)
         longest = min(
             turn_substep(self.edges, self.positions.reshape(-1, 3), foreseen),
-            geometric_substep(self.edges, self.tension, self.inverse_masses))
+            self._foresee_limit())
         wanted = math.ceil(self.dt / longest - 1e-9)
         return min(max(wanted, 1), self.options.max_substeps)
+
+    def _foresee_limit(self) -> float:
+        limit = geometric_substep(self.edges, self.tension, self.inverse_masses)
+        before, self._limit_before = self._limit_before, limit
+        # It shrinks by more than a fifth a dt while edges are being caught, and goes on so.
+        return limit * max(limit / before, 0.6) if limit < 0.8 * before < math.inf else limit
 
     def _substep(self, begin: float, end: float) -> None:
         """
