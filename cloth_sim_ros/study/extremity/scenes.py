@@ -176,7 +176,7 @@ _STARTS = {
 _KNOWN = {
     'jitter 0.5, for 2 s': Extreme(
         _JAMMED, 'known limit', ('adaptive', 'constraint'), steps=400, holds_lengths=False,
-        expected=OUTCOMES, is_long=True, known_limit=_RELIABILITY),
+        expected=OUTCOMES, is_long=True, known_limit=_RELIABILITY, known_in=('adaptive',)),
     'k 1e+06, m 1e-06, undamped, for 60000 substeps': Extreme(
         {**of_all('stiffness', 1e6), **of_all('damping', 0.0), 'node_mass': 1e-6, 'dt': 0.01,
          'gravity': [0.0, 0.0, 0.0]}, 'known limit', ('mass_spring',), steps=3,
