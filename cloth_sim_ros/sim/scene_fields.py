@@ -73,8 +73,9 @@ SCENE_FIELDS = (
           "paper's method", low=1, high=20),
     Field('constraint.delta', float, 1e-3, 'regularisation of hard edges; less holds lengths '
           'better and takes more solver iterations', low=1e-7, high=1.0),
-    Field('constraint.hardening_time', float, 0.3, 'in which the edges of a cloth that comes '
-          'stretched become hard', 's', low=0.0, high=1e3),
+    Field('constraint.hardening_time', float, 0.3, 'in which, at most, the edges of a cloth '
+          'that comes stretched become hard, and in which edges give back the length they had '
+          'when they became stiffer', 's', low=0.0, high=1e3),
     Field('constraint.max_substeps', int, 32, 'most substeps of dt that auto_substeps takes '
           'there', low=1, high=MOST_SUBSTEPS),
     Field('solver.tolerance', float, 1e-3, 'residual at which the linear solver stops, over '
