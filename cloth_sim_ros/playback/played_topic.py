@@ -19,7 +19,6 @@ from rclpy.node import Node
 from rclpy.qos import QoSProfile
 from rclpy.qos import ReliabilityPolicy
 
-# For a reader to take what it has been sent [s].
 _PATIENCE = 0.2
 
 
@@ -34,11 +33,12 @@ class PlayedTopic:
 
     :param name: in the graph, with its namespace
     :param kept: how many of its messages still hold for those who come late
+    :param patience: for a reader to take what it has been sent [s]
     """
 
     def __init__(
             self, node: Node, name: str, message_class: type, quality: QoSProfile,
-            kept: int = 0) -> None:
+            kept: int = 0, patience: float = _PATIENCE) -> None:
         """Make the publisher."""
         self.name = name
         self.message_class = message_class
@@ -47,6 +47,7 @@ class PlayedTopic:
         self._publisher = node.create_publisher(message_class, name, quality)
         self._is_reliable = quality.reliability == ReliabilityPolicy.RELIABLE
         self._depth = quality.depth
+        self._patience = patience
         self._waiting = 0
         self._is_stuck = False
 
@@ -54,7 +55,7 @@ class PlayedTopic:
         """Publish ``data``, a serialised message."""
         if self._is_reliable and self._waiting >= self._depth:
             # A reader that has hung is waited for once, and then no more until it is back.
-            if self.settle(0.0 if self._is_stuck else _PATIENCE):
+            if self.settle(0.0 if self._is_stuck else self._patience):
                 self._is_stuck = False
             else:
                 self._is_stuck = True

@@ -55,9 +55,10 @@ def reader():
     process.stdout.close()
 
 
-def played(client, name='/played', **quality):
+def played(client, name='/played', patience=0.2, **quality):
     """Return a topic that its reader knows."""
-    topic = PlayedTopic(client.node, name, Int32, QoSProfile(depth=DEPTH, **quality))
+    topic = PlayedTopic(
+        client.node, name, Int32, QoSProfile(depth=DEPTH, **quality), patience=patience)
     client.spin_until(lambda: is_read(client, name), 'the reader is found')
     client.spin_for(0.2)
     return topic
@@ -72,7 +73,8 @@ def is_read(client, name):
 
 def test_a_burst_loses_nothing(client, reader):
     """What is caught up with would be lost, as the publisher keeps its last messages only."""
-    topic = played(client)
+    # A busy machine may not let the reader run for a while.
+    topic = played(client, patience=30.0)
     for number in range(MESSAGES):
         topic.publish(serialize_message(Int32(data=number)))
     numbers, _ = reader.communicate(timeout=30.0)
