@@ -37,6 +37,16 @@ def parse_value(text: str) -> Any:
     return yaml.load(text, Loader=_RosLoader)
 
 
+def load_yaml(path: str | Path) -> Any:
+    """Return what the YAML file at ``path`` holds; ClothSimError when it can't be read."""
+    try:
+        return parse_value(Path(path).read_text(encoding='utf-8'))
+    except (OSError, UnicodeDecodeError) as error:
+        raise ClothSimError(f'{path} cannot be read: {error}') from error
+    except yaml.YAMLError as error:
+        raise ClothSimError(f'{path} is not valid YAML: {error}') from error
+
+
 def load_parameters(path: str | Path) -> dict[str, Any]:
     """
     Return the parameters of a ROS parameter YAML as dotted names and values.
@@ -45,12 +55,7 @@ def load_parameters(path: str | Path) -> dict[str, Any]:
 
     :raises ClothSimError: when the file can't be read or is no parameter file
     """
-    try:
-        document = parse_value(Path(path).read_text(encoding='utf-8'))
-    except (OSError, UnicodeDecodeError) as error:
-        raise ClothSimError(f'{path} cannot be read: {error}') from error
-    except yaml.YAMLError as error:
-        raise ClothSimError(f'{path} is not valid YAML: {error}') from error
+    document = load_yaml(path)
     if not isinstance(document, Mapping):
         raise ClothSimError(f'{path} holds no parameters: write "/**: {{ros__parameters: ...}}"')
     parameters: dict[str, Any] = {}

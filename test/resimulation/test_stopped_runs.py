@@ -51,29 +51,28 @@ def test_a_run_that_stops_is_made_again_up_to_there(tmp_path, mode):
         assert rerun.check.equal == rerun.check.frames == 2
 
 
+def stop_and_go_on(director):
+    """Lose the state to a push, and go on without it."""
+    director.step(10)
+    director.push((0.0, 0.0, 1e25), duration=0.01)
+    with pytest.raises(NonFiniteStateError):
+        director.step(1)
+    director.stop()
+    director.clear_pushes()
+    director.step(10)
+
+
 def test_a_run_that_stops_goes_on_as_it_did(tmp_path):
     """What was done after a stop would be lost."""
     with Director(tmp_path, {'rows': 8, 'cols': 9}) as director:
-        director.step(10)
-        director.push((0.0, 0.0, 1e25), duration=0.01)
-        with pytest.raises(NonFiniteStateError):
-            director.step(1)
-        director.stop()
-        director.clear_pushes()
-        director.step(10)
+        stop_and_go_on(director)
     assert_same(director.path, 3)
 
 
 def test_what_began_anew_at_a_stop_is_named(tmp_path):
     """Bits would be promised that depend on the batches in which the node advanced."""
     with Director(tmp_path, {'rows': 8, 'cols': 9, 'mode': 'adaptive'}) as director:
-        director.step(10)
-        director.push((0.0, 0.0, 1e25), duration=0.01)
-        with pytest.raises(NonFiniteStateError):
-            director.step(1)
-        director.stop()
-        director.clear_pushes()
-        director.step(10)
+        stop_and_go_on(director)
     with made_again(director.path) as rerun:
         assert rerun.unknown == ('with which step mode adaptive began anew as the run stopped',)
         assert (rerun.problem, rerun.check.frames) == ('', 3)

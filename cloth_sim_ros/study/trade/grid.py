@@ -24,10 +24,9 @@ from cloth_sim_ros.gl.shared_directory import shared_directory
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.scene import refuse_unknown
 from cloth_sim_ros.sim.scene_fields import SCENE_FIELDS
-from cloth_sim_ros.sim.scene_file import parse_value
+from cloth_sim_ros.sim.scene_file import load_yaml
 from cloth_sim_ros.study.trade.setting import Setting
 from cloth_sim_ros.study.trade.variant import Variant
-import yaml
 
 MODELS = ('springs', 'hard', 'limited')
 _PARTS = ('times', 'frame', 'variants', 'reference', 'cost', 'methods')
@@ -66,13 +65,7 @@ def load_grid(path: str | Path) -> Grid:
 
     :raises ClothSimError: when it can't be read, or is no grid
     """
-    try:
-        given = parse_value(Path(path).read_text(encoding='utf-8'))
-    except (OSError, UnicodeDecodeError) as error:
-        raise ClothSimError(f'{path} cannot be read: {error}') from error
-    except yaml.YAMLError as error:
-        raise ClothSimError(f'{path} is not valid YAML: {error}') from error
-    return grid_of(given, str(path))
+    return grid_of(load_yaml(path), str(path))
 
 
 def grid_of(given: Any, name: str = 'the grid') -> Grid:
