@@ -59,8 +59,8 @@ uniform float inverse_mass;  // [1/kg]
 #else
 #define COMPLIANCE 0.03
 #endif
-// Share of its rest length that a kept tension may move an edge in one substep.
-#define MOST_KEPT 0.5
+// Share of its length that a tension may move an edge in one substep.
+#define MOST_MOVED 0.5
 
 struct Node {
     vec4 position;
@@ -84,7 +84,6 @@ float limit_edge(float old, inout Node from, inout Node to, int rest) {
     float ahead = (0.5 * (now.x * now.x - L0 * L0) + substep * dot(d, dv)) * now.y;
     float tension = is_beyond_limit(now.x, L0)
         ? (old + ahead * per_length) / (1.0 + COMPLIANCE) : 0.0;
-    float kept = tension;
 #else
     float ahead = length_and_inverse(d + substep * dv).x;
     // What is beyond the limit already comes back bit by bit.
@@ -94,13 +93,15 @@ float limit_edge(float old, inout Node from, inout Node to, int rest) {
     float pull = max((old + (ahead - most_now) * per_length) / (1.0 + COMPLIANCE), 0.0);
     float press = min((old + (ahead - least_now) * per_length) / (1.0 + COMPLIANCE), 0.0);
     float tension = present * ((old >= 0.0 ? pull : 0.0) + (old <= 0.0 ? press : 0.0));
-    float most = MOST_KEPT * L0 / (longest_next * longest_next * inverse_mass * max(free, 1.0));
-    float kept = clamp(tension, -most, most);
+    // What acts is what is kept: energies are accounted for by the tensions.
+    float most = MOST_MOVED * max(L0, now.x)
+        / (longest_next * longest_next * inverse_mass * max(free, 1.0));
+    tension = clamp(tension, -most, most);
 #endif
     vec3 change = (present * (tension - old) * kick * inverse_mass * now.y) * d;
     from.velocity.xyz += from.velocity.w * change;
     to.velocity.xyz -= to.velocity.w * change;
-    return kept;
+    return tension;
 }
 
 void main() {

@@ -17,6 +17,7 @@
 import math
 
 from cloth_sim_ros.reference.coloured import coloured_edges
+from cloth_sim_ros.reference.energy_tank import EnergyTankReference
 from cloth_sim_ros.reference.limited_cloth import LimitedCloth
 from cloth_sim_ros.reference.substeps import geometric_substep
 from cloth_sim_ros.sim.scene import Scene
@@ -30,8 +31,11 @@ _COMPLIANCE = 0.03
 # The least share of what is beyond the limit that a substep takes back.
 _LEAST_CORRECTION = 0.2
 _USUAL_SHARE = 0.02
-# A kept tension moves an edge by at most this part of its rest length within a substep.
-_MOST_KEPT = 0.5
+# A tension moves an edge by at most this part of its length within a substep.
+_MOST_MOVED = 0.5
+# Of the way to the limit that gravity stretches an edge within a substep, at most.
+_FALL = 0.25
+_MORE_SWEEPS = 2
 # A cloth that is farther beyond its limit than this, of the limit, is brought to it with this
 # time constant [s].
 _FAR, _SLACK_TIME, _NO_SLACK = 0.5, 0.3, 1e-3
@@ -59,10 +63,15 @@ class ImpulseAdaptiveReference(LimitedCloth):
             group[self.limited[group]] for group in coloured_edges(scene, self.edges)]
         self.tension = np.zeros(len(self.edges))
         self._share = _GEOMETRIC * (self.limit / _USUAL_LIMIT)**_POWER
+        # How far an edge may stretch [m].
+        self._reach = self.limit * min(scene.spacing)
         self._length = self._usual = self.spring_substep
+        self._tank = EnergyTankReference(self._reach)
         # What is added to the limit: at first, and for how long already, in time constants.
         self._slack = self._slack_age = 0.0
         self._is_new = True
+        # The limit of the last substep.
+        self._limit_before = self.limit
         # Of the edges at the start of the substep.
         self._differences = self._directions = np.zeros((len(self.edges), 3))
         self._lengths = np.zeros(len(self.edges))
@@ -85,15 +94,18 @@ class ImpulseAdaptiveReference(LimitedCloth):
     def _held(self) -> np.ndarray:
         return self.tension != 0.0
 
-    def _next_length(self) -> float:
+    def _next_length(self, acceleration: float) -> float:
         if self.fixed:
             return self.spring_substep
-        # A node may be pulled and pushed.
+        # A node may be pulled and pushed; an edge that is held while the limit is wider is longer.
+        pulling = np.where(
+            self.tension > 0.0, (1.0 + self.limit) / (1.0 + self._limit_before), 1.0)
         allowed = self._share * geometric_substep(
-            self.edges, np.abs(self.tension), self.inverse_masses)
-        self._length = max(
-            min(allowed, _GROWTH * self._length, self.spring_substep),
-            _SHORTEST * self.spring_substep)
+            self.edges, np.abs(self.tension) * pulling, self.inverse_masses)
+        allowed = min(allowed, _GROWTH * self._length, self.spring_substep)
+        if acceleration > 0.0:
+            allowed = min(allowed, math.sqrt(2.0 * _FALL * self._reach / acceleration))
+        self._length = max(allowed, _SHORTEST * self.spring_substep)
         return self._length
 
     def _limited_substep(self, begin: float, end: float) -> None:
@@ -104,18 +116,51 @@ class ImpulseAdaptiveReference(LimitedCloth):
         self._lengths = self.edges.lengths(self._flat_positions)
         velocities -= self._kick * self.inverse_masses[:, None] * self.edges.scatter(
             self.tension[:, None] * self._directions, len(velocities))
-        correction = max(
+        wanted = max(
             _LEAST_CORRECTION * min(1.0, h / self._usual), h / self.spring_substep)
+        correction = self._tank.share(wanted, h)
         self._usual += _USUAL_SHARE * (h - self._usual)
         longest_next = _GROWTH * max(self._length, h)
-        for _ in range(self.sweeps):
+        for _ in range(self.sweeps * (_MORE_SWEEPS if self._tank.is_overdrawn else 1)):
             for group in self.groups:
                 self._sweep(group, velocities, h, correction, longest_next)
+        self._book(velocities, begin, end)
         self._slack_age += h / _SLACK_TIME
         if self.limit_now - self.limit < _NO_SLACK * self.limit:
             self._slack = 0.0
         self.velocities = velocities.reshape(self.positions.shape)
         self.positions = self.positions + h * self.velocities
+
+    def _book(self, velocities: np.ndarray, begin: float, end: float) -> None:
+        """Take down the work of the tensions of a substep that ends with ``velocities``."""
+        h = end - begin
+        self._limit_before = self.limit_now
+        if self.is_idle:
+            self._tank = EnergyTankReference(self._reach)
+            return
+        rates = self.edges.differences(self.velocities.reshape(-1, 3) + velocities)
+        opening = 0.5 * np.sum(rates * self._directions, axis=1)
+        lengths = np.linalg.norm(
+            self._differences + h * self.edges.differences(velocities), axis=1)
+        stretch = lengths - self.edges.rest_length
+        reach = self.limit_now * self.edges.rest_length
+        beyond = stretch - np.clip(stretch, -reach, reach)
+        free = self.inverse_masses > 0.0
+        kinetic = 0.5 * np.sum(velocities[free]**2 / self.inverse_masses[free, None])
+        self._tank.book(
+            self._kick * float(self.tension @ opening),
+            float(np.sum(np.maximum(self.tension * beyond, 0.0))), float(kinetic),
+            self._load(begin, end), h)
+
+    def _load(self, begin: float, end: float) -> float:
+        """Return the magnitudes of what is applied, summed over nodes and pushes [N]."""
+        # A push keeps its impulse, whatever forces act for.
+        scale = (end - begin) / self._kick
+        everywhere, regions = self._applied_everywhere(begin, end)
+        pushed = scale * (everywhere - self.gravity) + self.gravity
+        return self.scene.node_mass * (
+            self.scene.node_count * float(np.linalg.norm(pushed))
+            + scale * sum(most * count for most, count in regions))
 
     def _sweep(
             self, group: np.ndarray, velocities: np.ndarray, h: float, correction: float,
@@ -140,9 +185,11 @@ class ImpulseAdaptiveReference(LimitedCloth):
         old = self.tension[group]
         pull = np.maximum((old + (ahead - most) * per_length) / (1.0 + _COMPLIANCE), 0.0)
         press = np.minimum((old + (ahead - least) * per_length) / (1.0 + _COMPLIANCE), 0.0)
-        new = (old >= 0.0) * pull + (old <= 0.0) * press
+        most_moved = _MOST_MOVED * np.maximum(rest, self._lengths[group]) / (
+            longest_next**2 * self.weight_sums[group])
+        new = np.clip(
+            (old >= 0.0) * pull + (old <= 0.0) * press, -most_moved, most_moved)
         change = (self._kick * (new - old))[:, None] * self._directions[group]
         velocities[first] -= self.inverse_masses[first, None] * change
         velocities[second] += self.inverse_masses[second, None] * change
-        most_kept = _MOST_KEPT * rest / (longest_next**2 * self.weight_sums[group])
-        self.tension[group] = np.clip(new, -most_kept, most_kept)
+        self.tension[group] = new

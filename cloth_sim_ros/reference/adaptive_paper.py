@@ -46,7 +46,7 @@ class PaperAdaptiveReference(LimitedCloth):
         error = self.edges.lengths(self._flat_positions) - self.edges.rest_length
         return self.limited & (np.abs(error) > self.limit * self.edges.rest_length)
 
-    def _next_length(self) -> float:
+    def _next_length(self, acceleration: float) -> float:
         return self.spring_substep
 
     def _limited_substep(self, begin: float, end: float) -> None:

@@ -68,7 +68,7 @@ class PenaltyAdaptiveReference(LimitedCloth):
     def _held(self) -> np.ndarray:
         return self.limited & (np.abs(self.edges.strains(self._flat_positions)) > self.limit)
 
-    def _next_length(self) -> float:
+    def _next_length(self, acceleration: float) -> float:
         return self._length
 
     def _limited_substep(self, begin: float, end: float) -> None:

@@ -20,6 +20,7 @@ import math
 from cloth_sim_ros.reference.calm_watch import CalmWatch
 from cloth_sim_ros.reference.cloth import ReferenceCloth
 from cloth_sim_ros.reference.edges import edges_of
+from cloth_sim_ros.reference.push_force import push_weight
 from cloth_sim_ros.reference.springs import total_forces
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.stability import choose_substeps
@@ -73,8 +74,12 @@ class LimitedCloth(ReferenceCloth):
         """Take the largest strain at the last look of the watch."""
 
     @abstractmethod
-    def _next_length(self) -> float:
-        """Return the longest limited substep that may come next [s]."""
+    def _next_length(self, acceleration: float) -> float:
+        """
+        Return the longest limited substep that may come next [s].
+
+        :param acceleration: that no node exceeds by what is applied [m/s2]
+        """
 
     @abstractmethod
     def _limited_substep(self, begin: float, end: float) -> None:
@@ -99,7 +104,8 @@ class LimitedCloth(ReferenceCloth):
                 self.positions = self.positions + h * self.velocities
                 self._watch.spend(1)
             else:
-                h = split_evenly(left, self._next_length())
+                ahead = min(left, self._before or left)
+                h = split_evenly(left, self._next_length(self._greatest(now, now + ahead)))
                 self._kick = self._kick_of(h)
                 self._limited_substep(now, now + h)
             self._before = h
@@ -107,6 +113,31 @@ class LimitedCloth(ReferenceCloth):
             count += 1
         self.substeps = count
         self._note_active(self._held())
+
+    def _applied_everywhere(
+            self, begin: float, end: float) -> tuple[np.ndarray, list[tuple[float, int]]]:
+        """
+        Return what accelerates every node, and what comes on top in regions.
+
+        :return: [m/s2], and of each push on a region its acceleration [m/s2] and its nodes
+        """
+        everywhere, regions = self.gravity.astype(float), []
+        self._push_accelerations(begin, end)
+        for push, nodes in self._acting:
+            weight, count = push_weight(push, begin, end), int(np.count_nonzero(nodes))
+            if weight == 0.0 or not count:
+                continue
+            acceleration = weight * np.array(push.force) / (count * self.scene.node_mass)
+            if push.region == 'all':
+                everywhere = everywhere + acceleration
+            else:
+                regions.append((float(np.linalg.norm(acceleration)), count))
+        return everywhere, regions
+
+    def _greatest(self, begin: float, end: float) -> float:
+        """Return an acceleration by what is applied that no node exceeds [m/s2]."""
+        everywhere, regions = self._applied_everywhere(begin, end)
+        return float(np.linalg.norm(everywhere)) + sum(most for most, _ in regions)
 
     def _kick_of(self, h: float) -> float:
         # A velocity belongs to the middle of its substep.

@@ -55,6 +55,10 @@ class _Entry:
     nodes: int = 0
     acceleration: np.ndarray = field(default_factory=lambda: np.zeros(3))
 
+    @property
+    def strength(self) -> float:
+        return float(np.linalg.norm(self.acceleration))
+
     def acts_at(self, time: float) -> bool:
         return self.inside is not None and self.push.start <= time < self.push.end
 
@@ -170,7 +174,7 @@ class PushField:
         """
         return sum(
             entry.push.overlap(begin, end) * (end - begin)
-            * float(np.linalg.norm(entry.acceleration)) for entry in self._entries)
+            * entry.strength for entry in self._entries)
 
     def delete(self) -> None:
         """Give the buffer back."""
@@ -191,7 +195,10 @@ class PushField:
             self._upload(in_regions)
         forcing = Forcing(
             tuple(everywhere), len(in_regions) < len(active),
-            self._buffer if in_regions else None) if active else self.still
+            self._buffer if in_regions else None,
+            sum(share * entry.strength for entry, share in in_regions),
+            sum(share * entry.strength * entry.nodes for entry, share in in_regions),
+        ) if active else self.still
         self._latest = (active, forcing)
         return forcing
 

@@ -52,13 +52,16 @@ class Strips:
 
     def largest(self) -> np.ndarray:
         """Wait for the pass, and return the largest of each figure; NaN where one is NaN."""
+        return self.read().max(axis=0)
+
+    def read(self) -> np.ndarray:
+        """Wait for the pass, and return what each invocation left, (invocations, figures)."""
         self._buffer.read_into(self._figures)
-        return self._figures.max(axis=0)
+        return self._figures
 
     def sums(self) -> np.ndarray:
         """Wait for the pass, and return the sum of each figure, float64."""
-        self._buffer.read_into(self._figures)
-        return self._figures.sum(axis=0, dtype=np.float64)
+        return self.read().sum(axis=0, dtype=np.float64)
 
     def delete(self) -> None:
         """Give the room back."""

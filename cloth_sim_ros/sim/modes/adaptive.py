@@ -79,7 +79,7 @@ class Adaptive:
                     self._springs.substep(state, pushes.forcing(start, start + length), length)
                 self._watch.spend(calm)
             else:
-                length = self._next_length(left)
+                length = self._next_length(begin + done, left, pushes)
                 self._substep(self._limit, state, begin + done, length, pushes)
             done += max(calm, 1) * length
             substeps += max(calm, 1)
@@ -123,9 +123,11 @@ class Adaptive:
         part.substep(state, pushes.forcing(start, start + length, kick), length, kick)
         self._before = length
 
-    def _next_length(self, left: float) -> float:
+    def _next_length(self, now: float, left: float, pushes: PushField) -> float:
+        ahead = min(left, self._before or left)
+        longest = self._limit.next_length(pushes.forcing(now, now + ahead).greatest)
         # Also of a cloth that is about to blow up, a step comes to its end.
-        longest = max(self._limit.next_length(), self._dt / MOST_SUBSTEPS)
+        longest = max(longest, self._dt / MOST_SUBSTEPS)
         return left / math.ceil(left / longest - _NOTHING)
 
 

@@ -61,7 +61,7 @@ class PaperLimit:
     def see(self, strain: float) -> None:
         """Take no notice: the limit is where it is."""
 
-    def next_length(self) -> float:
+    def next_length(self, acceleration: float) -> float:
         """Return the longest substep that may come next [s]."""
         return self._length
 
@@ -71,7 +71,7 @@ class PaperLimit:
         self._springs.run(state, forcing, length, kick)
         self._sweeps.bind_tensions()
         self._sweeps.run(state, _SWEEPS, length, kick, length, self._limit)
-        self._sweeps.finish(state, length)
+        self._sweeps.finish(state, length, kick, self._limit)
         self._some_beyond = self._watch.strains(state, forcing, 0.0)[0] > self._limit
 
     def tension(

@@ -76,7 +76,7 @@ class PenaltyLimit:
     def see(self, strain: float) -> None:
         """Take no notice: the stiffness follows the strain."""
 
-    def next_length(self) -> float:
+    def next_length(self, acceleration: float) -> float:
         """Return the longest substep that may come next [s]."""
         return self._length
 

@@ -38,8 +38,12 @@ class StrainLimit(Protocol):
     def see(self, strain: float) -> None:
         """Take the largest strain, when it is idle; the first one says what cloth has come."""
 
-    def next_length(self) -> float:
-        """Return the longest substep that may come next [s]."""
+    def next_length(self, acceleration: float) -> float:
+        """
+        Return the longest substep that may come next [s].
+
+        :param acceleration: that no node exceeds by what is applied [m/s2]
+        """
 
     def substep(self, state: State, forcing: Forcing, length: float, kick: float) -> None:
         """Step ``state`` on by ``length`` [s], with forces that act for ``kick`` [s]."""

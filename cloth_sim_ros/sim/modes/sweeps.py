@@ -14,6 +14,8 @@
 
 """Gauss-Seidel sweeps over the edges, colour by colour, on the velocities of a substep."""
 
+from typing import NamedTuple
+
 from cloth_sim_ros.gl.buffer import Buffer
 from cloth_sim_ros.gl.buffer import shader_writes_visible
 from cloth_sim_ros.sim import bindings
@@ -28,6 +30,22 @@ _COLOURS = 4
 _TENSION_BYTES = 16
 
 
+class Held(NamedTuple):
+    """
+    What the tensions of a substep did.
+
+    :param pull: largest sum of tension over length at a free node [N/m]
+    :param taken: kinetic energy that they took from the cloth [J]
+    :param cost: work against them that would bring all edges back to their limit [J]
+    :param square: sum of the squares of the free nodes' speeds [m2/s2]
+    """
+
+    pull: float
+    taken: float
+    cost: float
+    square: float
+
+
 class Sweeps:
     """
     The passes limit_sweep.comp and limit_finish.comp, and the tensions they work on.
@@ -40,7 +58,8 @@ class Sweeps:
         self._texture_loads = layout.texture_loads
         self._sweep = SceneProgram('limit_sweep.comp', scene, layout, {'SWEEP_LAW': law})
         self._finish = SceneProgram('limit_finish.comp', scene, layout, Strips.defines())
-        self._strips = Strips(layout, 1)
+        self._strips = Strips(layout, len(Held._fields))
+        self._threshold: float = scene['adaptive.threshold']
         # Cells of a colour lie in every other column and row.
         self._groups = tuple(
             -(-nodes // (2 * local))
@@ -81,13 +100,19 @@ class Sweeps:
                 sweep.dispatch(*self._groups)
                 shader_writes_visible()
 
-    def finish(self, state: State, length: float) -> float:
-        """Move the nodes; return the largest sum of tension over length at a free node [N/m]."""
+    def finish(self, state: State, length: float, kick: float, limit: float) -> Held:
+        """Move the nodes of the substep that ``run`` was told of; return what tensions did."""
+        if self._texture_loads:
+            state.bind_in()
         finish = self._finish.use()
         finish.set_float('substep', length)
+        finish.set_float('kick', kick)
+        finish.set_float('limit', limit)
+        finish.set_float('held_share', (1.0 + limit) / (1.0 + self._threshold))
         self._strips.dispatch(finish)
         state.swap()
-        return float(self._strips.largest()[0])
+        figures = self._strips.read()
+        return Held(float(figures[:, 0].max()), *figures[:, 1:].sum(axis=0, dtype=float).tolist())
 
     def clear(self) -> None:
         """Make all tensions zero."""

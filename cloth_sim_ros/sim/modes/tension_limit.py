@@ -18,6 +18,7 @@ import math
 
 from cloth_sim_ros.sim.forcing import Forcing
 from cloth_sim_ros.sim.layout import Layout
+from cloth_sim_ros.sim.modes.energy_tank import EnergyTank
 from cloth_sim_ros.sim.modes.held_tension import read_held_tension
 from cloth_sim_ros.sim.modes.one_pass import OnePass
 from cloth_sim_ros.sim.modes.slack import Slack
@@ -38,6 +39,10 @@ _LEAST_CORRECTION = 0.2
 # Of the present substep, in the length that counts as usual.
 _USUAL_SHARE = 0.02
 _SHORTEST_SHARE = 1e-3
+# Of the way to its limit, by which what is applied alone may stretch an edge in a substep.
+_FALL = 0.25
+# More sweeps, where edges beyond their limit may not come back at once: fewer get there.
+_MORE_SWEEPS = 2
 
 
 class TensionLimit:
@@ -55,9 +60,12 @@ class TensionLimit:
         self._node_mass = scene.node_mass
         self._longest = longest
         self._fixed = fixed
+        # What an edge may stretch [m].
+        self._reach: float = scene['adaptive.threshold'] * min(scene.spacing)
         self._share = _GEOMETRIC_SHARE * (
             scene['adaptive.threshold'] / _USUAL_LIMIT)**_SHARE_POWER
         self._slack = Slack(scene['adaptive.threshold'])
+        self._tank = EnergyTank(scene, self._reach)
         self._count: int = scene['adaptive.sweeps']
         self._springs = OnePass(scene, layout, 'TENSION_LIMIT')
         self._sweeps = Sweeps(scene, layout, 'LIMIT_LAW')
@@ -73,29 +81,34 @@ class TensionLimit:
         """Take the largest strain, for a cloth that comes from beyond the limit."""
         self._slack.see(strain)
 
-    def next_length(self) -> float:
+    def next_length(self, acceleration: float) -> float:
         """Return the longest substep that may come next [s]."""
         if self._fixed:
             return self._longest
-        allowed = math.inf
+        allowed = min(_GROWTH * self._length, self._longest)
         if self._pull > 0.0:
-            allowed = self._share * math.sqrt(2.0 * self._node_mass / self._pull)
-        self._length = max(
-            min(allowed, _GROWTH * self._length, self._longest),
-            _SHORTEST_SHARE * self._longest)
+            allowed = min(allowed, self._share * math.sqrt(2.0 * self._node_mass / self._pull))
+        if acceleration > 0.0:
+            allowed = min(allowed, math.sqrt(2.0 * _FALL * self._reach / acceleration))
+        self._length = max(allowed, _SHORTEST_SHARE * self._longest)
         return self._length
 
     def substep(self, state: State, forcing: Forcing, length: float, kick: float) -> None:
         """Step ``state`` on by ``length`` [s], with forces that act for ``kick`` [s]."""
+        limit = self._slack.limit
+        wanted = max(
+            _LEAST_CORRECTION * min(1.0, length / self._usual), length / self._longest)
+        count = self._count * (_MORE_SWEEPS if self._tank.is_overdrawn else 1)
         self._sweeps.bind_tensions()
         self._springs.run(state, forcing, length, kick)
         self._sweeps.run(
-            state, self._count, length, kick, _GROWTH * max(self._length, length),
-            self._slack.limit,
-            max(_LEAST_CORRECTION * min(1.0, length / self._usual), length / self._longest))
+            state, count, length, kick, _GROWTH * max(self._length, length), limit,
+            self._tank.share(wanted, length))
+        held = self._sweeps.finish(state, length, kick, limit)
         self._usual += _USUAL_SHARE * (length - self._usual)
         self._slack.spend(length)
-        self._pull = self._sweeps.finish(state, length)
+        self._tank.book(held, forcing, length)
+        self._pull = held.pull
 
     def tension(
             self, positions: np.ndarray, velocities: np.ndarray,
@@ -112,6 +125,7 @@ class TensionLimit:
         self._length = self._longest
         self._usual = self._longest
         self._slack.forget()
+        self._tank.forget()
         self._sweeps.clear()
 
     def delete(self) -> None:

@@ -48,9 +48,6 @@ class Extreme:
     :param holds_lengths: whether edges can keep their length or limit: nothing begins away from
         it, and nothing pulls beyond it
     :param is_long: whether it takes more than a few seconds
-    :param known_limit: page on which it is written down what goes wrong; empty for what has to
-        go right
-    :param known_in: modes in which it does
     """
 
     values: Mapping[str, Any]
@@ -63,12 +60,6 @@ class Extreme:
     expected: tuple[str, ...] = (RUNS,)
     holds_lengths: bool = True
     is_long: bool = False
-    known_limit: str = ''
-    known_in: tuple[str, ...] = MODES
-
-    def limit_in(self, mode: str) -> str:
-        """Return the page that tells what goes wrong in ``mode``; empty where nothing does."""
-        return self.known_limit if mode in self.known_in else ''
 
 
 def of_all(name: str, value: float) -> dict[str, float]:

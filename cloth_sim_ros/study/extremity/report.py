@@ -24,14 +24,13 @@ from cloth_sim_ros.study.runs.result import Result
 
 _RIGHT = 'as it should'
 _REPORTED = 'reported'
-_KNOWN = 'known limit'
 _NONSENSE = 'NONSENSE'
 _OTHERWISE = 'OTHERWISE'
 
 
 def verdict(result: Result) -> str:
     """
-    Return whether a row is right, nonsense, a known limit, or came out otherwise.
+    Return whether a row is right, nonsense, or came out otherwise.
 
     'reported' is what has gone wrong and says so, in its snapshot and in ~/diagnostics.
     """
@@ -39,15 +38,15 @@ def verdict(result: Result) -> str:
     if not result.is_done:
         return _OTHERWISE
     if result.values['nonsense']:
-        return _KNOWN if extreme.limit_in(result.scene['mode']) else _NONSENSE
+        return _NONSENSE
     if result.values['outcome'] not in extreme.expected:
         return _OTHERWISE
     return _REPORTED if result.values['gained'] > MOST_GAIN else _RIGHT
 
 
 def is_right(result: Result) -> bool:
-    """Return whether a row is as it should be, says what is wrong, or is a known limit."""
-    return verdict(result) in (_RIGHT, _REPORTED, _KNOWN)
+    """Return whether a row is as it should be, or says itself what is wrong."""
+    return verdict(result) in (_RIGHT, _REPORTED)
 
 
 def extreme_table(results: Sequence[Result]) -> str:
@@ -61,18 +60,14 @@ def extreme_table(results: Sequence[Result]) -> str:
         else:
             outcome, detail = result.outcome, result.reason
         wrong = '; '.join(result.values.get('nonsense', ()))
-        said = verdict(result)
-        if said == _KNOWN:
-            said += f' ({extreme.known_limit})'
         lines.append(
             f'| {extreme.group} | {result.settings["name"]} | {result.scene["mode"]} | {outcome} '
-            f'| {said} | {wrong + "; " if wrong else ""}{detail} |')
+            f'| {verdict(result)} | {wrong + "; " if wrong else ""}{detail} |')
     counts = Counter(
         result.values['outcome'] if result.is_done else result.outcome for result in results)
     verdicts = Counter(map(verdict, results))
     lines += ['', f'{len(results)} rows: '
               + ', '.join(f'{counts[outcome]} {outcome}' for outcome in OUTCOMES)
               + f'; {verdicts[_NONSENSE]} nonsense, {verdicts[_OTHERWISE]} otherwise than they '
-              f'should, {verdicts[_REPORTED]} gone wrong and reported, {verdicts[_KNOWN]} at a '
-              'known limit.']
+              f'should, {verdicts[_REPORTED]} gone wrong and reported.']
     return '\n'.join(lines) + '\n'

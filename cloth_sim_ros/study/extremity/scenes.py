@@ -28,11 +28,7 @@ import numpy as np
 # Steps of what takes thousands of substeps.
 _FEW = 3
 _SPRINGS = ('mass_spring', 'adaptive')
-_RELIABILITY = 'docs/reliability.md'
-_ADAPTIVE = 'docs/adaptive.md'
 _JAMMED = {'start.jitter': 0.5}
-# [s]: a cloth with soft springs falls by more than half its spacing in it.
-_LONG_FALL = 0.1
 
 _SHAPES = {
     '2 x 2': Extreme({'rows': 2, 'cols': 2}, 'shape'),
@@ -94,16 +90,14 @@ _SETTINGS = {
     'threshold 0.005': Extreme({'adaptive.threshold': 0.005}, 'setting'),
     'scheme penalty': Extreme({'adaptive.scheme': 'penalty'}, 'setting', ('adaptive',)),
     '1000 sweeps': Extreme({'adaptive.sweeps': 1000}, 'setting', ('adaptive',)),
-    '10 km up': Extreme({'start.z': 1e4}, 'setting', holds_lengths=False, expected=OUTCOMES,
-                        known_limit='docs/numerics.md, What float32 can do'),
+    '10 km up': Extreme({'start.z': 1e4}, 'setting', holds_lengths=False, expected=OUTCOMES),
 }
 
 
 def _corner(stiffness: float, mass: float, dt: float, steps: int, *, is_long: bool) -> Extreme:
     return Extreme(
         {**of_all('stiffness', stiffness), **of_all('damping', 0.0), 'node_mass': mass, 'dt': dt},
-        'stiffness, mass and dt', steps=steps, expected=(RUNS, REFUSED), is_long=is_long,
-        known_limit=_RELIABILITY, known_in=('adaptive',) if dt >= _LONG_FALL else ())
+        'stiffness, mass and dt', steps=steps, expected=(RUNS, REFUSED), is_long=is_long)
 
 
 def _name(stiffness: float, mass: float, dt: float) -> str:
@@ -164,8 +158,7 @@ _STARTS = {
         lambda rest, random: rest + random.uniform(-0.1, 0.1, rest.shape)),
     'all on one line': _started(lambda rest, random: rest * (1.0, 0.0, 0.0)),
     'inside out': _started(lambda rest, random: rest[:, ::-1]),
-    'stretched 1e5 times': _started(
-        lambda rest, random: 1e5 * rest, known_limit=_RELIABILITY, known_in=('adaptive',)),
+    'stretched 1e5 times': _started(lambda rest, random: 1e5 * rest),
     'scrambled over 1e11 m': _started(
         lambda rest, random: random.uniform(-1e11, 1e11, rest.shape)),
     'speeds of 1e3 m/s': _started(None, speed=1e3),
@@ -173,20 +166,20 @@ _STARTS = {
     'jitter 0.5': Extreme(_JAMMED, 'start', holds_lengths=False),
 }
 
-_KNOWN = {
+_LASTING = {
     'jitter 0.5, for 2 s': Extreme(
-        _JAMMED, 'known limit', ('adaptive', 'constraint'), steps=400, holds_lengths=False,
-        expected=OUTCOMES, is_long=True, known_limit=_RELIABILITY, known_in=('adaptive',)),
+        _JAMMED, 'start', ('adaptive', 'constraint'), steps=400, holds_lengths=False,
+        is_long=True),
     'k 1e+06, m 1e-06, undamped, for 60000 substeps': Extreme(
         {**of_all('stiffness', 1e6), **of_all('damping', 0.0), 'node_mass': 1e-6, 'dt': 0.01,
-         'gravity': [0.0, 0.0, 0.0]}, 'known limit', ('mass_spring',), steps=3,
-        known_limit=_RELIABILITY, is_long=True),
+         'gravity': [0.0, 0.0, 0.0]}, 'stiffness, mass and dt', ('mass_spring',), steps=3,
+        is_long=True),
     'scheme paper, dt 0.02 in one step': Extreme(
         {'rows': 12, 'cols': 12, 'width': 11.0, 'height': 11.0, 'node_mass': 1.0,
          **of_all('stiffness', 1e3), **of_all('damping', 10.0), 'adaptive.scheme': 'paper',
          'dt': 0.02, 'auto_substeps': False, 'pushes.start': [1.0], 'pushes.duration': [0.2],
-         'pushes.force': [0.0, 0.0, 5.0 * 9.81 * 142]}, 'known limit', ('adaptive',), steps=500,
-        holds_lengths=False, expected=OUTCOMES, known_limit=_ADAPTIVE),
+         'pushes.force': [0.0, 0.0, 5.0 * 9.81 * 142]}, 'setting', ('adaptive',), steps=500,
+        holds_lengths=False, expected=(REFUSED,)),
 }
 
 
@@ -201,10 +194,10 @@ def _random(seed: int, **others: object) -> Extreme:
 
 _RANDOM = {
     **{f'random scene {seed}': _random(seed) for seed in range(12)},
-    **{f'random scene {seed}': _random(seed, modes=('adaptive',), known_limit=_ADAPTIVE)
-       for seed in (20, 59)},
+    # Tight limits that catch an undamped cloth all but straight.
+    **{f'random scene {seed}': _random(seed, modes=('adaptive',)) for seed in (20, 59)},
 }
 
 EXTREMES: dict[str, Extreme] = {
-    **_SHAPES, **_SETTINGS, **_CORNERS, **_GRID, **_PUSHES, **_PIN_MOVES, **_STARTS, **_KNOWN,
+    **_SHAPES, **_SETTINGS, **_CORNERS, **_GRID, **_PUSHES, **_PIN_MOVES, **_STARTS, **_LASTING,
     **_RANDOM}

@@ -1,0 +1,66 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+"""A cloth that is caught gains nothing by it, and one that hangs at its limit does not sink."""
+
+from cloth_sim_ros.study.random_limits import largest_gain
+
+# Undamped, without shear, hung by its upper corners: it falls until its upper row catches it all
+# but straight, where tensions are many times the weight.
+_CAUGHT = {
+    'rows': 20, 'cols': 10, 'width': 0.8675, 'height': 0.397, 'areal_density': 0.2393,
+    'dt': 0.0128, 'adaptive.threshold': 0.007, 'pins': ['top_left', 'top_right'],
+    'start.pose': 'hanging', 'stiffness.structural': 52.4, 'damping.structural': 0.0,
+    **{f'{law}.{family}': 0.0 for law in ('stiffness', 'damping')
+       for family in ('shear', 'bend')}}
+# Springs so soft that the limit carries the cloth.
+_HANGING = {
+    'mode': 'adaptive', 'rows': 15, 'cols': 4, 'width': 0.3, 'node_mass': 0.01,
+    'pins': ['top_edge'], 'start.pose': 'hanging', 'stiffness.structural': 50.0,
+    'damping.structural': 0.3, 'stiffness.shear': 50.0, 'damping.shear': 0.3,
+    'stiffness.bend': 0.0, 'damping.bend': 0.0, 'adaptive.threshold': 0.02, 'dt': 0.002}
+
+
+def test_a_caught_cloth_is_not_thrown(simulate, within, mode):
+    """What brings edges back to their length throws the cloth, by most of what it fell with."""
+    simulation = simulate({**_CAUGHT, 'mode': mode})
+    energies, kinetic = [], []
+    for _ in range(60):
+        simulation.step()
+        now = simulation.measure()
+        energies.append(now.total_energy)
+        kinetic.append(now.kinetic_energy)
+    within(f'energy that came back after a catch over the most kinetic, {mode}',
+           largest_gain(energies) / max(kinetic), 0.3)
+
+
+def test_a_cloth_at_its_limit_does_not_sink(simulate, within):
+    """Edges that tremble at their limit lose energy, and would be ever longer."""
+    simulation, strains = simulate(_HANGING), []
+    for _ in range(5):
+        simulation.advance(1.0)
+        strains.append(simulation.measure().max_strain / 0.02)
+    within('strain over its limit at 1 to 5 s', max(strains), 1.15)
+
+
+def test_a_strong_push_on_a_few_nodes_is_held(simulate, within):
+    """A push stretches edges to many times their length before the limit takes notice."""
+    simulation = simulate(
+        {'mode': 'adaptive', 'rows': 8, 'cols': 8, 'adaptive.threshold': 0.1})
+    simulation.push((0.0, 0.0, 1e6), duration=0.1, region='sphere', center=(0.0, 0.0, 1.0),
+                    radius=0.15)
+    strains = []
+    for _ in range(4):
+        simulation.step()
+        strains.append(simulation.measure().max_strain)
+    within('strain at the limit of 0.1 under 500,000 times the weight', max(strains), 0.12)
