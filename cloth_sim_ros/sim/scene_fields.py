@@ -89,8 +89,8 @@ SCENE_FIELDS = (
           choices=('constraint', 'penalty', 'paper')),
     Field('adaptive.threshold', float, 0.1, 'strain at which a structural or shear spring '
           'becomes a constraint in mode adaptive', low=0.005, high=0.5),
-    Field('adaptive.sweeps', int, 3, 'sweeps over all constraints in each substep',
-          low=1, high=1000),
+    Field('adaptive.sweeps', int, 3, 'sweeps over all constraints in each substep; twice '
+          'as many while the limit owes energy', low=1, high=1000),
     Field('pushes.start', float, (), 'start of each timed push', 's', low=0.0, high=1e9,
           is_array=True),
     Field('pushes.duration', float, (), 'length of each timed push', 's', low=0.0, high=1e9,
