@@ -31,25 +31,18 @@ class Forcing:
     :param pushed_everywhere: True when a push has part in ``everywhere``
     :param regions: what comes on top at each node [m/s2], and how many pushes on regions act
         there; None where there are none
-    :param most_in_regions: by which pushes on regions accelerate a node at most [m/s2]
-    :param sum_in_regions: the same of each push, summed over its nodes [m/s2]
+    :param sum_in_regions: magnitudes of what pushes on regions add, summed over nodes [m/s2]
     """
 
     everywhere: tuple[float, float, float]
     pushed_everywhere: bool = False
     regions: Buffer | None = None
-    most_in_regions: float = 0.0
     sum_in_regions: float = 0.0
 
     @property
     def has_regions(self) -> bool:
         """Tell whether some nodes are pushed and others are not."""
         return self.regions is not None
-
-    @property
-    def greatest(self) -> float:
-        """Return an acceleration that no node exceeds [m/s2]."""
-        return math.hypot(*self.everywhere) + self.most_in_regions
 
     def sum_over(self, nodes: int) -> float:
         """Return the magnitudes of what acts, summed over ``nodes`` nodes [m/s2]."""

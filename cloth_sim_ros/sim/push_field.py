@@ -135,14 +135,19 @@ class PushField:
         """
         if not self._entries:
             return self.still
-        self._entries = [entry for entry in self._entries if entry.push.end > begin]
         scale = 1.0 if kick is None else (end - begin) / kick
-        shares = [
-            (entry, scale * entry.push.overlap(begin, end)) for entry in self._entries]
-        for entry, share in shares:
-            if share > 0.0 and entry.inside is None:
-                self._begin(entry)
-        return self._compose(shares)
+        return self._compose(
+            (entry, scale * share) for entry, share in self._shares(begin, end))
+
+    def greatest_acceleration(self, begin: float, end: float) -> float:
+        """Return what no node exceeds from ``begin`` to ``end`` [m/s2]; begin its pushes."""
+        everywhere, in_regions = np.array(self.still.everywhere), 0.0
+        for entry, share in self._shares(begin, end):
+            if entry.push.region == 'all':
+                everywhere += share * entry.acceleration
+            else:
+                in_regions += share * entry.strength
+        return float(np.linalg.norm(everywhere)) + in_regions
 
     def acting(self, now: float) -> Forcing:
         """Return what acts at the moment ``now`` [s], for looking only: nothing begins by it."""
@@ -181,6 +186,15 @@ class PushField:
         if self._buffer is not None:
             self._buffer.delete()
 
+    def _shares(self, begin: float, end: float) -> list[tuple[_Entry, float]]:
+        """Begin the pushes that act from ``begin`` to ``end`` [s]; return their parts of it."""
+        self._entries = [entry for entry in self._entries if entry.push.end > begin]
+        shares = [(entry, entry.push.overlap(begin, end)) for entry in self._entries]
+        for entry, share in shares:
+            if share > 0.0 and entry.inside is None:
+                self._begin(entry)
+        return shares
+
     def _compose(self, shares: Iterable[tuple[_Entry, float]]) -> Forcing:
         active = tuple((entry, share) for entry, share in shares if share > 0.0 and entry.nodes)
         known, forcing = self._latest
@@ -196,7 +210,6 @@ class PushField:
         forcing = Forcing(
             tuple(everywhere), len(in_regions) < len(active),
             self._buffer if in_regions else None,
-            sum(share * entry.strength for entry, share in in_regions),
             sum(share * entry.strength * entry.nodes for entry, share in in_regions),
         ) if active else self.still
         self._latest = (active, forcing)

@@ -125,7 +125,7 @@ class Adaptive:
 
     def _next_length(self, now: float, left: float, pushes: PushField) -> float:
         ahead = min(left, self._before or left)
-        longest = self._limit.next_length(pushes.forcing(now, now + ahead).greatest)
+        longest = self._limit.next_length(pushes.greatest_acceleration(now, now + ahead))
         # Also of a cloth that is about to blow up, a step comes to its end.
         longest = max(longest, self._dt / MOST_SUBSTEPS)
         return left / math.ceil(left / longest - _NOTHING)

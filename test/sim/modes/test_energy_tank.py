@@ -81,7 +81,7 @@ def test_credit_follows_what_moves_and_what_is_applied(tank):
     weight = Forcing((0.0, 0.0, -10.0))
     _book(tank, taken=0.0, cost=1.0, forcing=weight)
     assert tank.share(1.0, _SHORT) == pytest.approx(20 * 0.1 * 10.0 * 1e-3)
-    pushed = Forcing((0.0, 0.0, -10.0), most_in_regions=50.0, sum_in_regions=100.0)
+    pushed = Forcing((0.0, 0.0, -10.0), sum_in_regions=100.0)
     _book(tank, taken=0.0, cost=1.0, forcing=pushed)
     assert tank.share(1.0, _SHORT) == pytest.approx((20 * 10.0 + 100.0) * 0.1 * 1e-3)
 
