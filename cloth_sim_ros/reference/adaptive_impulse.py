@@ -33,7 +33,7 @@ _LEAST_CORRECTION = 0.2
 _USUAL_SHARE = 0.02
 # A tension moves an edge by at most this part of its length within a substep.
 _MOST_MOVED = 0.5
-# Of the way to the limit that gravity stretches an edge within a substep, at most.
+# Of the way to the limit, by which what is applied alone may stretch an edge in a substep.
 _FALL = 0.25
 _MORE_SWEEPS = 2
 # A cloth that is farther beyond its limit than this, of the limit, is brought to it with this

@@ -20,6 +20,7 @@ import math
 from cloth_sim_ros.reference.calm_watch import CalmWatch
 from cloth_sim_ros.reference.cloth import ReferenceCloth
 from cloth_sim_ros.reference.edges import edges_of
+from cloth_sim_ros.reference.push_force import push_acceleration
 from cloth_sim_ros.reference.push_force import push_weight
 from cloth_sim_ros.reference.springs import total_forces
 from cloth_sim_ros.sim.scene import Scene
@@ -122,12 +123,13 @@ class LimitedCloth(ReferenceCloth):
         :return: [m/s2], and of each push on a region its acceleration [m/s2] and its nodes
         """
         everywhere, regions = self.gravity.astype(float), []
+        # Settles the nodes of what begins.
         self._push_accelerations(begin, end)
         for push, nodes in self._acting:
             weight, count = push_weight(push, begin, end), int(np.count_nonzero(nodes))
             if weight == 0.0 or not count:
                 continue
-            acceleration = weight * np.array(push.force) / (count * self.scene.node_mass)
+            acceleration = weight * push_acceleration(push, nodes, self.scene.node_mass)[nodes][0]
             if push.region == 'all':
                 everywhere = everywhere + acceleration
             else:

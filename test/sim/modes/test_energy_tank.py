@@ -11,6 +11,7 @@
 # WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
 # See the License for the specific language governing permissions and
 # limitations under the License.
+
 """What brings edges back to their limit is paid from what the limit took."""
 
 from cloth_sim_ros.sim.forcing import Forcing
