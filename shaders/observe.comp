@@ -129,10 +129,7 @@ bool is_at_limit(int index) {
 void write_record(int row, int col, vec4 x, vec4 v, float strain) {
     int word = ((row - first_row) * COLS + col) * RECORD_WORDS;
     uint flags = v.w == 0.0 ? FLAG_PINNED : 0u;
-    bool pushed = pushed_everywhere == 1;
-#if HAS_REGION_PUSHES
-    pushed = pushed || region_pushes[node_index(row, col)].w > 0.0;
-#endif
+    bool pushed = pushed_everywhere == 1 || is_pushed_in_region(node_index(row, col));
     if (pushed && v.w != 0.0) {
         flags |= FLAG_PUSHED;
     }

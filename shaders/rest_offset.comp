@@ -34,7 +34,7 @@ void offset(vec4 here, bool is_free, int row, int col, int drow, int dcol, int f
     vec4 there = load_position(other);
     bool at_pin = !is_free || load_velocity(other).w <= 0.0;
     float ratio = at_pin ? softer_at_pins[family] : softer[family];
-    int entry = tension_entry(TENSION_OFFSET, SOLVER_INDEX(row, col), drow, dcol);
+    int entry = tension_entry(TENSION_OFFSET, solver_index(row, col), drow, dcol);
     float before = offset_share * tension[entry];
     float extension = length(there.xyz - here.xyz) - rest_length[rest];
     // An edge that has come back by itself, past what it was off by, needs it no more.

@@ -57,8 +57,8 @@ vec2 turn_and_misfit(Node here, int row, int col, int drow, int dcol, int rest) 
 
 // Tension over the rest length of the edge that begins here and of the one that ends here [1/s2].
 float pull(int row, int col, int drow, int dcol, int rest) {
-    int index = SOLVER_INDEX(row, col);
-    int behind = SOLVER_INDEX(row - drow, col - dcol);
+    int index = solver_index(row, col);
+    int behind = solver_index(row - drow, col - dcol);
     float begins = max(tension[tension_entry(TENSION_FOUND, index, drow, dcol)], 0.0);
     float ends = max(tension[tension_entry(TENSION_FOUND, behind, drow, dcol)], 0.0);
     return (begins + ends) / rest_length[rest];

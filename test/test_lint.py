@@ -40,6 +40,10 @@ HEADER = (
     '',
     'Licensed under the Apache License, Version 2.0 (the "License");',
 )
+SHORT_HEADER = (
+    'SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors',
+    'SPDX-License-Identifier: Apache-2.0',
+)
 
 
 def files_in(places: tuple[str, ...], suffixes: tuple[str, ...]) -> list[Path]:
@@ -76,8 +80,10 @@ def test_license_header():
         lines = path.read_text(encoding='utf-8').splitlines()
         if lines and lines[0].startswith(('#!', '#version')):
             del lines[0]
-        expected = [f'{COMMENT_OF[path.suffix]} {line}'.rstrip() for line in HEADER]
-        if lines[:len(expected)] != expected:
+        headers = (
+            [f'{COMMENT_OF[path.suffix]} {line}'.rstrip() for line in header]
+            for header in (HEADER, SHORT_HEADER))
+        if not any(lines[:len(header)] == header for header in headers):
             without.append(str(path.relative_to(ROOT)))
     assert not without
 

@@ -49,8 +49,9 @@ class Forcing:
         return nodes * math.hypot(*self.everywhere) + self.sum_in_regions
 
     def apply(self, program: Program) -> None:
-        """Set the uniform of applied_acceleration.glsl in the program in use."""
+        """Set the uniforms of applied_acceleration.glsl in the program in use."""
         program.set_vectors('acceleration', self.everywhere)
+        program.set_int('has_region_pushes', int(self.has_regions))
 
     def bind(self) -> None:
         """Bind the regions for the next dispatch, if there are any."""

@@ -18,6 +18,7 @@ from dataclasses import dataclass
 
 from cloth_sim_ros.gl.context import Context
 from cloth_sim_ros.gl.errors import DeviceError
+from cloth_sim_ros.gl.program import Program
 from cloth_sim_ros.sim.bindings import DEFINES
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.scene import Scene
@@ -88,11 +89,15 @@ class Layout:
             -(-nodes // (block * local))
             for nodes, local in zip((self.cols, self.rows), self.local))
 
+    def set_in(self, program: Program) -> None:
+        """Set the uniform of lattice.glsl in the program in use."""
+        program.set_int_vectors(
+            'lattice', np.array([(self.rows, self.cols, self.pitch, self.stored)]))
+
     def defines(self) -> dict[str, object]:
-        """Return what every shader on this lattice needs to know."""
+        """Return the choices that every shader on this lattice compiles in, its size aside."""
         return {
-            **DEFINES, 'ROWS': self.rows, 'COLS': self.cols, 'PITCH': self.pitch,
-            'LOADS_TEXTURE': int(self.texture_loads), 'BLOCK': self.block,
+            **DEFINES, 'LOADS_TEXTURE': int(self.texture_loads), 'BLOCK': self.block,
             'LOCAL_X': self.local[0], 'LOCAL_Y': self.local[1],
         }
 

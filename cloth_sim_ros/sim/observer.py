@@ -78,7 +78,7 @@ class Observer:
     def _observe(
             self, state: State, forcing: Forcing, records: np.ndarray | None,
             limit_marks: Buffer | None = None) -> Measures:
-        program = self._programs[records is not None].use(forcing.has_regions)
+        program = self._programs[records is not None].use()
         forcing.apply(program)
         forcing.bind()
         program.set_int('pushed_everywhere', int(forcing.pushed_everywhere))

@@ -29,9 +29,10 @@ MOST_MAGNITUDE = 1e12
 
 class SceneProgram:
     """
-    A shader in two forms, with and without pushes on regions, each compiled when first used.
+    A shader of a scene, compiled when it is first used.
 
     :param name: file in shaders/
+    :param layout: of the lattice it runs on
     :param defines: choices of this shader besides those of scene and layout
     """
 
@@ -41,39 +42,38 @@ class SceneProgram:
         """Remember what to compile."""
         self._name = name
         self._scene = scene
+        self._layout = layout
         self._defines = {**layout.defines(), **scene_defines(scene), **(defines or {})}
-        self._forms: dict[bool, Program] = {}
-        self._set: dict[bool, tuple[Forcing, float, float | None]] = {}
+        self._program: Program | None = None
+        self._set: tuple[Forcing, float, float | None] | None = None
 
     def use_for_step(
             self, forcing: Forcing, length: float, kick: float | None = None) -> Program:
         """
-        Return the form ``forcing`` needs, in use and set to a substep of ``length`` [s].
+        Return the program, in use and set to a substep of ``length`` [s] under ``forcing``.
 
         :param kick: what forces act for [s], in shaders that tell it from the length
         """
-        program = self.use(forcing.has_regions)
+        program = self.use()
         forcing.bind()
         # Most steps are like the one before, and a uniform costs as much as a small dispatch.
-        if self._set.get(forcing.has_regions) != (forcing, length, kick):
+        if self._set != (forcing, length, kick):
             program.set_float('substep', length)
             if kick is not None:
                 program.set_float('kick', kick)
             forcing.apply(program)
-            self._set[forcing.has_regions] = (forcing, length, kick)
+            self._set = (forcing, length, kick)
         return program
 
-    def use(self, has_region_pushes: bool = False) -> Program:
-        """Return the form asked for, in use."""
-        if has_region_pushes not in self._forms:
-            defines = {**self._defines, 'HAS_REGION_PUSHES': int(has_region_pushes)}
-            program = Program(ShaderSource(self._name, defines))
-            program.use()
-            _set_springs(program, self._scene)
-            self._forms[has_region_pushes] = program
-        program = self._forms[has_region_pushes]
-        program.use()
-        return program
+    def use(self) -> Program:
+        """Return the program, in use."""
+        if self._program is None:
+            self._program = Program(ShaderSource(self._name, self._defines))
+            self._program.use()
+            self._layout.set_in(self._program)
+            _set_springs(self._program, self._scene)
+        self._program.use()
+        return self._program
 
 
 def scene_defines(scene: Scene) -> dict[str, object]:

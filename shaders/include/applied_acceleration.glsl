@@ -14,13 +14,20 @@
 
 // Acceleration that is not from springs: gravity and pushes.
 
-uniform vec3 acceleration;  // [m/s2] gravity and pushes on the whole cloth
+uniform vec3 acceleration;         // [m/s2] gravity and pushes on the whole cloth
+uniform bool has_region_pushes;    // some nodes are pushed and others are not
 
-#if HAS_REGION_PUSHES
-// What pushes on regions add at a node [m/s2]; w: how many act on it.
+// What pushes on regions add at a node [m/s2]; w: how many act on it. Bound only while some do.
 layout(std430, binding = REGION_PUSHES) readonly buffer RegionPushes { vec4 region_pushes[]; };
 
-vec3 applied_acceleration(int index) { return acceleration + region_pushes[index].xyz; }
-#else
-vec3 applied_acceleration(int index) { return acceleration; }
-#endif
+vec3 applied_acceleration(int index) {
+    vec3 applied = acceleration;
+    if (has_region_pushes) {
+        applied += region_pushes[index].xyz;
+    }
+    return applied;
+}
+
+bool is_pushed_in_region(int index) {
+    return has_region_pushes && region_pushes[index].w > 0.0;
+}

@@ -13,9 +13,16 @@
 // limitations under the License.
 
 // The lattice with its halo: two ghost nodes on each side, so that no neighbour needs a branch.
-// ROWS, COLS: nodes. PITCH: nodes and ghosts in a stored row.
+// Its size is a uniform, so that a program serves every size.
 
 #define HALO 2
+
+uniform ivec4 lattice;  // rows and columns of nodes, entries in a stored row, entries in all
+
+#define ROWS lattice.x
+#define COLS lattice.y
+#define PITCH lattice.z
+#define STORED lattice.w
 
 int node_index(int row, int col) {
     return (row + HALO) * PITCH + col + HALO;

@@ -14,35 +14,37 @@
 
 #version 430 core
 // Nearly solve the coarsest level: Chebyshev iteration in one workgroup, a node an invocation.
+// Levels smaller than the workgroup leave invocations idle; all pass every barrier.
 
 #include "solver/levels.glsl"
 #include "solver/vectors.glsl"
 #include "solver/system.glsl"
 #include "solver/edge_tensors.glsl"
 
-layout(local_size_x = COARSEST_COLS, local_size_y = COARSEST_ROWS) in;
+layout(local_size_x = COARSEST_SIDE, local_size_y = COARSEST_SIDE) in;
 
 // Middle and half width of the eigenvalues it damps.
 uniform float middle;
 uniform float half_width;
 
-shared vec3 values[COARSEST_ROWS + 2][COARSEST_COLS + 2];
+// With a border, whose values weigh nothing, but must be finite.
+shared vec3 values[COARSEST_SIDE + 2][COARSEST_SIDE + 2];
 
 void main() {
     ivec2 at = ivec2(gl_LocalInvocationID.yx);
-    int index = level_index(level, at.x, at.y);
-    // Neighbours beyond the border weigh nothing, but must be finite.
-    for (int i = int(gl_LocalInvocationIndex); i < (COARSEST_ROWS + 2) * (COARSEST_COLS + 2);
-            i += COARSEST_ROWS * COARSEST_COLS) {
-        values[i / (COARSEST_COLS + 2)][i % (COARSEST_COLS + 2)] = vec3(0.0);
+    bool is_node = inside(level, at.x, at.y);
+    int index = is_node ? level_index(level, at.x, at.y) : 0;
+    for (int i = int(gl_LocalInvocationIndex); i < (COARSEST_SIDE + 2) * (COARSEST_SIDE + 2);
+            i += COARSEST_SIDE * COARSEST_SIDE) {
+        values[i / (COARSEST_SIDE + 2)][i % (COARSEST_SIDE + 2)] = vec3(0.0);
     }
     Symmetric ahead[DIRECTIONS];
     Symmetric behind[DIRECTIONS];
     Symmetric diagonal = load_symmetric(level, GROUND, index);
     for (int i = 0; i < DIRECTIONS; ++i) {
         ahead[i] = load_edge(level, index, i);
-        behind[i] = load_edge(
-            level, level_index(level, at.x - TOWARDS[i].x, at.y - TOWARDS[i].y), i);
+        behind[i] = load_edge(level, is_node
+            ? level_index(level, at.x - TOWARDS[i].x, at.y - TOWARDS[i].y) : 0, i);
         diagonal += ahead[i] + behind[i];
     }
     Symmetric inverse_block = load_symmetric(level, INVERSE, index);
@@ -52,7 +54,9 @@ void main() {
     float ratio = half_width / middle;
     barrier();
     for (int step = 1; step < COARSEST_STEPS; ++step) {
-        values[at.x + 1][at.y + 1] = value;
+        if (is_node) {
+            values[at.x + 1][at.y + 1] = value;
+        }
         barrier();
         vec3 left = residual - times(diagonal, value);
         for (int i = 0; i < DIRECTIONS; ++i) {
@@ -66,5 +70,7 @@ void main() {
         value += change;
         ratio = next;
     }
-    store_vector(vector_entry(level, PRECONDITIONED, index), value);
+    if (is_node) {
+        store_vector(vector_entry(level, PRECONDITIONED, index), value);
+    }
 }

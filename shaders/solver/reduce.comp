@@ -36,7 +36,8 @@ layout(std430, binding = SOLVER_SUMS) readonly buffer PartialSums { vec4 partial
 #define LOAD_SUMS(i) partial_sums[i].xy
 #endif
 
-const ivec2 GROUPS[GROUPS_COUNT] = ivec2[](GROUPS_OF_EACH);
+uniform int groups_count;
+uniform ivec2 groups_of_each[MOST_GROUPS_COUNTS];  // workgroups of the passes that are switched
 
 shared vec2 sums[REDUCE_LOCAL];
 
@@ -62,9 +63,9 @@ void decide(float now, float curvature) {
     // makes no step, and stays what it is: a NaN, for one.
     measure_after = first || !sound ? now : now * min(keep, 1.0);
     uint another = sound && measure_after > tolerance_square * start ? 1u : 0u;
-    for (int i = 0; i < GROUPS_COUNT; ++i) {
-        dispatches[3 * i] = another * uint(GROUPS[i].x);
-        dispatches[3 * i + 1] = uint(GROUPS[i].y);
+    for (int i = 0; i < groups_count; ++i) {
+        dispatches[3 * i] = another * uint(groups_of_each[i].x);
+        dispatches[3 * i + 1] = uint(groups_of_each[i].y);
         dispatches[3 * i + 2] = 1u;
     }
 }

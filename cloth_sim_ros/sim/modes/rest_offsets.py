@@ -19,7 +19,6 @@ from collections.abc import Collection
 import math
 
 from cloth_sim_ros.gl.buffer import shader_writes_visible
-from cloth_sim_ros.sim.layout import HALO
 from cloth_sim_ros.sim.layout import Layout
 from cloth_sim_ros.sim.scene import FAMILIES
 from cloth_sim_ros.sim.scene import Scene
@@ -51,10 +50,7 @@ class RestOffsets:
         self._tensions = tensions
         self._program = SceneProgram('rest_offset.comp', scene, layout, {
             'LOCAL_X': _LOCAL[0], 'LOCAL_Y': _LOCAL[1],
-            **{f'HAS_{family.upper()}': int(family in hard) for family in FAMILIES},
-            'STORED': tensions.cloth.stored,
-            'SOLVER_INDEX(row, col)':
-                f'(((row) + {HALO}) * {tensions.cloth.pitch} + (col) + {HALO})'})
+            **{f'HAS_{family.upper()}': int(family in hard) for family in FAMILIES}})
         self._groups = -(-layout.cols // _LOCAL[0]), -(-layout.rows // _LOCAL[1])
         self.forget()
 
@@ -82,7 +78,7 @@ class RestOffsets:
         program.set_floats('softer', free)
         program.set_floats('softer_at_pins', pinned)
         state.bind_in()
-        self._tensions.bind()
+        self._tensions.bind_for(program)
         program.dispatch(*self._groups)
         shader_writes_visible()
         self._are_some = True

@@ -17,7 +17,6 @@
 import math
 
 from cloth_sim_ros.sim.forcing import Forcing
-from cloth_sim_ros.sim.layout import HALO
 from cloth_sim_ros.sim.layout import Layout
 from cloth_sim_ros.sim.scene import FAMILIES
 from cloth_sim_ros.sim.scene import Scene
@@ -45,10 +44,7 @@ class TurnWatch:
         self._strips = Strips(layout, 3)
         self._program = SceneProgram('turn_watch.comp', scene, layout, {
             **Strips.defines(),
-            **{f'HAS_{family.upper()}': int(family in families) for family in FAMILIES},
-            'STORED': tensions.cloth.stored,
-            'SOLVER_INDEX(row, col)':
-                f'(((row) + {HALO}) * {tensions.cloth.pitch} + (col) + {HALO})'})
+            **{f'HAS_{family.upper()}': int(family in families) for family in FAMILIES}})
 
     def look(
             self, state: State, forcing: Forcing, dt: float) -> tuple[float, float, float]:
@@ -61,7 +57,7 @@ class TurnWatch:
         """
         program = self._program.use_for_step(forcing, dt)
         state.bind_in()
-        self._tensions.bind()
+        self._tensions.bind_for(program)
         self._strips.dispatch(program)
         turns, pulls, misfit = (float(largest) for largest in self._strips.largest())
         # Of the pulls 2 T / L0 at a node, which bound the largest eigenvalue of M^-1 K_geo.

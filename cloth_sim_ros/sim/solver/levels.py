@@ -22,6 +22,8 @@ import numpy as np
 
 # A coarsest level of up to this many nodes a side is solved in one workgroup.
 COARSEST_SIDE = 8
+# As in solver/levels.glsl: enough for any cloth that buffers can hold.
+MOST_LEVELS = 16
 _CLOTH_VECTORS = 6
 _CLOTH_SYSTEM = 3
 _COARSE_VECTORS = 3
@@ -66,10 +68,17 @@ class Levels:
         return len(self.layouts) - 1
 
     def set_in(self, program: Program) -> None:
-        """Set the uniforms of solver/levels.glsl in the program in use."""
+        """Set the uniforms of the lattices of all levels in the program in use."""
+        self.cloth.set_in(program)
+        self.set_solver_lattice(program)
         program.set_int_vectors('level_shape', np.array([
             (layout.rows, layout.cols, layout.pitch, layout.stored) for layout in self.layouts]))
         program.set_int_vectors('level_begin', self._begins)
+
+    def set_solver_lattice(self, program: Program) -> None:
+        """Set where the solver stores what belongs to the cloth in the program in use."""
+        program.set_int_vectors(
+            'solver_lattice', np.array([(self.cloth.pitch, self.cloth.stored)]))
 
     @property
     def _coarsest_side(self) -> int:

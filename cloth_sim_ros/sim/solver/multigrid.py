@@ -16,6 +16,7 @@
 
 from cloth_sim_ros.sim.layout import Layout
 from cloth_sim_ros.sim.solver.edge_law import EdgeLaw
+from cloth_sim_ros.sim.solver.levels import COARSEST_SIDE
 from cloth_sim_ros.sim.solver.levels import Levels
 from cloth_sim_ros.sim.solver.solver_pass import SolverPass
 from cloth_sim_ros.sim.solver.solver_programs import SolverPrograms
@@ -36,10 +37,8 @@ class Multigrid:
     def __init__(self, programs: SolverPrograms, levels: Levels) -> None:
         """Compile the passes of all levels; one program serves all coarse levels."""
         self._levels = levels
-        coarsest = levels.layouts[-1]
         self._coarsest = programs.make(
-            'coarsest.comp', COARSEST_ROWS=coarsest.rows, COARSEST_COLS=coarsest.cols,
-            COARSEST_STEPS=_COARSEST_STEPS)
+            'coarsest.comp', COARSEST_SIDE=COARSEST_SIDE, COARSEST_STEPS=_COARSEST_STEPS)
         self.assembly = self._assembly(programs)
         self.cycle = self._cycle(programs)
 

@@ -26,7 +26,7 @@ from cloth_sim_ros.sim.solver.solver_programs import SolverPrograms
 
 class RightSide:
     """
-    Runs right_side.comp, which has a form with and one without pushes on regions.
+    Runs right_side.comp, the part of it that edges and applied accelerations have.
 
     :param foresees_turn: allow for how much longer edges get by turning
     :param keeps_tension: begin the tension of each edge
@@ -40,9 +40,10 @@ class RightSide:
         self._program = SceneProgram('solver/right_side.comp', scene, state, {
             **programs.defines, 'FORESEES_TURN': int(foresees_turn),
             'KEEPS_TENSION': int(keeps_tension), 'HAS_LAG': int(has_lag)})
+        self._programs = programs
         self._groups = levels.cloth.groups
         self._keeps_tension = keeps_tension
-        self._law_in: dict[bool, EdgeLaw] = {}
+        self._law_in: EdgeLaw | None = None
 
     def run(self, law: EdgeLaw, forcing: Forcing, offset_share: float) -> None:
         """
@@ -51,12 +52,13 @@ class RightSide:
         :param offset_share: of the offsets of rest lengths, which ``keeps_tension`` has
         """
         program = self._program.use_for_step(forcing, law.length)
-        if self._law_in.get(forcing.has_regions) != law:
+        if self._law_in != law:
+            self._programs.set_sizes(program)
             program.set_floats('edge_weights', law.weights)
             program.set_floats('pinned_weights', law.pinned_weights)
             program.set_floats('edge_pulls', law.pulls)
             program.set_floats('edge_lags', law.lags)
-            self._law_in[forcing.has_regions] = law
+            self._law_in = law
         if self._keeps_tension:
             program.set_float('offset_share', offset_share)
         program.dispatch(*self._groups)

@@ -23,6 +23,7 @@ from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.solver.block_jacobi import BlockJacobi
 from cloth_sim_ros.sim.solver.edge_law import EdgeLaw
 from cloth_sim_ros.sim.solver.levels import Levels
+from cloth_sim_ros.sim.solver.levels import MOST_LEVELS
 from cloth_sim_ros.sim.solver.multigrid import Multigrid
 from cloth_sim_ros.sim.solver.preconditioner import Preconditioner
 from cloth_sim_ros.sim.solver.right_side import RightSide
@@ -48,6 +49,8 @@ PRECONDITIONERS: dict[str, type[Preconditioner]] = {
 
 # Of the tolerance. What the last iteration leaves is foretold, not measured.
 _AIM = 0.8
+# Passes of one size can be switched off together: some for each level.
+_MOST_GROUPS_COUNTS = 3 * MOST_LEVELS
 
 
 class Solver:
@@ -233,9 +236,9 @@ class Solver:
         self._iteration = [*self._preconditioner.cycle, self._multiply]
         for each in (*self._iteration, self._update):
             each.switch(dispatches)
-        reduce = programs.make(
-            'reduce.comp', GROUPS_COUNT=len(dispatches),
-            GROUPS_OF_EACH=', '.join(f'ivec2({x}, {y})' for x, y in dispatches))
+        reduce = programs.make('reduce.comp', MOST_GROUPS_COUNTS=_MOST_GROUPS_COUNTS)
+        reduce.set_int('groups_count', len(dispatches))
+        reduce.set_int_vectors('groups_of_each', np.array(dispatches))
         self._iteration.append(SolverPass(reduce, (1, 1)))
         self._further = [self._update, *self._iteration]
         self._further_calls = [

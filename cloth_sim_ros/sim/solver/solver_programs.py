@@ -43,6 +43,7 @@ class SolverPrograms:
             is_multigrid: bool) -> None:
         """Gather the choices made at compile time."""
         self.defines = solver_defines(state, levels, families, is_multigrid=is_multigrid)
+        self._state = state
         self._levels = levels
         self._is_multigrid = is_multigrid
         self._compiled: list[Program] = []
@@ -52,8 +53,13 @@ class SolverPrograms:
         program = Program(ShaderSource(f'solver/{name}', {**self.defines, **defines}))
         self._compiled.append(program)
         program.use()
-        self._levels.set_in(program)
+        self.set_sizes(program)
         return program
+
+    def set_sizes(self, program: Program) -> None:
+        """Set the sizes of the lattices in the program in use."""
+        self._levels.set_in(program)
+        program.set_int('state_pitch', self._state.pitch)
 
     def set_law(self, law: EdgeLaw) -> None:
         """Set the weights of the edges in all programs."""
@@ -75,8 +81,6 @@ def solver_defines(
     return {
         **levels.cloth.defines(),
         **{f'HAS_{family.upper()}': int(family in families) for family in FAMILIES},
-        'STATE_PITCH': state.pitch,
-        'STORED': levels.cloth.stored,
         'MULTIGRID': int(is_multigrid),
         'BLOCKS_IN_LINE': int(state.texture_loads),
         'SUMS_BY_GROUP': int(not state.texture_loads),

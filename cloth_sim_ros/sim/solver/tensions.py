@@ -15,6 +15,7 @@
 """The tension of each edge, which the solves of a step find together."""
 
 from cloth_sim_ros.gl.buffer import Buffer
+from cloth_sim_ros.gl.program import Program
 from cloth_sim_ros.sim import bindings
 from cloth_sim_ros.sim.edge_kinds import EDGE_KINDS
 from cloth_sim_ros.sim.layout import Layout
@@ -40,6 +41,7 @@ class Tensions:
             self, scene: Scene, programs: SolverPrograms, levels: Levels, *,
             has_lag: bool) -> None:
         """Compile the passes and allocate the tensions, zero at first."""
+        self._levels = levels
         self.cloth: Layout = levels.cloth
         self._node_mass = scene.node_mass
         self._zeros = np.zeros((4 if has_lag else 3, self.cloth.stored, _ROOM), dtype=np.float32)
@@ -52,6 +54,11 @@ class Tensions:
     def bind(self) -> None:
         """Let the next dispatch reach the tensions."""
         self.buffer.bind_storage(bindings.SOLVER_TENSION)
+
+    def bind_for(self, program: Program) -> None:
+        """Let the program in use, which runs on the lattice of the state, reach the tensions."""
+        self.bind()
+        self._levels.set_solver_lattice(program)
 
     def clear(self) -> None:
         """Make all tensions zero."""

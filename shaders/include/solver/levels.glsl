@@ -54,7 +54,7 @@ int system_entry(int which, int field, int index) {
     return level_begin[which].y + field * level_shape[which].w + index;
 }
 
-// On the cloth, which comes first in both buffers; STORED is known when compiling.
+// On the cloth, which comes first in both buffers.
 int cloth_entry(int field, int index) { return field * STORED + index; }
 
 bool inside(int which, int row, int col) {

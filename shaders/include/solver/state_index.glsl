@@ -12,9 +12,11 @@
 // See the License for the specific language governing permissions and
 // limitations under the License.
 
-// The state as the solver sees it: stored with rows STATE_PITCH apart. Beyond what is stored lie
+// The state as the solver sees it: stored with rows state_pitch apart. Beyond what is stored lie
 // ghosts like the outermost.
 
+uniform int state_pitch;
+
 int state_index(int row, int col) {
-    return (min(row, ROWS) + HALO) * STATE_PITCH + min(col, COLS) + HALO;
+    return (min(row, ROWS) + HALO) * state_pitch + min(col, COLS) + HALO;
 }

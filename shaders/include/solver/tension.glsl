@@ -25,6 +25,8 @@
 #define TENSION_LAG 3
 #define TENSIONS_OF_A_NODE 8
 
+uniform ivec2 solver_lattice;  // of the solver's cloth: entries in a stored row, entries in all
+
 layout(std430, binding = SOLVER_TENSION) TENSION_ACCESS buffer Tension { float tension[]; };
 
 // Of the edge from the node at index to the one (drow, dcol) away.
@@ -32,5 +34,10 @@ int tension_entry(int which, int index, int drow, int dcol) {
     int edge = drow == 0 ? (dcol == 1 ? 0 : 4)
         : drow == 2 ? 5
         : dcol == 0 ? 1 : dcol == 1 ? 2 : 3;
-    return TENSIONS_OF_A_NODE * (which * STORED + index) + edge;
+    return TENSIONS_OF_A_NODE * (which * solver_lattice.y + index) + edge;
+}
+
+// Where the solver stores the node (row, col), for passes on the lattice of the state.
+int solver_index(int row, int col) {
+    return (row + HALO) * solver_lattice.x + col + HALO;
 }
