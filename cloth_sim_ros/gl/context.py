@@ -41,13 +41,24 @@ class Context:
 
     :param single_thread: run a software device without worker threads, which is faster for
         small work; LP_NUM_THREADS in the environment wins
+    :param beside: a context whose device, buffers and programs the new one has as well. Made on
+        another thread, it compiles there while the first goes on; ``release`` it there before it
+        is used on this one. Some drivers compile for each context anew, when a program first runs.
     :raises DeviceError: when there is no EGL device with OpenGL 4.3
     """
 
-    def __init__(self, *, single_thread: bool = False) -> None:
+    def __init__(
+            self, *, single_thread: bool = False, beside: 'Context | None' = None) -> None:
         """Make the context and make it current."""
-        with _worker_threads(single_thread):
-            self._display, self._context = _best_context()
+        if beside is None:
+            with _worker_threads(single_thread):
+                self._display, self._context = _best_context()
+        else:
+            self._display = beside._display
+            self._context = _make_context(beside._display, beside._context)
+            if self._context is None:
+                raise DeviceError(f'{beside.device} has no second GL context: set the mode before '
+                                  'the run begins')
         self.make_current()
         self.device = GL.glGetString(GL.GL_RENDERER).decode()
         self.version = GL.glGetString(GL.GL_VERSION).decode()
@@ -61,6 +72,12 @@ class Context:
                 self._display, EGL.EGL_NO_SURFACE, EGL.EGL_NO_SURFACE, self._context):
             raise DeviceError('the GL context cannot be used on this thread: use it where it '
                               'was made')
+
+    def release(self) -> None:
+        """Have no context on this thread, so that this one can be used on another."""
+        GL.glFinish()
+        EGL.eglMakeCurrent(
+            self._display, EGL.EGL_NO_SURFACE, EGL.EGL_NO_SURFACE, EGL.EGL_NO_CONTEXT)
 
     def finish(self) -> None:
         """Wait until the device has done everything asked of it."""
@@ -95,7 +112,9 @@ def _best_context() -> tuple[EGL.EGLDisplay, EGL.EGLContext]:
     return software
 
 
-def _make_context(display: EGL.EGLDisplay) -> EGL.EGLContext | None:
+def _make_context(
+        display: EGL.EGLDisplay,
+        shared: EGL.EGLContext = EGL.EGL_NO_CONTEXT) -> EGL.EGLContext | None:
     try:
         if not EGL.eglBindAPI(EGL.EGL_OPENGL_API):
             return None
@@ -107,7 +126,7 @@ def _make_context(display: EGL.EGLDisplay) -> EGL.EGLContext | None:
         if not count.value:
             return None
         context = EGL.eglCreateContext(
-            display, configs[0], EGL.EGL_NO_CONTEXT, _CONTEXT_ATTRIBUTES)
+            display, configs[0], shared, _CONTEXT_ATTRIBUTES)
     except error.Error:
         return None
     return context or None

@@ -18,17 +18,30 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager
+import threading
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from cloth_sim_ros.gl.buffer import Buffer
     from cloth_sim_ros.gl.program import Program
 
-_taken: list[Inventory] = []
+
+class _Taken(threading.local):
+    """The inventories being taken on each thread."""
+
+    def __init__(self) -> None:
+        self.inventories: list[Inventory] = []
+
+
+_taken = _Taken()
 
 
 class Inventory:
-    """The programs compiled, and the buffers allocated and not given back, while it was taken."""
+    """
+    The programs compiled, and the buffers allocated and not given back, while it was taken.
+
+    It takes note of the thread it was taken on.
+    """
 
     def __init__(self) -> None:
         """Begin with nothing."""
@@ -49,27 +62,27 @@ class Inventory:
 def take_inventory() -> Iterator[Inventory]:
     """Lend an inventory of all that is compiled and allocated until the end of the block."""
     inventory = Inventory()
-    _taken.append(inventory)
+    _taken.inventories.append(inventory)
     try:
         yield inventory
     finally:
-        _taken.remove(inventory)
+        _taken.inventories.remove(inventory)
 
 
 def note_program(program: Program) -> None:
     """Put a program that was compiled into the inventories being taken."""
-    for inventory in _taken:
+    for inventory in _taken.inventories:
         inventory.programs.append(program)
 
 
 def note_buffer(buffer: Buffer) -> None:
     """Put a buffer that was allocated into the inventories being taken."""
-    for inventory in _taken:
+    for inventory in _taken.inventories:
         inventory.buffers.append(buffer)
 
 
 def drop_buffer(buffer: Buffer) -> None:
     """Take a buffer that was given back out of them."""
-    for inventory in _taken:
+    for inventory in _taken.inventories:
         if buffer in inventory.buffers:
             inventory.buffers.remove(buffer)

@@ -15,6 +15,7 @@
 """Make steps, and stop at the last finite state when one leads out of all bounds."""
 
 from collections.abc import Callable
+from collections.abc import Iterator
 from collections.abc import Sequence
 from typing import Any
 from typing import NoReturn
@@ -25,7 +26,9 @@ from cloth_sim_ros.sim.bounds_check import BoundsCheck
 from cloth_sim_ros.sim.errors import NonFiniteStateError
 from cloth_sim_ros.sim.forcing import Forcing
 from cloth_sim_ros.sim.layout import Layout
+from cloth_sim_ros.sim.modes.mode import finish
 from cloth_sim_ros.sim.modes.mode import Mode
+from cloth_sim_ros.sim.modes.mode import Pieces
 from cloth_sim_ros.sim.observer import Observer
 from cloth_sim_ros.sim.push_field import PushField
 from cloth_sim_ros.sim.scene import Scene
@@ -35,6 +38,14 @@ import numpy as np
 # Between two checks: the read-back of a check waits for the device, and what lies between is
 # stepped again when one fails (docs/performance.md).
 _MOST_SUBSTEPS = 64
+
+
+def _never() -> bool:
+    return False
+
+
+def _nothing(steps: int) -> None:
+    pass
 
 
 class Restorable(Protocol):
@@ -67,46 +78,59 @@ class GuardedSteps:
         self._observer = observer
         self._state = state
         self._guarded = guarded
-        self._check = BoundsCheck(scene, layout)
+        self.check = BoundsCheck(scene, layout)
 
     def make(
-            self, first: int, count: int, step: Callable[[int], None], mode: Mode,
-            pushes: PushField, others: Sequence[Restorable] = ()) -> None:
+            self, first: int, count: int, step: Callable[[int], Pieces], mode: Mode,
+            pushes: PushField, others: Sequence[Restorable] = (), *,
+            is_due: Callable[[], bool] = _never,
+            settle: Callable[[int], None] = _nothing) -> Iterator[None]:
         """
-        Make ``count`` steps from a state that is finite.
+        Make up to ``count`` steps from a state that is finite.
+
+        When ``is_due`` asks for it, they end with the step under way; within a step, it yields.
+        Meanwhile the state may be looked at as it was kept. Closed there, it goes back to that.
 
         :param first: number of the first step, counted from 0 at the start of the run
         :param step: makes the step of a number, by ``mode``
         :param pushes: those that ``step`` uses
         :param others: what else ``step`` changes
+        :param settle: called with the number of steps made, when they have passed a check
         :raises NonFiniteStateError: after going back to the last finite state
         """
         parts = (self._state, pushes, *others)
         kept = _keep(parts)
         since, substeps = first, 0
         for number in range(first, first + count):
-            step(number)
+            try:
+                yield from _in_pieces(step(number), is_due)
+            except GeneratorExit:
+                _go_back(parts, kept, mode)
+                raise
             substeps += mode.substeps
-            is_last = number == first + count - 1
-            if not self._guarded or (not is_last and substeps < _MOST_SUBSTEPS):
+            ends = number == first + count - 1 or is_due()
+            if not ends and (not self._guarded or substeps < _MOST_SUBSTEPS):
                 continue
-            if not self._check.passes(self._state):
+            if self._guarded and not self.check.passes(self._state):
                 _go_back(parts, kept, mode)
                 self._step_to_the_last_finite(since, number + 1, step, mode, pushes, parts)
-            kept = _keep(parts)
             since, substeps = number + 1, 0
+            settle(since)
+            if ends:
+                return
+            kept = _keep(parts)
 
     def delete(self) -> None:
         """Give everything back."""
-        self._check.delete()
+        self.check.delete()
 
     def _step_to_the_last_finite(
-            self, begin: int, end: int, step: Callable[[int], None], mode: Mode,
+            self, begin: int, end: int, step: Callable[[int], Pieces], mode: Mode,
             pushes: PushField, parts: Sequence[Restorable]) -> NoReturn:
         for number in range(begin, end):
             kept = _keep(parts)
-            step(number)
-            if self._check.passes(self._state):
+            finish(step(number))
+            if self.check.passes(self._state):
                 continue
             time, substeps = number * self._dt, mode.substeps
             lost = self._look()
@@ -123,6 +147,19 @@ class GuardedSteps:
 
     def _look(self) -> np.ndarray:
         return self._observer.record(self._state, Forcing(self._scene['gravity']))[1]
+
+
+def _in_pieces(pieces: Pieces, is_due: Callable[[], bool]) -> Iterator[None]:
+    """Do the work, and yield between pieces when that is due."""
+    waited = None
+    while True:
+        try:
+            pieces.send(waited)
+        except StopIteration:
+            return
+        waited = is_due()
+        if waited:
+            yield
 
 
 def _keep(parts: Sequence[Restorable]) -> list[Any]:

@@ -65,13 +65,13 @@ class PinMotion:
 
     def hold(self, row: int, col: int) -> None:
         """Pin the node (row, col) where it is, at rest; a pin that moves stops."""
-        self._check_node(row, col)
+        self.check_node(row, col)
         self._stop((row, col))
         self._state.set_pinned(row, col, True)
 
     def release(self, row: int, col: int) -> None:
         """Let the node (row, col) go, with the velocity its pin has."""
-        self._check_node(row, col)
+        self.check_node(row, col)
         for entries in (self._paths, self._on_device, self._latest, self._earlier):
             entries.pop((row, col), None)
         self._state.set_pinned(row, col, False)
@@ -86,14 +86,23 @@ class PinMotion:
         :return: its way, which tells when it arrives
         :raises ClothSimError: when the node is not pinned or a value is wrong
         """
-        self._check_node(row, col)
-        if not self._state.pinned[row, col]:
-            raise ClothSimError(
-                f'node ({row}, {col}) is free and only a pin can be moved: pin it first')
-        move = PinMove.checked(
-            row=row, col=col, target=target, start=now,
-            speed=self._scene['pin_speed'] if speed is None else speed)
-        return self._start(move)
+        self.check_node(row, col)
+        return self._start(
+            self._checked(row, col, target, speed, now, self._state.pinned[row, col]))
+
+    def foresee(
+            self, row: int, col: int, target: Sequence[float], speed: float | None, then: float,
+            *, is_pinned: bool, now: np.ndarray) -> PinPath:
+        """
+        Return the way of a ``move`` that is to begin at the later time ``then`` [s].
+
+        :param is_pinned: whether the node will be pinned by then
+        :param now: where the node is [m], (3,); a pin under way is known to be elsewhere then
+        :raises ClothSimError: as ``move`` does
+        """
+        move = self._checked(row, col, target, speed, then, is_pinned)
+        path = self._paths.get((row, col))
+        return PinPath(move, now if path is None else path.position(then))
 
     def drop(self) -> None:
         """Forget the moves under way: the state was replaced, and its pins are at rest."""
@@ -160,7 +169,18 @@ class PinMotion:
                 change += self._latest.get(node, _REST) - self._earlier.get(node, _REST)
         return changes
 
-    def _check_node(self, row: int, col: int) -> None:
+    def _checked(
+            self, row: int, col: int, target: Sequence[float], speed: float | None,
+            start: float, is_pinned: bool) -> PinMove:
+        if not is_pinned:
+            raise ClothSimError(
+                f'node ({row}, {col}) is free and only a pin can be moved: pin it first')
+        return PinMove.checked(
+            row=row, col=col, target=target, start=start,
+            speed=self._scene['pin_speed'] if speed is None else speed)
+
+    def check_node(self, row: int, col: int) -> None:
+        """Raise ClothSimError when there is no such node."""
         check_node(row, col, self._scene.rows, self._scene.cols)
 
     def _start(self, move: PinMove) -> PinPath:

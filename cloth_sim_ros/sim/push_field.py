@@ -105,13 +105,33 @@ class PushField:
         entry = _Entry(push)
         if push.start <= now:
             self._begin(entry)
-            if not entry.nodes:
-                raise ClothSimError(
-                    f'no free node lies in the region of the push ({_in_words(push)}): '
-                    'move or enlarge it, or release a pin')
-            _check_acceleration(entry)
+            _check(entry)
         self._entries.append(entry)
         return AppliedPush(push, entry.nodes)
+
+    def foresee(self, push: Push, pinned: np.ndarray) -> AppliedPush:
+        """
+        Add ``push``, which is to begin with the next step, as far as can be told now.
+
+        :param pinned: the nodes that will be pinned by then
+        :raises ClothSimError: as ``add`` does, by the present positions
+        """
+        entry = _Entry(push)
+        self._settle(entry, pinned)
+        _check(entry)
+        self._entries.append(_Entry(push))
+        return AppliedPush(push, entry.nodes)
+
+    def begin(self, push: Push) -> None:
+        """Spread ``push``, which was foreseen, over the free nodes that are in its region now."""
+        for entry in self._entries:
+            if entry.push is push:
+                self._begin(entry)
+
+    def drop(self, pushes: Iterable[Push]) -> None:
+        """Take ``pushes`` away, which are the same objects that ``applied`` has."""
+        gone = {id(push) for push in pushes}
+        self._entries = [entry for entry in self._entries if id(entry.push) not in gone]
 
     def take_up(self, pushes: Iterable[Push], now: float) -> None:
         """Have ``pushes`` in place of all others; those that have begun act on who is there."""
@@ -163,8 +183,13 @@ class PushField:
         return tuple((entry, entry.inside is None) for entry in self._entries)
 
     def restore(self, kept: KeptPushes) -> None:
-        """Go back to the moment of ``keep``: what ended acts again, what began is to come."""
-        self._entries = [entry for entry, _ in kept]
+        """
+        Go back to the moment of ``keep``: what ended acts again, what began is to come.
+
+        Pushes that were added since then are to come.
+        """
+        before = [entry for entry, _ in kept]
+        self._entries = before + [entry for entry in self._entries if entry not in before]
         for entry, is_to_come in kept:
             if is_to_come:
                 entry.inside, entry.nodes = None, 0
@@ -216,8 +241,11 @@ class PushField:
         return forcing
 
     def _begin(self, entry: _Entry) -> None:
+        self._settle(entry, self._pinned)
+
+    def _settle(self, entry: _Entry, pinned: np.ndarray) -> None:
         push = entry.push
-        entry.inside = ~self._pinned
+        entry.inside = ~pinned
         if push.region == 'sphere':
             away = self._read_positions() - np.array(push.center, dtype=np.float32)
             entry.inside &= np.einsum('rci,rci->rc', away, away) <= push.radius**2
@@ -237,7 +265,11 @@ class PushField:
         self._in_buffer = in_regions
 
 
-def _check_acceleration(entry: _Entry) -> None:
+def _check(entry: _Entry) -> None:
+    if not entry.nodes:
+        raise ClothSimError(
+            f'no free node lies in the region of the push ({_in_words(entry.push)}): '
+            'move or enlarge it, or release a pin')
     strongest = float(np.abs(entry.acceleration).max())
     if strongest > _MOST_ACCELERATION:
         raise ClothSimError(

@@ -14,30 +14,34 @@
 
 """A running cloth: owns the state on the device and steps it."""
 
+from collections.abc import Callable
+from collections.abc import Iterator
 from collections.abc import Sequence
+from contextlib import closing
+from contextlib import contextmanager
 import math
 
 from cloth_sim_ros.gl.context import Context
 from cloth_sim_ros.sim import modes
+from cloth_sim_ros.sim.engine import Preparation
+from cloth_sim_ros.sim.engines import Engines
 from cloth_sim_ros.sim.errors import ClothSimError
-from cloth_sim_ros.sim.errors import NonFiniteStateError
 from cloth_sim_ros.sim.forces import with_forces
 from cloth_sim_ros.sim.forcing import Forcing
-from cloth_sim_ros.sim.guarded_steps import GuardedSteps
 from cloth_sim_ros.sim.layout import choose_layout
 from cloth_sim_ros.sim.nearest import nearest
-from cloth_sim_ros.sim.observer import Observer
 from cloth_sim_ros.sim.pin_motion import PinMotion
 from cloth_sim_ros.sim.pin_move import PinMove
 from cloth_sim_ros.sim.pin_path import PinPath
+from cloth_sim_ros.sim.pin_requests import PinRequests
 from cloth_sim_ros.sim.push import Push
 from cloth_sim_ros.sim.push_field import AppliedPush
 from cloth_sim_ros.sim.push_field import PushField
 from cloth_sim_ros.sim.scene import Scene
-from cloth_sim_ros.sim.scene_fields import MODES
 from cloth_sim_ros.sim.snapshot import Measures
 from cloth_sim_ros.sim.snapshot import Snapshot
 from cloth_sim_ros.sim.state import State
+from cloth_sim_ros.sim.stepping import Stepping
 import numpy as np
 
 # Below this many nodes llvmpipe is faster without its worker threads (docs/performance.md).
@@ -48,41 +52,53 @@ class Simulation:
     """
     A cloth that moves. To be used on one thread, the one it was made on.
 
+    ``advance`` and ``step`` return when all is done. A caller who must not wait so long gives
+    ``stepping`` an aim, and does the ``work`` in pieces. Between pieces a step can be under way:
+    what is read then is the state before it, and what is changed is checked at once and changed
+    at its end, at ``stepping.edit_time``. What modes need is compiled beforehand by ``engines``.
+
     :param scene: what to model
     :param context: GL context to use; by default one of its own
     :param check_stability: False lets dt pass the stability limit, to study what happens
     :param stop_at_non_finite: False steps on whatever becomes of the state, to study that
+    :param compiles: False leaves it to ``engines``, without which nothing can be advanced or
+        measured
     :raises ClothSimError: when the scene can't be run as it asks
     :raises DeviceError: when there is no device for it
     """
 
     def __init__(
             self, scene: Scene, *, context: Context | None = None,
-            check_stability: bool = True, stop_at_non_finite: bool = True) -> None:
+            check_stability: bool = True, stop_at_non_finite: bool = True,
+            compiles: bool = True) -> None:
         """Compile, allocate and take up the start pose."""
         self.scene = scene
         self.dt: float = scene['dt']
-        self._check_stability = check_stability
-        _check_mode(scene['mode'])
         self._owns_context = context is None
-        self._context = context or Context(
-            single_thread=scene.node_count < SINGLE_THREAD_NODES)
-        self._context.make_current()
-        self.device = self._context.device
-        self.layout = choose_layout(scene, self._context)
+        context = context or Context(single_thread=scene.node_count < SINGLE_THREAD_NODES)
+        context.make_current()
+        self._first_context = context
+        self.device = context.device
+        self.layout = choose_layout(scene, context)
         self._state = State(self.layout, scene.start_positions(), scene.pinned_nodes())
-        self._observer = Observer(scene, self.layout)
-        self._guard = GuardedSteps(
-            scene, self.layout, self._observer, self._state, stop_at_non_finite)
-        self._modes: dict[str, modes.Mode] = {}
-        self._mode = self._get_mode(scene['mode'])
+        self.engines = Engines(
+            scene, self.layout, self._state, context, check_stability=check_stability,
+            stop_at_non_finite=stop_at_non_finite)
+        self.engines.check(scene['mode'])
+        if compiles:
+            self.engines.use(scene['mode'])
         self._pushes: PushField | None = None
         self._begin_run()
 
     @property
+    def is_ready(self) -> bool:
+        """Tell whether there is a mode to advance with."""
+        return self.engines.current is not None
+
+    @property
     def mode(self) -> str:
-        """Return the name of the mode that steps now."""
-        return self._mode.name
+        """Return the name of the mode that steps now, or will be the first to."""
+        return self.engines.mode
 
     @property
     def available_modes(self) -> tuple[str, ...]:
@@ -90,19 +106,24 @@ class Simulation:
         return tuple(modes.AVAILABLE)
 
     @property
+    def steps(self) -> int:
+        """Return the steps of dt made since the start or the last reset."""
+        return self.stepping.steps
+
+    @property
     def time(self) -> float:
         """Return the simulated time since the start or the last reset [s]."""
-        return self.steps * self.dt
+        return self.stepping.time
 
     @property
     def substeps(self) -> int:
-        """Return the substeps in a step of dt."""
-        return self._mode.substeps
+        """Return the substeps in a step of dt; 0 before there is a mode."""
+        return self.engines.current.mode.substeps if self.is_ready else 0
 
     @property
     def stability_limit(self) -> float:
-        """Return the longest stable substep of the present mode [s]."""
-        return self._mode.stability_limit
+        """Return the longest stable substep of the mode [s]; infinite before there is one."""
+        return self.engines.current.mode.stability_limit if self.is_ready else math.inf
 
     @property
     def stability_margin(self) -> float:
@@ -121,19 +142,36 @@ class Simulation:
         :return: steps of dt made
         :raises NonFiniteStateError: when the state is lost; the last finite one is kept
         """
-        if not math.isfinite(seconds) or seconds < 0.0:
-            raise ClothSimError(f'cannot advance by {seconds} s: give a time of 0 s or more')
-        self._target += seconds
-        # The small share keeps a sum of frame times from falling just short of a step.
-        due = math.floor(self._target / self.dt + 1e-6) - self.steps
-        return self._make_steps(due)
+        first = self.steps
+        self.stepping.aim(seconds)
+        self._finish_work()
+        return self.steps - first
 
     def step(self, count: int = 1) -> None:
         """Make ``count`` steps of dt; as advance, stop at the last finite state."""
-        if count < 0:
-            raise ClothSimError(f'cannot make {count} steps: give 0 or more')
-        self._make_steps(count)
-        self._target = self.time
+        self.stepping.aim_steps(count)
+        self._finish_work()
+
+    def work(self, is_due: Callable[[], bool]) -> Iterator[None]:
+        """
+        Make steps towards the aim; whenever ``is_due`` asks for it, end them, or yield within one.
+
+        Closed while a step is under way, it undoes that step, and drops changes that waited.
+
+        :raises NonFiniteStateError: when the state is lost; the last finite one is kept
+        """
+        engine, stepping = self.engines.current, self.stepping
+        engine.context.make_current()
+
+        def make_steps(first: int, count: int) -> Iterator[None]:
+            return engine.guard.make(
+                first, count, self._make_step, engine.mode, self._pushes, [self._pin_motion],
+                is_due=lambda: stepping.has_edits or is_due(), settle=stepping.settle)
+
+        with closing(stepping.run(make_steps)) as pieces:
+            for _ in pieces:
+                yield
+                engine.context.make_current()
 
     def push(
             self, force: Sequence[float], *, duration: float, region: str = 'all',
@@ -147,7 +185,7 @@ class Simulation:
         :param start: simulated time at which it begins [s]; now by default
         :raises ClothSimError: when a value is wrong or no free node is in the region
         """
-        begin = self.time if start is None else start
+        begin = self.stepping.edit_time if start is None else start
         push = Push.checked(
             force=force, start=begin, duration=duration, region=region, center=center,
             radius=radius)
@@ -155,22 +193,28 @@ class Simulation:
             raise ClothSimError(
                 f'the start of the push, {begin:g} s, lies in the past, it is {self.time:g} s: '
                 'give a later one, or none for now')
-        self._context.make_current()
-        return self._pushes.add(push, self.time)
+        with self._settled_state():
+            if self.stepping.is_mid_step and begin <= self.stepping.edit_time:
+                applied = self._pushes.foresee(push, self.pinned_nodes())
+                self.stepping.at_rest(lambda: self._pushes.begin(push))
+                return applied
+            return self._pushes.add(push, self.time)
 
     def clear_pushes(self) -> int:
         """End all pushes and drop those to come; return how many."""
-        return self._pushes.clear()
+        pushes = [applied.push for applied in self._pushes.applied]
+        self.stepping.at_rest(lambda: self._pushes.drop(pushes))
+        return len(pushes)
 
     def pin(self, row: int, col: int) -> None:
         """Hold the node (row, col) where it is; a pin that moves stops."""
-        self._context.make_current()
-        self._pin_motion.hold(row, col)
+        self.engines.context.make_current()
+        self._pins.hold(row, col)
 
     def release(self, row: int, col: int) -> None:
         """Let the node (row, col) go, with the velocity its pin has."""
-        self._context.make_current()
-        self._pin_motion.release(row, col)
+        self.engines.context.make_current()
+        self._pins.release(row, col)
 
     def move_pin(
             self, row: int, col: int, target: Sequence[float],
@@ -184,8 +228,8 @@ class Simulation:
         :return: its way, which tells when it arrives
         :raises ClothSimError: when the node is not pinned or a value is wrong
         """
-        self._context.make_current()
-        return self._pin_motion.move(row, col, target, speed, self.time)
+        self.engines.context.make_current()
+        return self._pins.move(row, col, target, speed)
 
     @property
     def pin_moves(self) -> tuple[PinMove, ...]:
@@ -193,26 +237,37 @@ class Simulation:
         return self._pin_motion.under_way
 
     def pinned_nodes(self) -> np.ndarray:
-        """Return which nodes are held now, (rows, cols) bool."""
-        return self._state.pinned.copy()
+        """Return which nodes are held, (rows, cols) bool, with changes yet to be made."""
+        return self._pins.pinned_nodes()
 
     def nearest_node(self, point: Sequence[float]) -> tuple[int, int]:
         """Return row and col of the node nearest to ``point`` [m]."""
-        return nearest(self.snapshot().positions, point)
+        return nearest(self.positions(), point)
 
     def nearest_pin(self, point: Sequence[float]) -> tuple[int, int]:
         """Return row and col of the pinned node nearest to ``point`` [m]."""
-        return nearest(self.snapshot().positions, point, self._state.pinned)
+        return nearest(self.positions(), point, self.pinned_nodes())
+
+    def positions(self) -> np.ndarray:
+        """Return all positions [m], (rows, cols, 3) float32."""
+        with self._settled_state():
+            return self._state.read_positions()
 
     def set_mode(self, name: str) -> str:
-        """Step with the mode ``name`` from now on, keeping the state; return the one before."""
-        _check_mode(name)
-        previous = self._mode.name
-        self._context.make_current()
-        self._mode = self._get_mode(name)
-        if name != previous:
-            self._mode.forget()
+        """
+        Step with the mode ``name`` from now on, keeping the state; return the one before.
+
+        What the mode needs is compiled first, if no preparation has done that (``engines``).
+        """
+        self.stepping.refuse_mid_step('set_mode')
+        previous = self.mode
+        self.engines.use(name)
         return previous
+
+    def take_over(self, prepared: Preparation) -> str:
+        """Step with a mode that ``engines.preparation`` has compiled; return the one before."""
+        self.engines.add(prepared)
+        return self.set_mode(prepared.mode)
 
     def set_state(self, positions: np.ndarray, velocities: np.ndarray) -> None:
         """
@@ -220,11 +275,12 @@ class Simulation:
 
         Pins are at rest then: moves under way end, those of the scene that are to come don't.
         """
+        self.stepping.refuse_mid_step('set_state')
         self._state.check(positions, velocities)
-        self._context.make_current()
+        self.engines.context.make_current()
         self._state.write(np.asarray(positions), np.asarray(velocities))
         self._pin_motion.drop()
-        self._mode.forget()
+        self.engines.forget()
 
     def go_on_from(
             self, steps: int, positions: np.ndarray, velocities: np.ndarray, *,
@@ -241,28 +297,30 @@ class Simulation:
         :param pinned: (rows, cols) bool
         :param pushes: all that act or will act, those of the scene as well
         """
+        self.stepping.refuse_mid_step('go_on_from')
         self._state.check(positions, velocities)
-        self._context.make_current()
+        self.engines.context.make_current()
         self._state.pinned[:] = pinned
         self._state.write(np.asarray(positions), np.asarray(velocities))
-        self._mode.forget()
+        self.engines.forget()
         self._begin_run(steps)
         self._pushes.take_up(pushes, self.time)
         self._pin_motion.leave_out_before(self.time)
 
     def reset(self) -> None:
         """Go back to the start: pose, pins, time, the scene's pushes and moves of pins."""
-        self._context.make_current()
+        self.stepping.refuse_mid_step('reset')
+        self.engines.context.make_current()
         self._state.pinned[:] = self.scene.pinned_nodes()
         start = self.scene.start_positions()
         self._state.write(start, np.zeros_like(start))
-        self._mode.forget()
+        self.engines.forget()
         self._begin_run()
 
     def measure(self) -> Measures:
         """Return energies and largest strain, which is cheaper than a snapshot."""
-        self._context.make_current()
-        return self._observer.measure(self._state, self._forcing_now())
+        with self._settled_state():
+            return self.engines.current.observer.measure(self._state, self._forcing_now())
 
     def snapshot(self, *, tension: bool = False, pin_forces: bool = False) -> Snapshot:
         """
@@ -271,76 +329,67 @@ class Simulation:
         :param tension: True to have the tension of every edge in it, and the forces at the pins
         :param pin_forces: True to have these forces alone, which costs less on a large cloth
         """
-        self._context.make_current()
-        measures, records = self._observer.record(
-            self._state, self._forcing_now(), self._mode.limit_marks())
-        snapshot = Snapshot(
-            **vars(measures), **self._mode.report(), records=records, mode=self.mode,
-            time=self.time, steps=self.steps, dt=self.dt,
-            substeps=self.substeps, stability_margin=self.stability_margin)
+        mode = self.engines.current.mode
+        with self._settled_state():
+            measures, records = self.engines.current.observer.record(
+                self._state, self._forcing_now(), mode.limit_marks())
+            snapshot = Snapshot(
+                **vars(measures), **mode.report(), records=records, mode=self.mode,
+                time=self.time, steps=self.steps, dt=self.dt,
+                substeps=self.substeps, stability_margin=self.stability_margin)
         if tension or pin_forces:
+            self.stepping.refuse_mid_step('forces')
             return with_forces(
-                snapshot, self.scene, self._mode, self._pin_motion, every_edge=tension)
+                snapshot, self.scene, mode, self._pin_motion, every_edge=tension)
         return snapshot
 
     def finish(self) -> None:
         """Wait until the device has done everything asked of it; for timing."""
-        self._context.finish()
+        self.engines.context.finish()
 
     def close(self) -> None:
         """Give everything on the device back."""
-        self._context.make_current()
-        for part in (
-                self._state, self._observer, self._guard, self._pushes, *self._modes.values()):
+        self.engines.delete()
+        for part in (self._state, self._pushes):
             part.delete()
         if self._owns_context:
-            self._context.close()
+            self._first_context.close()
 
     def _begin_run(self, steps: int = 0) -> None:
-        self.steps = steps
-        self._target = self.time
+        self.stepping = Stepping(self.dt, steps)
         if self._pushes is not None:
             self._pushes.delete()
         self._pushes = PushField(
             self.layout, self.scene.node_mass, self.scene['gravity'],
-            self._read_positions,
-            self._state.pinned)
+            self._state.read_positions, self._state.pinned)
         for push in self.scene.timed_pushes():
             self._pushes.add(push, -math.inf)
         self._pin_motion = PinMotion(self.scene, self._state)
+        self._pins = PinRequests(self._pin_motion, self._state, self.stepping)
 
-    def _make_steps(self, count: int) -> int:
-        self._context.make_current()
-        try:
-            self._guard.make(
-                self.steps, count, self._make_step, self._mode, self._pushes, [self._pin_motion])
-        except NonFiniteStateError as error:
-            self.steps = error.steps
-            self._target = self.time
-            raise
-        self.steps += count
-        return count
-
-    def _make_step(self, number: int) -> None:
+    def _make_step(self, number: int) -> modes.Pieces:
         begin, end = number * self.dt, (number + 1) * self.dt
         self._pin_motion.begin_step(begin, end)
-        self._mode.step(self._state, begin, self._pushes)
+        yield from self.engines.current.mode.step(self._state, begin, self._pushes)
         self._pin_motion.end_step(begin, end)
 
-    def _read_positions(self) -> np.ndarray:
-        records = self._observer.record(self._state, self._pushes.still)[1]
-        return np.stack([records[axis] for axis in 'xyz'], axis=-1)
+    def _finish_work(self) -> None:
+        self.stepping.refuse_mid_step('advance')
+        if self.stepping.is_behind:
+            modes.finish(self.work(_never))
+
+    @contextmanager
+    def _settled_state(self) -> Iterator[None]:
+        self.engines.context.make_current()
+        if self.stepping.is_mid_step:
+            with self._state.at_kept():
+                yield
+        else:
+            yield
 
     def _forcing_now(self) -> Forcing:
         return self._pushes.acting(self.time)
 
-    def _get_mode(self, name: str) -> modes.Mode:
-        if name not in self._modes:
-            self._modes[name] = modes.AVAILABLE[name](
-                self.scene, self.layout, check_stability=self._check_stability)
-        return self._modes[name]
 
-
-def _check_mode(name: str) -> None:
-    if name not in MODES:
-        raise ClothSimError(f'there is no mode {name!r}: choose one of {", ".join(MODES)}')
+def _never() -> bool:
+    return False

@@ -14,6 +14,9 @@
 
 """The moving state on the device: pairs of buffers, read from one and written to another."""
 
+from collections.abc import Iterator
+from contextlib import contextmanager
+
 from cloth_sim_ros.gl.buffer import Buffer
 from cloth_sim_ros.sim import bindings
 from cloth_sim_ros.sim.errors import ClothSimError
@@ -99,6 +102,21 @@ class State:
         position = np.empty(3, dtype=np.float32)
         self._positions[self._now].read_into(position, self._offset(row, col))
         return position.astype(float)
+
+    def read_positions(self) -> np.ndarray:
+        """Return all positions [m], (rows, cols, 3) float32."""
+        stored = np.empty((self._layout.stored, 4), dtype=np.float32)
+        self._positions[self._now].read_into(stored)
+        return self._layout.load(stored)[..., :3].copy()
+
+    @contextmanager
+    def at_kept(self) -> Iterator[None]:
+        """Have the state that was kept in place of the present one, for looking only."""
+        now, self._now = self._now, self._kept
+        try:
+            yield
+        finally:
+            self._now = now
 
     def bind_in(self) -> None:
         """Let the next dispatch read the present state."""

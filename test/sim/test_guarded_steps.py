@@ -25,6 +25,7 @@ from cloth_sim_ros.sim.forcing import Forcing
 from cloth_sim_ros.sim.guarded_steps import GuardedSteps
 from cloth_sim_ros.sim.layout import choose_layout
 from cloth_sim_ros.sim.modes.mass_spring import MassSpring
+from cloth_sim_ros.sim.modes.mode import Pieces
 from cloth_sim_ros.sim.observer import Observer
 from cloth_sim_ros.sim.push_field import PushField
 from cloth_sim_ros.sim.scene import Scene
@@ -217,9 +218,9 @@ class _Remembering(MassSpring):
     name = 'remembering'
     remembers = True
 
-    def step(self, state: State, begin: float, pushes: PushField) -> None:
+    def step(self, state: State, begin: float, pushes: PushField) -> Pieces:
         """Step ``state`` on by one dt."""
-        super().step(state, begin, pushes)
+        yield from super().step(state, begin, pushes)
         if self.remembers:
             self._passes.substep(state, Forcing(_ABSURD), 1.0)
 
@@ -238,14 +239,14 @@ def test_a_blow_up_by_memory_alone_is_told():
         layout, scene.node_mass, scene['gravity'], scene.start_positions, state.pinned)
     guard, mode = GuardedSteps(scene, layout, observer, state), _Remembering(scene, layout)
 
-    def step(number: int) -> None:
-        mode.step(state, number * scene['dt'], pushes)
+    def step(number: int) -> Pieces:
+        return mode.step(state, number * scene['dt'], pushes)
 
     with pytest.raises(NonFiniteStateError, match='without what the mode had kept') as caught:
-        guard.make(0, 3, step, mode, pushes)
+        list(guard.make(0, 3, step, mode, pushes))
     assert caught.value.steps == 3
     assert observer.measure(state, pushes.still).finite
-    guard.make(3, 3, step, mode, pushes)
+    list(guard.make(3, 3, step, mode, pushes))
     for part in (guard, mode, pushes, observer, state):
         part.delete()
     context.close()

@@ -17,7 +17,11 @@
 from cloth_sim_ros.sim.modes.adaptive import Adaptive
 from cloth_sim_ros.sim.modes.constraint import Constraint
 from cloth_sim_ros.sim.modes.mass_spring import MassSpring
+from cloth_sim_ros.sim.modes.mode import finish
 from cloth_sim_ros.sim.modes.mode import Mode
+from cloth_sim_ros.sim.modes.mode import Pieces
+
+__all__ = ('AVAILABLE', 'Mode', 'Pieces', 'finish')
 
 AVAILABLE: dict[str, type[Mode]] = {
     mode.name: mode for mode in (MassSpring, Constraint, Adaptive)}

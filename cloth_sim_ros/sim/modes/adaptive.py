@@ -19,6 +19,7 @@ import math
 from cloth_sim_ros.gl.buffer import Buffer
 from cloth_sim_ros.sim.layout import Layout
 from cloth_sim_ros.sim.modes.limit_marks import LimitMarks
+from cloth_sim_ros.sim.modes.mode import Pieces
 from cloth_sim_ros.sim.modes.one_pass import OnePass
 from cloth_sim_ros.sim.modes.paper_limit import PaperLimit
 from cloth_sim_ros.sim.modes.penalty_limit import PenaltyLimit
@@ -60,7 +61,12 @@ class Adaptive:
         # Length of the last substep [s]; 0 where none was.
         self._before = 0.0
 
-    def step(self, state: State, begin: float, pushes: PushField) -> None:
+    @staticmethod
+    def check(scene: Scene, *, check_stability: bool = True) -> None:
+        """Raise ClothSimError when dt is too long for the springs of ``scene``."""
+        spring_substeps(scene, Adaptive.name, check_stability=check_stability)
+
+    def step(self, state: State, begin: float, pushes: PushField) -> Pieces:
         """Step ``state`` on by one dt."""
         done, substeps = 0.0, 0
         while self._dt - done > _NOTHING * self._dt:
@@ -75,6 +81,7 @@ class Adaptive:
             if calm:
                 self._substep(self._springs, state, begin + done, length, pushes)
                 for index in range(1, calm):
+                    yield
                     start = begin + done + index * length
                     self._springs.substep(state, pushes.forcing(start, start + length), length)
                 self._watch.spend(calm)
@@ -83,8 +90,20 @@ class Adaptive:
                 self._substep(self._limit, state, begin + done, length, pushes)
             done += max(calm, 1) * length
             substeps += max(calm, 1)
+            yield
         self.substeps = substeps
         self._marks.update(state, some=not self._limit.is_idle)
+
+    def run_all_passes(self, state: State, pushes: PushField) -> Pieces:
+        """Make substeps with and without limit of a ``state`` that nobody needs."""
+        self._watch.strains(state, pushes.still, self._length)
+        yield
+        for part in (self._springs, self._limit):
+            self._substep(part, state, 0.0, self._length, pushes)
+            yield
+        self._marks.update(state, some=True)
+        yield
+        self.forget()
 
     def forget(self) -> None:
         """Hold no edge and expect nothing of the state."""

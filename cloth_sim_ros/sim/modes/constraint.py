@@ -22,6 +22,7 @@ from cloth_sim_ros.sim.forcing import Forcing
 from cloth_sim_ros.sim.layout import Layout
 from cloth_sim_ros.sim.modes.free_motion import FreeMotion
 from cloth_sim_ros.sim.modes.hardening import Hardening
+from cloth_sim_ros.sim.modes.mode import Pieces
 from cloth_sim_ros.sim.modes.rest_offsets import RestOffsets
 from cloth_sim_ros.sim.modes.turn_watch import TurnWatch
 from cloth_sim_ros.sim.push_field import PushField
@@ -76,7 +77,11 @@ class Constraint:
             self._solver.tensions)
         self.forget()
 
-    def step(self, state: State, begin: float, pushes: PushField) -> None:
+    @staticmethod
+    def check(scene: Scene, *, check_stability: bool = True) -> None:
+        """Raise nothing: there is no dt that is too long."""
+
+    def step(self, state: State, begin: float, pushes: PushField) -> Pieces:
         """Step ``state`` on by one dt."""
         self._submit_enough()
         misfit = self._choose_substeps(state, pushes.forcing(begin, begin + self._dt))
@@ -90,13 +95,29 @@ class Constraint:
             start = begin + substep * length
             forcing = pushes.forcing(start, start + length)
             if is_held:
-                self._substep(state, forcing)
+                yield from self._substep(state, forcing)
             else:
                 self._free_motion.aim_at(state, forcing, pushes.still, length)
-                self._substep(state, *_split(forcing, length))
+                yield from self._substep(state, *_split(forcing, length))
                 self._free_motion.restore(state, pushes.still, length)
             self._offsets.spend(length)
         self._hardening.spend(self._dt)
+
+    def run_all_passes(self, state: State, pushes: PushField) -> Pieces:
+        """Make a substep of a ``state`` that nobody needs, held and free."""
+        still = pushes.still
+        self._watch.look(state, still, self._dt)
+        yield
+        # Offsets are made when edges become stiffer.
+        for length in (self._dt, 0.5 * self._dt):
+            self._offsets.take_up(state, self._law(length))
+        yield
+        self._solver.set_law(self._law(self._dt))
+        self._free_motion.aim_at(state, still, still, self._dt)
+        yield
+        yield from self._substep(state, still)
+        self._free_motion.restore(state, still, self._dt)
+        self.forget()
 
     def forget(self) -> None:
         """Take the next state as it comes, stretched or not."""
@@ -170,17 +191,21 @@ class Constraint:
 
     def _substep(
             self, state: State, forcing: Forcing,
-            common_change: tuple[float, float, float] = (0.0, 0.0, 0.0)) -> None:
+            common_change: tuple[float, float, float] = (0.0, 0.0, 0.0)) -> Pieces:
         share = self._offsets.share(self._dt / self.substeps)
+        # No piece ends before forces have been read: a look at the state may change their buffer.
         self._solver.assemble(state)
         self._solver.make_right_side(state, forcing, share)
-        self._solver.solve()
+        yield from self._solver.solve_in_pieces()
         self._solver.apply(state, common_change=common_change)
+        yield
         for _ in range(self._solves - 1):
             self._solver.assemble(state)
+            yield
             self._solver.make_later_right_side(share)
-            self._solver.solve()
+            yield from self._solver.solve_in_pieces()
             self._solver.apply(state, further=True)
+            yield
 
 
 def _split(forcing: Forcing, length: float) -> tuple[Forcing, tuple[float, float, float]]:

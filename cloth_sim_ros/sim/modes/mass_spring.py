@@ -16,6 +16,7 @@
 
 from cloth_sim_ros.gl.buffer import Buffer
 from cloth_sim_ros.sim.layout import Layout
+from cloth_sim_ros.sim.modes.mode import Pieces
 from cloth_sim_ros.sim.modes.one_pass import OnePass
 from cloth_sim_ros.sim.modes.spring_substeps import spring_substeps
 from cloth_sim_ros.sim.modes.two_pass import TwoPass
@@ -40,12 +41,23 @@ class MassSpring:
         self._length: float = scene['dt'] / self.substeps
         self._passes = OnePass(scene, layout) if layout.kind == 'fused' else TwoPass(scene, layout)
 
-    def step(self, state: State, begin: float, pushes: PushField) -> None:
+    @staticmethod
+    def check(scene: Scene, *, check_stability: bool = True) -> None:
+        """Raise ClothSimError when dt is too long for the springs of ``scene``."""
+        spring_substeps(scene, MassSpring.name, check_stability=check_stability)
+
+    def step(self, state: State, begin: float, pushes: PushField) -> Pieces:
         """Step ``state`` on by one dt, in substeps of equal length."""
         for substep in range(self.substeps):
             start = begin + substep * self._length
             forcing = pushes.forcing(start, start + self._length)
             self._passes.substep(state, forcing, self._length)
+            yield
+
+    def run_all_passes(self, state: State, pushes: PushField) -> Pieces:
+        """Make a substep of a ``state`` that nobody needs."""
+        self._passes.substep(state, pushes.still, self._length)
+        yield
 
     def forget(self) -> None:
         """Forget nothing: a step depends on the state alone."""

@@ -14,6 +14,7 @@
 
 """What every mode offers."""
 
+from collections.abc import Generator
 from typing import Protocol
 
 from cloth_sim_ros.gl.buffer import Buffer
@@ -22,6 +23,17 @@ from cloth_sim_ros.sim.push_field import PushField
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.state import State
 import numpy as np
+
+
+# A piece of work that can wait at each yield. What is sent back is True when something else may
+# have used the device meanwhile: then everything is bound anew.
+Pieces = Generator[None, bool | None, None]
+
+
+def finish(pieces: Pieces) -> None:
+    """Do all the work at once."""
+    for _ in pieces:
+        pass
 
 
 class Mode(Protocol):
@@ -39,13 +51,20 @@ class Mode(Protocol):
     def __init__(self, scene: Scene, layout: Layout, *, check_stability: bool = True) -> None:
         """Compile and allocate what this mode needs and nothing else."""
 
-    def step(self, state: State, begin: float, pushes: PushField) -> None:
+    @staticmethod
+    def check(scene: Scene, *, check_stability: bool = True) -> None:
+        """Raise ClothSimError when the mode can't step ``scene``, before anything is compiled."""
+
+    def step(self, state: State, begin: float, pushes: PushField) -> Pieces:
         """
-        Step ``state`` on by one dt.
+        Step ``state`` on by one dt, piece by piece.
 
         :param begin: simulated time at which the step begins [s]
         :param pushes: what accelerates the nodes besides the edges, by time
         """
+
+    def run_all_passes(self, state: State, pushes: PushField) -> Pieces:
+        """Run each pass that a step can need, on a ``state`` that nobody needs."""
 
     def forget(self) -> None:
         """Drop what was kept from earlier steps: the state is not the one they left."""

@@ -14,6 +14,8 @@
 
 """Preconditioned conjugate gradients on the device, which decides itself when to stop."""
 
+from collections.abc import Generator
+
 from cloth_sim_ros.gl.buffer import DISPATCHES_VISIBLE
 from cloth_sim_ros.gl.buffer import shader_dispatches_visible
 from cloth_sim_ros.sim.forcing import Forcing
@@ -139,15 +141,25 @@ class Solver:
 
     def solve(self) -> None:
         """Find the solution; returns before the device has it."""
+        for _ in self.solve_in_pieces():
+            pass
+
+    def solve_in_pieces(self) -> Generator[None, bool | None, None]:
+        """Do the same, and yield where the device may do something else; as Mode.step does."""
         self._buffers.bind()
         self._buffers.clear_scalars()
         self._begin.run()
         for each in self._iteration:
             each.run()
+            if (yield):
+                self._buffers.bind()
         shader_dispatches_visible()
         # Most of these run nothing: what they cost is the calls.
-        for call, arguments in (self._iterations - 1) * self._further_calls:
-            call(*arguments)
+        for _ in range(self._iterations - 1):
+            for call, arguments in self._further_calls:
+                call(*arguments)
+            if (yield):
+                self._buffers.bind()
         for each in self._further:
             each.submitted(self._iterations - 1)
         self._update.run()

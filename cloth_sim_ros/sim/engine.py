@@ -1,0 +1,131 @@
+# SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
+# SPDX-License-Identifier: Apache-2.0
+
+"""What advances and observes a state by one mode, and how it is compiled beside another one."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from cloth_sim_ros.gl.context import Context
+from cloth_sim_ros.gl.inventory import Inventory
+from cloth_sim_ros.gl.inventory import take_inventory
+from cloth_sim_ros.sim import modes
+from cloth_sim_ros.sim.forcing import Forcing
+from cloth_sim_ros.sim.guarded_steps import GuardedSteps
+from cloth_sim_ros.sim.layout import Layout
+from cloth_sim_ros.sim.modes.mode import Mode
+from cloth_sim_ros.sim.modes.mode import Pieces
+from cloth_sim_ros.sim.observer import Observer
+from cloth_sim_ros.sim.push_field import PushField
+from cloth_sim_ros.sim.scene import Scene
+from cloth_sim_ros.sim.state import State
+
+
+@dataclass(frozen=True)
+class Engine:
+    """
+    A mode with its observer and its guard, all compiled in one context.
+
+    :param scene: what they model
+    :param layout: of the lattice they run on
+    """
+
+    scene: Scene
+    layout: Layout
+    context: Context
+    observer: Observer
+    guard: GuardedSteps
+    mode: Mode
+
+    @classmethod
+    def make(
+            cls, mode: str, scene: Scene, layout: Layout, state: State, context: Context, *,
+            check_stability: bool, stop_at_non_finite: bool) -> 'Engine':
+        """Make the engine that advances ``state``, in ``context``, which is current."""
+        observer = Observer(scene, layout)
+        return cls(
+            scene, layout, context, observer,
+            GuardedSteps(scene, layout, observer, state, stop_at_non_finite),
+            modes.AVAILABLE[mode](scene, layout, check_stability=check_stability))
+
+    def delete(self) -> None:
+        """Give back what it allocated; its context, or one beside it, has to be current."""
+        for part in (self.observer, self.guard, self.mode):
+            part.delete()
+
+    def run_all_passes(self) -> Pieces:
+        """
+        Run every pass once, on a cloth that nobody needs.
+
+        Drivers compile a program in part when it first runs.
+        """
+        scene, layout = self.scene, self.layout
+        state = State(layout, scene.start_positions(), scene.pinned_nodes())
+        pushes = PushField(
+            layout, scene.node_mass, scene['gravity'], state.read_positions, state.pinned)
+        try:
+            still = Forcing(scene['gravity'])
+            self.observer.measure(state, still)
+            yield
+            self.observer.record(state, still)
+            yield
+            self.guard.check.passes(state)
+            yield
+            yield from self.mode.run_all_passes(state, pushes)
+        finally:
+            pushes.delete()
+            state.delete()
+
+
+class Preparation:
+    """
+    Compiles an engine on another thread, beside the context that advances the cloth meanwhile.
+
+    Once ``run`` has returned, there is an ``engine``, or an ``error``, or it was cancelled.
+
+    :param make: returns the engine for a context that is current
+    :param beside: the context of the thread that will use the engine
+    """
+
+    def __init__(self, mode: str, make: Callable[[Context], Engine], beside: Context) -> None:
+        """Prepare for ``run``."""
+        self.mode = mode
+        self.engine: Engine | None = None
+        self.error: Exception | None = None
+        self._make = make
+        self._beside = beside
+        self._is_cancelled = False
+        self._inventory = Inventory()
+
+    @property
+    def compiled(self) -> int:
+        """Return how many programs are ready by now."""
+        return sum(count > 0 for count in self._inventory.dispatches())
+
+    def cancel(self) -> None:
+        """Let ``run`` return soon; what one program takes to compile can't be cut short."""
+        self._is_cancelled = True
+
+    def run(self) -> None:
+        """Compile; leaves no context current on this thread."""
+        try:
+            context = Context(beside=self._beside)
+            try:
+                self.engine = self._compile(context)
+            finally:
+                if self.engine is None:
+                    context.close()
+                else:
+                    context.release()
+        # Whatever it is, the thread that waits for the engine has to know.
+        except Exception as error:
+            self.error = error
+
+    def _compile(self, context: Context) -> Engine | None:
+        with take_inventory() as self._inventory:
+            engine = self._make(context)
+            for _ in engine.run_all_passes():
+                if self._is_cancelled:
+                    engine.delete()
+                    return None
+        return engine

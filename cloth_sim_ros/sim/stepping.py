@@ -1,0 +1,115 @@
+# SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
+# SPDX-License-Identifier: Apache-2.0
+
+"""How far a run has come, how far it is to go, and what waits for the end of a step."""
+
+from collections.abc import Callable
+from collections.abc import Iterator
+import math
+
+from cloth_sim_ros.sim.errors import ClothSimError
+from cloth_sim_ros.sim.errors import NonFiniteStateError
+
+# Makes up to a number of steps, from the step of another number on, in pieces.
+MakeSteps = Callable[[int, int], Iterator[None]]
+
+
+class Stepping:
+    """
+    Count steps of dt towards an aim, and hold changes back while one is under way.
+
+    :param dt: [s]
+    :param steps: made before
+    """
+
+    def __init__(self, dt: float, steps: int = 0) -> None:
+        """Aim at the present moment."""
+        self._dt = dt
+        self.steps = steps
+        self.is_mid_step = False
+        # Changes to make when the step under way has ended.
+        self._edits: list[Callable[[], None]] = []
+        self.drop_aim()
+
+    @property
+    def time(self) -> float:
+        """Return the simulated time [s]."""
+        return self.steps * self._dt
+
+    @property
+    def edit_time(self) -> float:
+        """Return when changes that are asked for now are made [s]."""
+        return (self.steps + 1) * self._dt if self.is_mid_step else self.time
+
+    @property
+    def is_behind(self) -> bool:
+        """Tell whether there are steps to make before the aim is reached."""
+        return self.steps < self._goal
+
+    @property
+    def has_edits(self) -> bool:
+        """Tell whether changes wait for the end of the step."""
+        return bool(self._edits)
+
+    def aim(self, seconds: float) -> None:
+        """Go on for ``seconds`` more; what is no whole dt is carried over."""
+        if not math.isfinite(seconds) or seconds < 0.0:
+            raise ClothSimError(f'cannot advance by {seconds} s: give a time of 0 s or more')
+        self._target += seconds
+        # The small share keeps a sum of frame times from falling just short of a step.
+        self._goal = math.floor(self._target / self._dt + 1e-6)
+
+    def aim_steps(self, count: int) -> None:
+        """Make ``count`` steps of dt from now on."""
+        if count < 0:
+            raise ClothSimError(f'cannot make {count} steps: give 0 or more')
+        self._goal = self.steps + count
+        self._target = self._goal * self._dt
+
+    def drop_aim(self) -> None:
+        """Let the aim be where the run is."""
+        self._goal, self._target = self.steps, self.time
+
+    def run(self, make_steps: MakeSteps) -> Iterator[None]:
+        """Make steps towards the aim; yield where ``make_steps`` does, within a step."""
+        pieces = make_steps(self.steps, self._goal - self.steps)
+        try:
+            for _ in pieces:
+                self.is_mid_step = True
+                yield
+        except NonFiniteStateError as error:
+            self.steps = error.steps
+            self.drop_aim()
+            self._make_edits()
+            raise
+        finally:
+            pieces.close()
+            self.is_mid_step = False
+            self._take_edits()
+
+    def settle(self, steps: int) -> None:
+        """Have made ``steps``, and make the changes that waited for it."""
+        self.steps = steps
+        self._make_edits()
+
+    def at_rest(self, edit: Callable[[], None]) -> None:
+        """Make a change of the state now, or when the step under way has ended."""
+        if self.is_mid_step:
+            self._edits.append(edit)
+        else:
+            edit()
+
+    def refuse_mid_step(self, name: str) -> None:
+        """Raise RuntimeError while a step is under way."""
+        if self.is_mid_step:
+            raise RuntimeError(
+                f'{name} needs the step under way to end: go on with its work, or close it')
+
+    def _make_edits(self) -> None:
+        self.is_mid_step = False
+        for edit in self._take_edits():
+            edit()
+
+    def _take_edits(self) -> list[Callable[[], None]]:
+        edits, self._edits = self._edits, []
+        return edits

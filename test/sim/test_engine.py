@@ -1,0 +1,135 @@
+# SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
+# SPDX-License-Identifier: Apache-2.0
+
+"""A mode that is prepared on another thread is the same mode, with nothing left to compile."""
+
+from collections.abc import Iterator
+import threading
+
+from cloth_sim_ros.gl.inventory import take_inventory
+from cloth_sim_ros.sim import modes
+from cloth_sim_ros.sim.engine import Preparation
+from cloth_sim_ros.sim.errors import ClothSimError
+from cloth_sim_ros.sim.scene import Scene
+from cloth_sim_ros.sim.simulation import Simulation
+import pytest
+
+_SCENE = {'rows': 12, 'cols': 10, 'dt': 0.01}
+
+
+@pytest.fixture
+def simulation() -> Iterator[Simulation]:
+    """Make a cloth of springs."""
+    simulation = Simulation(Scene(_SCENE))
+    simulation.step(1)
+    simulation.snapshot()
+    yield simulation
+    simulation.close()
+
+
+def run_beside(simulation: Simulation, preparation: Preparation) -> int:
+    """Let the cloth go on while another thread prepares a mode; return its steps meanwhile."""
+    thread = threading.Thread(target=preparation.run)
+    first = simulation.steps
+    thread.start()
+    while thread.is_alive():
+        simulation.step(1)
+        simulation.measure()
+    thread.join()
+    if preparation.error:
+        raise preparation.error
+    return simulation.steps - first
+
+
+@pytest.mark.parametrize('mode', modes.AVAILABLE)
+def test_the_cloth_goes_on_while_a_mode_is_prepared(mode: str):
+    """A node would stand still for as long as the compiler takes, or go wrong by it."""
+    other = 'adaptive' if mode == 'mass_spring' else 'mass_spring'
+    simulations = [Simulation(Scene({**_SCENE, 'mode': other})) for _ in range(2)]
+    prepared, plain = simulations
+    preparation = prepared.engines.preparation(mode)
+    made = run_beside(prepared, preparation)
+    assert made > 0 and preparation.compiled > 0
+    plain.step(made)
+    assert prepared.take_over(preparation) == plain.set_mode(mode) != mode
+    assert prepared.mode == mode
+    for each in simulations:
+        each.push((0.0, 0.0, 0.4), duration=0.1, region='sphere', radius=2.0)
+        each.step(5)
+    assert prepared.snapshot().state_sha256 == plain.snapshot().state_sha256
+    for each in simulations:
+        each.close()
+
+
+@pytest.mark.parametrize('mode', modes.AVAILABLE)
+def test_nothing_is_left_to_compile(mode: str):
+    """The first steps, pushes, pins and looks in the new mode would wait for the compiler."""
+    simulation = Simulation(Scene(_SCENE), compiles=False)
+    assert not simulation.is_ready and simulation.mode == 'mass_spring'
+    preparation = simulation.engines.preparation(mode)
+    thread = threading.Thread(target=preparation.run)
+    thread.start()
+    thread.join()
+    simulation.take_over(preparation)
+    with take_inventory() as inventory:
+        simulation.step(3)
+        simulation.push((0.0, 0.0, 5.0), duration=0.1)
+        simulation.push((0.0, 0.0, 1.0), duration=0.1, region='sphere', radius=2.0)
+        simulation.step(20)
+        for corner in ((0, 0), (0, 9)):
+            simulation.release(*corner)
+        simulation.step(5)
+        simulation.snapshot(tension=True)
+        simulation.measure()
+    assert simulation.is_ready and simulation.steps == 28
+    assert [program.name for program in inventory.programs] == []
+    simulation.close()
+
+
+def test_a_mode_can_be_taken_back_and_forth(simulation: Simulation):
+    """A context would be lost, or a mode be compiled again, on the second switch."""
+    preparation = simulation.engines.preparation('adaptive')
+    run_beside(simulation, preparation)
+    simulation.take_over(preparation)
+    for mode in ('mass_spring', 'adaptive', 'mass_spring'):
+        with take_inventory() as inventory:
+            simulation.set_mode(mode)
+            simulation.step(2)
+            assert simulation.snapshot().finite and simulation.mode == mode
+        assert not inventory.programs
+
+
+def test_a_preparation_can_be_cancelled(simulation: Simulation):
+    """A node that is stopped would go on compiling for seconds."""
+    preparation = simulation.engines.preparation('constraint')
+    preparation.cancel()
+    run_beside(simulation, preparation)
+    assert preparation.engine is None and preparation.error is None
+    assert not simulation.engines.has('constraint')
+    again = simulation.engines.preparation('constraint')
+    run_beside(simulation, again)
+    simulation.take_over(again)
+    simulation.step(1)
+
+
+def test_what_cannot_be_is_refused_before_it_is_prepared():
+    """A refusal would come seconds after the request, from another thread."""
+    simulation = Simulation(
+        Scene({**_SCENE, 'mode': 'constraint', 'dt': 0.1, 'auto_substeps': False}))
+    with pytest.raises(ClothSimError, match='stability limit'):
+        simulation.engines.preparation('mass_spring')
+    with pytest.raises(ClothSimError, match='there is no mode'):
+        simulation.engines.preparation('rigid')
+    simulation.close()
+
+
+def test_an_error_is_kept_for_the_thread_that_waits(simulation: Simulation):
+    """The request would never be answered."""
+    def fail(context):
+        raise ClothSimError('no device for it')
+    preparation = Preparation('adaptive', fail, simulation._first_context)
+    thread = threading.Thread(target=preparation.run)
+    thread.start()
+    thread.join()
+    assert str(preparation.error) == 'no device for it'
+    simulation.step(1)
