@@ -14,10 +14,13 @@
 
 """Turn a request that cannot be carried out into a service answer that says why."""
 
+from collections.abc import Awaitable
 from collections.abc import Callable
 from typing import Any
 
 from cloth_sim_ros.sim.errors import ClothSimError
+from rclpy.callback_groups import ReentrantCallbackGroup
+from rclpy.node import Node
 
 
 def answer(carry_out: Callable[[Any, Any], str]) -> Callable[[Any, Any], Any]:
@@ -29,11 +32,32 @@ def answer(carry_out: Callable[[Any, Any], str]) -> Callable[[Any, Any], Any]:
     """
     def callback(request: Any, response: Any) -> Any:
         try:
-            response.message = carry_out(request, response)
-            response.success = True
+            return _done(response, carry_out(request, response))
         except ClothSimError as error:
-            response.message = str(error)
-            response.success = False
-        return response
+            return _refused(response, error)
 
     return callback
+
+
+def serve_later(
+        node: Node, kind: type, name: str,
+        carry_out: Callable[[Any, Any], Awaitable[str]]) -> None:
+    """Serve requests by a coroutine; while one waits, everything else is served."""
+    async def callback(request: Any, response: Any) -> Any:
+        try:
+            return _done(response, await carry_out(request, response))
+        except ClothSimError as error:
+            return _refused(response, error)
+
+    # In the group of all others a request that waits would hold them up.
+    node.create_service(kind, name, callback, callback_group=ReentrantCallbackGroup())
+
+
+def _done(response: Any, message: str) -> Any:
+    response.success, response.message = True, message
+    return response
+
+
+def _refused(response: Any, error: ClothSimError) -> Any:
+    response.success, response.message = False, str(error)
+    return response

@@ -22,6 +22,7 @@ from cloth_sim_ros.node.frames import Frames
 from cloth_sim_ros.node.inputs import Inputs
 from cloth_sim_ros.node.live_parameters import LiveParameters
 from cloth_sim_ros.node.mode_service import ModeService
+from cloth_sim_ros.node.mode_switch import ModeSwitch
 from cloth_sim_ros.node.opening import write_opening
 from cloth_sim_ros.node.outlet import Outlet
 from cloth_sim_ros.node.pacing import Pacing
@@ -75,7 +76,7 @@ class ClothSimNode(Node):
         name = self.get_fully_qualified_name()
         self._values = values
         self._simulation = Simulation(
-            Scene({field.name: values[field.name] for field in SCENE_FIELDS}))
+            Scene({field.name: values[field.name] for field in SCENE_FIELDS}), compiles=False)
         self._recording = RecordingSession(
             values['recording.directory'], name, self._on_recording_lost)
         self._recording_error = ''
@@ -88,11 +89,15 @@ class ClothSimNode(Node):
             self, self._simulation, frame_seconds=1.0 / values['publish.rate'],
             pacing=self._pacing, paused=values['start_paused'], on_frame=self._on_frame,
             on_stop=self._on_stop)
+        self._switch = ModeSwitch(
+            self, self._simulation, switched=self._on_switched, failed=self._on_mode_failed,
+            changed=self._send_state)
         self._state = StateTopic(
-            self._outlet, self._simulation, self._run_loop, self._recording, values['frame_id'])
+            self._outlet, self._simulation, self._run_loop, self._switch, self._recording,
+            values['frame_id'])
         self._clock_topic = ClockTopic(self, self._outlet, values['publish.clock'])
         LiveParameters(
-            self, values, set_mode=self._set_mode, changed=self._on_parameters_changed)
+            self, values, ask_mode=self._switch.ask, changed=self._on_parameters_changed)
         self._serve()
         self.create_timer(
             _WATCH_PERIOD, self._watch, clock=Clock(clock_type=ClockType.STEADY_TIME))
@@ -106,12 +111,7 @@ class ClothSimNode(Node):
             self._start_recording(self._values['recording.name'])
         else:
             self._state.send()
-            self._show()
-        self.get_logger().info(
-            f'{scene.rows} x {scene.cols} nodes in mode {simulation.mode} on '
-            f'{simulation.device}: dt {simulation.dt:g} s in {simulation.substeps} substeps, '
-            f'{self._run_loop.run_state}')
-        self._run_loop.start()
+        self._switch.ask(simulation.mode)
 
     def close_recording(self) -> None:
         """Close the recording, if there is one; works without ROS."""
@@ -119,18 +119,20 @@ class ClothSimNode(Node):
 
     def destroy_node(self) -> None:
         """Give the device's memory back, and everything of ROS."""
+        self._switch.close()
         self._simulation.close()
         super().destroy_node()
 
     def _serve(self) -> None:
-        ModeService(self, self._simulation)
+        ModeService(self, self._simulation, self._switch)
         PushRequests(self, self._simulation, self._inputs, self._values)
         PinService(self, self._simulation, self._inputs)
         PinTargets(self, self._simulation, self._inputs, self._values['frame_id'])
         RunServices(
             self, self._simulation, self._run_loop, reset=self._reset, changed=self._state.send)
         RecordingServices(
-            self, self._recording, start=self._start_recording, changed=self._state.send)
+            self, self._simulation, self._recording, start=self._start_recording,
+            changed=self._state.send)
 
     def _start_recording(self, name: str) -> str:
         path = self._recording.start(name)
@@ -157,8 +159,9 @@ class ClothSimNode(Node):
                 throttle_duration_sec=_SLOW_WARNING_PERIOD)
 
     def _show(self) -> None:
-        """Send the present moment as a frame."""
-        self._on_frame(0.0, 0)
+        """Send the present moment as a frame, as soon as there is a mode to look at it with."""
+        if self._simulation.is_ready:
+            self._on_frame(0.0, 0)
 
     def _on_stop(self) -> None:
         self.get_logger().error(
@@ -174,11 +177,30 @@ class ClothSimNode(Node):
         self._state.send()
         self._show()
 
-    def _set_mode(self, mode: str) -> None:
-        previous = self._simulation.set_mode(mode)
-        if mode != previous:
+    def _send_state(self) -> None:
+        self._state.send()
+
+    def _on_switched(self, mode: str, previous: str) -> None:
+        if not previous:
+            simulation = self._simulation
+            scene = simulation.scene
+            self.get_logger().info(
+                f'{scene.rows} x {scene.cols} nodes in mode {mode} on {simulation.device}: '
+                f'dt {simulation.dt:g} s in {simulation.substeps} substeps, '
+                f'{self._run_loop.run_state}')
+            self._show()
+            self._run_loop.start()
+        elif mode != previous:
             self._inputs.mode(mode, previous)
-            self._state.send()
+        self._state.send()
+
+    def _on_mode_failed(self, mode: str, error: Exception) -> None:
+        if not self._simulation.is_ready:
+            raise error
+        self.get_logger().error(f'mode {mode} cannot be prepared: {error}')
+        self.set_parameters(
+            [Parameter('mode', Parameter.Type.STRING, self._simulation.mode)])
+        self._state.send()
 
     def _on_parameters_changed(self, parameters: list[Parameter]) -> None:
         self._inputs.parameters(parameters)
@@ -189,7 +211,9 @@ class ClothSimNode(Node):
     def _watch(self) -> None:
         """Once a second: the health of the run, and a still picture for those who come late."""
         self._clock_topic.watch()
-        if not self._run_loop.running:
+        if not self._simulation.is_ready:
+            return
+        if not self._run_loop.running and not self._simulation.stepping.is_mid_step:
             self._frames.send(to_recording=False)
         if not self._outlet.wanted('diagnostics'):
             return

@@ -34,7 +34,7 @@ from rclpy.parameter import Parameter
 
 class Inputs:
     """
-    Send each input as a message, stamped with the simulated time at which it was given.
+    Send each input as a message, stamped with the simulated time at which it acts.
 
     :param node_name: with its namespace
     """
@@ -49,30 +49,30 @@ class Inputs:
 
     def push(self, push: Push) -> None:
         """Tell that ``push`` was accepted."""
-        now = self._simulation.time
+        now = self._simulation.stepping.edit_time
         self._outlet.send_message('inputs/push', push_message(push, now, self._frame_id), now)
 
     def pin(self, row: int, col: int, pinned: bool) -> None:
         """Tell that a node was pinned or released."""
-        now = self._simulation.time
+        now = self._simulation.stepping.edit_time
         self._outlet.send_message(
             'inputs/pin', pin_message(row, col, pinned, now, self._frame_id), now)
 
     def pin_target(self, move: PinMove) -> None:
         """Tell that a pin sets off."""
-        now = self._simulation.time
+        now = self._simulation.stepping.edit_time
         self._outlet.send_message(
             'inputs/pin_target', pin_target_message(move, now, self._frame_id), now)
 
     def mode(self, mode: str, previous: str) -> None:
         """Tell that the mode was switched."""
-        now = self._simulation.time
+        now = self._simulation.stepping.edit_time
         self._outlet.send_message(
             'inputs/mode', mode_message(mode, previous, now, self._frame_id), now)
 
     def command(self, command: str) -> None:
         """Tell that Command.RESET or Command.CLEAR_PUSHES is about to be carried out."""
-        now = self._simulation.time
+        now = self._simulation.stepping.edit_time
         self._outlet.send_message(
             'inputs/command', command_message(command, now, self._frame_id), now)
 
@@ -83,7 +83,7 @@ class Inputs:
             parameter.name: plain_value(parameter) for parameter in parameters
             if parameter.name != 'mode'}
         if values:
-            now = self._simulation.time
+            now = self._simulation.stepping.edit_time
             message = parameters_message(values, FIELDS, now, self._node_name, is_change=True)
             self._outlet.send(
                 'inputs/parameters', lambda: serialise_parameter_event(message), now)

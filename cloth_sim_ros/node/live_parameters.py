@@ -36,16 +36,16 @@ class LiveParameters:
     Check and apply changes of parameters while the node runs.
 
     :param values: parameter values by name, kept up to date here
-    :param set_mode: switches the mode; a ClothSimError is the reason of the rejection
+    :param ask_mode: asks for another mode; a ClothSimError is the reason of the rejection
     :param changed: called with the parameters after each accepted change
     """
 
     def __init__(
-            self, node: Node, values: dict[str, Any], *, set_mode: Callable[[str], None],
+            self, node: Node, values: dict[str, Any], *, ask_mode: Callable[[str], None],
             changed: Callable[[Sequence[Parameter]], None]) -> None:
         """Register with ``node``."""
         self._values = values
-        self._set_mode = set_mode
+        self._ask_mode = ask_mode
         self._changed = changed
         node.add_pre_set_parameters_callback(_with_field_types)
         node.add_on_set_parameters_callback(self._on_set)
@@ -59,7 +59,7 @@ class LiveParameters:
             check_together({**self._values, **checked})
             # Last, because it is the only one that can still fail, and nothing may change then.
             if 'mode' in checked:
-                self._set_mode(checked['mode'])
+                self._ask_mode(checked['mode'])
         except ClothSimError as error:
             return SetParametersResult(successful=False, reason=str(error))
         self._values.update(checked)

@@ -18,7 +18,10 @@ from collections.abc import Callable
 
 from cloth_sim_interfaces.srv import StartRecording
 from cloth_sim_ros.node.answer import answer
+from cloth_sim_ros.node.answer import serve_later
+from cloth_sim_ros.node.at_rest import at_rest
 from cloth_sim_ros.node.recording_session import RecordingSession
+from cloth_sim_ros.sim.simulation import Simulation
 from rclpy.node import Node
 from std_srvs.srv import Trigger
 
@@ -32,18 +35,20 @@ class RecordingServices:
     """
 
     def __init__(
-            self, node: Node, recording: RecordingSession, *, start: Callable[[str], str],
-            changed: Callable[[], None]) -> None:
+            self, node: Node, simulation: Simulation, recording: RecordingSession, *,
+            start: Callable[[str], str], changed: Callable[[], None]) -> None:
         """Make the services."""
+        self._simulation = simulation
         self._recording = recording
         self._start = start
         self._changed = changed
-        node.create_service(StartRecording, '~/start_recording', answer(self._on_start))
+        serve_later(node, StartRecording, '~/start_recording', self._on_start)
         node.create_service(Trigger, '~/stop_recording', answer(self._on_stop))
 
-    def _on_start(
+    async def _on_start(
             self, request: StartRecording.Request, response: StartRecording.Response) -> str:
-        response.path = self._start(request.name)
+        # It begins with the state, which is whole between steps.
+        response.path = await at_rest(self._simulation, lambda: self._start(request.name))
         return f'recording to {response.path}'
 
     def _on_stop(self, _: Trigger.Request, __: Trigger.Response) -> str:

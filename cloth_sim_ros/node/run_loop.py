@@ -15,6 +15,7 @@
 """Advance the simulation frame by frame: running, paused, or stopped by a blow-up."""
 
 from collections.abc import Callable
+from collections.abc import Iterator
 import time
 
 from cloth_sim_interfaces.msg import ClothState
@@ -25,12 +26,11 @@ from cloth_sim_ros.sim.simulation import Simulation
 from rclpy.clock import Clock
 from rclpy.clock import ClockType
 from rclpy.node import Node
+from rclpy.task import Future
 
 _NANOSECONDS = 1e9
-# A frame can take long: after this much wall time [s] services get their turn.
-_SLICE = 0.02
-# Of a slice: steps made at one go are as many as take about so long.
-_PIECE = 0.25
+# A step can take long: after this much wall time [s] services get their turn.
+_SLICE = 0.01
 MOST_STEPS = 100000
 
 
@@ -39,7 +39,8 @@ class RunLoop:
     Own the run state and the timer that makes the frames.
 
     What a frame simulates comes from ``frame_seconds`` and dt alone; the wall clock only says
-    when it is made.
+    when it is made. Work is done in slices, between which everything else is served; a slice can
+    end within a step.
 
     :param frame_seconds: simulated time of a frame [s]
     :param pacing: when the next frame is due
@@ -53,7 +54,6 @@ class RunLoop:
             paused: bool, on_frame: Callable[[float, int], None],
             on_stop: Callable[[], None]) -> None:
         """Make the timer; nothing moves before start."""
-        self._node = node
         self._simulation = simulation
         self._frame_seconds = frame_seconds
         self._pacing = pacing
@@ -61,19 +61,25 @@ class RunLoop:
         self._on_stop = on_stop
         self._paused = paused
         self._problem = ''
-        self._piece = 1
+        # Pieces of the step under way, and when the slice ends.
+        self._work: Iterator[None] | None = None
+        self._deadline = 0.0
+        # What a caller of step waits for.
+        self._answer: Future | None = None
         self._begin_frame()
         # Simulated time may stand still, or come from this very node: only a steady clock paces.
         self._timer = node.create_timer(
-            1.0, self._make_frame, clock=Clock(clock_type=ClockType.STEADY_TIME))
+            1.0, self._make_slice, clock=Clock(clock_type=ClockType.STEADY_TIME))
         self._timer.cancel()
 
     @property
     def run_state(self) -> str:
-        """ClothState.RUNNING, PAUSED or STOPPED."""
+        """ClothState.PREPARING, RUNNING, PAUSED or STOPPED."""
         if self._problem:
             return ClothState.STOPPED
-        return ClothState.PAUSED if self._paused else ClothState.RUNNING
+        if self._paused:
+            return ClothState.PAUSED
+        return ClothState.RUNNING if self._simulation.is_ready else ClothState.PREPARING
 
     @property
     def problem(self) -> str:
@@ -91,19 +97,18 @@ class RunLoop:
         return self._pacing.achieved if self.running else 0.0
 
     def start(self) -> None:
-        """Make frames from now on, unless paused or stopped."""
+        """Make frames from now on, unless paused or stopped, and the steps asked for."""
         self._pacing.restart(time.monotonic())
-        if self.running:
+        if self._simulation.is_ready and (self.running or self._answer is not None):
             self._wait(0.0)
 
     def pause(self) -> None:
-        """Make no more frames."""
+        """Make no more frames; a step under way comes to its end."""
         self._paused = True
-        self._timer.cancel()
 
     def resume(self) -> None:
         """Make frames again; after a stop, try again from the state that was kept."""
-        if not self.running:
+        if self._paused or self._problem:
             self._paused = False
             self._problem = ''
             self.start()
@@ -112,84 +117,118 @@ class RunLoop:
         """Forget a stop, and begin with a whole frame."""
         self._problem = ''
         self._begin_frame()
+        self._end_steps(ClothSimError(
+            'the cloth was put back to its start before all steps were made: ask for them again'))
         self.start()
 
-    def step(self, steps: int) -> None:
-        """Make ``steps`` steps of dt now; ClothSimError while running, or when one is lost."""
-        if self.running:
+    def step(self, steps: int) -> Future:
+        """
+        Begin to make ``steps`` steps of dt.
+
+        :return: done when they are made, with a NonFiniteStateError when one is lost
+        :raises ClothSimError: while running
+        """
+        if not self._paused and not self._problem:
             raise ClothSimError(
                 'the simulation is running, and ~/step needs it paused: call ~/pause with '
                 'data: true first')
         if not 1 <= steps <= MOST_STEPS:
             raise ClothSimError(
                 f'steps {steps} is outside its range: give a value from 1 to {MOST_STEPS}')
-        self._begin_frame()
-        try:
-            while self._steps < steps and self._node.context.ok():
-                self._make_piece(min(self._piece, steps - self._steps))
-        except NonFiniteStateError as error:
-            self._stop(error)
-            raise
-        finally:
-            worked, made = self._worked, self._steps
-            self._begin_frame()
+        if self._answer is not None:
+            raise ClothSimError(
+                'steps are being made for another caller: wait until ~/step has answered')
+        self._answer = Future()
         self._paused, self._problem = True, ''
-        self._on_frame(worked, made)
+        self._simulation.stepping.at_rest(lambda: self._begin_steps(steps))
+        self.start()
+        return self._answer
+
+    def _begin_steps(self, steps: int) -> None:
+        self._begin_frame()
+        self._is_frame_open = True
+        self._simulation.stepping.aim_steps(steps)
 
     def _begin_frame(self) -> None:
-        self._left = self._frame_seconds
+        """Let what comes next be a whole frame."""
+        self._is_frame_open = False
         self._worked = 0.0
-        self._steps = 0
+        self._first = self._simulation.steps
 
-    def _make_frame(self) -> None:
+    def _make_slice(self) -> None:
+        if not (self.running or self._answer is not None or self._work is not None):
+            self._timer.cancel()
+            return
+        begin = time.monotonic()
+        self._deadline = begin + _SLICE
+        if not self._is_frame_open and self._work is None:
+            self._begin_frame()
+            self._is_frame_open = True
+            self._simulation.stepping.aim(self._frame_seconds)
         try:
-            self._make_part()
+            is_made = self._go_on()
         except NonFiniteStateError as error:
+            self._worked += time.monotonic() - begin
             self._stop(error)
             return
-        if self._left > 0.0:
+        self._worked += time.monotonic() - begin
+        if is_made:
+            self._end_frame()
+        else:
             self._wait(0.0)
-            return
-        worked, steps = self._worked, self._steps
-        self._begin_frame()
+
+    def _go_on(self) -> bool:
+        """Work until the slice is over; return whether the frame, or all steps, are made."""
+        while self._work is not None or self._simulation.stepping.is_behind:
+            if self._work is None:
+                self._work = self._simulation.work(self._is_due)
+            for _ in self._work:
+                if time.monotonic() >= self._deadline:
+                    return False
+            self._work = None
+            if self._is_due():
+                return not self._simulation.stepping.is_behind
+        return True
+
+    def _is_due(self) -> bool:
+        is_held = self._paused and self._answer is None
+        return is_held or time.monotonic() >= self._deadline
+
+    def _end_frame(self) -> None:
         # With a frame shorter than dt, some frames have nothing new to show.
-        if steps:
+        steps, worked = self._simulation.steps - self._first, self._worked
+        self._begin_frame()
+        if steps > 0:
             self._on_frame(worked, steps)
-        delay = self._pacing.delay(time.monotonic(), self._frame_seconds)
+        if self._answer is not None:
+            self._end_steps(None)
+            self._pacing.restart(time.monotonic())
+            delay = 0.0
+        else:
+            delay = self._pacing.delay(time.monotonic(), self._frame_seconds)
         if self.running:
             self._wait(delay)
+        else:
+            self._timer.cancel()
 
-    def _make_part(self) -> None:
-        begin = time.monotonic()
-        while self._left > 0.0 and time.monotonic() - begin < _SLICE:
-            seconds = min(self._left, self._piece * self._simulation.dt)
-            self._make_piece(seconds=seconds)
-            self._left -= seconds
-
-    def _make_piece(self, steps: int = 0, *, seconds: float = 0.0) -> None:
-        first = self._simulation.steps
-        begin = time.monotonic()
-        try:
-            if steps:
-                self._simulation.step(steps)
-            else:
-                self._simulation.advance(seconds)
-        finally:
-            # Each piece is checked at its end, so it should not be shorter than it has to be.
-            took = time.monotonic() - begin
-            self._piece = self._piece * 2 if took < _PIECE * _SLICE else max(1, self._piece // 2)
-            self._worked += took
-            self._steps += self._simulation.steps - first
+    def _end_steps(self, error: Exception | None) -> None:
+        answer, self._answer = self._answer, None
+        if answer is not None and error is not None:
+            answer.set_exception(error)
+        elif answer is not None:
+            answer.set_result(None)
 
     def _stop(self, error: NonFiniteStateError) -> None:
         """Show the last finite state, and tell that there is no more to come."""
         self._timer.cancel()
+        self._work = None
         self._problem = str(error)
-        worked, steps = self._worked, self._steps
+        steps, worked = self._simulation.steps - self._first, self._worked
         self._begin_frame()
-        if steps:
+        if steps > 0:
             self._on_frame(worked, steps)
         self._on_stop()
+        self._end_steps(error)
 
     def _wait(self, seconds: float) -> None:
         self._timer.timer_period_ns = int(seconds * _NANOSECONDS)

@@ -18,6 +18,8 @@ from collections.abc import Callable
 
 from cloth_sim_interfaces.srv import Step
 from cloth_sim_ros.node.answer import answer
+from cloth_sim_ros.node.answer import serve_later
+from cloth_sim_ros.node.at_rest import at_rest
 from cloth_sim_ros.node.run_loop import RunLoop
 from cloth_sim_ros.sim.simulation import Simulation
 from rclpy.node import Node
@@ -42,8 +44,8 @@ class RunServices:
         self._reset = reset
         self._changed = changed
         node.create_service(SetBool, '~/pause', answer(self._on_pause))
-        node.create_service(Step, '~/step', answer(self._on_step))
-        node.create_service(Trigger, '~/reset', answer(self._on_reset))
+        serve_later(node, Step, '~/step', self._on_step)
+        serve_later(node, Trigger, '~/reset', self._on_reset)
 
     def _on_pause(self, request: SetBool.Request, _: SetBool.Response) -> str:
         if request.data:
@@ -51,18 +53,18 @@ class RunServices:
         else:
             self._run_loop.resume()
         self._changed()
-        return f'{self._run_loop.run_state} at {self._simulation.time:.6g} s'
+        return f'{self._run_loop.run_state} at {self._simulation.stepping.edit_time:.6g} s'
 
-    def _on_step(self, request: Step.Request, response: Step.Response) -> str:
+    async def _on_step(self, request: Step.Request, response: Step.Response) -> str:
         before = self._run_loop.run_state
         try:
-            self._run_loop.step(request.steps)
+            await self._run_loop.step(request.steps)
         finally:
             response.sim_time = self._simulation.time
-        if self._run_loop.run_state != before:
-            self._changed()
+            if self._run_loop.run_state != before:
+                self._changed()
         return f'{request.steps} steps made, now at {self._simulation.time:.6g} s'
 
-    def _on_reset(self, _: Trigger.Request, __: Trigger.Response) -> str:
-        self._reset()
+    async def _on_reset(self, _: Trigger.Request, __: Trigger.Response) -> str:
+        await at_rest(self._simulation, self._reset)
         return f'back at the start, {self._run_loop.run_state}'

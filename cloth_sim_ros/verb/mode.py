@@ -37,5 +37,7 @@ def add_arguments(parser: ArgumentParser) -> None:
 def main(args: Namespace) -> int:
     """Switch the mode."""
     with open_node(args) as node:
-        print(node.call(SetMode, 'set_mode', SetMode.Request(mode=args.mode)).message)
+        print(node.call(
+            SetMode, 'set_mode', SetMode.Request(mode=args.mode), patient=True,
+            waiting=f'compiling shaders for mode {args.mode} ...').message)
     return 0

@@ -16,6 +16,7 @@
 
 from collections.abc import Callable
 import os
+import sys
 import time
 from typing import Any
 
@@ -30,6 +31,7 @@ from rclpy.qos import QoSProfile
 
 _LOOK_AGAIN = 0.05
 _SETTLE = 0.1
+_LONG = 0.5
 
 
 class NodeClient:
@@ -64,11 +66,14 @@ class NodeClient:
         self._node.destroy_node()
         rclpy.try_shutdown(context=self._context)
 
-    def call(self, kind: type, name: str, request: Any, *, patient: bool = False) -> Any:
+    def call(
+            self, kind: type, name: str, request: Any, *, patient: bool = False,
+            waiting: str = '') -> Any:
         """
         Return the answer of the node's service ``name``.
 
         :param patient: True to wait for as long as the node is there
+        :param waiting: to be printed on stderr when the answer takes long
         :raises ClothSimError: when no answer comes, or when it says that the request failed
         """
         client = self._node.create_client(kind, f'{self._target}/{name}')
@@ -78,7 +83,11 @@ class NodeClient:
         # The node has to learn of this client, too, or its answer gets lost.
         self._executor.spin_once(timeout_sec=_SETTLE)
         future = client.call_async(request)
+        asked = time.monotonic()
         while not future.done():
+            if waiting and time.monotonic() > asked + _LONG:
+                print(waiting, file=sys.stderr, flush=True)
+                waiting = ''
             if patient and client.service_is_ready():
                 deadline = time.monotonic() + self._timeout
             self._wait(deadline, f'{self._target}/{name} does not answer')
