@@ -25,5 +25,6 @@ STUDIES = {
     'presets': 'the values of the parameter preset, from a tradeoff',
     'stability': 'where each mode ceases to be stable, measured and predicted',
     'extremes': 'scenes at the end of what can be asked for, in every mode',
+    'answers': 'how soon a running node answers, also while modes are compiled',
     'cost': 'what each feature of a scene costs, and what a result loses without it',
 }

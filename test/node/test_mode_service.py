@@ -58,8 +58,9 @@ def test_takes_the_modes_that_the_state_names(cloth, mode):
 def test_the_parameter_does_what_the_service_does(cloth, mode):
     """`ros2 param set` would change the parameter and not the simulation."""
     before = cloth.client.read_kept(ClothState, f'{cloth.name}/state')
+    cloth.clear()
     result = cloth.set_parameters(mode=mode)
     assert result.successful
     assert mode in before.available_modes
-    after = cloth.client.read_kept(ClothState, f'{cloth.name}/state')
-    assert after.mode == mode_parameter(cloth) == mode
+    assert mode_parameter(cloth) == mode
+    cloth.wait_for('state', lambda state: state.mode == mode and not state.preparing)

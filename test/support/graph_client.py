@@ -25,7 +25,8 @@ from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy
 from rclpy.qos import QoSProfile
 
-PATIENCE = 30.0
+# A machine that is busy besides compiles shaders for a minute.
+PATIENCE = 120.0
 
 
 class Watch:

@@ -1,0 +1,152 @@
+# SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
+# SPDX-License-Identifier: Apache-2.0
+
+"""Modes are compiled while the cloth goes on; here without a shader cache, as on a new machine."""
+
+from collections.abc import Iterator
+from pathlib import Path
+from signal import SIGINT
+import time
+
+from cloth_sim_interfaces.srv import ApplyPush
+from cloth_sim_interfaces.srv import SetMode
+from cloth_sim_interfaces.srv import SetPin
+from cloth_sim_interfaces.srv import Step
+from cloth_sim_ros.recording.bag_reader import BagReader
+from cloth_sim_ros.sim.scene_fields import MODES
+from cloth_under_test import ClothUnderTest
+from cloth_under_test import SCENE
+from geometry_msgs.msg import Vector3
+from graph_client import GraphClient
+from node_process import NodeProcess
+import pytest
+from rcl_interfaces.srv import GetParameters
+from std_srvs.srv import SetBool
+from std_srvs.srv import Trigger
+
+NO_CACHE = {'MESA_SHADER_CACHE_DISABLE': 'true'}
+RUNNING = {**SCENE, 'publish.rate': 50.0}
+
+
+@pytest.fixture(scope='module')
+def cold(client: GraphClient, tmp_path_factory: pytest.TempPathFactory) -> Iterator[ClothUnderTest]:
+    """Run a node whose modes have to be compiled."""
+    folder = tmp_path_factory.mktemp('cold_node')
+    with NodeProcess(folder, RUNNING, '-r', '__ns:=/cold', environment=NO_CACHE):
+        cloth = ClothUnderTest(client, RUNNING, '/cold/cloth_sim')
+        cloth.wait_for('stats')
+        yield cloth
+
+
+def ask(cloth: ClothUnderTest, mode: str, *, wait: bool = True):
+    """Ask for a mode and return the future of the answer."""
+    service = cloth.client.service(SetMode, f'{cloth.name}/set_mode')
+    return service.call_async(SetMode.Request(mode=mode, wait=wait))
+
+
+def test_the_cloth_goes_on_and_services_answer_meanwhile(cold: ClothUnderTest):
+    """On a new machine the node would be blind for as long as the compiler takes."""
+    cold.clear()
+    answer = ask(cold, 'constraint')
+    cold.wait_for('state', lambda state: state.preparing == 'constraint')
+    first = cold.wait_for('stats').steps
+    for kind, name, fields in (
+            (GetParameters, 'get_parameters', {'names': ['dt']}),
+            (ApplyPush, 'apply_push', {'force': Vector3(z=0.01), 'duration': 0.01}),
+            (SetPin, 'set_pin', {'row': 4, 'col': 4}),
+            (SetPin, 'set_pin', {'row': 4, 'col': 4, 'release': True})):
+        cold.call(kind, name, **fields)
+    cold.wait_for('stats', lambda stats: stats.steps > first + 20)
+    assert not answer.done()
+    assert cold['state'][-1].mode == 'mass_spring'
+    cold.wait_for('state', lambda state: state.preparing and state.compiled > 3)
+    cold.client.spin_until(answer.done, 'the mode takes over')
+    assert answer.result().success and answer.result().previous_mode == 'mass_spring'
+    state = cold.wait_for('state', lambda state: state.mode == 'constraint')
+    assert state.preparing == '' and state.substeps > 0
+    cold.wait_for('inputs/mode', lambda change: change.mode == 'constraint')
+
+
+def test_a_caller_may_have_the_answer_at_once(cold: ClothUnderTest):
+    """A client with a short timeout could not switch modes on a new machine."""
+    cold.call(SetMode, 'set_mode', mode='mass_spring')
+    cold.clear()
+    answer = ask(cold, 'adaptive', wait=False)
+    cold.client.spin_until(answer.done, 'set_mode answers')
+    assert answer.result().success and '~/state' in answer.result().message
+    cold.wait_for('state', lambda state: state.preparing == 'adaptive')
+    cold.wait_for('state', lambda state: state.mode == 'adaptive')
+    assert cold.call(SetMode, 'set_mode', mode='adaptive', wait=False).message.startswith(
+        'mode adaptive, was')
+
+
+def test_the_mode_asked_for_last_wins(client: GraphClient, tmp_path: Path):
+    """A mode that nobody wants any more would take over seconds later."""
+    with NodeProcess(tmp_path, RUNNING, '-r', '__ns:=/last', environment=NO_CACHE):
+        cloth = ClothUnderTest(client, RUNNING, '/last/cloth_sim')
+        cloth.wait_for('stats')
+        first = ask(cloth, 'constraint')
+        cloth.wait_for('state', lambda state: state.preparing == 'constraint')
+        second = ask(cloth, 'adaptive')
+        client.spin_until(first.done, 'the first answer')
+        assert not first.result().success
+        assert 'mode adaptive was asked for before' in first.result().message
+        client.spin_until(second.done, 'the second answer')
+        assert second.result().success
+        cloth.clear()
+        third = ask(cloth, 'constraint')
+        cloth.wait_for('state', lambda state: state.preparing == 'constraint')
+        assert cloth.set_parameters(mode='adaptive').successful
+        client.spin_until(third.done, 'the third answer')
+        assert not third.result().success
+        cloth.clear()
+        cloth.wait_for('stats', lambda stats: stats.steps > 0)
+        assert cloth.call(SetMode, 'set_mode', mode='adaptive').previous_mode == 'adaptive'
+
+
+def test_a_new_node_answers_before_its_first_mode_is_ready(client: GraphClient, tmp_path: Path):
+    """A node in mode constraint would not be there for seconds, or lose what it is asked."""
+    values = {**SCENE, 'mode': 'constraint', 'start_paused': True}
+    with NodeProcess(tmp_path, values, '-r', '__ns:=/early', environment=NO_CACHE):
+        cloth = ClothUnderTest(client, values, '/early/cloth_sim')
+        assert cloth['state'][-1].preparing == 'constraint'
+        assert cloth['state'][-1].substeps == 0
+        assert cloth.call(SetPin, 'set_pin', row=5, col=5).success
+        push = cloth.call(ApplyPush, 'apply_push', force=Vector3(z=0.1), duration=0.1)
+        assert push.success and push.nodes == 8 * 10 - 3
+        assert cloth.call(Trigger, 'reset').success
+        assert cloth.call(Step, 'step', steps=3).sim_time == pytest.approx(3 * cloth.dt)
+        frame = cloth.frame(3)
+        assert frame['flags'][0, 0] & 1 and not frame['flags'][5, 5] & 1
+
+
+@pytest.mark.parametrize('mode', MODES)
+def test_an_interrupt_while_compiling_closes_the_recording(
+        client: GraphClient, tmp_path: Path, mode: str):
+    """Ctrl-C or a launch file would end in SIGKILL, with the recording open."""
+    values = {**SCENE, 'mode': mode, 'recording.enabled': True, 'recording.name': 'cut'}
+    with NodeProcess(tmp_path, values, '-r', '__ns:=/cut', environment=NO_CACHE) as node:
+        client.spin_until(
+            lambda: 'recording to' in node.output or not node.running, 'the recording')
+        time.sleep(0.3)
+        node.send(SIGINT)
+        assert node.wait() == 0, node.output
+    assert (tmp_path / 'bags' / 'cut' / 'metadata.yaml').is_file()
+    assert BagReader(tmp_path / 'bags' / 'cut').topics
+
+
+def test_a_long_run_of_steps_leaves_the_node_free(cold: ClothUnderTest):
+    """~/step with many steps would make the node mute for as long."""
+    assert cold.call(SetMode, 'set_mode', mode='mass_spring').success
+    assert cold.call(SetBool, 'pause', data=True).success
+    service = cold.client.service(Step, f'{cold.name}/step')
+    answer = service.call_async(Step.Request(steps=30000))
+    assert cold.call(GetParameters, 'get_parameters', names=['dt']).values
+    refused = cold.call(Step, 'step', steps=1)
+    assert not refused.success and 'another caller' in refused.message
+    assert not answer.done()
+    assert cold.call(Trigger, 'reset').success
+    cold.client.spin_until(answer.done, 'the steps end')
+    assert not answer.result().success and 'back to its start' in answer.result().message
+    assert cold.call(Step, 'step', steps=2).sim_time == pytest.approx(2 * cold.dt)
+    assert cold.call(SetBool, 'pause', data=False).success
