@@ -14,6 +14,8 @@
 
 """Whether a moving cloth has more energy than it began with and was given."""
 
+from collections.abc import Mapping
+
 from cloth_sim_ros.sim.pin_forces import pin_forces
 from cloth_sim_ros.sim.push import Push
 from cloth_sim_ros.sim.scene import FAMILIES
@@ -63,6 +65,11 @@ class EnergyAccount:
         excess = self._gain - self._rounding()
         return excess / self._most if excess > 0.0 else 0.0
 
+    @property
+    def pushed(self) -> Mapping[Push, np.ndarray]:
+        """Return the nodes of each push that has begun, (rows, cols) bool."""
+        return self._pushed
+
     def step(self, count: int = 1) -> Snapshot:
         """Make ``count`` steps of dt; one at a time while something does work on the cloth."""
         done = 0
@@ -100,11 +107,7 @@ class EnergyAccount:
             if share <= 0.0:
                 continue
             if push not in self._pushed:
-                inside = ~self._run.pinned_nodes()
-                if push.region == 'sphere':
-                    away = np.linalg.norm(before.positions - np.array(push.center), axis=-1)
-                    inside &= away <= push.radius
-                self._pushed[push] = inside
+                self._pushed[push] = push.contains(before.positions) & ~self._run.pinned_nodes()
             if self._pushed[push].any():
                 shares.append((self._pushed[push], share * np.array(push.force)))
         return shares
