@@ -122,7 +122,7 @@ class GuardedSteps:
             steps=end)
 
     def _look(self) -> np.ndarray:
-        return self._observer.record(self._state, Forcing(self._scene['gravity']))[1]
+        return self._observer.record(self._state, Forcing(self._scene['gravity']), ())[1]
 
 
 def _keep(parts: Sequence[Restorable]) -> list[Any]:

@@ -105,6 +105,11 @@ class Scene:
         """Tell whether springs of ``family`` do anything in this scene."""
         return self.stiffness(family) > 0.0 or self.damping(family) > 0.0
 
+    @property
+    def families(self) -> tuple[str, ...]:
+        """Families whose springs do anything in this scene."""
+        return tuple(family for family in FAMILIES if self.models(family))
+
     def rest_positions(self) -> np.ndarray:
         """Return the undisturbed start pose [m], (rows, cols, 3) float64."""
         return grid.rest_positions(

@@ -262,7 +262,8 @@ class Simulation:
     def measure(self) -> Measures:
         """Return energies and largest strain, which is cheaper than a snapshot."""
         self._context.make_current()
-        return self._observer.measure(self._state, self._forcing_now())
+        return self._observer.measure(
+            self._state, self._forcing_now(), self._mode.spring_families)
 
     def snapshot(self, *, tension: bool = False, pin_forces: bool = False) -> Snapshot:
         """
@@ -273,7 +274,8 @@ class Simulation:
         """
         self._context.make_current()
         measures, records = self._observer.record(
-            self._state, self._forcing_now(), self._mode.limit_marks())
+            self._state, self._forcing_now(), self._mode.spring_families,
+            self._mode.limit_marks())
         snapshot = Snapshot(
             **vars(measures), **self._mode.report(), records=records, mode=self.mode,
             time=self.time, steps=self.steps, dt=self.dt,
@@ -328,7 +330,7 @@ class Simulation:
         self._pin_motion.end_step(begin, end)
 
     def _read_positions(self) -> np.ndarray:
-        records = self._observer.record(self._state, self._pushes.still)[1]
+        records = self._observer.record(self._state, self._pushes.still, ())[1]
         return np.stack([records[axis] for axis in 'xyz'], axis=-1)
 
     def _forcing_now(self) -> Forcing:
