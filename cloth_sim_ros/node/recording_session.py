@@ -16,6 +16,7 @@
 
 from collections.abc import Callable
 
+from cloth_sim_ros.recording.bag_folder import DIRECTORY_SETTING
 from cloth_sim_ros.recording.recorder import Recorder
 from cloth_sim_ros.recording.recording_error import RecordingError
 from cloth_sim_ros.sim.errors import ClothSimError
@@ -28,13 +29,17 @@ class RecordingSession:
     :param directory: folder that every recording goes into
     :param node_name: with its namespace, for the names of the topics
     :param lost: called with the reason when a recording ends because it can't be written to
+    :param setting: what ``directory`` was given by, for errors
     """
 
-    def __init__(self, directory: str, node_name: str, lost: Callable[[str], None]) -> None:
+    def __init__(
+            self, directory: str, node_name: str, lost: Callable[[str], None],
+            setting: str = DIRECTORY_SETTING) -> None:
         """Prepare; nothing is written yet."""
         self._directory = directory
         self._node_name = node_name
         self._lost = lost
+        self._setting = setting
         self._recorder: Recorder | None = None
         self._offset = 0.0
 
@@ -53,7 +58,8 @@ class RecordingSession:
         if self._recorder is not None:
             raise ClothSimError(
                 f'a recording is being written to {self.path}: call ~/stop_recording first')
-        self._recorder = Recorder(self._directory, name, self._node_name)
+        self._recorder = Recorder(
+            self._directory, name, self._node_name, setting=self._setting)
         self._offset = 0.0
         return self.path
 

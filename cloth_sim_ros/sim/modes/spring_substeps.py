@@ -54,17 +54,17 @@ def _too_many(scene: Scene) -> str:
     longest = _rounded_down(safe * (MOST_SUBSTEPS // refine))
     refined = f', times refine {refine}' if refine > 1 else ''
     return (
-        f'dt {dt:g} s would take {count:.3g} substeps of the {float(safe):g} s that are safe in any '
-        f'shape{refined}, more than {MOST_SUBSTEPS}: {_way_out(longest)}{_OTHER_SPRINGS}')
+        f'dt {dt:g} s would take {count:.3g} substeps of the {float(safe):g} s that are safe in '
+        f'any shape{refined}, more than {MOST_SUBSTEPS}: {_way_out(longest)}{_OTHER_SPRINGS}')
 
 
 def _too_long(scene: Scene, substeps: int, mode: str) -> str:
-    safe = _rounded_down(safe_substep(scene))
+    safe, limit = _rounded_down(safe_substep(scene)), _rounded_down(stability_limit(scene))
     has_automatic = choose_substeps(scene) <= MOST_SUBSTEPS
     return (
         f'dt {scene["dt"]:g} s in {substeps} substeps is above the stability limit '
-        f'{float(_rounded_down(stability_limit(scene))):g} s of a substep in mode {mode} (node mass '
-        f'{scene.node_mass:.3g} kg), and {float(safe):g} s are safe in any shape: '
+        f'{float(limit):g} s of a substep in mode {mode} (node mass {scene.node_mass:.3g} kg), '
+        f'and {float(safe):g} s are safe in any shape: '
         f'{_way_out(_rounded_down(safe * substeps))}'
         + ('set auto_substeps: true' if has_automatic else _OTHER_SPRINGS))
 

@@ -12,7 +12,7 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""A dt that is refused is refused with numbers that fit together, and with one that is accepted."""
+"""A dt is refused with numbers that fit together, and with one that is accepted."""
 
 import math
 import re
@@ -96,4 +96,5 @@ def test_the_usual_numbers():
     """The user would be shown a substep that twice as many would be made of."""
     assert refusal({**_STIFF, 'dt': 1.0}) == (
         'dt 1 s would take 1.41e+06 substeps of the 7.07e-07 s that are safe in any shape, more '
-        'than 100000: set dt <= 0.0707, or take softer springs, less damping or a larger node mass')
+        'than 100000: set dt <= 0.0707, or take softer springs, less damping or a larger node '
+        'mass')
