@@ -57,7 +57,8 @@ class RecordingSession:
         """Open a recording and return its path; ClothSimError when that can't be."""
         if self._recorder is not None:
             raise ClothSimError(
-                f'a recording is being written to {self.path}: call ~/stop_recording first')
+                f'a recording is being written to {self.path}: stop it first, by ~/stop_recording '
+                'or `cloth_sim record stop`')
         self._recorder = Recorder(
             self._directory, name, self._node_name, setting=self._setting)
         self._offset = 0.0
@@ -80,7 +81,9 @@ class RecordingSession:
     def stop(self) -> str:
         """Close the recording and return its path; ClothSimError when there is none."""
         if self._recorder is None:
-            raise ClothSimError('no recording is being written: call ~/start_recording first')
+            raise ClothSimError(
+                'no recording is being written: start one first, by ~/start_recording or '
+                '`cloth_sim record start`')
         path = self.path
         self.close()
         return path

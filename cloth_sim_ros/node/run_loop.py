@@ -118,8 +118,8 @@ class RunLoop:
         """Make ``steps`` steps of dt now; ClothSimError while running, or when one is lost."""
         if self.running:
             raise ClothSimError(
-                'the simulation is running, and ~/step needs it paused: call ~/pause with '
-                'data: true first')
+                'the simulation is running, and steps need it paused: pause it first, by ~/pause '
+                'with data: true or `cloth_sim pause`')
         if not 1 <= steps <= MOST_STEPS:
             raise ClothSimError(
                 f'steps {steps} is outside its range: give a value from 1 to {MOST_STEPS}')

@@ -27,6 +27,7 @@ from cloth_sim_ros.sim.stability import safe_substep
 from cloth_sim_ros.sim.stability import stability_limit
 
 _SHORTEST_DT = next(field.low for field in SCENE_FIELDS if field.name == 'dt')
+_AUTOMATIC = 'auto_substeps: true'
 _OTHER_SPRINGS = 'take softer springs, less damping or a larger node mass'
 
 
@@ -51,27 +52,27 @@ def spring_substeps(scene: Scene, mode: str, *, check_stability: bool = True) ->
 def _too_many(scene: Scene) -> str:
     dt, refine, safe = scene['dt'], scene['refine'], _rounded_down(safe_substep(scene))
     count = refine * needed_substeps(dt, float(safe))
-    longest = _rounded_down(safe * (MOST_SUBSTEPS // refine))
+    longest = safe * (MOST_SUBSTEPS // refine)
     refined = f', times refine {refine}' if refine > 1 else ''
     return (
         f'dt {dt:g} s would take {count:.3g} substeps of the {float(safe):g} s that are safe in '
-        f'any shape{refined}, more than {MOST_SUBSTEPS}: {_way_out(longest)}{_OTHER_SPRINGS}')
+        f'any shape{refined}, more than {MOST_SUBSTEPS}: {_way_out(longest, _OTHER_SPRINGS)}')
 
 
 def _too_long(scene: Scene, substeps: int, mode: str) -> str:
     safe, limit = _rounded_down(safe_substep(scene)), _rounded_down(stability_limit(scene))
-    has_automatic = choose_substeps(scene) <= MOST_SUBSTEPS
+    other = _AUTOMATIC if choose_substeps(scene) <= MOST_SUBSTEPS else _OTHER_SPRINGS
     return (
         f'dt {scene["dt"]:g} s in {substeps} substeps is above the stability limit '
         f'{float(limit):g} s of a substep in mode {mode} (node mass {scene.node_mass:.3g} kg), '
-        f'and {float(safe):g} s are safe in any shape: '
-        f'{_way_out(_rounded_down(safe * substeps))}'
-        + ('set auto_substeps: true' if has_automatic else _OTHER_SPRINGS))
+        f'and {float(safe):g} s are safe in any shape: {_way_out(safe * substeps, other)}')
 
 
-def _way_out(longest: Decimal) -> str:
-    """Return that dt may be as long as ``longest`` [s], if a dt can be so short."""
-    return f'set dt <= {float(longest):g}, or ' if longest >= _SHORTEST_DT else ''
+def _way_out(longest: Decimal, other: str) -> str:
+    """Return that dt may be as long as ``longest`` [s], if a dt can be so short, or ``other``."""
+    if longest >= _SHORTEST_DT:
+        return f'set dt <= {float(_rounded_down(longest)):g}, or {other}'
+    return f'set {other}' if other == _AUTOMATIC else other
 
 
 def _rounded_down(value: float | Decimal) -> Decimal:
