@@ -31,6 +31,7 @@ uniform int slab_rows;
 uniform int pushed_everywhere; // 1 while a push on the whole cloth acts
 uniform int has_limit_marks;   // 1 while there are edges at their limit
 uniform vec3 gravity;          // [m/s2]
+uniform float energy_stiffness[3]; // [N/m] of families that are springs in the present mode, or 0
 
 // The body of sensor_msgs/PointCloud2: x y z vx vy vz normal_x normal_y normal_z strain flags.
 #define RECORD_WORDS 11
@@ -58,7 +59,7 @@ void look_at_spring(
         int family, int rest) {
     vec4 to = load_position(node_index(row + drow, col + dcol));
     float stretch = to.w * (length_and_inverse(to.xyz - from.xyz).x - rest_length[rest]);
-    springs.energy += 0.25 * stiffness[family] * stretch * stretch;
+    springs.energy += 0.25 * energy_stiffness[family] * stretch * stretch;
     if (family != BEND) {
         springs.strain = max(springs.strain, abs(stretch) / rest_length[rest]);
     }

@@ -70,6 +70,8 @@ class Recording:
         """Get the name of the node; ClothSimError when several could be meant, or none."""
         if self._given_node is not None:
             return f'/{self._given_node.strip("/")}'
+        if not self.topics:
+            raise self._bag.no_message()
         return find_node(self.topics, self.path)
 
     @property
@@ -130,6 +132,8 @@ class Recording:
 
     def no_frame(self) -> ClothSimError:
         """Return the error of those who find no frame of the cloth."""
+        if not any(topic.count for topic in self.topics):
+            return self._bag.no_message()
         return ClothSimError(
             f'{self.path} holds no frame of the node {self.node}: name the recorded node with '
             '--node, or record with publish.points: true')

@@ -14,6 +14,7 @@
 
 """The health of a run, in words."""
 
+from cloth_sim_ros.messages.pace import slow_pace
 from cloth_sim_ros.messages.stamp import stamp
 from cloth_sim_ros.sim.snapshot import Snapshot
 from diagnostic_msgs.msg import DiagnosticArray
@@ -32,7 +33,7 @@ ERROR = DiagnosticStatus.ERROR
 
 def diagnostics_message(
         snapshot: Snapshot, *, node_name: str, device: str, paused: bool,
-        real_time_factor: float, wanted_factor: float, problem: str = '',
+        real_time_factor: float, wanted_factor: float, automatic_substeps: bool, problem: str = '',
         recording_path: str = '', recording_error: str = '') -> DiagnosticArray:
     """
     Return the health of the GL device, the pace, the solver, the stability and the recorder.
@@ -40,13 +41,15 @@ def diagnostics_message(
     :param device: GL_RENDERER
     :param real_time_factor: simulated time per wall time, achieved
     :param wanted_factor: the same as asked for, 0 for as fast as possible
+    :param automatic_substeps: True where the substeps in a dt follow from what is stable
     :param problem: why the run has stopped, empty when it has not
     :param recording_path: folder being written to, empty when not recording
     :param recording_error: why the last recording broke off, empty when it did not
     """
     findings = {
         'GL device': (OK, device, {'renderer': device}),
-        'real-time factor': _pace(paused, real_time_factor, wanted_factor),
+        'real-time factor': _pace(
+            snapshot, paused, real_time_factor, wanted_factor, automatic_substeps),
         'solver': _solver(snapshot),
         'stability': _stability(snapshot, problem),
         'recorder': _recorder(recording_path, recording_error),
@@ -64,16 +67,17 @@ def _text(value: object) -> str:
     return f'{value:.6g}' if isinstance(value, float) else str(value)
 
 
-def _pace(paused: bool, achieved: float, wanted: float) -> tuple[bytes, str, dict]:
+def _pace(
+        snapshot: Snapshot, paused: bool, achieved: float, wanted: float,
+        automatic: bool) -> tuple[bytes, str, dict]:
     values = {'achieved': float(achieved), 'wanted': float(wanted), 'paused': paused}
     if paused:
         return OK, 'paused', values
     if wanted == 0.0:
         return OK, f'{achieved:.3g} x real time, as fast as possible', values
     if achieved < SLOW * wanted:
-        return WARN, (
-            f'{achieved:.3g} x real time is below the {wanted:.3g} asked for: take fewer nodes, '
-            'a longer dt or a lower real_time_factor'), values
+        return WARN, slow_pace(
+            achieved, wanted, substeps=snapshot.substeps, automatic=automatic), values
     return OK, f'{achieved:.3g} x real time', values
 
 

@@ -14,6 +14,8 @@
 
 """The ROS node: puts the parts together, and holds no physics."""
 
+import time
+
 from cloth_sim_interfaces.msg import Command
 from cloth_sim_ros.messages.diagnostics import diagnostics_message
 from cloth_sim_ros.messages.topology import serialise_topology
@@ -25,6 +27,7 @@ from cloth_sim_ros.node.mode_service import ModeService
 from cloth_sim_ros.node.mode_switch import ModeSwitch
 from cloth_sim_ros.node.opening import write_opening
 from cloth_sim_ros.node.outlet import Outlet
+from cloth_sim_ros.node.pace_report import PaceReport
 from cloth_sim_ros.node.pacing import Pacing
 from cloth_sim_ros.node.parameters import declare_fields
 from cloth_sim_ros.node.pin_service import PinService
@@ -44,7 +47,6 @@ from rclpy.node import Node
 from rclpy.parameter import Parameter
 
 _WATCH_PERIOD = 1.0
-_SLOW_WARNING_PERIOD = 10.0
 
 
 class ClothSimNode(Node):
@@ -85,6 +87,9 @@ class ClothSimNode(Node):
         self._frames = Frames(
             self._simulation, self._outlet, values, self.get_logger().warning)
         self._pacing = Pacing(values['real_time_factor'])
+        self._pace_report = PaceReport(
+            self._simulation, self._pacing, warn=self.get_logger().warning,
+            say=self.get_logger().info)
         self._run_loop = RunLoop(
             self, self._simulation, frame_seconds=1.0 / values['publish.rate'],
             pacing=self._pacing, paused=values['start_paused'], on_frame=self._on_frame,
@@ -152,11 +157,8 @@ class ClothSimNode(Node):
     def _on_frame(self, worked: float, steps: int) -> None:
         self._frames.send(
             worked=worked, steps=steps, real_time_factor=self._run_loop.real_time_factor)
-        if self._run_loop.running and self._pacing.too_slow:
-            self.get_logger().warning(
-                f'{self._pacing.achieved:.3g} x real time is below the {self._pacing.factor:g} '
-                'asked for: take fewer nodes, a longer dt or a lower real_time_factor',
-                throttle_duration_sec=_SLOW_WARNING_PERIOD)
+        if self._run_loop.running:
+            self._pace_report.look(time.monotonic())
 
     def _show(self) -> None:
         """Send the present moment as a frame, as soon as there is a mode to look at it with."""
@@ -223,5 +225,6 @@ class ClothSimNode(Node):
             paused=not self._run_loop.running, problem=self._run_loop.problem,
             real_time_factor=self._run_loop.real_time_factor,
             wanted_factor=self._values['real_time_factor'],
+            automatic_substeps=self._values['auto_substeps'],
             recording_path=self._recording.path, recording_error=self._recording_error),
             snapshot.time)

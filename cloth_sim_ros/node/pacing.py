@@ -65,8 +65,11 @@ class Pacing:
         return (after - before) / (end - begin) if end > begin else 0.0
 
     @property
+    def has_window(self) -> bool:
+        """Tell whether frames were made for a whole window."""
+        return bool(self._frames) and self._frames[-1][0] - self._frames[0][0] >= _WINDOW
+
+    @property
     def too_slow(self) -> bool:
         """Tell whether a whole window fell short of the factor asked for by over 5 percent."""
-        if not self._frames or self._frames[-1][0] - self._frames[0][0] < _WINDOW:
-            return False
-        return self.achieved < 0.95 * self.factor
+        return self.has_window and self.achieved < 0.95 * self.factor

@@ -16,6 +16,7 @@
 
 from collections.abc import Callable
 
+from cloth_sim_ros.recording.bag_folder import DIRECTORY_SETTING
 from cloth_sim_ros.recording.recorder import Recorder
 from cloth_sim_ros.recording.recording_error import RecordingError
 from cloth_sim_ros.sim.errors import ClothSimError
@@ -28,13 +29,17 @@ class RecordingSession:
     :param directory: folder that every recording goes into
     :param node_name: with its namespace, for the names of the topics
     :param lost: called with the reason when a recording ends because it can't be written to
+    :param setting: what ``directory`` was given by, for errors
     """
 
-    def __init__(self, directory: str, node_name: str, lost: Callable[[str], None]) -> None:
+    def __init__(
+            self, directory: str, node_name: str, lost: Callable[[str], None],
+            setting: str = DIRECTORY_SETTING) -> None:
         """Prepare; nothing is written yet."""
         self._directory = directory
         self._node_name = node_name
         self._lost = lost
+        self._setting = setting
         self._recorder: Recorder | None = None
         self._offset = 0.0
 
@@ -52,8 +57,10 @@ class RecordingSession:
         """Open a recording and return its path; ClothSimError when that can't be."""
         if self._recorder is not None:
             raise ClothSimError(
-                f'a recording is being written to {self.path}: call ~/stop_recording first')
-        self._recorder = Recorder(self._directory, name, self._node_name)
+                f'a recording is being written to {self.path}: stop it first, by ~/stop_recording '
+                'or `cloth_sim record stop`')
+        self._recorder = Recorder(
+            self._directory, name, self._node_name, setting=self._setting)
         self._offset = 0.0
         return self.path
 
@@ -74,7 +81,9 @@ class RecordingSession:
     def stop(self) -> str:
         """Close the recording and return its path; ClothSimError when there is none."""
         if self._recorder is None:
-            raise ClothSimError('no recording is being written: call ~/start_recording first')
+            raise ClothSimError(
+                'no recording is being written: start one first, by ~/start_recording or '
+                '`cloth_sim record start`')
         path = self.path
         self.close()
         return path

@@ -130,8 +130,8 @@ class RunLoop:
         """
         if not self._paused and not self._problem:
             raise ClothSimError(
-                'the simulation is running, and ~/step needs it paused: call ~/pause with '
-                'data: true first')
+                'the simulation is running, and steps need it paused: pause it first, by ~/pause '
+                'with data: true or `cloth_sim pause`')
         if not 1 <= steps <= MOST_STEPS:
             raise ClothSimError(
                 f'steps {steps} is outside its range: give a value from 1 to {MOST_STEPS}')

@@ -24,12 +24,19 @@ from cloth_sim_ros.sim.errors import ClothSimError
 MOST_BYTES = 248  # file systems take 255, and the file's name is longer by _0.mcap
 
 
-def make_bag_folder(directory: str | os.PathLike[str], name: str = '') -> Path:
+# The parameter that says where a node records into.
+DIRECTORY_SETTING = 'recording.directory'
+
+
+def make_bag_folder(
+        directory: str | os.PathLike[str], name: str = '',
+        setting: str = DIRECTORY_SETTING) -> Path:
     """
     Make a folder inside ``directory`` that was not there before, and return it.
 
     :param directory: is made as well when it is missing; ~ is the home folder
     :param name: of the folder; empty for one made of the date and the time
+    :param setting: what ``directory`` was given by, for the error
     :raises ClothSimError: when the name would leave ``directory`` or is taken, or nothing can be
         written there
     """
@@ -42,7 +49,7 @@ def make_bag_folder(directory: str | os.PathLike[str], name: str = '') -> Path:
     except OSError as error:
         raise ClothSimError(
             f'nothing can be recorded into {parent} ({error.strerror}): '
-            'set recording.directory to a folder that can be written to') from error
+            f'set {setting} to a folder that can be written to') from error
 
 
 def _check_name(name: str, parent: Path) -> None:

@@ -72,8 +72,17 @@ class BagReader:
         """Get the times of the first and the last message [ns]; ClothSimError without one."""
         spans = [storage.span for storage in self._storages if storage.span is not None]
         if not spans:
-            raise ClothSimError(f'{self.path} holds no message: give another recording')
+            raise self.no_message()
         return min(begin for begin, _ in spans), max(end for _, end in spans)
+
+    def no_message(self) -> ClothSimError:
+        """Return the error of a bag that has none."""
+        if not self.problems:
+            return ClothSimError(f'{self.path} holds no message: give another recording')
+        return ClothSimError(
+            f'{self.path} holds no message, as it is cut off before the first was on the disk, a '
+            'second after the start of a recording: give another recording, or read it later if '
+            'it is being recorded')
 
     def messages(
             self, names: Collection[str] | None = None, *, begin: int | None = None,

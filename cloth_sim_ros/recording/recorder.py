@@ -24,6 +24,7 @@ import time
 from cloth_sim_ros.messages.stamp import nanoseconds
 from cloth_sim_ros.messages.topics import TOPICS
 from cloth_sim_ros.recording.bag_file import BagFile
+from cloth_sim_ros.recording.bag_folder import DIRECTORY_SETTING
 from cloth_sim_ros.recording.bag_folder import make_bag_folder
 from cloth_sim_ros.recording.message_definition import message_definition
 from cloth_sim_ros.recording.message_definition import type_hash
@@ -45,24 +46,26 @@ class Recorder:
     :param directory: the bag's folder is made in here
     :param name: of that folder; empty for one made of the date and the time
     :param node_name: with its namespace, for the names of the topics
+    :param setting: what ``directory`` was given by, for errors
     :raises ClothSimError: when the name leaves ``directory`` or is taken, or it can't be written
     """
 
     def __init__(
             self, directory: str | os.PathLike[str], name: str = '',
-            node_name: str = 'cloth_sim') -> None:
+            node_name: str = 'cloth_sim', *, setting: str = DIRECTORY_SETTING) -> None:
         """Open the recording."""
         for topic in TOPICS.values():
             if topic.recorded:
                 # Read now, and kept: what is missing is told before anything is recorded.
                 message_definition(topic.type_name)
                 type_hash(topic.type_name)
-        self.path = make_bag_folder(directory, name)
+        self.path = make_bag_folder(directory, name, setting)
+        self._setting = setting
         try:
             self._file = BagFile(self.path, node_name)
         except OSError as error:
             _remove(self.path)
-            raise ClothSimError(_reason(self.path, error)) from error
+            raise ClothSimError(self._reason(error)) from error
         self._queue: SimpleQueue = SimpleQueue()
         # Each is changed by one thread only, so that neither needs a lock.
         self._taken_bytes = 0
@@ -146,14 +149,13 @@ class Recorder:
             self._file.abandon()
         except OSError:
             pass  # then it ends in half a record, which readers of broken files skip
-        self._error = RecordingError(_reason(self.path, error))
+        self._error = RecordingError(self._reason(error))
 
-
-def _reason(path: Path, error: Exception) -> str:
-    reason = getattr(error, 'strerror', None) or error or type(error).__name__
-    return (
-        f'recording to {path} has ended ({reason}): make room, or set recording.directory to '
-        'another disk, and start a new one')
+    def _reason(self, error: Exception) -> str:
+        reason = getattr(error, 'strerror', None) or error or type(error).__name__
+        return (
+            f'recording to {self.path} has ended ({reason}): make room, or set {self._setting} to '
+            'another disk, and start a new one')
 
 
 def _remove(folder: Path) -> None:

@@ -45,6 +45,8 @@ class ReferenceCloth(ABC):
         self.scene = scene
         self.dt: float = scene['dt']
         self.springs = spring_sets(scene)
+        # Those that hold elastic energy: a mode that holds edges otherwise takes them out.
+        self.elastic_springs = self.springs
         self.gravity = np.array(scene['gravity'])
         self.free = ~scene.pinned_nodes()
         self.positions = scene.start_positions()
@@ -85,7 +87,7 @@ class ReferenceCloth(ABC):
         """Return the energies of the present state."""
         return Energies(
             kinetic_energy(self.velocities, self.free, self.scene.node_mass),
-            elastic_energy(self.springs, self.positions),
+            elastic_energy(self.elastic_springs, self.positions),
             gravitational_energy(self.positions, self.scene.node_mass, self.gravity))
 
     def node_strain(self) -> np.ndarray:

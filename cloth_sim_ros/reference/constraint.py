@@ -67,6 +67,8 @@ class ConstraintReference(ReferenceCloth):
         self.options = options or ConstraintOptions()
         self.edges = edges_of(scene, always=self.options.hard)
         self.hard = self.edges.of(self.options.hard)
+        self.elastic_springs = tuple(
+            springs for springs in self.springs if springs.family not in self.options.hard)
         # Last made: the tension of each edge in the last substep [N], the substeps of the
         # last dt, and the force of each pin on the cloth over the last dt [N].
         self.tension = np.zeros(len(self.edges))

@@ -31,10 +31,7 @@ def push_weight(push: Push, begin: float, end: float) -> float:
 
 def push_nodes(push: Push, positions: np.ndarray, free: np.ndarray) -> np.ndarray:
     """Return the free nodes in the push's region, bool (rows, cols)."""
-    if push.region == 'all':
-        return free.copy()
-    distance = np.linalg.norm(positions - np.asarray(push.center), axis=-1)
-    return free & (distance <= push.radius)
+    return free & push.contains(positions)
 
 
 def push_acceleration(push: Push, nodes: np.ndarray, node_mass: float) -> np.ndarray:

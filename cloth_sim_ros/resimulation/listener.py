@@ -54,5 +54,8 @@ class Listener:
     def stop(self) -> None:
         """Hear that the run has stopped, at its last finite state."""
 
+    def close_interrupted(self) -> None:
+        """Hear that there is no more to come, since somebody broke it off."""
+
     def close(self) -> None:
         """Hear that there is no more to come."""

@@ -65,9 +65,9 @@ class Engine:
             layout, scene.node_mass, scene['gravity'], state.read_positions, state.pinned)
         try:
             still = Forcing(scene['gravity'])
-            self.observer.measure(state, still)
+            self.observer.measure(state, still, ())
             yield
-            self.observer.record(state, still)
+            self.observer.record(state, still, ())
             yield
             self.guard.check.passes(state)
             yield

@@ -39,6 +39,7 @@ class Field:
     :param low: smallest value allowed
     :param high: largest value allowed
     :param choices: the values allowed, for words
+    :param words: what may be given, for words that cannot be counted
     :param is_array: True for a list of ``kind``
     :param live: True when a running node accepts a new value
     """
@@ -51,6 +52,7 @@ class Field:
     low: float | None = None
     high: float | None = None
     choices: tuple[str, ...] = ()
+    words: str = ''
     is_array: bool = False
     live: bool = False
 
@@ -60,21 +62,21 @@ class Field:
             return self._check_one(value)
         if isinstance(value, str) or not isinstance(value, Sequence):
             raise ClothSimError(
-                f'{self.name} must be a list, got {value!r}: write [..., ...]')
+                f'{self.name} must be a list, got {value!r}: write {self._list_with(value)}')
         return tuple(self._check_one(element) for element in value)
 
     def _check_one(self, value: Any) -> Any:
         is_number = isinstance(value, (int, float)) and not isinstance(value, bool)
         if self.kind is float and is_number:
             value = float(value)
+        if self.choices and value not in self.choices:
+            raise ClothSimError(
+                f'{self.name} must be one of {", ".join(self.choices)}, got {value!r}')
         if type(value) is not self.kind:
             raise ClothSimError(
                 f'{self.name} must be {_NAMES[self.kind]}, got {value!r}{self._way_out()}')
         if self.kind is float and not math.isfinite(value):
             raise ClothSimError(f'{self.name} must be finite, got {value}{self._way_out()}')
-        if self.choices and value not in self.choices:
-            raise ClothSimError(
-                f'{self.name} must be one of {", ".join(self.choices)}, got {value!r}')
         too_low = self.low is not None and value < self.low
         too_high = self.high is not None and value > self.high
         if too_low or too_high:
@@ -82,7 +84,14 @@ class Field:
                 f'{self.name} {value} is outside its range{self._way_out()}')
         return value
 
+    def _list_with(self, value: Any) -> str:
+        if self.kind is str and isinstance(value, str):
+            return f'["{value}"]'
+        return f'[...], as in {list(self.default)}' if self.default else '[...]'
+
     def _way_out(self) -> str:
+        if self.words:
+            return f': give {self.words}'
         unit = f' {self.unit}' if self.unit else ''
         if self.low is not None and self.high is not None:
             return f': give a value from {self.low:g} to {self.high:g}{unit}'

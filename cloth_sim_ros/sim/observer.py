@@ -14,11 +14,14 @@
 
 """Look at the state: records of all nodes, or only the energies and the largest strain."""
 
+from collections.abc import Collection
+
 from cloth_sim_ros.gl.buffer import Buffer
 from cloth_sim_ros.gl.buffer import shader_writes_visible
 from cloth_sim_ros.sim import bindings
 from cloth_sim_ros.sim.forcing import Forcing
 from cloth_sim_ros.sim.layout import Layout
+from cloth_sim_ros.sim.scene import FAMILIES
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.scene_program import SceneProgram
 from cloth_sim_ros.sim.snapshot import Measures
@@ -51,23 +54,29 @@ class Observer:
         self._sums_buffer = Buffer(self._partial_sums.nbytes)
         self._records_buffer: Buffer | None = None
 
-    def measure(self, state: State, forcing: Forcing) -> Measures:
-        """Return energies, largest strain and finiteness of ``state``."""
-        return self._observe(state, forcing, None)
+    def measure(self, state: State, forcing: Forcing, springs: Collection[str]) -> Measures:
+        """
+        Return energies, largest strain and finiteness of ``state``.
+
+        :param springs: families of edges that hold elastic energy: those that are springs in the
+            mode that steps
+        """
+        return self._observe(state, forcing, springs, None)
 
     def record(
-            self, state: State, forcing: Forcing,
+            self, state: State, forcing: Forcing, springs: Collection[str],
             limit_marks: Buffer | None = None) -> tuple[Measures, np.ndarray]:
         """
         Return the measures and the (rows, cols) records of ``state``.
 
+        :param springs: as in ``measure``; does not matter to the records
         :param limit_marks: which edges are at their limit, as limit_mark.comp leaves them
         """
         if self._records_buffer is None:
             self._records_buffer = Buffer(
                 self._slab_rows * self._scene.cols * POINT_DTYPE.itemsize)
         records = np.empty((self._scene.rows, self._scene.cols), dtype=POINT_DTYPE)
-        return self._observe(state, forcing, records, limit_marks), records
+        return self._observe(state, forcing, springs, records, limit_marks), records
 
     def delete(self) -> None:
         """Give the buffers back."""
@@ -76,12 +85,14 @@ class Observer:
             self._records_buffer.delete()
 
     def _observe(
-            self, state: State, forcing: Forcing, records: np.ndarray | None,
-            limit_marks: Buffer | None = None) -> Measures:
+            self, state: State, forcing: Forcing, springs: Collection[str],
+            records: np.ndarray | None, limit_marks: Buffer | None = None) -> Measures:
         program = self._programs[records is not None].use()
         forcing.apply(program)
         forcing.bind()
         program.set_int('pushed_everywhere', int(forcing.pushed_everywhere))
+        program.set_floats('energy_stiffness', [
+            self._scene.stiffness(family) if family in springs else 0.0 for family in FAMILIES])
         state.bind_in()
         self._sums_buffer.bind_storage(bindings.PARTIAL_SUMS)
         if records is not None:

@@ -30,6 +30,8 @@ _REGIONS = {
     'top_edge': np.s_[0, :],
     'bottom_edge': np.s_[-1, :],
 }
+# What a pin can be called.
+PIN_NAMES = f'{", ".join(_REGIONS)}, or a node as "row,col"'
 
 
 def pinned_nodes(
@@ -50,7 +52,7 @@ def pinned_nodes(
             pinned[row, col] = True
         elif name not in _REGIONS:
             raise ClothSimError(
-                f'{parameter} has {name!r}: give {", ".join(_REGIONS)}, or a node as "row,col"')
+                f'{parameter} has {name!r}: give {PIN_NAMES}')
         elif name != 'none':
             pinned[_REGIONS[name]] = True
     return pinned

@@ -19,10 +19,14 @@ from dataclasses import dataclass
 import math
 
 from cloth_sim_ros.sim.errors import ClothSimError
+import numpy as np
 
 REGIONS = ('all', 'sphere')
 # Forces and accelerations are float32 on the device, which ends at 3e38.
 _MOST = 1e30
+# What a node on the surface of a sphere may lie outside of it, over how far from the origin the
+# sphere reaches: see Push.contains.
+_ROUNDING = 2.0**-23
 
 
 @dataclass(frozen=True)
@@ -90,6 +94,22 @@ class Push:
     def impulse(self) -> tuple[float, float, float]:
         """Return the total impulse [N s]."""
         return tuple(part * self.duration for part in self.force)
+
+    def contains(self, positions: np.ndarray) -> np.ndarray:
+        """
+        Tell which of ``positions`` (..., 3) [m] are in the region.
+
+        A sphere holds what is at most its radius r from its center c, within the rounding of
+        float32. That moves a position x by up to 2^-24 abs(x), where abs(x) <= abs(c) + r on the
+        surface. The center and the radius, which may have been float32 too, are off by up to
+        2^-24 abs(c) and 2^-24 r. Together that is 2^-23 (abs(c) + r): the tolerance.
+        """
+        if self.region == 'all':
+            return np.ones(positions.shape[:-1], dtype=bool)
+        # As the device holds them, also those of a float64 reference: both find the same nodes.
+        held = np.asarray(positions, dtype=np.float32).astype(float)
+        reach = math.hypot(*self.center) + self.radius
+        return np.linalg.norm(held - self.center, axis=-1) <= self.radius + _ROUNDING * reach
 
     def overlap(self, begin: float, end: float) -> float:
         """Return the share of the step from ``begin`` to ``end`` [s] the push acts in, 0 to 1."""

@@ -246,9 +246,8 @@ class PushField:
     def _settle(self, entry: _Entry, pinned: np.ndarray) -> None:
         push = entry.push
         entry.inside = ~pinned
-        if push.region == 'sphere':
-            away = self._read_positions() - np.array(push.center, dtype=np.float32)
-            entry.inside &= np.einsum('rci,rci->rc', away, away) <= push.radius**2
+        if push.region != 'all':
+            entry.inside &= push.contains(self._read_positions())
         entry.nodes = int(np.count_nonzero(entry.inside))
         if entry.nodes:
             entry.acceleration = np.array(push.force) / (entry.nodes * self._node_mass)

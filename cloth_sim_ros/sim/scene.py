@@ -105,6 +105,11 @@ class Scene:
         """Tell whether springs of ``family`` do anything in this scene."""
         return self.stiffness(family) > 0.0 or self.damping(family) > 0.0
 
+    @property
+    def families(self) -> tuple[str, ...]:
+        """Families whose springs do anything in this scene."""
+        return tuple(family for family in FAMILIES if self.models(family))
+
     def rest_positions(self) -> np.ndarray:
         """Return the undisturbed start pose [m], (rows, cols, 3) float64."""
         return grid.rest_positions(
@@ -172,6 +177,15 @@ def refuse_unknown(given: Mapping[str, Any], fields: tuple[Field, ...]) -> None:
     known = [field.name for field in fields]
     for name in given:
         if name not in known:
-            close = difflib.get_close_matches(name, known, n=1)
-            hint = f'did you mean {close[0]}?' if close else 'see the parameter table in README.md'
-            raise ClothSimError(f'there is no parameter {name}: {hint}')
+            raise ClothSimError(f'there is no parameter {name}: {_hint(name, known)}')
+
+
+def _hint(name: str, known: list[str]) -> str:
+    groups = sorted({each.partition('.')[0] for each in known if '.' in each})
+    close = difflib.get_close_matches(name, known + groups, n=1)
+    if not close:
+        return 'see the parameter table in README.md'
+    if close[0] in known:
+        return f'did you mean {close[0]}?'
+    *others, last = [each for each in known if each.startswith(f'{close[0]}.')]
+    return f'did you mean {", ".join(others)} or {last}?'

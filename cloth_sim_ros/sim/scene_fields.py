@@ -15,6 +15,7 @@
 """Every parameter of a scene: what Scene reads is what the node declares."""
 
 from cloth_sim_ros.sim.field import Field
+from cloth_sim_ros.sim.pins import PIN_NAMES
 
 MOST_SUBSTEPS = 100000
 MODES = ('mass_spring', 'constraint', 'adaptive')
@@ -46,9 +47,8 @@ SCENE_FIELDS = (
     Field('damping.bend', float, 0.001, 'of the bend springs', 'N s/m', low=0.0, high=1e6),
     Field('gravity', float, (0.0, 0.0, -9.81), 'acceleration on every free node, x y z', 'm/s2',
           low=-1e4, high=1e4, is_array=True),
-    Field('pins', str, ('top_left', 'top_right'),
-          'nodes held in place: none, all, top_left, top_right, bottom_left, bottom_right, '
-          'top_edge, bottom_edge, or "row,col"', is_array=True),
+    Field('pins', str, ('top_left', 'top_right'), f'nodes held in place: {PIN_NAMES}',
+          words=PIN_NAMES, is_array=True),
     Field('pin_speed', float, 1.0, 'speed of a moving pin where none is given', 'm/s',
           low=1e-6, high=1e6),
     Field('start.pose', str, 'horizontal', 'horizontal: flat at start.z; hanging: upright, '
@@ -104,7 +104,7 @@ SCENE_FIELDS = (
     Field('pin_moves.start', float, (), 'start of each timed move of a pin', 's', low=0.0,
           high=1e9, is_array=True),
     Field('pin_moves.node', str, (), 'the pinned node of each timed move: a corner or "row,col"',
-          is_array=True),
+          words='a corner, or a node as "row,col"', is_array=True),
     Field('pin_moves.target', float, (), 'the point each timed move leads to in a straight line, '
           'x y z one after the other', 'm', low=-1e6, high=1e6, is_array=True),
     Field('pin_moves.speed', float, (), 'speed of each timed move; left out, all have pin_speed',

@@ -319,8 +319,10 @@ class Simulation:
 
     def measure(self) -> Measures:
         """Return energies and largest strain, which is cheaper than a snapshot."""
+        engine = self.engines.current
         with self._settled_state():
-            return self.engines.current.observer.measure(self._state, self._forcing_now())
+            return engine.observer.measure(
+                self._state, self._forcing_now(), engine.mode.spring_families)
 
     def snapshot(self, *, tension: bool = False, pin_forces: bool = False) -> Snapshot:
         """
@@ -329,10 +331,11 @@ class Simulation:
         :param tension: True to have the tension of every edge in it, and the forces at the pins
         :param pin_forces: True to have these forces alone, which costs less on a large cloth
         """
-        mode = self.engines.current.mode
+        engine = self.engines.current
+        mode = engine.mode
         with self._settled_state():
-            measures, records = self.engines.current.observer.record(
-                self._state, self._forcing_now(), mode.limit_marks())
+            measures, records = engine.observer.record(
+                self._state, self._forcing_now(), mode.spring_families, mode.limit_marks())
             snapshot = Snapshot(
                 **vars(measures), **mode.report(), records=records, mode=self.mode,
                 time=self.time, steps=self.steps, dt=self.dt,

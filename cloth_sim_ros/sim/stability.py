@@ -89,7 +89,12 @@ class StiffenedLimit:
 
 def choose_substeps(scene: Scene) -> int:
     """Return how many substeps auto_substeps makes of dt: what is safe, times refine."""
-    return scene['refine'] * max(1, math.ceil(scene['dt'] / safe_substep(scene) - 1e-9))
+    return scene['refine'] * needed_substeps(scene['dt'], safe_substep(scene))
+
+
+def needed_substeps(dt: float, longest: float) -> int:
+    """Return the fewest substeps of ``dt`` [s] that are no longer than ``longest`` [s]."""
+    return max(1, math.ceil(dt / longest - 1e-9))
 
 
 def _least_limit(scene: Scene, kappa: np.ndarray, gamma: np.ndarray) -> float:

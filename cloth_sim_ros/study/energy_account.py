@@ -14,6 +14,10 @@
 
 """Whether a moving cloth has more energy than it began with and was given."""
 
+from collections.abc import Mapping
+
+from cloth_sim_ros.reference.energy import elastic_energy
+from cloth_sim_ros.reference.springs import spring_sets
 from cloth_sim_ros.sim.pin_forces import pin_forces
 from cloth_sim_ros.sim.push import Push
 from cloth_sim_ros.sim.scene import FAMILIES
@@ -34,7 +38,7 @@ class EnergyAccount:
     are linear, is H = E + h sum(m v . a) / 2: that is what is accounted for in the modes that step
     so.
 
-    Mode constraint holds edges without elastic energy, so it is left out there.
+    In mode constraint it is the energy itself, and hard edges hold none.
 
     The work of pins that move is that of the forces on them at the end of each step.
 
@@ -62,6 +66,11 @@ class EnergyAccount:
         # What rounding alone may add is no gain.
         excess = self._gain - self._rounding()
         return excess / self._most if excess > 0.0 else 0.0
+
+    @property
+    def pushed(self) -> Mapping[Push, np.ndarray]:
+        """Return the nodes of each push that has begun, (rows, cols) bool."""
+        return self._pushed
 
     def step(self, count: int = 1) -> Snapshot:
         """Make ``count`` steps of dt; one at a time while something does work on the cloth."""
@@ -100,11 +109,7 @@ class EnergyAccount:
             if share <= 0.0:
                 continue
             if push not in self._pushed:
-                inside = ~self._run.pinned_nodes()
-                if push.region == 'sphere':
-                    away = np.linalg.norm(before.positions - np.array(push.center), axis=-1)
-                    inside &= away <= push.radius
-                self._pushed[push] = inside
+                self._pushed[push] = push.contains(before.positions) & ~self._run.pinned_nodes()
             if self._pushed[push].any():
                 shares.append((self._pushed[push], share * np.array(push.force)))
         return shares
@@ -121,15 +126,16 @@ class EnergyAccount:
         return self._moving(seen) + seen.gravitational_energy
 
     def _moving(self, seen: Snapshot) -> float:
-        if not self._is_symplectic:
-            return seen.kinetic_energy
-        return seen.kinetic_energy + seen.elastic_energy + self._half_a_step(seen)
+        energy = seen.kinetic_energy + seen.elastic_energy
+        return energy + self._half_a_step(seen) if self._is_symplectic else energy
 
     def _uncertain(self, seen: Snapshot) -> float:
         """Return the energy [J] that the state at the start may have besides what it tells."""
         if not self._is_symplectic:
             # Edges that are off their length are springs until they have hardened.
-            return seen.elastic_energy
+            hardening = (springs for springs in spring_sets(self._run.scene)
+                         if springs.family in self._run.scene['constraint.hard'])
+            return elastic_energy(tuple(hardening), seen.positions.astype(float))
         # What is set as the velocity now is taken as that of half a substep ago.
         free, forces = self._forces(seen)
         kick = 0.5 * self._run.dt / self._run.substeps / self._run.scene.node_mass
@@ -152,12 +158,14 @@ class EnergyAccount:
     def _rounding(self) -> float:
         scene = self._run.scene
         reach = _ROUNDING * float(np.abs(self.begin.positions).max())
-        if not self._is_symplectic:
+        springs = FAMILIES if self._is_symplectic else scene['constraint.springs']
+        stiffest = max((scene.stiffness(family) for family in springs), default=0.0)
+        energy = 12.0 * stiffest * scene.node_count * reach**2
+        if self._is_symplectic:
+            # Without damping, what each substep rounds adds up like a random walk.
+            energy *= 1.0 + 0.01 * self._substeps
+        else:
             # What float32 rounds of a length, a substep of hard edges takes back.
             speed = reach * self._run.substeps / scene['dt']
-            energy = 0.5 * scene.node_mass * scene.node_count * speed**2
-        else:
-            stiffest = max(scene.stiffness(family) for family in FAMILIES)
-            # Without damping, what each substep rounds adds up like a random walk.
-            energy = 12.0 * stiffest * scene.node_count * reach**2 * (1.0 + 0.01 * self._substeps)
+            energy += 0.5 * scene.node_mass * scene.node_count * speed**2
         return energy + 1e-6 * abs(self.begin.gravitational_energy)

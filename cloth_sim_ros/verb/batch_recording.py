@@ -14,6 +14,7 @@
 
 """Write a run that has no node into a recording, as the node would have recorded it."""
 
+import sys
 from typing import Any
 
 from cloth_sim_interfaces.msg import ClothState
@@ -36,11 +37,12 @@ class BatchRecording:
     :param directory: folder that the recording's own folder is made in
     :param node_name: for the names of the topics, with its namespace
     :param verb: that warnings come from
+    :param setting: what ``directory`` was given by, for errors
     """
 
     def __init__(
             self, simulation: Simulation, node_values: dict[str, Any], directory: str, *,
-            node_name: str = 'cloth_sim', verb: str = 'run') -> None:
+            node_name: str = 'cloth_sim', verb: str = 'run', setting: str = '--record') -> None:
         """Open the recording and write what it begins with, the start pose too."""
         self._simulation = simulation
         self._verb = verb
@@ -48,7 +50,7 @@ class BatchRecording:
         self._points = PointsMessage(
             simulation.scene.rows, simulation.scene.cols, self._frame_id)
         self._wrenches = WrenchMessages(self._frame_id)
-        self._session = RecordingSession(directory, node_name, self._say)
+        self._session = RecordingSession(directory, node_name, self._say, setting)
         self.path = self._session.start(node_values['recording.name'])
         values = {**simulation.scene.values, **node_values}
         write_opening(self._session, simulation, values, f'/{node_name.strip("/")}')
@@ -57,6 +59,7 @@ class BatchRecording:
         self._has_wrenches = node_values['publish.wrenches'] and not reason
         if node_values['publish.wrenches'] and reason:
             self._say(reason)
+        self._recorded = 0.0
         self.write(0.0, 0.0)
 
     def write(self, step_wall_time: float, real_time_factor: float) -> None:
@@ -70,6 +73,7 @@ class BatchRecording:
         if self._has_wrenches:
             for data in self._wrenches.serialise(snapshot):
                 self._session.write('pins/wrenches', data, snapshot.time)
+        self._recorded = snapshot.time
 
     def send_message(self, key: str, message: Any, sim_time: float) -> None:
         """Write ``message`` of the topic ``key`` at ``sim_time`` [s], as a node's outlet does."""
@@ -86,6 +90,15 @@ class BatchRecording:
     def close(self) -> None:
         """Finish the recording."""
         self._session.close()
+
+    def close_interrupted(self) -> None:
+        """Finish the recording of a run that was interrupted, and say how far it goes."""
+        try:
+            self.close()
+        finally:
+            print(
+                f'cloth_sim {self._verb}: interrupted; the recording {self.path} is complete up '
+                f'to {self._recorded:.6g} s', file=sys.stderr)
 
     def _write_state(self, run_state: str) -> None:
         state = state_of(

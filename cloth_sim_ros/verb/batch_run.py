@@ -23,6 +23,8 @@ from cloth_sim_ros.sim.errors import NonFiniteStateError
 from cloth_sim_ros.sim.simulation import Simulation
 from tqdm import tqdm
 
+# Of a step: what a sum of frame times may fall short of it, as in Simulation.advance.
+_ROUNDING = 1e-6
 _BAR = '{percentage:3.0f}% |{bar}| {n:.2f}/{total:.2f} s simulated{postfix}'
 
 
@@ -31,22 +33,24 @@ class BatchRun:
     Steps a simulation frame by frame and keeps what a result needs.
 
     ``problem`` says why the run has stopped before its end; it is empty when it has not.
+    ``peak_strain`` is the largest strain of all frames, that of the start too: those that a
+    recording has.
 
     :param node_values: the node's parameters by name; publish.rate makes the frames
     :param record_directory: folder for a recording; None records nothing
+    :param setting: what that folder was given by, for errors
     """
 
     def __init__(
             self, simulation: Simulation, node_values: dict[str, Any],
-            record_directory: str | None = None) -> None:
-        """Open the recording, if there is to be one."""
+            record_directory: str | None = None, *, setting: str = '--record') -> None:
+        """Keep the parts; nothing is written yet."""
         self._simulation = simulation
+        self._node_values = node_values
+        self._record_directory = record_directory
+        self._setting = setting
         self._frame_seconds = max(1.0 / node_values['publish.rate'], simulation.dt)
         self._recording = None
-        if record_directory is not None:
-            # The ROS packages are needed for a recording alone.
-            from cloth_sim_ros.verb.batch_recording import BatchRecording
-            self._recording = BatchRecording(simulation, node_values, record_directory)
         self.steps = 0
         self.wall_seconds = 0.0
         self.peak_strain = 0.0
@@ -58,23 +62,55 @@ class BatchRun:
         return self._recording.path if self._recording else ''
 
     def advance(self, seconds: float) -> None:
-        """Simulate ``seconds``; stop early at the last finite state."""
-        if not math.isfinite(seconds) or seconds < 0.0:
-            raise ClothSimError(f'--seconds must be a finite time, got {seconds}: give 0 or more')
-        frames = math.ceil(seconds / self._frame_seconds - 1e-9)
+        """
+        Simulate the whole steps of dt in ``seconds``; stop early at the last finite state.
+
+        :raises ClothSimError: when that is no time, or less than a step
+        """
+        steps = self._steps_in(seconds)
+        self._open_recording()
         try:
-            with tqdm(total=seconds, bar_format=_BAR, mininterval=0.2) as bar:
-                for frame in range(frames):
-                    done = frame * self._frame_seconds
-                    span = min(self._frame_seconds, seconds - done)
-                    if not self._make_frame(span):
-                        break
-                    rate = (done + span) / self.wall_seconds if self.wall_seconds else 0.0
-                    bar.set_postfix_str(f'{rate:.3g} x real time', refresh=False)
-                    bar.update(min(span, bar.total - bar.n))
+            self.peak_strain = self._simulation.measure().max_strain
+            self._make_frames(seconds, steps)
+        except KeyboardInterrupt:
+            if self._recording is not None:
+                self._recording.close_interrupted()
+            raise
         finally:
             if self._recording is not None:
                 self._recording.close()
+
+    def _steps_in(self, seconds: float) -> int:
+        dt = self._simulation.dt
+        if not math.isfinite(seconds) or seconds < 0.0:
+            raise ClothSimError(f'--seconds must be a finite time, got {seconds}: give 0 or more')
+        steps = math.floor(seconds / dt + _ROUNDING)
+        if seconds > 0.0 and not steps:
+            raise ClothSimError(
+                f'--seconds {seconds} is shorter than one step, dt {dt} s, so nothing would move: '
+                f'give --seconds {dt} or more, or set a shorter dt')
+        return steps
+
+    def _open_recording(self) -> None:
+        if self._record_directory is not None:
+            # The ROS packages are needed for a recording alone.
+            from cloth_sim_ros.verb.batch_recording import BatchRecording
+            self._recording = BatchRecording(
+                self._simulation, self._node_values, self._record_directory,
+                setting=self._setting)
+
+    def _make_frames(self, seconds: float, steps: int) -> None:
+        dt = self._simulation.dt
+        frames = math.ceil(seconds / self._frame_seconds - 1e-9)
+        with tqdm(total=steps * dt, bar_format=_BAR, mininterval=0.2, disable=None) as bar:
+            for frame in range(frames):
+                done = frame * self._frame_seconds
+                if not self._make_frame(min(self._frame_seconds, seconds - done)):
+                    break
+                made = self.steps * dt
+                rate = made / self.wall_seconds if self.wall_seconds else 0.0
+                bar.set_postfix_str(f'{rate:.3g} x real time', refresh=False)
+                bar.update(made - bar.n)
 
     def _make_frame(self, seconds: float) -> bool:
         simulation = self._simulation

@@ -28,6 +28,8 @@ import sys
 from cloth_sim_ros.gl.errors import DeviceError
 from cloth_sim_ros.node.missing_module import way_out
 from cloth_sim_ros.sim.errors import ClothSimError
+from cloth_sim_ros.verb.termination import raise_on_sigterm
+from cloth_sim_ros.verb.termination import Terminated
 
 VERBS = {
     'run': 'simulate a scene file, without ROS',
@@ -49,7 +51,9 @@ VERBS = {
     'paper': 'make Fig. 10 and 11 of the paper',
     'study': 'measure error against cost, and where a scene stops being stable',
 }
+# 128 and the number of the signal, as shells have it.
 INTERRUPTED = 130
+TERMINATED = 143
 
 
 def main(argv: Sequence[str] | None = None) -> int:
@@ -64,11 +68,14 @@ def main(argv: Sequence[str] | None = None) -> int:
             prog=f'cloth_sim {name}', description=verb.__doc__,
             formatter_class=RawDescriptionHelpFormatter)
         verb.add_arguments(parser)
-        return verb.main(parser.parse_args(rest))
+        with raise_on_sigterm():
+            return verb.main(parser.parse_args(rest))
     except (ClothSimError, DeviceError) as error:
         problem = str(error)
     except ImportError as error:
         problem = way_out(error)
+    except Terminated:
+        return TERMINATED
     except KeyboardInterrupt:
         return INTERRUPTED
     print(f'cloth_sim {name}: {problem}', file=sys.stderr)

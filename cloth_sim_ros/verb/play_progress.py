@@ -42,8 +42,7 @@ class PlayProgress:
         """Show a bar from ``start`` to ``end`` [s] of the recording."""
         self._start = start
         self._bar = tqdm(
-            total=end - start, bar_format=_BAR, mininterval=0.1, leave=False,
-            disable=not sys.stderr.isatty())
+            total=end - start, bar_format=_BAR, mininterval=0.1, leave=False, disable=None)
 
     def show(self, seconds: float) -> None:
         """Show that all up to ``seconds`` of the recording is played."""

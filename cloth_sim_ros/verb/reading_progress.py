@@ -34,7 +34,8 @@ class ReadingProgress:
     def __init__(self, name: str) -> None:
         """Show nothing yet."""
         self._bar = tqdm(
-            total=0, desc=name, unit=' messages', mininterval=0.2, delay=0.2, leave=False)
+            total=0, desc=name, unit=' messages', mininterval=0.2, delay=0.2, leave=False,
+            disable=None)
         self._walks = 0
 
     def __call__(self, entries: Iterable[Entry], count: int) -> Iterator[Entry]:

@@ -24,16 +24,18 @@ from cloth_sim_ros.verb.batch_run import BatchRun
 
 def record_run(
         scene: Scene, node_values: dict[str, Any], seconds: float, directory: str | Path,
-        name: str, *, check_stability: bool = True) -> str:
+        name: str, *, check_stability: bool = True, setting: str = '--out') -> str:
     """
     Simulate ``seconds`` into ``directory``/``name``; return why it stopped early, or ''.
 
     :param check_stability: False lets dt pass the stability limit
+    :param setting: what ``directory`` was given by, for errors
     :raises ClothSimError: when the scene can't be run, or the recording is there already
     """
     simulation = Simulation(scene, check_stability=check_stability)
     try:
-        run = BatchRun(simulation, {**node_values, 'recording.name': name}, str(directory))
+        run = BatchRun(
+            simulation, {**node_values, 'recording.name': name}, str(directory), setting=setting)
         run.advance(seconds)
         return run.problem
     finally:

@@ -75,6 +75,10 @@ def main(args: Namespace) -> int:
         listener = _listener(run, rerun, folder)
         try:
             _make(rerun, listener, recording.count('points') or recording.count('stats'))
+        except KeyboardInterrupt:
+            if args.out:
+                listener.close_interrupted()
+            raise
         finally:
             listener.close()
         verdict = Verdict(
@@ -125,7 +129,7 @@ def _listener(run: RecordedRun, rerun: Rerun, folder: str | None) -> Listener:
 
 
 def _make(rerun: Rerun, listener: Listener, frames: int) -> None:
-    with tqdm(total=frames, bar_format=_BAR, mininterval=0.2) as bar:
+    with tqdm(total=frames, bar_format=_BAR, mininterval=0.2, disable=None) as bar:
         for time in rerun.make(listener):
             bar.set_postfix_str(f'{time:.2f} s', refresh=False)
             bar.update(min(1, bar.total - bar.n))

@@ -51,7 +51,7 @@ class ResimulatedRecording(Listener):
     def begin(self) -> None:
         """Open the recording and write what it begins with, and its first frame."""
         self.recording = BatchRecording(
-            *self._arguments, node_name=self._node_name, verb='resimulate')
+            *self._arguments, node_name=self._node_name, verb='resimulate', setting='--out')
         self._is_written = True
         self.path = self.recording.path
         self._inputs = Inputs(
@@ -93,3 +93,8 @@ class ResimulatedRecording(Listener):
         """Finish the recording."""
         if self.recording is not None:
             self.recording.close()
+
+    def close_interrupted(self) -> None:
+        """Finish the recording, and say how far it goes."""
+        if self.recording is not None:
+            self.recording.close_interrupted()

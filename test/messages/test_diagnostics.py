@@ -23,8 +23,8 @@ from rclpy.serialization import deserialize_message
 from rclpy.serialization import serialize_message
 
 HEALTHY = {
-    'node_name': 'cloth_sim', 'device': 'llvmpipe', 'paused': False, 'real_time_factor': 1.0,
-    'wanted_factor': 1.0}
+    'node_name': 'cloth_sim', 'device': 'llvmpipe', 'paused': False, 'automatic_substeps': True,
+    'real_time_factor': 1.0, 'wanted_factor': 1.0}
 OK, WARN, ERROR = DiagnosticStatus.OK, DiagnosticStatus.WARN, DiagnosticStatus.ERROR
 
 

@@ -29,7 +29,9 @@ RUNNING = {**SCENE, 'publish.rate': 50.0}
 
 
 @pytest.fixture(scope='module')
-def cold(client: GraphClient, tmp_path_factory: pytest.TempPathFactory) -> Iterator[ClothUnderTest]:
+def cold(
+        client: GraphClient,
+        tmp_path_factory: pytest.TempPathFactory) -> Iterator[ClothUnderTest]:
     """Run a node whose modes have to be compiled."""
     folder = tmp_path_factory.mktemp('cold_node')
     with NodeProcess(folder, RUNNING, '-r', '__ns:=/cold', environment=NO_CACHE):

@@ -162,14 +162,15 @@ def test_refuses_a_second_recording(cloth):
     path = start(cloth).path
     response = start(cloth)
     assert not response.success
-    assert path in response.message and 'call ~/stop_recording first' in response.message
+    assert path in response.message
+    assert 'stop it first, by ~/stop_recording or `cloth_sim' in response.message
 
 
 def test_refuses_to_stop_nothing(cloth):
     """A script would believe that it has recorded something."""
     response = cloth.call(Trigger, 'stop_recording')
     assert not response.success
-    assert 'call ~/start_recording first' in response.message
+    assert 'start one first, by ~/start_recording or `cloth_sim' in response.message
 
 
 def test_an_unwritable_directory_is_no_end(cloth, shared_node):

@@ -61,6 +61,24 @@ def test_lists_are_checked_element_by_element():
         gravity.check('down')
 
 
+@pytest.mark.parametrize(('name', 'value', 'message'), [
+    ('pins', [100, 100], 'pins must be a word, got 100: give none, all, top_left, top_right, '
+     'bottom_left, bottom_right, top_edge, bottom_edge, or a node as "row,col"'),
+    ('pins', 'top_left', 'pins must be a list, got \'top_left\': write ["top_left"]'),
+    ('pins', '3,4', 'pins must be a list, got \'3,4\': write ["3,4"]'),
+    ('pin_moves.node', [3], 'node must be a word, got 3: give a corner, or a node as "row,col"'),
+    ('gravity', 9.81, 'gravity must be a list, got 9.81: write [...], as in [0.0, 0.0, -9.81]'),
+    ('pushes.start', 1.0, 'pushes.start must be a list, got 1.0: write [...]'),
+    ('constraint.hard', [3], 'constraint.hard must be one of structural, shear, bend, got 3'),
+])
+def test_a_wrong_value_is_told_what_to_write(name: str, value: object, message: str):
+    """A user would know that it is wrong, and not what is right."""
+    field = next(field for field in SCENE_FIELDS if field.name == name)
+    with pytest.raises(ClothSimError) as caught:
+        field.check(value)
+    assert str(caught.value).endswith(message)
+
+
 @pytest.mark.parametrize('field', SCENE_FIELDS, ids=lambda field: field.name)
 def test_defaults_pass_their_own_check(field: Field):
     """A scene without parameters would be refused."""

@@ -245,7 +245,7 @@ def test_a_blow_up_by_memory_alone_is_told():
     with pytest.raises(NonFiniteStateError, match='without what the mode had kept') as caught:
         list(guard.make(0, 3, step, mode, pushes))
     assert caught.value.steps == 3
-    assert observer.measure(state, pushes.still).finite
+    assert observer.measure(state, pushes.still, ()).finite
     list(guard.make(3, 3, step, mode, pushes))
     for part in (guard, mode, pushes, observer, state):
         part.delete()

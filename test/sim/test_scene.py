@@ -64,6 +64,19 @@ def test_an_unknown_name_is_refused_with_the_nearest():
         Scene({'stiffnes.shear': 1.0})
 
 
+@pytest.mark.parametrize(('name', 'hint'), [
+    ('stiffness', 'did you mean stiffness.structural, stiffness.shear or stiffness.bend?'),
+    ('dampng', 'did you mean damping.structural, damping.shear or damping.bend?'),
+    ('stiffness.structual', 'did you mean stiffness.structural?'),
+    ('pin', 'did you mean pins?'), ('start_pose', 'did you mean start.pose?'),
+    ('viscosity', 'see the parameter table in README.md')])
+def test_the_name_of_a_group_gets_its_members(name: str, hint: str):
+    """A user who sets one stiffness for all would be led to that of the bend springs."""
+    with pytest.raises(ClothSimError) as caught:
+        Scene({name: 500.0})
+    assert str(caught.value) == f'there is no parameter {name}: {hint}'
+
+
 @pytest.mark.parametrize(('values', 'message'), [
     ({'rows': 1, 'cols': 1}, 'a cloth needs 2 nodes or more'),
     ({'gravity': [0.0, -9.81]}, 'gravity needs 3 components, got 2'),

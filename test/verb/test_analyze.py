@@ -255,7 +255,7 @@ NO_STAMP = made(
     header={'frame_id': 'world'})
 FOREIGN = {
     'other topics': ([('/chatter', String(data='text'))], 'no frame of a cloth_sim node'),
-    'no message': ([('/cloth_sim/stats', ClothStats)], 'no frame of the node /cloth_sim'),
+    'no message': ([('/cloth_sim/stats', ClothStats)], 'bag holds no message: give another'),
     'another cloud': ([('/scan/points', SCAN)], 'no field normal_x'),
     'two sizes': ([('/cloth_sim/points', cloud()), ('/cloth_sim/points', cloud(4, 3))],
                   '4 x 3 nodes at 0 s after clouds of 2 x 3'),

@@ -18,6 +18,7 @@
 from pathlib import Path
 
 from cloth_sim_ros.verb.main import main
+import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -36,6 +37,33 @@ def test_tells_what_was_recorded(tmp_path, capsys):
     assert lines['time'] == '0 to 0.7 s, 36 frames'
     assert lines['done'].startswith('to the cloth  2 pushes, 0 nodes released')
     assert lines['state'] == 'finite'
+
+
+@pytest.fixture(scope='module')
+def recorded(tmp_path_factory) -> Path:
+    """Return the file of a recording of one chunk."""
+    folder = tmp_path_factory.mktemp('bags')
+    assert main([
+        'run', str(ROOT / 'config' / 'curtain.yaml'), '--seconds', '0.2', '--record', str(folder),
+        '--set', 'rows=6', '--set', 'cols=46', '--set', 'recording.name=small']) == 0
+    return folder / 'small' / 'small_0.mcap'
+
+
+@pytest.mark.parametrize('arguments', [('info',), ('info', '--node', 'cloth_sim'), (
+    'render', '--out', 'picture.png'), ('analyze',), ('resimulate',), ('play', '--delay', '0')])
+@pytest.mark.parametrize('length', [8, 42, 538, 3000, 20000])
+def test_a_recording_cut_off_in_its_first_chunk_is_told_so(
+        recorded, tmp_path, monkeypatch, capsys, length, arguments):
+    """A user would be told to record points, which were being recorded."""
+    monkeypatch.chdir(tmp_path)
+    content = recorded.read_bytes()
+    assert len(content) > 20000
+    (tmp_path / 'cut.mcap').write_bytes(content[:length])
+    capsys.readouterr()
+    assert main([arguments[0], 'cut.mcap', *arguments[1:]]) == 1
+    said = capsys.readouterr().err
+    assert 'cut.mcap holds no message, as it is cut off before the first was on the disk' in said
+    assert 'publish.points' not in said and 'Traceback' not in said
 
 
 def test_says_what_is_wrong_with_a_recording(tmp_path, capsys):

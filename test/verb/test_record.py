@@ -27,7 +27,7 @@ def test_records(verb, verb_node):
     assert path == verb_node.folder / 'bags' / 'by_hand'
     again = verb('record', 'start')
     assert again.returncode == 1
-    assert 'call ~/stop_recording first' in again.stderr
+    assert '`cloth_sim record stop`' in again.stderr
     stopped = verb('record', 'stop')
     assert (stopped.returncode, stopped.stdout) == (0, f'closed {path}\n')
     assert Recorded(path).messages('points')

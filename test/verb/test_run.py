@@ -16,8 +16,10 @@
 
 import json
 from pathlib import Path
+import signal
 import subprocess
 import sys
+import time
 
 from cloth_sim_ros.analysis.recording import Recording
 from cloth_sim_ros.analysis.summary import summarise
@@ -121,6 +123,61 @@ def test_a_run_is_recorded(scene: Path, tmp_path: Path):
         '/cloth_sim/inputs/parameters', '/cloth_sim/inputs/push'}
 
 
+def test_the_peak_strain_is_that_of_the_recording(scene: Path, tmp_path: Path):
+    """A start that is the most stretched would count in `cloth_sim info` alone."""
+    result = result_of(run(
+        scene, '--seconds', 0.2, '--json', '--record', tmp_path, '--set', 'recording.name=bag',
+        '--set', 'start.jitter=0.3', '--set', 'pushes.force=[0.0, 0.0, 0.1]'))
+    recording = Recording(tmp_path / 'bag')
+    start = next(entry.message for entry in recording.entries('stats'))
+    assert result['peak_strain'] == start.max_strain == summarise(recording).largest_strain
+    assert result['peak_strain'] > result['max_strain']
+
+
+def test_no_time_at_all_shows_the_start(scene: Path):
+    """The start pose could not be looked at."""
+    result = result_of(run(scene, '--seconds', 0, '--json'))
+    assert result['steps'] == 0
+    assert result['peak_strain'] == result['max_strain'] > 0.0
+
+
+@pytest.mark.parametrize(('seconds', 'dt'), [(0.02, 1.0), (0.00499, 0.005)])
+def test_a_run_shorter_than_a_step_is_refused(
+        scene: Path, tmp_path: Path, seconds: float, dt: float):
+    """Nothing would be simulated, and all of it be done."""
+    done = run(scene, '--seconds', seconds, '--set', f'dt={dt}', '--record', tmp_path / 'bags')
+    assert (done.returncode, done.stdout) == (1, '')
+    assert done.stderr == (
+        f'cloth_sim run: --seconds {seconds} is shorter than one step, dt {dt} s, so nothing '
+        f'would move: give --seconds {dt} or more, or set a shorter dt\n')
+    assert not (tmp_path / 'bags').exists()
+    assert result_of(run(scene, '--seconds', dt, '--set', f'dt={dt}', '--json'))['steps'] == 1
+
+
+@pytest.mark.parametrize(('number', 'code'), [(signal.SIGINT, 130), (signal.SIGTERM, 143)])
+def test_a_signal_completes_the_recording(
+        scene: Path, tmp_path: Path, number: signal.Signals, code: int):
+    """A run that is stopped would leave a file that is cut off, without a word."""
+    bag = tmp_path / 'bag'
+    # One that was started in the background of a shell may ignore SIGINT.
+    process = subprocess.Popen(
+        [sys.executable, '-m', 'cloth_sim_ros.verb', 'run', scene, '--seconds', '100000',
+         '--record', tmp_path, '--set', 'recording.name=bag'],
+        stderr=subprocess.PIPE, text=True,
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.default_int_handler))
+    while not (bag / 'bag_0.mcap').exists() or (bag / 'bag_0.mcap').stat().st_size < 100_000:
+        assert process.poll() is None
+        time.sleep(0.05)
+    process.send_signal(number)
+    said = process.communicate(timeout=60)[1]
+    assert process.returncode == code
+    recording = Recording(bag)
+    end = summarise(recording).end
+    assert recording.problems == []
+    assert said == (
+        f'cloth_sim run: interrupted; the recording {bag} is complete up to {end:.6g} s\n')
+
+
 @pytest.mark.parametrize(('arguments', 'message'), [
     (['--set', 'rwos=3'], 'there is no parameter rwos: did you mean rows?'),
     (['--set', 'rows'], "a change needs name=value, got 'rows'"),
@@ -129,7 +186,7 @@ def test_a_run_is_recorded(scene: Path, tmp_path: Path):
     (['--set', 'rows=5000', '--set', 'cols=5000'], 'the buffers of'),
     (['--seconds', 'nan'], '--seconds must be a finite time'),
     (['--out', '/proc/nothing/state.npz'], 'cannot be written'),
-    (['--record', '/proc/nothing'], '/proc/nothing'),
+    (['--record', '/proc/nothing'], 'set --record to a folder that can be written to'),
 ])
 def test_what_is_wrong_is_said_in_one_line(scene: Path, arguments: list[str], message: str):
     """The user would get a traceback."""

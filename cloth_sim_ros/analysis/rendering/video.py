@@ -77,7 +77,7 @@ def write_video(
             before: list[Frame] = []
             bar = tqdm(
                 _in_step(sources, begin, speed / fps, count), total=count, desc='drawing',
-                unit='image')
+                unit='image', disable=None)
             for frames in bar:
                 # In slow motion many images are the same.
                 if any(a is not b for a, b in zip(frames, before)) or not before:
@@ -95,7 +95,7 @@ def _look_through(
         end: float | None) -> tuple[list[Frame], tuple[float, float]]:
     """Show all frames to ``survey``; return the first of each source, and begin and end [s]."""
     firsts, last = [], -math.inf
-    with tqdm(desc='reading', unit='frame') as bar:
+    with tqdm(desc='reading', unit='frame', disable=None) as bar:
         for source in sources:
             frame = None
             for number, frame in enumerate(source.frames()):

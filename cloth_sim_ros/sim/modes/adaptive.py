@@ -49,6 +49,7 @@ class Adaptive:
 
     def __init__(self, scene: Scene, layout: Layout, *, check_stability: bool = True) -> None:
         """Choose the substeps and compile the passes."""
+        self.spring_families = scene.families
         self.stability_limit = stability_limit(scene)
         self.substeps = spring_substeps(scene, self.name, check_stability=check_stability)
         self._dt: float = scene['dt']

@@ -59,9 +59,11 @@ class Constraint:
         self._dt: float = scene['dt']
         self._most_iterations: int = scene['solver.max_iterations']
         self._solves: int = scene['constraint.newton_iterations']
+        self.spring_families = tuple(
+            family for family in scene.families if family in scene['constraint.springs'])
         families = tuple(
-            family for family in FAMILIES if family in scene['constraint.hard']
-            or (family in scene['constraint.springs'] and scene.models(family)))
+            family for family in FAMILIES
+            if family in scene['constraint.hard'] or family in self.spring_families)
         self._solver = Solver(
             scene, layout, families=families, preconditioner=scene['solver.preconditioner'],
             tolerance=scene['solver.tolerance'],

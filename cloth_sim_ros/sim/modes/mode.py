@@ -40,6 +40,8 @@ class Mode(Protocol):
     """
     A way to step the state of a scene.
 
+    ``spring_families`` are those whose edges are springs, so that they hold elastic energy.
+
     :param check_stability: False takes a dt above the stability limit, to study what happens
     :raises ClothSimError: when the mode can't step the scene as it asks
     """
@@ -47,6 +49,7 @@ class Mode(Protocol):
     name: str
     substeps: int
     stability_limit: float
+    spring_families: tuple[str, ...]
 
     def __init__(self, scene: Scene, layout: Layout, *, check_stability: bool = True) -> None:
         """Compile and allocate what this mode needs and nothing else."""

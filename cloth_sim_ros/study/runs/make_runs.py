@@ -57,7 +57,7 @@ def make_runs(
     if todo:
         with tqdm(
                 total=len(distinct), initial=len(distinct) - len(todo), bar_format=_BAR,
-                desc=title) as bar:
+                desc=title, disable=None) as bar:
             # Closed at once, so that an interrupt ends the processes.
             with closing(_make_alone(todo) if alone else _make(todo, workers)) as made:
                 for result in made:

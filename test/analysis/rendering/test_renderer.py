@@ -14,6 +14,9 @@
 
 """What is drawn is where the projection says, in the colour that the scale and the lamp say."""
 
+import sys
+import warnings
+
 from cloth_sim_ros.analysis.rendering import light
 from cloth_sim_ros.analysis.rendering.camera import Camera
 from cloth_sim_ros.analysis.rendering.look import LIMIT_COLOR
@@ -232,6 +235,17 @@ def test_a_push_on_a_region_has_a_ring(flat, rendered):
         across, down = renderer.view.project(point).astype(int)
         near = image[down - 1:down + 2, across - 1:across + 2]
         assert (near[..., 2] - near[..., 0]).max() > 90, angle
+
+
+@pytest.mark.parametrize('radius', [1e6, 1e300, sys.float_info.max])
+def test_a_push_on_a_huge_region_is_an_arrow(flat, rendered, radius):
+    """A recording with such a push could not be drawn, or with warnings only."""
+    push = Push.checked(
+        force=(0.0, 0.0, 2.0), start=0.0, duration=9.0, region='sphere', radius=radius)
+    with warnings.catch_warnings():
+        warnings.simplefilter('error')
+        image = rendered(flat(pushes=(push,), strain=0.0))[0]
+    assert is_like(image, PUSH_COLOR).any()
 
 
 @pytest.mark.parametrize('shape', [(30, 1), (1, 30)])

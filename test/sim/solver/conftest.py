@@ -78,7 +78,7 @@ class SolverCase:
     def read_state(self) -> tuple[np.ndarray, np.ndarray]:
         """Return positions and velocities, (rows, cols, 3) each."""
         observer = Observer(self.scene, self.layout)
-        records = observer.record(self.state, Forcing(GRAVITY))[1]
+        records = observer.record(self.state, Forcing(GRAVITY), ())[1]
         observer.delete()
         return tuple(
             np.stack([records[name] for name in names], axis=-1)

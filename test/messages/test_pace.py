@@ -1,0 +1,28 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""What is advised to a run that is too slow."""
+
+from cloth_sim_ros.messages.pace import slow_pace
+import pytest
+
+
+@pytest.mark.parametrize(('substeps', 'automatic', 'faster', 'useless'), [
+    (16, True, 'softer springs', 'dt'), (1, True, 'a longer dt', 'springs'),
+    (16, False, 'a longer dt', 'springs')])
+def test_a_longer_dt_is_advised_where_it_helps(substeps, automatic, faster, useless):
+    """A user would take a longer dt, which then has more substeps of the same length."""
+    advice = slow_pace(0.5, 1.0, substeps=substeps, automatic=automatic)
+    assert advice.startswith('0.5 x real time is below the 1 asked for: take fewer nodes, ')
+    assert faster in advice and useless not in advice

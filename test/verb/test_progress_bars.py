@@ -1,0 +1,79 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Progress bars are for terminals: what is piped or logged gets none."""
+
+import ast
+import os
+from pathlib import Path
+import pty
+import subprocess
+import sys
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+EXAMPLE = ROOT / 'bags' / 'example'
+_COMMANDS = {
+    'run': ('run', ROOT / 'config' / 'drape.yaml', '--seconds', '0.4', '--set', 'rows=8'),
+    'resimulate': ('resimulate', EXAMPLE),
+    'analyze': ('analyze', EXAMPLE, '--out', '{out}/analysis'),
+    'render': ('render', EXAMPLE, '--video', '{out}/video.mp4', '--to', '0.2'),
+}
+
+
+def shown(arguments: tuple, folder: Path, *, on_terminal: bool) -> str:
+    """Return what the command writes besides its result."""
+    command = [sys.executable, '-m', 'cloth_sim_ros.verb'] + [
+        str(argument).format(out=folder) for argument in arguments]
+    if not on_terminal:
+        done = subprocess.run(command, capture_output=True, text=True)
+        assert done.returncode == 0, done.stderr
+        return done.stderr
+    ours, its = pty.openpty()
+    subprocess.run(command, stdout=subprocess.DEVNULL, stderr=its, check=True)
+    os.close(its)
+    written = b''
+    try:
+        while part := os.read(ours, 65536):
+            written += part
+    except OSError:
+        pass  # Linux tells so that the other end is closed
+    os.close(ours)
+    return written.decode()
+
+
+@pytest.mark.parametrize('arguments', _COMMANDS.values(), ids=_COMMANDS)
+def test_a_pipe_gets_no_bar(arguments: tuple, tmp_path: Path):
+    """A log would be filled with a line a frame."""
+    assert shown(arguments, tmp_path, on_terminal=False) == ''
+
+
+def test_a_terminal_gets_a_bar(tmp_path: Path):
+    """Somebody who waits would not know for how long."""
+    assert '100%' in shown(_COMMANDS['run'], tmp_path, on_terminal=True)
+
+
+def test_every_bar_is_for_terminals_alone():
+    """A verb that is not run here would write into pipes."""
+    found = []
+    for path in sorted((ROOT / 'cloth_sim_ros').rglob('*.py')):
+        for node in ast.walk(ast.parse(path.read_text(encoding='utf-8'))):
+            if isinstance(node, ast.Call) and getattr(node.func, 'id', '') == 'tqdm':
+                options = {keyword.arg: keyword.value for keyword in node.keywords}
+                # Without a value tqdm looks whether it writes to a terminal.
+                shown_there = ast.unparse(options.get('disable', ast.Constant(False))) == 'None'
+                found.append((path.name, shown_there))
+    assert len(found) >= 6
+    assert all(shown_there for _, shown_there in found), found
