@@ -70,6 +70,11 @@ class Engines:
             engine.context.make_current()
             engine.mode.forget()
 
+    def compile_all(self) -> None:
+        """Compile all that the mode in use can need, not each part when it is first used."""
+        self.context.make_current()
+        modes.finish(self.current.run_all_passes())
+
     def preparation(self, mode: str) -> Preparation:
         """Return what compiles the engine of ``mode`` on another thread."""
         self.check(mode)

@@ -21,6 +21,7 @@ from typing import Any
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.errors import NonFiniteStateError
 from cloth_sim_ros.sim.simulation import Simulation
+from cloth_sim_ros.verb.compile_notice import compile_notice
 from tqdm import tqdm
 
 # Of a step: what a sum of frame times may fall short of it, as in Simulation.advance.
@@ -68,6 +69,9 @@ class BatchRun:
         :raises ClothSimError: when that is no time, or less than a step
         """
         steps = self._steps_in(seconds)
+        # Otherwise the compiler's time would count as that of the first frame.
+        with compile_notice(self._simulation.mode):
+            self._simulation.engines.compile_all()
         self._open_recording()
         try:
             self.peak_strain = self._simulation.measure().max_strain
