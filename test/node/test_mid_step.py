@@ -1,0 +1,75 @@
+# SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
+# SPDX-License-Identifier: Apache-2.0
+
+"""Requests that come while a step is under way: answered at once, done at its end, recorded so."""
+
+from pathlib import Path
+
+from cloth_sim_interfaces.srv import ApplyPush
+from cloth_sim_interfaces.srv import MovePin
+from cloth_sim_interfaces.srv import SetMode
+from cloth_sim_interfaces.srv import SetPin
+from cloth_sim_ros.analysis.recording import Recording
+from cloth_under_test import ClothUnderTest
+from command import cloth_sim
+from geometry_msgs.msg import Point
+from geometry_msgs.msg import Vector3
+from graph_client import GraphClient
+from node_process import NodeProcess
+import pytest
+from std_srvs.srv import SetBool
+from std_srvs.srv import Trigger
+
+# A step takes many slices of the node's work.
+SLOW = {'rows': 40, 'cols': 40, 'dt': 0.02, 'publish.rate': 50.0, 'recording.enabled': True,
+        'recording.name': 'slow', 'publish.markers': False}
+
+
+@pytest.mark.parametrize('mode', ['constraint', 'adaptive'])
+def test_what_is_asked_within_steps_is_made_again_to_the_bit(
+        client: GraphClient, tmp_path: Path, mode: str):
+    """A change would be made within a step, or be recorded with the time of another one."""
+    values = {**SLOW, 'mode': mode}
+    with NodeProcess(tmp_path, values, '-r', f'__ns:=/slow_{mode}'):
+        cloth = ClothUnderTest(client, values, f'/slow_{mode}/cloth_sim')
+        cloth.wait_for('stats', lambda stats: stats.steps >= 3)
+        for number in range(4):
+            push = cloth.call(
+                ApplyPush, 'apply_push', force=Vector3(y=0.2, z=0.1), duration=0.05,
+                region='sphere', center=Point(z=0.9), radius=0.6)
+            assert push.success and push.nodes > 0
+            assert cloth.call(SetPin, 'set_pin', row=20, col=10 + number).success
+            moved = cloth.call(
+                MovePin, 'move_pin', row=0, col=0, target=Point(x=-0.5, y=0.5, z=1.0 + 0.01 * number),
+                speed=0.2)
+            assert moved.success
+            assert cloth.call(SetPin, 'set_pin', row=20, col=10 + number, release=True).success
+        assert cloth.call(Trigger, 'clear_pushes').success
+        assert cloth.call(SetBool, 'pause', data=True).success
+        assert cloth.call(SetBool, 'pause', data=False).success
+        assert cloth.call(SetMode, 'set_mode', mode='mass_spring').success
+        assert cloth.call(Trigger, 'reset').success
+        cloth.clear()
+        cloth.wait_for('stats', lambda stats: stats.steps >= 2)
+        assert cloth.call(Trigger, 'stop_recording').success
+    frames = len(list(Recording(tmp_path / 'bags' / 'slow').entries('points')))
+    done = cloth_sim('resimulate', str(tmp_path / 'bags' / 'slow'))
+    assert f'{frames} of {frames} frames equal to the bit' in done.stdout, (
+        done.stdout + done.stderr)
+
+
+def test_the_health_is_published_while_a_step_is_under_way(client: GraphClient, tmp_path: Path):
+    """A supervisor would take a node with a slow cloth for dead."""
+    values = {**SLOW, 'rows': 64, 'cols': 64, 'mode': 'constraint', 'recording.enabled': False}
+    with NodeProcess(tmp_path, values, '-r', '__ns:=/healthy'):
+        cloth = ClothUnderTest(client, values, '/healthy/cloth_sim')
+        cloth.wait_for('stats')
+        cloth.clear()
+        cloth.wait_for('diagnostics')
+        paused = cloth.call(SetBool, 'pause', data=True)
+        assert paused.message.startswith('paused at')
+        # What the answer says is when the step under way has ended.
+        time = float(paused.message.split()[-2])
+        frame = cloth.wait_for(
+            'stats', lambda stats: stats.sim_time == pytest.approx(time, abs=1e-4))
+        assert frame.steps == pytest.approx(time / 0.02)
