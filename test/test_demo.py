@@ -24,6 +24,7 @@ import subprocess
 from matplotlib.image import imread
 import pytest
 from rosbags.highlevel import AnyReader
+from session_processes import processes_of
 
 DEMO = Path(__file__).resolve().parents[1] / 'scripts' / 'demo.sh'
 PATIENCE = 300.0
@@ -45,19 +46,6 @@ def demo(folder, *arguments):
             os.kill(pid, signal.SIGKILL)
         process.wait()
         process.stdout.close()
-
-
-def processes_of(session):
-    """Return the processes of a session that still run."""
-    found = []
-    for stat in Path('/proc').glob('[0-9]*/stat'):
-        try:
-            state, _, _, its_session = stat.read_text().rpartition(')')[2].split()[:4]
-        except OSError:
-            continue  # it has ended meanwhile
-        if int(its_session) == session and state != 'Z':
-            found.append(int(stat.parent.name))
-    return found
 
 
 def recorded_topics(folder):
