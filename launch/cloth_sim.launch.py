@@ -130,10 +130,10 @@ def generate_launch_description() -> LaunchDescription:
         # The actions below take these two by their names.
         DeclareLaunchArgument(
             'sigterm_timeout', default_value='30',
-            description='time [s] from SIGINT, on which the node closes its recording, to SIGTERM'),
+            description='time [s] for the node to close its recording, from SIGINT to SIGTERM'),
         DeclareLaunchArgument(
             'sigkill_timeout', default_value='60',
-            description='time [s] from SIGTERM to SIGKILL, which cuts the recording off'),
+            description='time [s] from SIGTERM to SIGKILL, which cuts a recording off'),
         *large_messages(),
         # First, so that nothing has been started when it is missing.
         OpaqueFunction(function=rviz),

@@ -14,11 +14,17 @@
 
 """The recording of a node: at most one at a time, and never the end of the node."""
 
-from collections.abc import Callable
+from __future__ import annotations
 
-from cloth_sim_ros.recording.recorder import Recorder
+from collections.abc import Callable
+from typing import TYPE_CHECKING
+
+from cloth_sim_ros.node.missing_module import way_out
 from cloth_sim_ros.recording.recording_error import RecordingError
 from cloth_sim_ros.sim.errors import ClothSimError
+
+if TYPE_CHECKING:
+    from cloth_sim_ros.recording.recorder import Recorder
 
 
 class RecordingSession:
@@ -53,7 +59,7 @@ class RecordingSession:
         if self._recorder is not None:
             raise ClothSimError(
                 f'a recording is being written to {self.path}: call ~/stop_recording first')
-        self._recorder = Recorder(self._directory, name, self._node_name)
+        self._recorder = self._open(name)
         self._offset = 0.0
         return self.path
 
@@ -84,3 +90,11 @@ class RecordingSession:
         recorder, self._recorder = self._recorder, None
         if recorder is not None:
             recorder.close()
+
+    def _open(self, name: str) -> Recorder:
+        try:
+            # What writes recordings comes from pip, not from ROS: a node runs without it.
+            from cloth_sim_ros.recording.recorder import Recorder
+        except ImportError as error:
+            raise ClothSimError(way_out(error)) from error
+        return Recorder(self._directory, name, self._node_name)
