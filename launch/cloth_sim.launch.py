@@ -18,14 +18,17 @@ Start the cloth simulator, and RViz when asked for.
     ros2 launch cloth_sim_ros cloth_sim.launch.py params_file:=my_cloth.yaml rviz:=true
 """
 
+import os
 import shutil
 
+from ament_index_python.packages import get_package_prefix
+from ament_index_python.packages import PackageNotFoundError
 from launch import LaunchContext
 from launch import LaunchDescription
 from launch.actions import DeclareLaunchArgument
 from launch.actions import OpaqueFunction
 from launch.actions import SetEnvironmentVariable
-from launch.conditions import IfCondition
+from launch.actions import Shutdown
 from launch.substitutions import LaunchConfiguration
 from launch.substitutions import PathJoinSubstitution
 from launch_ros.actions import Node
@@ -36,10 +39,24 @@ AS_IN_FILE = ''
 # The profile for large messages reserves 128 MiB of shared memory for each process.
 ENOUGH_SHARED_MEMORY = 1 << 30
 
+# What config/cloth_sim.rviz shows, by the names that a node without a namespace has.
+RVIZ_TOPICS = ('/cloth_sim/markers', '/cloth_sim/points')
+# A click belongs to the cloth of its namespace.
+CLICKS = ('/clicked_point', 'clicked_point')
+
 
 def shipped(name: str) -> PathJoinSubstitution:
     """Return the path of a file in the package's config folder."""
     return PathJoinSubstitution([FindPackageShare('cloth_sim_ros'), 'config', name])
+
+
+def end_with_launch() -> list[str]:
+    """
+    Return a prefix that sends SIGINT to the node when launch itself was killed.
+
+    After SIGTERM or SIGKILL, launch leaves its processes behind; a recording would never end.
+    """
+    return ['setpriv --pdeathsig INT --'] if shutil.which('setpriv') else []
 
 
 def simulator(context: LaunchContext) -> list[Node]:
@@ -54,10 +71,34 @@ def simulator(context: LaunchContext) -> list[Node]:
     return [Node(
         package='cloth_sim_ros',
         executable='cloth_sim_node',
+        exec_name='cloth_sim_node',
         name='cloth_sim',
         namespace=LaunchConfiguration('namespace'),
         output='screen',
         parameters=[LaunchConfiguration('params_file')] + ([given] if given else []),
+        remappings=[CLICKS],
+        prefix=[LaunchConfiguration('launch-prefix', default=''), ' ', *end_with_launch()],
+        on_exit=Shutdown(reason='the simulator has ended'),
+    )]
+
+
+def rviz(context: LaunchContext) -> list[Node]:
+    """Return RViz when it is asked for; it shows the node of the same namespace."""
+    if LaunchConfiguration('rviz').perform(context) != 'true':
+        return []
+    try:
+        get_package_prefix('rviz2')
+    except PackageNotFoundError as error:
+        raise RuntimeError(
+            'rviz:=true needs the package rviz2, which is not here: run `apt install '
+            f'ros-{os.environ.get("ROS_DISTRO", "jazzy")}-rviz2`, or leave rviz:=true out'
+        ) from error
+    return [Node(
+        package='rviz2',
+        executable='rviz2',
+        namespace=LaunchConfiguration('namespace'),
+        arguments=['--display-config', shipped('cloth_sim.rviz')],
+        remappings=[CLICKS, *((name, name.lstrip('/')) for name in RVIZ_TOPICS)],
     )]
 
 
@@ -85,13 +126,16 @@ def generate_launch_description() -> LaunchDescription:
             'rviz', default_value='false', choices=['true', 'false'],
             description='show the cloth in RViz'),
         DeclareLaunchArgument(
-            'namespace', default_value='', description='namespace of the node'),
+            'namespace', default_value='', description='namespace of the node and of RViz'),
+        # The actions below take these two by their names.
+        DeclareLaunchArgument(
+            'sigterm_timeout', default_value='30',
+            description='time [s] for the node to close its recording, from SIGINT to SIGTERM'),
+        DeclareLaunchArgument(
+            'sigkill_timeout', default_value='60',
+            description='time [s] from SIGTERM to SIGKILL, which cuts a recording off'),
         *large_messages(),
+        # First, so that nothing has been started when it is missing.
+        OpaqueFunction(function=rviz),
         OpaqueFunction(function=simulator),
-        Node(
-            condition=IfCondition(LaunchConfiguration('rviz')),
-            package='rviz2',
-            executable='rviz2',
-            arguments=['--display-config', shipped('cloth_sim.rviz')],
-        ),
     ])

@@ -13,9 +13,9 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-
 # Show what cloth_sim_ros does: set up, start the node, push its cloth through its services, record
-# it, and draw what was recorded. Takes under a minute once everything is set up.
+# it, and draw what was recorded. Takes under a minute once everything is set up. What is done to the
+# cloth is done at simulated times: the same on every machine, however slow.
 #
 #   scripts/demo.sh             records into bags/
 #   scripts/demo.sh DIRECTORY   records into DIRECTORY
@@ -23,8 +23,13 @@
 set -euo pipefail
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+setup=''
+asked=''
 node=''
 scratch=''
+recording=''
+# Wall seconds to wait for an answer, on a machine that has much else to do.
+patience=300
 
 fail() {
   echo "demo.sh: $1" >&2
@@ -35,46 +40,75 @@ tell() {
   printf '\n%s\n' "$1"
 }
 
-# End the node the way Ctrl-C does, and wait until it has ended.
-stop_node() {
-  local signal
-  for signal in INT TERM KILL; do
-    kill "-$signal" "$node" 2> /dev/null || break
-    for _ in {1..100}; do
-      kill -0 "$node" 2> /dev/null || break 2
+# end PROCESS SIGNAL...: send one signal after the other until it has ended.
+end() {
+  local process=$1 signal
+  for signal in "${@:2}"; do
+    kill "-$signal" "$process" 2> /dev/null || break
+    for _ in {1..300}; do
+      kill -0 "$process" 2> /dev/null || break 2
       sleep 0.1
     done
   done
-  wait "$node"
+  wait "$process"
 }
 
 clean_up() {
   local status=$?
   trap - EXIT INT TERM HUP
+  if [ -n "$setup" ]; then
+    end "$setup" TERM KILL || true
+  fi
+  if [ -n "$asked" ]; then
+    end "$asked" TERM KILL || true
+  fi
   if [ -n "$node" ]; then
-    stop_node || true
-    echo 'demo.sh: stopped early; the node has ended, and its recording is closed.' >&2
+    # The way Ctrl-C does it, which closes the recording.
+    end "$node" INT TERM KILL || true
+    echo 'demo.sh: stopped early; the node has ended, and its recording is closed. It said last:' >&2
     tail -n 5 "$scratch/node.log" >&2
+  fi
+  if [ "$status" -ne 0 ] && [ -n "$recording" ]; then
+    echo "demo.sh: what was recorded until then: $recording" >&2
   fi
   [ -z "$scratch" ] || rm -rf "$scratch"
   exit "$status"
 }
 
+# In the background, so that a signal ends it as well; with the terminal, where there is one.
+set_up() {
+  "$root/scripts/setup.sh" <&0 &
+  setup=$!
+  wait "$setup" || {
+    setup=''
+    exit 1
+  }
+  setup=''
+}
+
+# Ask the node, and wait patiently; in the background, so that a signal is not kept waiting.
+ask() {
+  local code=0
+  cloth_sim "$@" --timeout "$patience" &
+  asked=$!
+  wait "$asked" || code=$?
+  asked=''
+  return "$code"
+}
+
 start_node() {
+  local begin=$SECONDS
   cloth_sim_node --ros-args --params-file "$root/config/drape.yaml" \
     -p start_paused:=true -p "recording.directory:=$bags" > "$scratch/node.log" 2>&1 &
   node=$!
-  for _ in {1..20}; do
+  until cloth_sim status --json --timeout 2 > "$scratch/status.json" 2> /dev/null; do
     kill -0 "$node" 2> /dev/null || {
       node=''
       cat "$scratch/node.log" >&2
       fail 'the node did not start, for the reason above'
     }
-    if cloth_sim status --json --timeout 2 > "$scratch/status.json" 2> /dev/null; then
-      return
-    fi
+    [ $((SECONDS - begin)) -lt "$patience" ] || fail "the node does not answer within $patience s"
   done
-  fail 'the node does not answer'
 }
 
 # What the node said of itself when it had started: field STATE.FIELD.
@@ -84,10 +118,16 @@ value = functools.reduce(dict.get, sys.argv[2].split("."), json.load(open(sys.ar
 print(*value if isinstance(value, list) else [value])' "$scratch/status.json" "$1"
 }
 
+# Make steps of 5 ms, and show and record the cloth every 20 ms.
+simulate() {
+  ask step "$1" --every 4
+}
+
 switch_modes() {
   local mode
   for mode in constraint adaptive mass_spring; do
-    cloth_sim mode "$mode"
+    ask mode "$mode"
+    simulate 20
   done
 }
 
@@ -99,7 +139,7 @@ trap 'exit 129' HUP
 [ $# -le 1 ] || fail "unknown arguments: $*: give a directory for the recording, or nothing"
 bags=$(realpath -m "${1:-$root/bags}")
 
-"$root/scripts/setup.sh"
+set_up
 # shellcheck source=scripts/env.sh
 . "$root/scripts/env.sh"
 scratch=$(mktemp -d)
@@ -114,33 +154,38 @@ start_node
 echo "device: $(status state.device)"
 echo "To watch: ROS_DOMAIN_ID=$ROS_DOMAIN_ID rviz2 -d $root/config/cloth_sim.rviz"
 
-tell 'Recording, and letting the cloth fall.'
-recording=$(cloth_sim record start)
-cloth_sim resume
-sleep 1
+tell 'Recording, and letting the cloth fall for one second of simulated time.'
+ask record start > "$scratch/recording"
+recording=$(cat "$scratch/recording")
+simulate 200
 
 tell 'Pushing the whole cloth, then its upper edge.'
-cloth_sim push --force 0 1 1.5 --duration 0.3
-cloth_sim push --force 0 -0.8 0 --center 0 0.5 0.9 --radius 0.3 --duration 0.2
+ask push --force 0 1 1.5 --duration 0.3
+simulate 80
+ask push --force 0 -0.8 0 --center 0 0.5 0.9 --radius 0.3 --duration 0.2
+simulate 60
 
-tell 'Switching modes; what this version does not have, it says.'
+tell 'Switching modes, with 0.1 s in each.'
 switch_modes
 
-tell 'Pausing, making 100 steps by hand, and going on.'
-cloth_sim pause
-cloth_sim step 100
-cloth_sim resume
+tell 'Letting time run by itself, for half a second or more, and pausing.'
+ask resume
+ask status --until 2.5 > /dev/null
+ask pause
 
 tell 'Letting the cloth go at its top right corner.'
-cloth_sim pin --near 0.5 0.5 1.0 --release
-sleep 1
+ask pin --near 0.5 0.5 1.0 --release
+simulate 140
 
 tell 'Closing the recording, and stopping the node with SIGINT.'
-cloth_sim record stop
-stopping=$node
-stop_node || fail "the node ended with exit code $?"
+ask record stop
+end "$node" INT TERM KILL || {
+  code=$?
+  node=''
+  fail "the node ended with exit code $code"
+}
+echo "node $node has ended"
 node=''
-echo "node $stopping has ended"
 
 tell 'What was recorded:'
 cloth_sim info "$recording"

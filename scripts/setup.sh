@@ -26,8 +26,8 @@ venv=$root/.venv
 stamps=$venv/.setup
 cd "$root"
 
-for part in progress other_ros find_python system_packages stamps python_packages interfaces \
-  project; do
+for part in progress counts one_at_a_time other_ros find_python system_packages stamps \
+  python_packages interfaces project shaders; do
   # shellcheck source=/dev/null
   . "$root/scripts/setup/$part.sh"
 done
@@ -39,13 +39,7 @@ case "$*" in
   *) stop "unknown argument: $*: give --tests or nothing" ;;
 esac
 
-# Two set-ups of one checkout at a time would mix their files.
-exec 9< "$root"
-flock --nonblock 9 || {
-  say 'Waiting for another set-up of this checkout to end.'
-  flock 9
-}
-
+one_at_a_time
 ros_source=$(ros_source)
 leave_other_ros "$ros_source"
 install_system_packages
@@ -53,4 +47,5 @@ make_venv
 install_python_packages
 build_interfaces
 install_project
+compile_shaders
 say "cloth_sim_ros is set up in ${SECONDS} s."

@@ -24,18 +24,25 @@ import subprocess
 from matplotlib.image import imread
 import pytest
 from rosbags.highlevel import AnyReader
+from session_processes import processes_of
 
 DEMO = Path(__file__).resolve().parents[1] / 'scripts' / 'demo.sh'
 PATIENCE = 300.0
+# Simulated time at which the demo pushes, switches the mode and lets a corner go [s]; the last one
+# comes after a part in real time.
+PUSHES = [1.0, 1.4]
+SWITCHES = [1.7, 1.8, 1.9]
 
 
 @contextmanager
-def demo(folder, *arguments):
-    """Start the demo in a session of its own, with nothing but a home and a path."""
+def demo(folder, *arguments, **environment):
+    """Start the demo in a session of its own, with little more than a home and a path."""
     process = subprocess.Popen(
         [DEMO, *arguments], cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
         text=True, start_new_session=True,
-        env={'HOME': os.environ.get('HOME', str(folder)), 'PATH': os.environ['PATH']},
+        env={
+            'HOME': os.environ.get('HOME', str(folder)), 'PATH': os.environ['PATH'],
+            **environment},
         # A shell that was started with SIGINT ignored can't trap it.
         preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL))
     try:
@@ -47,24 +54,34 @@ def demo(folder, *arguments):
         process.stdout.close()
 
 
-def processes_of(session):
-    """Return the processes of a session that still run."""
-    found = []
-    for stat in Path('/proc').glob('[0-9]*/stat'):
-        try:
-            state, _, _, its_session = stat.read_text().rpartition(')')[2].split()[:4]
-        except OSError:
-            continue  # it has ended meanwhile
-        if int(its_session) == session and state != 'Z':
-            found.append(int(stat.parent.name))
-    return found
+def recording_in(folder):
+    """Return the one recording in ``folder``."""
+    bag, = (path for path in folder.iterdir() if path.is_dir())
+    return bag
 
 
 def recorded_topics(folder):
     """Return the number of messages of each topic in the one recording in ``folder``."""
-    bag, = (path for path in folder.iterdir() if path.is_dir())
-    with AnyReader([bag]) as reader:
+    with AnyReader([recording_in(folder)]) as reader:
         return {connection.topic: connection.msgcount for connection in reader.connections}
+
+
+def recorded_times(folder, topic):
+    """Return the simulated times [s] of the messages of a topic of the node."""
+    with AnyReader([recording_in(folder)]) as reader:
+        return [
+            time / 1e9 for connection, time, _ in reader.messages()
+            if connection.topic == f'/cloth_sim/{topic}']
+
+
+def acts_at_its_times(folder):
+    """Tell whether the demo did what it does at the simulated times it has for that."""
+    switches = recorded_times(folder, 'inputs/mode')[1:]  # the first one is the mode at the start
+    return (
+        recorded_times(folder, 'inputs/push') == pytest.approx(PUSHES)
+        and switches == pytest.approx(SWITCHES)
+        and recorded_times(folder, 'points')[:101] == pytest.approx(
+            [0.02 * number for number in range(101)]))
 
 
 @pytest.fixture(scope='module')
@@ -94,6 +111,25 @@ def test_its_recording_holds_all_that_was_done(finished):
     assert counts['/cloth_sim/topology'] == 1
 
 
+def test_it_acts_in_simulated_time(finished):
+    """On a slow machine it would push another cloth than on a fast one, at other nodes."""
+    assert acts_at_its_times(finished[0])
+
+
+def test_it_works_with_a_cold_shader_cache(tmp_path):
+    """The first command of a new user would fail while the driver compiles."""
+    empty = tmp_path / 'cache'
+    empty.mkdir()
+    with demo(
+            tmp_path, 'bags', MESA_SHADER_CACHE_DISABLE='true',
+            XDG_CACHE_HOME=str(empty)) as process:
+        output = process.communicate(timeout=PATIENCE)[0]
+        assert process.returncode == 0, output
+        assert processes_of(process.pid) == []
+    assert 'MESA_SHADER_CACHE_DISABLE' in output
+    assert acts_at_its_times(tmp_path / 'bags')
+
+
 def test_it_makes_a_picture(finished):
     """The picture it names would not be there, or be empty."""
     folder, output, _, _ = finished
@@ -107,9 +143,9 @@ def test_it_makes_a_picture(finished):
 def test_it_tells_what_happened(finished):
     """A user would not learn what ran where, how fast, and where the results are."""
     folder, output, _, _ = finished
-    bag, = (path for path in folder.iterdir() if path.is_dir())
+    bag = recording_in(folder)
     for words in ('device', 'real-time factor', 'max strain', 'total energy', str(bag),
-                  'mode mass_spring', '100 steps made', 'has ended'):
+                  'mode mass_spring', '200 steps made', 'has ended'):
         assert words in output
 
 
@@ -124,7 +160,9 @@ def test_stopped_early_it_cleans_up(tmp_path, number):
         assert process.returncode == 128 + number
         assert processes_of(process.pid) == []
     assert 'stopped early' in rest
-    assert recorded_topics(tmp_path / 'bags')['/cloth_sim/points'] > 0
+    bags = tmp_path / 'bags'
+    assert f'what was recorded until then: {recording_in(bags)}\n' in rest
+    assert recorded_topics(bags)['/cloth_sim/points'] > 0
 
 
 def test_a_folder_that_cannot_be_written_is_told(tmp_path):

@@ -35,6 +35,8 @@ HEADED_PLACES = (
 COMMENT_OF = {
     '.py': '#', '.sh': '#', '.txt': '#', '.comp': '//', '.glsl': '//', '': '#',
 }
+# Keys of rosdep that pip installs, without saying so in their name.
+PIP_KEYS = {'mcap-ros2-support'}
 HEADER = (
     'Copyright 2026 the cloth_sim_ros authors',
     '',
@@ -115,6 +117,17 @@ def test_package_manifest(folder):
     package = parse_package(ROOT / folder, warnings=warnings)
     package.validate()
     assert not warnings
+    assert {url.type for url in package.urls} == {'website', 'repository', 'bugtracker'}
+
+
+@pytest.mark.parametrize('folder', ['.', 'cloth_sim_interfaces'])
+def test_rosdep_installs_from_apt_alone(folder):
+    """`rosdep install` would fail where pip may not write into the system's Python."""
+    package = parse_package(ROOT / folder)
+    needed = {depend.name for depend in (
+        *package.build_depends, *package.exec_depends, *package.test_depends)}
+    assert not needed & PIP_KEYS
+    assert not {name for name in needed if name.endswith('-pip')}
 
 
 def test_versions_agree():
@@ -125,7 +138,10 @@ def test_versions_agree():
     assert len(set(versions.values())) == 1, versions
     version = set(versions.values()).pop()
     assert f"version='{version}'" in (ROOT / 'setup.py').read_text(encoding='utf-8')
-    assert f'\n{version} (' in (ROOT / 'CHANGELOG.rst').read_text(encoding='utf-8')
+    for folder in ('.', 'cloth_sim_interfaces'):
+        log = (ROOT / folder / 'CHANGELOG.rst').read_text(encoding='utf-8')
+        assert f'\nChangelog for package {parse_package(ROOT / folder).name}\n' in log
+        assert f'\n{version} (' in log
 
 
 @pytest.mark.parametrize(

@@ -31,5 +31,7 @@ def way_out(error: ImportError) -> str:
             f'ROS 2 is not here ({package} is missing): source /opt/ros/jazzy/setup.bash, '
             'or run ./scripts/setup.sh and then `. .venv/bin/activate`')
     if package in ('rosbags', 'mcap'):
-        return f'{package}, which reads recordings, is not here: run `pip install {package}`'
+        return (
+            f'{package}, which reads and writes recordings, is not here: run `pip install mcap '
+            'rosbags`, with --break-system-packages where pip asks for it')
     raise error

@@ -14,12 +14,18 @@
 
 """The recording of a node: at most one at a time, and never the end of the node."""
 
-from collections.abc import Callable
+from __future__ import annotations
 
+from collections.abc import Callable
+from typing import TYPE_CHECKING
+
+from cloth_sim_ros.node.missing_module import way_out
 from cloth_sim_ros.recording.bag_folder import DIRECTORY_SETTING
-from cloth_sim_ros.recording.recorder import Recorder
 from cloth_sim_ros.recording.recording_error import RecordingError
 from cloth_sim_ros.sim.errors import ClothSimError
+
+if TYPE_CHECKING:
+    from cloth_sim_ros.recording.recorder import Recorder
 
 
 class RecordingSession:
@@ -59,8 +65,7 @@ class RecordingSession:
             raise ClothSimError(
                 f'a recording is being written to {self.path}: stop it first, by ~/stop_recording '
                 'or `cloth_sim record stop`')
-        self._recorder = Recorder(
-            self._directory, name, self._node_name, setting=self._setting)
+        self._recorder = self._open(name)
         self._offset = 0.0
         return self.path
 
@@ -93,3 +98,12 @@ class RecordingSession:
         recorder, self._recorder = self._recorder, None
         if recorder is not None:
             recorder.close()
+
+    def _open(self, name: str) -> Recorder:
+        try:
+            # What writes recordings comes from pip, not from ROS: a node runs without it.
+            from cloth_sim_ros.recording.recorder import Recorder
+        except ImportError as error:
+            raise ClothSimError(way_out(error)) from error
+        return Recorder(
+            self._directory, name, self._node_name, setting=self._setting)

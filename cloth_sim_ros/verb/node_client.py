@@ -24,6 +24,7 @@ from cloth_sim_interfaces.srv import SetMode
 from cloth_sim_ros.node.interfaces import check_interfaces
 from cloth_sim_ros.sim.errors import ClothSimError
 import rclpy
+from rclpy.client import Client
 from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
@@ -55,6 +56,7 @@ class NodeClient:
             start_parameter_services=False, enable_rosout=False)
         self._executor = SingleThreadedExecutor(context=self._context)
         self._executor.add_node(self._node)
+        self._clients: dict[str, Client] = {}
 
     def __enter__(self) -> 'NodeClient':
         """Return itself."""
@@ -76,12 +78,8 @@ class NodeClient:
         :param waiting: to be printed on stderr when the answer takes long
         :raises ClothSimError: when no answer comes, or when it says that the request failed
         """
-        client = self._node.create_client(kind, f'{self._target}/{name}')
+        client = self._client(kind, name)
         deadline = time.monotonic() + self._timeout
-        while not client.service_is_ready():
-            self._wait(deadline, f'no node offers {self._target}/{name}')
-        # The node has to learn of this client, too, or its answer gets lost.
-        self._executor.spin_once(timeout_sec=_SETTLE)
         future = client.call_async(request)
         asked = time.monotonic()
         while not future.done():
@@ -108,13 +106,25 @@ class NodeClient:
         subscription = self._node.create_subscription(
             kind, f'{self._target}/{name}', received.append, quality)
         deadline = time.monotonic() + self._timeout
-        count = 0
-        while not any(map(until, received)):
-            if len(received) > count:
-                count, deadline = len(received), time.monotonic() + self._timeout
+        while True:
+            while received:
+                message = received.pop(0)
+                if until(message):
+                    self._node.destroy_subscription(subscription)
+                    return message
+                deadline = time.monotonic() + self._timeout
             self._wait(deadline, f'nothing comes on {self._target}/{name}')
-        self._node.destroy_subscription(subscription)
-        return next(filter(until, received))
+
+    def _client(self, kind: type, name: str) -> Client:
+        if name not in self._clients:
+            client = self._node.create_client(kind, f'{self._target}/{name}')
+            deadline = time.monotonic() + self._timeout
+            while not client.service_is_ready():
+                self._wait(deadline, f'no node offers {self._target}/{name}')
+            # The node has to learn of this client, too, or its answer gets lost.
+            self._executor.spin_once(timeout_sec=_SETTLE)
+            self._clients[name] = client
+        return self._clients[name]
 
     def _wait(self, deadline: float, problem: str) -> None:
         if time.monotonic() > deadline:

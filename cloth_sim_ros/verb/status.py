@@ -18,6 +18,7 @@ Show what a running node is doing: its state, and the plain numbers of the newes
 For example:
   cloth_sim status
   cloth_sim status --json
+  cloth_sim status --until 2.5
 """
 
 from argparse import ArgumentParser
@@ -31,28 +32,62 @@ from cloth_sim_interfaces.msg import ClothStats
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.verb.node_arguments import add_node_arguments
 from cloth_sim_ros.verb.node_arguments import open_node
+from cloth_sim_ros.verb.node_client import NodeClient
 from rclpy.qos import DurabilityPolicy
 from rclpy.qos import QoSProfile
+
+_FRAMES = QoSProfile(depth=10)
 
 
 def add_arguments(parser: ArgumentParser) -> None:
     """Add the arguments of this verb."""
     parser.add_argument('--json', action='store_true', help='print one JSON object')
+    parser.add_argument(
+        '--until', type=float, metavar='T',
+        help='wait until this simulated time [s] of a node that runs')
     add_node_arguments(parser)
 
 
 def main(args: Namespace) -> int:
     """Print the state and the stats."""
     with open_node(args) as node:
-        kept = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
-        content = {'state': _plain(node.read(ClothState, 'state', kept)), 'stats': None}
+        if args.until is not None:
+            _wait_until(node, args.until)
+        content = {'state': _plain(_state(node)), 'stats': None}
         try:
-            content['stats'] = _plain(node.read(ClothStats, 'stats', QoSProfile(depth=10)))
+            content['stats'] = _plain(node.read(ClothStats, 'stats', _FRAMES))
         except ClothSimError as error:
             # A node may have publish.stats off; what it is doing is known all the same.
             print(f'cloth_sim status: {error}', file=sys.stderr)
     print(json.dumps(content) if args.json else _text(content))
     return 0
+
+
+def _wait_until(node: NodeClient, sim_time: float) -> None:
+    while True:
+        seen: set[float] = set()
+        stats = node.read(
+            ClothStats, 'stats', _FRAMES,
+            lambda stats: stats.sim_time >= sim_time or _stands_still(stats, seen))
+        if stats.sim_time >= sim_time:
+            return
+        state = _state(node)
+        if state.run_state != ClothState.RUNNING:
+            raise ClothSimError(
+                f'the node is {state.run_state} at {stats.sim_time:.6g} s and does not come to '
+                f'{sim_time:g} s: let it go on with `cloth_sim resume`')
+
+
+def _stands_still(stats: ClothStats, seen: set[float]) -> bool:
+    """Tell whether the moment was shown before, as it is while simulated time stands still."""
+    shown_before = stats.sim_time in seen
+    seen.add(stats.sim_time)
+    return shown_before
+
+
+def _state(node: NodeClient) -> ClothState:
+    kept = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+    return node.read(ClothState, 'state', kept)
 
 
 def _plain(message: Any) -> dict[str, Any]:

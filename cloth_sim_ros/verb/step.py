@@ -15,9 +15,12 @@
 """
 Make a paused node do some steps of dt, and wait until they are done.
 
+The node shows and records the cloth at the end; with --every, on the way as well.
+
 For example:
   cloth_sim step
   cloth_sim step 200
+  cloth_sim step 200 --every 4
 """
 
 from argparse import ArgumentParser
@@ -35,14 +38,27 @@ def add_arguments(parser: ArgumentParser) -> None:
     """Add the arguments of this verb."""
     parser.add_argument(
         'steps', nargs='?', type=_count, default=1, help='how many (default: %(default)s)')
+    parser.add_argument(
+        '--every', type=_count, metavar='N',
+        help='show and record the cloth after each N steps, not at the end alone')
     add_node_arguments(parser)
 
 
 def main(args: Namespace) -> int:
     """Step."""
+    every = args.every or args.steps
     with open_node(args) as node:
-        request = Step.Request(steps=args.steps)
-        print(node.call(Step, 'step', request, patient=True).message)
+        left = args.steps
+        while True:
+            request = Step.Request(steps=min(every, left))
+            answer = node.call(Step, 'step', request, patient=True)
+            left -= request.steps
+            if left <= 0:
+                break
+    if every < args.steps:
+        print(f'{args.steps} steps made, {every} at a time, now at {answer.sim_time:.6g} s')
+    else:
+        print(answer.message)
     return 0
 
 

@@ -34,6 +34,6 @@ build_interfaces() {
   current=$(digest cloth_sim_interfaces < "$stamps/packages")
   ! is_current interfaces "$current" || return 0
   clear_stamp interfaces
-  (long_step 'Building cloth_sim_interfaces' cmake_build)
+  long_step 'Building cloth_sim_interfaces' cmake_words cmake_build
   set_stamp interfaces "$current"
 }

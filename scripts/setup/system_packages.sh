@@ -78,7 +78,9 @@ install_system_packages() {
   apt-get install ${packages[*]}
 and run this again"
   say "Missing system packages: ${packages[*]}"
-  long_step 'Installing system packages' apt_install "$as_root" "${packages[@]}"
+  step_root=$as_root
+  long_step 'Installing system packages' apt_words apt_install "$as_root" "${packages[@]}"
+  step_root=''
   mapfile -t packages < <(missing_packages)
   [ "${#packages[@]}" -eq 0 ] || stop "apt-get brought no usable ${packages[*]}"
 }

@@ -17,6 +17,8 @@
 
 import json
 from pathlib import Path
+import re
+import subprocess
 
 from cloth_sim_interfaces.msg import ClothStats
 from cloth_sim_interfaces.msg import Push
@@ -27,7 +29,8 @@ from cloth_sim_ros.sim.snapshot import POINT_DTYPE
 import pytest
 from std_srvs.srv import Trigger
 
-FILE = Path(__file__).resolve().parents[2] / 'config' / 'foxglove_layout.json'
+ROOT = Path(__file__).resolve().parents[2]
+FILE = ROOT / 'config' / 'foxglove_layout.json'
 SERVICES = {'set_pin': SetPin, 'set_mode': SetMode, 'reset': Trigger}
 PUBLISHED = {topic.full_name('cloth_sim') for topic in TOPICS.values()}
 
@@ -93,3 +96,24 @@ def test_the_calls_are_services_of_the_node(layout):
         assert node == '/cloth_sim'
         request = SERVICES[name].Request.get_fields_and_field_types()
         assert set(json.loads(panel['requestPayload'])) <= set(request)
+
+
+def names_in(part):
+    """Return every name of a topic or a service in a part of the layout."""
+    if isinstance(part, dict):
+        return [name for key, value in part.items() for name in names_in(key) + names_in(value)]
+    if isinstance(part, list):
+        return [name for value in part for name in names_in(value)]
+    return [part] if isinstance(part, str) and part.startswith('/') else []
+
+
+def test_the_command_of_the_readme_moves_it_into_a_namespace(layout):
+    """Foxglove would show another node than the one in the namespace, or push it."""
+    command = re.search(
+        r'^ {4}(sed .* config/foxglove_layout.json) > left_layout.json$',
+        (ROOT / 'README.md').read_text(encoding='utf-8'), re.MULTILINE)[1]
+    moved = subprocess.run(
+        command, shell=True, cwd=ROOT, capture_output=True, text=True, check=True).stdout
+    names = names_in(layout)
+    assert '/clicked_point' in names
+    assert names_in(json.loads(moved)) == [f'/left{name}' for name in names]

@@ -15,6 +15,7 @@
 
 """The display that ships for RViz."""
 
+import ast
 from pathlib import Path
 
 from cloth_sim_ros.messages.topics import TOPICS
@@ -23,7 +24,9 @@ from cloth_sim_ros.sim.snapshot import POINT_DTYPE
 import pytest
 import yaml
 
-FILE = Path(__file__).resolve().parents[2] / 'config' / 'cloth_sim.rviz'
+ROOT = Path(__file__).resolve().parents[2]
+FILE = ROOT / 'config' / 'cloth_sim.rviz'
+LAUNCH_FILE = ROOT / 'launch' / 'cloth_sim.launch.py'
 
 
 @pytest.fixture(scope='module')
@@ -68,3 +71,21 @@ def test_a_click_reaches_the_node(manager):
     tool, = (
         tool for tool in manager['Tools'] if tool['Class'].endswith('/PublishPoint'))
     assert tool['Topic']['Value'] == '/clicked_point'
+
+
+def constant(name):
+    """Return a constant of the launch file."""
+    tree = ast.parse(LAUNCH_FILE.read_text(encoding='utf-8'))
+    value, = (
+        node.value for node in tree.body
+        if isinstance(node, ast.Assign) and node.targets[0].id == name)
+    return ast.literal_eval(value)
+
+
+def test_every_topic_follows_the_namespace(manager):
+    """Launched in a namespace, RViz would show nothing, or the cloth of another node."""
+    shown = {entry['Topic']['Value'] for entry in manager['Displays'] if 'Topic' in entry}
+    assert set(constant('RVIZ_TOPICS')) == shown
+    published = {
+        tool['Topic']['Value'] for tool in manager['Tools'] if 'Topic' in tool}
+    assert {constant('CLICKS')[0]} == published

@@ -32,6 +32,10 @@ BAD_PARAMETERS = {
     'mixed list': ({'gravity': [0, 0, -9.81]}, 'write lists of numbers alike'),
 }
 
+WITHOUT_MCAP = (
+    'import sys; sys.modules["mcap"] = sys.modules["rosbags"] = None; '
+    'from cloth_sim_ros.node.main import main; sys.exit(main())')
+
 
 def refusal(node: NodeProcess) -> str:
     """Return the only line of a node that did not start."""
@@ -67,6 +71,14 @@ def test_refuses_to_lose_the_recording_asked_for(tmp_path):
     text = refusal(NodeProcess(tmp_path, {
         'recording.enabled': True, 'recording.directory': 'taken/bags'}))
     assert 'set recording.directory' in text
+
+
+def test_refuses_to_record_without_what_writes_recordings(tmp_path):
+    """A node told to record would run on without recording, or end in a traceback."""
+    text = refusal(NodeProcess(
+        tmp_path, {'recording.enabled': True, 'recording.directory': 'bags'},
+        start=WITHOUT_MCAP))
+    assert 'pip install mcap rosbags' in text
 
 
 def test_says_that_there_is_no_device(tmp_path):

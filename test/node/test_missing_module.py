@@ -36,6 +36,10 @@ def test_does_not_guess():
         way_out(ModuleNotFoundError(name='cloth_sim_ros.typo'))
 
 
-def test_says_what_reads_recordings():
-    """A user whose rosdep left out the pip packages would get a traceback."""
-    assert 'pip install rosbags' in way_out(ModuleNotFoundError(name='rosbags'))
+@pytest.mark.parametrize('name', ['mcap.writer', 'rosbags'])
+def test_says_what_reads_and_writes_recordings(name):
+    """A user who did not install the pip packages would get a traceback."""
+    text = way_out(ModuleNotFoundError(name=name))
+    assert text.startswith(name.partition('.')[0])
+    assert 'pip install mcap rosbags' in text
+    assert '--break-system-packages' in text

@@ -24,8 +24,11 @@ from cloth_sim_interfaces.srv import StartRecording
 from cloth_sim_interfaces.srv import Step
 from cloth_sim_ros.node.parameters import FIELDS
 from cloth_sim_ros.sim.snapshot import POINT_DTYPE
+from cloth_under_test import ClothUnderTest
+from cloth_under_test import PAUSED
 from geometry_msgs.msg import Point
 from geometry_msgs.msg import Vector3
+from node_process import NodeProcess
 import numpy as np
 import pytest
 from recorded import Recorded
@@ -45,6 +48,19 @@ def record(cloth, *actions):
         assert action().success
     assert cloth.call(Trigger, 'stop_recording').success
     return Recorded(Path(response.path))
+
+
+def test_a_node_runs_without_what_writes_recordings(client, tmp_path):
+    """A machine where rosdep could not install mcap could not run the node at all."""
+    start_without = (
+        'import sys; sys.modules["mcap"] = sys.modules["rosbags"] = None; '
+        'from cloth_sim_ros.node.main import main; sys.exit(main())')
+    with NodeProcess(tmp_path, PAUSED, '-r', '__ns:=/no_mcap', start=start_without):
+        cloth = ClothUnderTest(client, PAUSED, '/no_mcap/cloth_sim')
+        answer = start(cloth)
+        assert not answer.success
+        assert 'pip install mcap rosbags' in answer.message
+        assert cloth.call(Step, 'step', steps=4).success
 
 
 def test_records_the_published_bytes(cloth):

@@ -31,6 +31,21 @@ def test_prints_state_and_stats(verb, cloth):
     assert lines['rows'] == '8'
 
 
+def test_waits_for_a_simulated_time(verb, cloth):
+    """A script would have to guess how long that takes on this machine."""
+    assert verb('resume').returncode == 0
+    result = verb('status', '--until', '0.5', '--json')
+    assert verb('pause').returncode == 0
+    assert json.loads(result.stdout)['stats']['sim_time'] >= 0.5
+
+
+def test_a_time_that_does_not_come_is_told(verb, cloth):
+    """A script would wait for ever for a node that is paused."""
+    result = verb('status', '--until', '1e9')
+    assert result.returncode == 1
+    assert 'the node is paused at 0 s and does not come to 1e+09 s' in result.stderr
+
+
 def test_prints_json(verb, cloth):
     """A script could not read the status."""
     cloth.call(Step, 'step', steps=40)

@@ -29,6 +29,18 @@ def test_drives_a_run(verb, cloth):
     assert cloth.wait_for('inputs/command').command == 'reset'
 
 
+def test_shows_the_cloth_on_the_way(verb, cloth):
+    """What is stepped by hand would be recorded as one leap."""
+    cloth.clear()
+    result = verb('step', '10', '--every', '4')
+    assert result.stdout == '10 steps made, 4 at a time, now at 0.05 s\n'
+    cloth.wait_for('stats', lambda stats: stats.steps == 10)
+    # The moment before may have been shown again.
+    assert {4, 8, 10} <= {stats.steps for stats in cloth['stats']} <= {0, 4, 8, 10}
+    assert verb('step', '4', '--every', '4').stdout.startswith('4 steps made, now at ')
+    assert verb('step', '0', '--every', '0').returncode == 1
+
+
 def test_refuses_what_is_no_number_of_steps(verb):
     """A mistyped number would end in a traceback."""
     for steps, code in (('many', 2), ('-1', 2), (str(2**32), 2), ('0', 1)):

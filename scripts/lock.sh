@@ -1,0 +1,46 @@
+#!/usr/bin/env bash
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+
+# Write requirements/*.txt, with the hashes of every file, from requirements/*.in. Versions that are
+# locked stay, unless a *.in asks for another or an option says so:
+#
+#   scripts/lock.sh
+#   scripts/lock.sh --upgrade-package rosbags
+#
+# Needs uv (pip install uv) and a network.
+
+set -euo pipefail
+
+cd "$(dirname "${BASH_SOURCE[0]}")/../requirements"
+command -v uv > /dev/null || {
+  echo 'lock.sh: uv is missing: run `pip install uv`' >&2
+  exit 1
+}
+export UV_CUSTOM_COMPILE_COMMAND=scripts/lock.sh
+
+# lock FILE ARGUMENTS...: one file for all Pythons; what Windows alone needs is left out.
+lock() {
+  local file=$1
+  shift
+  uv pip compile --quiet --universal --python-version 3.10 --generate-hashes --no-annotate \
+    --no-emit-package colorama --no-emit-package coloredlogs --no-emit-package humanfriendly \
+    --no-emit-package pyreadline3 --no-emit-package pywin32 --output-file "$file" "$@"
+}
+
+lock run.txt ros.in build.in runtime.in "$@"
+# The same versions, and those of the tests.
+lock test.txt ros.in build.in runtime.in test.in --constraints run.txt "$@"
+lock sourced_ros.txt sourced_ros.in --constraints ubuntu-24.04.txt "$@"

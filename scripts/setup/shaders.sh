@@ -1,0 +1,60 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+# Say what is being done, show how far a long step is, and end it with the set-up.
+# The driver compiles each shader once and keeps the result in its cache: after this, the first run
+# need not wait for that.
+
+# Print the folder of Mesa's cache.
+shader_cache() {
+  printf '%s\n' "${MESA_SHADER_CACHE_DIR:-${XDG_CACHE_HOME:-$HOME/.cache}/mesa_shader_cache}"
+}
+
+shader_cache_is_off() {
+  case "${MESA_SHADER_CACHE_DISABLE:-${MESA_GLSL_CACHE_DISABLE:-}}" in
+    1 | true | yes) return 0 ;;
+    *) return 1 ;;
+  esac
+}
+
+# Print the files of the drivers with their times: another driver compiles anew.
+drivers() {
+  PATH=$PATH:/usr/sbin:/sbin ldconfig -p |
+    sed -nE 's#.*lib(EGL_|gallium|GLX_nvidia|nvidia-glcore|LLVM).* => (.*)#\2#p' | LC_ALL=C sort |
+    xargs -r stat --dereference --format '%n %s %Y'
+}
+
+# Never a reason for the set-up to fail: without a device, the first run says what is missing.
+compile_shaders() {
+  local current cache log
+  cache=$(shader_cache 2> /dev/null) || return 0
+  if shader_cache_is_off; then
+    say 'Shaders are compiled in every run, because MESA_SHADER_CACHE_DISABLE switches the cache off.'
+    return 0
+  fi
+  current=$({ drivers; echo "$cache"; } 2> /dev/null |
+    digest shaders config/drape.yaml scripts/setup/compile_shaders.py)
+  [ ! -d "$cache" ] || ! is_current shaders "$current" || return 0
+  clear_stamp shaders
+  log=$stamps/shaders.log
+  if run_step "$log" 'Compiling the shaders (once per machine)' shader_words \
+    "$venv/bin/python" scripts/setup/compile_shaders.py config/drape.yaml; then
+    set_stamp shaders "$current"
+  else
+    say "Compiling the shaders: not done; the first run does it. $(tail -n 1 "$log")"
+  fi
+}
+
+shader_words() {
+  tail -n 1 "$1"
+}

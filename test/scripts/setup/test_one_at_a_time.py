@@ -1,0 +1,75 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+# Say what is being done, show how far a long step is, and end it with the set-up.
+
+"""A set-up that waits for another one says for which."""
+
+import os
+from pathlib import Path
+import re
+import signal
+import subprocess
+
+import pytest
+from session_processes import processes_of
+from setup_parts import start_bash
+
+PARTS = 'progress one_at_a_time'
+HOLD = 'one_at_a_time\necho has it\nlong_step "Working" no_words sleep 300'
+
+
+@pytest.fixture
+def holder(tmp_path):
+    """Start a set-up that has the lock and works."""
+    process = start_bash(PARTS, HOLD, tmp_path, root=str(tmp_path))
+    assert process.stdout.readline() == 'has it\n'
+    assert process.stdout.readline() == 'Working ...\n'
+    yield process
+    for pid in processes_of(process.pid):
+        os.kill(pid, signal.SIGKILL)
+    process.communicate(timeout=60.0)
+
+
+def test_the_other_set_up_is_named(tmp_path, holder):
+    """A user would wait without learning for what, or how long already."""
+    waiting = start_bash(PARTS, 'one_at_a_time\necho goes on', tmp_path, root=str(tmp_path))
+    said = waiting.stdout.readline()
+    assert re.fullmatch(
+        r'Waiting for another set-up of this checkout to end: '
+        rf'process {holder.pid}, started at \d\d:\d\d:\d\d\.\n', said)
+    os.kill(holder.pid, signal.SIGTERM)
+    assert waiting.communicate(timeout=60.0)[0] == 'goes on\n'
+
+
+def test_what_a_killed_set_up_left_behind_is_named(tmp_path, holder):
+    """After SIGKILL a pip that nobody sees would make every later set-up wait for ever."""
+    child = child_of(holder.pid, ['sleep', '300'])
+    holder.kill()
+    holder.wait()
+    waiting = start_bash(PARTS, 'one_at_a_time\necho goes on', tmp_path, root=str(tmp_path))
+    said = waiting.stdout.readline()
+    assert f'left behind when it was killed: process {child} (sleep 300), started at ' in said
+    command = said.partition('To end it: ')[2]
+    assert command.startswith('kill -- -')
+    subprocess.run(command, shell=True, check=True)
+    assert waiting.communicate(timeout=60.0)[0] == 'goes on\n'
+
+
+def child_of(session, command):
+    """Return the one process of a session with this command."""
+    while running := processes_of(session):
+        for pid in running:
+            if Path(f'/proc/{pid}/cmdline').read_text().split('\0')[:-1] == command:
+                return pid
+    raise AssertionError(f'{command} does not run')

@@ -1,0 +1,58 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+# Say what is being done, show how far a long step is, and end it with the set-up.
+
+"""A long step shows that it is alive, fails with what it printed, and ends with the set-up."""
+
+import os
+import signal
+
+import pytest
+from session_processes import processes_of
+from setup_parts import run_bash
+from setup_parts import start_bash
+
+
+@pytest.mark.parametrize('number', [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
+def test_a_killed_set_up_takes_its_command_along(tmp_path, number):
+    """A set-up that was killed would leave pip writing into the environment."""
+    process = start_bash(
+        'progress', 'work() { echo working > begun; sleep 300 & sleep 300; }\n'
+        'long_step "Working" no_words work', tmp_path)
+    while not (tmp_path / 'begun').exists():
+        assert process.poll() is None
+    os.kill(process.pid, number)
+    output = process.communicate(timeout=60.0)[0]
+    assert process.returncode == 128 + number
+    assert f'stopped by {number.name}: run it again to go on' in output
+    assert processes_of(process.pid) == []
+
+
+def test_a_failing_command_is_shown(tmp_path):
+    """The user would learn that a step failed, but not why."""
+    code, output = run_bash(
+        'progress', 'work() { echo no such package; return 3; }\n'
+        'long_step "Working" no_words work; echo went on', tmp_path, TMPDIR=str(tmp_path))
+    assert code == 1
+    assert 'no such package' in output
+    assert 'Working failed; all of its output is in' in output
+    assert 'went on' not in output
+
+
+def test_a_step_may_go_on_after_a_failing_part(tmp_path):
+    """`apt-get update` of one dead mirror would stop the installation that does not need it."""
+    code, output = run_bash(
+        'progress', 'work() { false; true; }\nlong_step "Working" no_words work', tmp_path)
+    assert code == 0, output
+    assert output == 'Working ...\nWorking: done in 0 s.\n'

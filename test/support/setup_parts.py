@@ -1,0 +1,42 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+# Say what is being done, show how far a long step is, and end it with the set-up.
+
+"""Run functions of scripts/setup/*.sh on their own."""
+
+from pathlib import Path
+import shlex
+import signal
+import subprocess
+
+PARTS = Path(__file__).resolve().parents[2] / 'scripts' / 'setup'
+
+
+def start_bash(names: str, command: str, folder: Path, **variables: str) -> subprocess.Popen:
+    """Start ``command`` in a session of its own, after the parts, as scripts/setup.sh would."""
+    lines = [f'{name}={shlex.quote(str(value))}' for name, value in variables.items()]
+    lines += [f'. {shlex.quote(str(PARTS))}/{name}.sh' for name in names.split()]
+    return subprocess.Popen(
+        ['bash', '-euo', 'pipefail', '-c', '\n'.join([*lines, command])], cwd=folder,
+        stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
+        start_new_session=True,
+        # A shell that was started with SIGINT ignored can't trap it.
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL))
+
+
+def run_bash(names: str, command: str, folder: Path, **variables: str) -> tuple[int, str]:
+    """Run ``command`` as start_bash does; return exit code and output."""
+    process = start_bash(names, command, folder, **variables)
+    output = process.communicate(timeout=60.0)[0]
+    return process.returncode, output
