@@ -26,6 +26,7 @@ from cloth_sim_ros.sim.forcing import Forcing
 from cloth_sim_ros.sim.guarded_steps import GuardedSteps
 from cloth_sim_ros.sim.layout import choose_layout
 from cloth_sim_ros.sim.nearest import nearest
+from cloth_sim_ros.sim.nearest import NearNode
 from cloth_sim_ros.sim.observer import Observer
 from cloth_sim_ros.sim.pin_motion import PinMotion
 from cloth_sim_ros.sim.pin_move import PinMove
@@ -196,13 +197,16 @@ class Simulation:
         """Return which nodes are held now, (rows, cols) bool."""
         return self._state.pinned.copy()
 
-    def nearest_node(self, point: Sequence[float]) -> tuple[int, int]:
-        """Return row and col of the node nearest to ``point`` [m]."""
-        return nearest(self.snapshot().positions, point)
+    def nearest_node(
+            self, point: Sequence[float], max_distance: float | None = None) -> NearNode:
+        """Return the node nearest to ``point`` [m]."""
+        return nearest(self.scene, self.snapshot().positions, point, max_distance)
 
-    def nearest_pin(self, point: Sequence[float]) -> tuple[int, int]:
-        """Return row and col of the pinned node nearest to ``point`` [m]."""
-        return nearest(self.snapshot().positions, point, self._state.pinned)
+    def nearest_pin(
+            self, point: Sequence[float], max_distance: float | None = None) -> NearNode:
+        """Return the pinned node nearest to ``point`` [m]."""
+        return nearest(
+            self.scene, self.snapshot().positions, point, max_distance, self._state.pinned)
 
     def set_mode(self, name: str) -> str:
         """Step with the mode ``name`` from now on, keeping the state; return the one before."""
