@@ -14,7 +14,7 @@
 
 """The health of a run, in words."""
 
-from cloth_sim_ros.messages.stamp import stamp
+from builtin_interfaces.msg import Time
 from cloth_sim_ros.sim.snapshot import Snapshot
 from diagnostic_msgs.msg import DiagnosticArray
 from diagnostic_msgs.msg import DiagnosticStatus
@@ -31,12 +31,13 @@ ERROR = DiagnosticStatus.ERROR
 
 
 def diagnostics_message(
-        snapshot: Snapshot, *, node_name: str, device: str, paused: bool,
+        snapshot: Snapshot, *, stamp: Time, node_name: str, device: str, paused: bool,
         real_time_factor: float, wanted_factor: float, problem: str = '',
         recording_path: str = '', recording_error: str = '') -> DiagnosticArray:
     """
     Return the health of the GL device, the pace, the solver, the stability and the recorder.
 
+    :param stamp: time of the node's clock: aggregators compare it with their own
     :param device: GL_RENDERER
     :param real_time_factor: simulated time per wall time, achieved
     :param wanted_factor: the same as asked for, 0 for as fast as possible
@@ -52,7 +53,7 @@ def diagnostics_message(
         'recorder': _recorder(recording_path, recording_error),
     }
     return DiagnosticArray(
-        header=Header(stamp=stamp(snapshot.time)),
+        header=Header(stamp=stamp),
         status=[
             DiagnosticStatus(
                 name=f'{node_name}: {name}', level=level, message=text, hardware_id=device,

@@ -195,7 +195,8 @@ class ClothSimNode(Node):
             return
         snapshot = self._simulation.snapshot()
         self._outlet.send_message('diagnostics', diagnostics_message(
-            snapshot, node_name=self.get_name(), device=self._simulation.device,
+            snapshot, stamp=self.get_clock().now().to_msg(), node_name=self.get_name(),
+            device=self._simulation.device,
             paused=not self._run_loop.running, problem=self._run_loop.problem,
             real_time_factor=self._run_loop.real_time_factor,
             wanted_factor=self._values['real_time_factor'],
