@@ -148,9 +148,11 @@ class ClothSimNode(Node):
         self._state.send()
 
     def _on_frame(self, worked: float, steps: int) -> None:
+        too_slow = self._run_loop.running and self._pacing.too_slow
         self._frames.send(
-            worked=worked, steps=steps, real_time_factor=self._run_loop.real_time_factor)
-        if self._run_loop.running and self._pacing.too_slow:
+            worked=worked, steps=steps, real_time_factor=self._run_loop.real_time_factor,
+            too_slow=too_slow)
+        if too_slow:
             self.get_logger().warning(
                 f'{self._pacing.achieved:.3g} x real time is below the {self._pacing.factor:g} '
                 'asked for: take fewer nodes, a longer dt or a lower real_time_factor',

@@ -55,13 +55,14 @@ class Frames:
 
     def send(
             self, *, worked: float = 0.0, steps: int = 0, real_time_factor: float = 0.0,
-            to_recording: bool = True) -> None:
+            too_slow: bool = False, to_recording: bool = True) -> None:
         """
         Send what is wanted of the moment.
 
         :param worked: wall time the steps of this frame took [s]
         :param steps: of dt in this frame, 0 when the moment has been there before
         :param real_time_factor: simulated time per wall time, achieved
+        :param too_slow: True when that falls short of what is asked for
         :param to_recording: False to show the same moment once more
         """
         simulation = self._simulation
@@ -84,7 +85,8 @@ class Frames:
                 snapshot, [applied.push for applied in simulation.pushes]),
             'stats': lambda: serialize_message(stats_message(
                 snapshot, self._frame_id, step_wall_time=worked / max(steps, 1),
-                real_time_factor=real_time_factor)),
+                real_time_factor=real_time_factor,
+                wanted_factor=self._values['real_time_factor'], too_slow=too_slow)),
         }
         for part in made:
             self._outlet.send(part, makers[part], now, to_recording=to_recording)
