@@ -51,10 +51,11 @@ class ClothSimNode(Node):
     A cloth that ROS can watch and push. ~ stands for the node's name.
 
     Publishes: ~/points (PointCloud2), ~/markers (MarkerArray), ~/topology (Mesh), ~/stats
-    (ClothStats), ~/pins/wrenches (WrenchStamped), ~/state (ClothState), /diagnostics
-    (DiagnosticArray), /clock (Clock, when publish.clock is true), and what was done to the cloth:
-    ~/inputs/push (Push), ~/inputs/pin (PinChange), ~/inputs/pin_target (PinTarget),
-    ~/inputs/mode (ModeChange), ~/inputs/command (Command), ~/inputs/parameters (ParameterEvent).
+    (ClothStats), ~/pins/wrenches (WrenchStamped), /tf (TFMessage, a frame for each pin), ~/state
+    (ClothState), /diagnostics (DiagnosticArray), /clock (Clock, when publish.clock is true), and
+    what was done to the cloth: ~/inputs/push (Push), ~/inputs/pin (PinChange),
+    ~/inputs/pin_target (PinTarget), ~/inputs/mode (ModeChange), ~/inputs/command (Command),
+    ~/inputs/parameters (ParameterEvent).
 
     Listens to: ~/push (Push), ~/pins/target (PinTarget), /clicked_point (PointStamped).
 
@@ -82,7 +83,7 @@ class ClothSimNode(Node):
         self._outlet = Outlet(self, self._recording)
         self._inputs = Inputs(self._outlet, self._simulation, values['frame_id'], name)
         self._frames = Frames(
-            self._simulation, self._outlet, values, self.get_logger().warning)
+            self._simulation, self._outlet, values, name, self.get_logger().warning)
         self._pacing = Pacing(values['real_time_factor'])
         self._run_loop = RunLoop(
             self, self._simulation, frame_seconds=1.0 / values['publish.rate'],
