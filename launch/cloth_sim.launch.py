@@ -27,7 +27,6 @@ from launch import LaunchContext
 from launch import LaunchDescription
 from launch.actions import DeclareLaunchArgument
 from launch.actions import OpaqueFunction
-from launch.actions import SetEnvironmentVariable
 from launch.actions import Shutdown
 from launch.substitutions import LaunchConfiguration
 from launch.substitutions import PathJoinSubstitution
@@ -35,9 +34,6 @@ from launch_ros.actions import Node
 from launch_ros.substitutions import FindPackageShare
 
 AS_IN_FILE = ''
-
-# The profile for large messages reserves 128 MiB of shared memory for each process.
-ENOUGH_SHARED_MEMORY = 1 << 30
 
 # What config/cloth_sim.rviz shows, by the names that a node without a namespace has.
 RVIZ_TOPICS = ('/cloth_sim/markers', '/cloth_sim/points')
@@ -102,14 +98,6 @@ def rviz(context: LaunchContext) -> list[Node]:
     )]
 
 
-def large_messages() -> list[SetEnvironmentVariable]:
-    """Use the profile where there is room; a container has 64 MB by default."""
-    if shutil.disk_usage('/dev/shm').free < ENOUGH_SHARED_MEMORY:
-        return []
-    return [SetEnvironmentVariable(
-        'FASTRTPS_DEFAULT_PROFILES_FILE', shipped('fastdds_large_messages.xml'))]
-
-
 def generate_launch_description() -> LaunchDescription:
     """Describe the arguments, the node and RViz."""
     return LaunchDescription([
@@ -134,7 +122,6 @@ def generate_launch_description() -> LaunchDescription:
         DeclareLaunchArgument(
             'sigkill_timeout', default_value='60',
             description='time [s] from SIGTERM to SIGKILL, which cuts a recording off'),
-        *large_messages(),
         # First, so that nothing has been started when it is missing.
         OpaqueFunction(function=rviz),
         OpaqueFunction(function=simulator),

@@ -14,8 +14,8 @@
 
 """The health of a run, in words."""
 
+from builtin_interfaces.msg import Time
 from cloth_sim_ros.messages.pace import slow_pace
-from cloth_sim_ros.messages.stamp import stamp
 from cloth_sim_ros.sim.snapshot import Snapshot
 from diagnostic_msgs.msg import DiagnosticArray
 from diagnostic_msgs.msg import DiagnosticStatus
@@ -32,12 +32,14 @@ ERROR = DiagnosticStatus.ERROR
 
 
 def diagnostics_message(
-        snapshot: Snapshot, *, node_name: str, device: str, paused: bool,
+        snapshot: Snapshot | None, *, stamp: Time, node_name: str, device: str, paused: bool,
         real_time_factor: float, wanted_factor: float, automatic_substeps: bool, problem: str = '',
         recording_path: str = '', recording_error: str = '') -> DiagnosticArray:
     """
     Return the health of the GL device, the pace, the solver, the stability and the recorder.
 
+    :param snapshot: None before the first mode is compiled
+    :param stamp: time of the node's clock: aggregators compare it with their own
     :param device: GL_RENDERER
     :param real_time_factor: simulated time per wall time, achieved
     :param wanted_factor: the same as asked for, 0 for as fast as possible
@@ -46,16 +48,16 @@ def diagnostics_message(
     :param recording_path: folder being written to, empty when not recording
     :param recording_error: why the last recording broke off, empty when it did not
     """
-    findings = {
-        'GL device': (OK, device, {'renderer': device}),
-        'real-time factor': _pace(
-            snapshot, paused, real_time_factor, wanted_factor, automatic_substeps),
-        'solver': _solver(snapshot),
-        'stability': _stability(snapshot, problem),
-        'recorder': _recorder(recording_path, recording_error),
-    }
+    findings = {'GL device': _device(snapshot, device)}
+    if snapshot is not None:
+        findings.update({
+            'real-time factor': _pace(
+                snapshot, paused, real_time_factor, wanted_factor, automatic_substeps),
+            'solver': _solver(snapshot),
+            'stability': _stability(snapshot, problem)})
+    findings['recorder'] = _recorder(recording_path, recording_error)
     return DiagnosticArray(
-        header=Header(stamp=stamp(snapshot.time)),
+        header=Header(stamp=stamp),
         status=[
             DiagnosticStatus(
                 name=f'{node_name}: {name}', level=level, message=text, hardware_id=device,
@@ -65,6 +67,11 @@ def diagnostics_message(
 
 def _text(value: object) -> str:
     return f'{value:.6g}' if isinstance(value, float) else str(value)
+
+
+def _device(snapshot: Snapshot | None, device: str) -> tuple[bytes, str, dict]:
+    text = device if snapshot is not None else f'{device} compiles the first shaders'
+    return OK, text, {'renderer': device}
 
 
 def _pace(

@@ -22,12 +22,15 @@ from std_msgs.msg import Header
 
 def stats_message(
         snapshot: Snapshot, frame_id: str, *, step_wall_time: float = 0.0,
-        real_time_factor: float = 0.0) -> ClothStats:
+        real_time_factor: float = 0.0, wanted_factor: float = 0.0,
+        too_slow: bool = False) -> ClothStats:
     """
     Return the plain numbers of ``snapshot``.
 
     :param step_wall_time: wall time of one dt, mean over this frame [s]
     :param real_time_factor: simulated time per wall time, achieved
+    :param wanted_factor: the same as asked for, 0 for as fast as possible
+    :param too_slow: True when the last second fell short of that
     """
     return ClothStats(
         header=Header(stamp=stamp(snapshot.time), frame_id=frame_id),
@@ -48,4 +51,6 @@ def stats_message(
         active_fraction=float(snapshot.active_fraction),
         constraint_switches=int(snapshot.constraint_switches),
         step_wall_time=float(step_wall_time),
-        real_time_factor=float(real_time_factor))
+        real_time_factor=float(real_time_factor),
+        real_time_factor_wanted=float(wanted_factor),
+        too_slow=bool(too_slow))

@@ -29,6 +29,7 @@ from rcl_interfaces.msg import ParameterEvent
 from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import PointCloud2
 from shape_msgs.msg import Mesh
+from tf2_msgs.msg import TFMessage
 from visualization_msgs.msg import MarkerArray
 
 # Markers are drawn from the points, at many times their size: a recording keeps the points.
@@ -41,6 +42,8 @@ TOPICS = {
         # A message a pin: a whole frame of them must have room.
         Topic('pins/wrenches', WrenchStamped, depth=MOST_PINS),
         Topic('state', ClothState, depth=1, transient_local=True),
+        # As tf2's own broadcasters have it.
+        Topic('tf', TFMessage, depth=100, is_global=True),
         Topic('clock', Clock, depth=10, is_global=True),
         Topic('diagnostics', DiagnosticArray, depth=10, is_global=True),
         Topic('inputs/push', Push, depth=100),

@@ -16,6 +16,7 @@
 
 import struct
 
+from cloth_sim_ros.messages.pin_frames import pin_frame
 from cloth_sim_ros.messages.stamp import stamp
 from cloth_sim_ros.sim.snapshot import Snapshot
 from geometry_msgs.msg import Vector3
@@ -39,14 +40,14 @@ class WrenchMessages:
 
     It is the opposite of Snapshot.pin_forces: what a force sensor in the gripper measures, with
     the gripper's own weight taken off. A node is a point, so the torque is 0. The frame of a
-    message names the pin; its axes are parallel to those of ``frame_id``.
+    message is that of its pin, as in PinFrames.
 
-    :param frame_id: frame of the positions
+    :param node_name: with its namespace
     """
 
-    def __init__(self, frame_id: str) -> None:
+    def __init__(self, node_name: str) -> None:
         """Serialise nothing yet: pins come and go."""
-        self._frame_id = frame_id
+        self._node_name = node_name
         self._templates: dict[tuple[int, int], tuple[bytearray, int]] = {}
 
     def serialise(self, snapshot: Snapshot) -> list[bytes]:
@@ -66,16 +67,17 @@ class WrenchMessages:
         if (row, col) not in self._templates:
             x, y, z = _MARK
             data = serialize_message(WrenchStamped(
-                header=Header(frame_id=f'{self._frame_id}/pin_{row}_{col}'),
+                header=Header(frame_id=pin_frame(self._node_name, row, col)),
                 wrench=Wrench(force=Vector3(x=x, y=y, z=z))))
             self._templates[row, col] = bytearray(data), data.index(_FORCE.pack(*_MARK))
         return self._templates[row, col]
 
 
 def too_many_pins(pins: int) -> str:
-    """Return why ~/pins/wrenches stays silent with so many pins; empty when it does not."""
+    """Return why nothing is sent of so many pins; empty when something is."""
     if pins <= MOST_PINS:
         return ''
     return (
-        f'~/pins/wrenches is for {MOST_PINS} pins or fewer and there are {pins}, so it stays '
-        'silent: release some, or set publish.wrenches: false')
+        f'~/pins/wrenches and the frames of pins on /tf are for {MOST_PINS} pins or fewer and '
+        f'there are {pins}, so they stay silent: release some, or set publish.wrenches: false and '
+        'publish.tf: false')

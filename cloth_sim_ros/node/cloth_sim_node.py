@@ -22,6 +22,8 @@ from cloth_sim_ros.messages.topology import serialise_topology
 from cloth_sim_ros.node.clock_topic import ClockTopic
 from cloth_sim_ros.node.frames import Frames
 from cloth_sim_ros.node.inputs import Inputs
+from cloth_sim_ros.node.large_messages import lost_clouds
+from cloth_sim_ros.node.large_messages import use_profile
 from cloth_sim_ros.node.live_parameters import LiveParameters
 from cloth_sim_ros.node.mode_service import ModeService
 from cloth_sim_ros.node.mode_switch import ModeSwitch
@@ -54,10 +56,11 @@ class ClothSimNode(Node):
     A cloth that ROS can watch and push. ~ stands for the node's name.
 
     Publishes: ~/points (PointCloud2), ~/markers (MarkerArray), ~/topology (Mesh), ~/stats
-    (ClothStats), ~/pins/wrenches (WrenchStamped), ~/state (ClothState), /diagnostics
-    (DiagnosticArray), /clock (Clock, when publish.clock is true), and what was done to the cloth:
-    ~/inputs/push (Push), ~/inputs/pin (PinChange), ~/inputs/pin_target (PinTarget),
-    ~/inputs/mode (ModeChange), ~/inputs/command (Command), ~/inputs/parameters (ParameterEvent).
+    (ClothStats), ~/pins/wrenches (WrenchStamped), /tf (TFMessage, a frame for each pin), ~/state
+    (ClothState), /diagnostics (DiagnosticArray), /clock (Clock, when publish.clock is true), and
+    what was done to the cloth: ~/inputs/push (Push), ~/inputs/pin (PinChange),
+    ~/inputs/pin_target (PinTarget), ~/inputs/mode (ModeChange), ~/inputs/command (Command),
+    ~/inputs/parameters (ParameterEvent).
 
     Listens to: ~/push (Push), ~/pins/target (PinTarget), /clicked_point (PointStamped).
 
@@ -85,7 +88,7 @@ class ClothSimNode(Node):
         self._outlet = Outlet(self, self._recording)
         self._inputs = Inputs(self._outlet, self._simulation, values['frame_id'], name)
         self._frames = Frames(
-            self._simulation, self._outlet, values, self.get_logger().warning)
+            self._simulation, self._outlet, values, name, self.get_logger().warning)
         self._pacing = Pacing(values['real_time_factor'])
         self._pace_report = PaceReport(
             self._simulation, self._pacing, warn=self.get_logger().warning,
@@ -116,6 +119,9 @@ class ClothSimNode(Node):
             self._start_recording(self._values['recording.name'])
         else:
             self._state.send()
+        lost = lost_clouds(scene.node_count, use_profile())
+        if lost and self._values['publish.points']:
+            self.get_logger().warning(lost)
         self._switch.ask(simulation.mode)
 
     def close_recording(self) -> None:
@@ -155,8 +161,10 @@ class ClothSimNode(Node):
         self._state.send()
 
     def _on_frame(self, worked: float, steps: int) -> None:
+        too_slow = self._run_loop.running and self._pacing.too_slow
         self._frames.send(
-            worked=worked, steps=steps, real_time_factor=self._run_loop.real_time_factor)
+            worked=worked, steps=steps, real_time_factor=self._run_loop.real_time_factor,
+            too_slow=too_slow)
         if self._run_loop.running:
             self._pace_report.look(time.monotonic())
 
@@ -213,18 +221,19 @@ class ClothSimNode(Node):
     def _watch(self) -> None:
         """Once a second: the health of the run, and a still picture for those who come late."""
         self._clock_topic.watch()
-        if not self._simulation.is_ready:
-            return
-        if not self._run_loop.running and not self._simulation.stepping.is_mid_step:
+        simulation = self._simulation
+        is_still = not self._run_loop.running and not simulation.stepping.is_mid_step
+        if simulation.is_ready and is_still:
             self._frames.send(to_recording=False)
         if not self._outlet.wanted('diagnostics'):
             return
-        snapshot = self._simulation.snapshot()
+        snapshot = simulation.snapshot() if simulation.is_ready else None
         self._outlet.send_message('diagnostics', diagnostics_message(
-            snapshot, node_name=self.get_name(), device=self._simulation.device,
+            snapshot, stamp=self.get_clock().now().to_msg(), node_name=self.get_name(),
+            device=simulation.device,
             paused=not self._run_loop.running, problem=self._run_loop.problem,
             real_time_factor=self._run_loop.real_time_factor,
             wanted_factor=self._values['real_time_factor'],
             automatic_substeps=self._values['auto_substeps'],
             recording_path=self._recording.path, recording_error=self._recording_error),
-            snapshot.time)
+            simulation.time)

@@ -12,7 +12,7 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""What a frame is made of: the cloud, markers, plain numbers and wrenches of one moment."""
+"""What a frame is made of: the cloud, markers, plain numbers and pins of one moment."""
 
 from collections.abc import Callable
 from collections.abc import Mapping
@@ -24,7 +24,8 @@ from cloth_sim_ros.messages.points import PointsMessage
 from cloth_sim_ros.messages.stamp import stamp
 from cloth_sim_ros.messages.stats import stats_message
 from cloth_sim_ros.node.outlet import Outlet
-from cloth_sim_ros.node.wrench_topic import WrenchTopic
+from cloth_sim_ros.node.pin_topics import PinTopics
+from cloth_sim_ros.node.pin_topics import WRENCHES
 from cloth_sim_ros.sim.simulation import Simulation
 from rclpy.serialization import serialize_message
 from rosgraph_msgs.msg import Clock
@@ -37,12 +38,13 @@ class Frames:
     Send the topics that show the cloth.
 
     :param values: the node's parameter values, read at each frame
+    :param node_name: with its namespace
     :param warn: called with what a user should know
     """
 
     def __init__(
             self, simulation: Simulation, outlet: Outlet, values: Mapping[str, Any],
-            warn: Callable[[str], None]) -> None:
+            node_name: str, warn: Callable[[str], None]) -> None:
         """Prepare the messages of this cloth."""
         scene = simulation.scene
         self._simulation = simulation
@@ -51,17 +53,18 @@ class Frames:
         self._frame_id = values['frame_id']
         self._points = PointsMessage(scene.rows, scene.cols, self._frame_id)
         self._markers = MarkersMessage(scene.rows, scene.cols, self._frame_id)
-        self._wrenches = WrenchTopic(simulation, outlet, values, warn)
+        self._pins = PinTopics(simulation, outlet, values, node_name, warn)
 
     def send(
             self, *, worked: float = 0.0, steps: int = 0, real_time_factor: float = 0.0,
-            to_recording: bool = True) -> None:
+            too_slow: bool = False, to_recording: bool = True) -> None:
         """
         Send what is wanted of the moment.
 
         :param worked: wall time the steps of this frame took [s]
         :param steps: of dt in this frame, 0 when the moment has been there before
         :param real_time_factor: simulated time per wall time, achieved
+        :param too_slow: True when that falls short of what is asked for
         :param to_recording: False to show the same moment once more
         """
         simulation = self._simulation
@@ -71,11 +74,11 @@ class Frames:
         made = [
             part for part in _PARTS if self._values[f'publish.{part}']
             and self._outlet.wanted(part, by_recording=to_recording)]
-        wrenches = self._wrenches.wanted(by_recording=to_recording)
-        if not made and not wrenches:
+        of_pins = self._pins.wanted(by_recording=to_recording)
+        if not made and not of_pins:
             return
         begin = time.monotonic()
-        snapshot = simulation.snapshot(pin_forces=wrenches)
+        snapshot = simulation.snapshot(pin_forces=WRENCHES in of_pins)
         # The device may still be at work when the steps return: the read-back waits for it.
         worked += time.monotonic() - begin
         makers = {
@@ -84,9 +87,9 @@ class Frames:
                 snapshot, [applied.push for applied in simulation.pushes]),
             'stats': lambda: serialize_message(stats_message(
                 snapshot, self._frame_id, step_wall_time=worked / max(steps, 1),
-                real_time_factor=real_time_factor)),
+                real_time_factor=real_time_factor,
+                wanted_factor=self._values['real_time_factor'], too_slow=too_slow)),
         }
         for part in made:
             self._outlet.send(part, makers[part], now, to_recording=to_recording)
-        if wrenches:
-            self._wrenches.send(snapshot, to_recording=to_recording)
+        self._pins.send(snapshot, of_pins, to_recording=to_recording)

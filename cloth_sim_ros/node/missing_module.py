@@ -26,6 +26,10 @@ def way_out(error: ImportError) -> str:
         return (
             'the package cloth_sim_interfaces is not built: in your workspace run '
             f'`{BUILD_COMMAND}`')
+    if package == 'tf2_msgs':
+        return (
+            'the ROS package tf2_msgs is not here: install ros-jazzy-tf2-msgs, or run '
+            './scripts/setup.sh again')
     if package in ('rclpy', 'rcl_interfaces', 'std_msgs', 'std_srvs', 'sensor_msgs'):
         return (
             f'ROS 2 is not here ({package} is missing): source /opt/ros/jazzy/setup.bash, '

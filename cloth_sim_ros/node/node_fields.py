@@ -30,6 +30,7 @@ NODE_FIELDS = (
     Field('publish.markers', bool, True, 'make ~/markers', live=True),
     Field('publish.stats', bool, True, 'make ~/stats', live=True),
     Field('publish.wrenches', bool, True, 'make ~/pins/wrenches', live=True),
+    Field('publish.tf', bool, True, 'make a frame for each pin on /tf', live=True),
     Field('publish.clock', bool, False, 'publish the simulated time on /clock while nobody else '
           'does'),
     Field('recording.directory', str, 'bags', 'folder that every recording goes into'),

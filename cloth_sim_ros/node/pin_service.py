@@ -33,12 +33,16 @@ class PinService:
     def _set_pin(self, request: SetPin.Request, response: SetPin.Response) -> str:
         row, col = request.row, request.col
         if request.use_point:
-            row, col = self._simulation.nearest_node(
-                (request.point.x, request.point.y, request.point.z))
+            # Fields that are not set are 0 in ROS: that distance means the usual one.
+            near = self._simulation.nearest_node(
+                (request.point.x, request.point.y, request.point.z),
+                request.max_distance or None)
+            row, col, response.distance = near.row, near.col, near.distance
         response.row, response.col = row, col
         if request.release:
             self._simulation.release(row, col)
         else:
             self._simulation.pin(row, col)
         self._inputs.pin(row, col, not request.release)
-        return f'node ({row}, {col}) is {"free" if request.release else "pinned"}'
+        place = f', {response.distance:.3f} m from the point' if request.use_point else ''
+        return f'node ({row}, {col}) is {"free" if request.release else "pinned"}{place}'

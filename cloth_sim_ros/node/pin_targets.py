@@ -48,15 +48,19 @@ class PinTargets:
         node.create_service(MovePin, '~/move_pin', answer(self._on_request))
         node.create_subscription(PinTarget, '~/pins/target', self._on_message, _DEPTH)
 
+    # Fields that are not set are 0 in ROS: that distance or speed means the usual one.
     def _on_request(self, request: MovePin.Request, response: MovePin.Response) -> str:
         row, col = request.row, request.col
         if request.use_point:
-            row, col = self._simulation.nearest_pin(_parts(request.point))
+            near = self._simulation.nearest_pin(
+                _parts(request.point), request.max_distance or None)
+            row, col, response.distance = near.row, near.col, near.distance
         response.row, response.col = row, col
         response.arrival = self._move(row, col, request).arrival
         x, y, z = _parts(request.target)
+        place = f', {response.distance:.3f} m from the point,' if request.use_point else ''
         return (
-            f'node ({row}, {col}) moves to ({x:g}, {y:g}, {z:g}) and arrives at '
+            f'node ({row}, {col}){place} moves to ({x:g}, {y:g}, {z:g}) and arrives at '
             f'{response.arrival:g} s')
 
     def _on_message(self, message: PinTarget) -> None:
@@ -67,7 +71,6 @@ class PinTargets:
             self._node.get_logger().warning(f'a message on ~/pins/target is ignored: {error}')
 
     def _move(self, row: int, col: int, request: Any) -> PinPath:
-        # Fields that are not set are 0 in ROS: that speed means the usual one.
         path = self._simulation.move_pin(
             row, col, _parts(request.target), request.speed or None)
         self._inputs.pin_target(path.move)

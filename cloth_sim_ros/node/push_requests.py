@@ -69,6 +69,7 @@ class PushRequests:
 
     def _on_push(self, message: Push) -> None:
         try:
+            check_frame(message.header.frame_id, self._values['frame_id'])
             self._push(
                 force=_parts(message.force), region=message.region or Push.ALL,
                 center=_parts(message.center), radius=message.radius,

@@ -16,24 +16,49 @@
 """Find the node at a point."""
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 import math
 
 from cloth_sim_ros.sim.errors import ClothSimError
+from cloth_sim_ros.sim.scene import Scene
 import numpy as np
+
+USUAL_REACH = 0.1  # [m], as far as a click pushes
+
+
+@dataclass(frozen=True)
+class NearNode:
+    """
+    A node and how far it is from the point it was looked for at.
+
+    :param distance: [m]
+    """
+
+    row: int
+    col: int
+    distance: float
 
 
 def nearest(
-        positions: np.ndarray, point: Sequence[float],
-        pinned: np.ndarray | None = None) -> tuple[int, int]:
+        scene: Scene, positions: np.ndarray, point: Sequence[float],
+        max_distance: float | None = None, pinned: np.ndarray | None = None) -> NearNode:
     """
-    Return row and col of the node nearest to ``point`` [m].
+    Return the node nearest to ``point`` [m].
 
     :param positions: (rows, cols, 3) [m]
+    :param max_distance: how far the node may be from the point [m], by default usual_reach;
+        infinite for any node
     :param pinned: (rows, cols) bool, to look among these nodes alone
-    :raises ClothSimError: when the point is none, or no node is pinned
+    :raises ClothSimError: when the point is none, no node is pinned, or the node is too far away
     """
     if len(point) != 3 or not all(math.isfinite(part) for part in point):
         raise ClothSimError(f'a point needs 3 finite numbers [m], got {tuple(point)}')
+    if max_distance is None:
+        max_distance = usual_reach(scene)
+    if not max_distance > 0.0:
+        raise ClothSimError(
+            f'max_distance must be above 0, got {max_distance:g}: give the distance in metres, '
+            'or leave it out')
     away = positions - np.array(point, dtype=np.float32)
     squares = np.einsum('rci,rci->rc', away, away)
     if pinned is not None:
@@ -41,4 +66,17 @@ def nearest(
             raise ClothSimError('the cloth has no pin that is near to the point: pin a node first')
         squares = np.where(pinned, squares, np.inf)
     row, col = np.unravel_index(int(np.argmin(squares)), squares.shape)
-    return int(row), int(col)
+    found = NearNode(int(row), int(col), math.dist(positions[row, col], point))
+    if found.distance > max_distance:
+        x, y, z = point
+        raise ClothSimError(
+            f'no {"node" if pinned is None else "pin"} is within {max_distance:g} m of the point '
+            f'({x:g}, {y:g}, {z:g}): the nearest, ({row}, {col}), is {found.distance:.3g} m away; '
+            'give a point nearer to it, or a larger max_distance')
+    return found
+
+
+def usual_reach(scene: Scene) -> float:
+    """Return how far a node may be from a point that means it [m]: further on a coarse cloth."""
+    dx, dy = scene.spacing
+    return max(USUAL_REACH, dx if scene.cols > 1 else 0.0, dy if scene.rows > 1 else 0.0)

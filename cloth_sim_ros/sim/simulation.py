@@ -30,6 +30,7 @@ from cloth_sim_ros.sim.forces import with_forces
 from cloth_sim_ros.sim.forcing import Forcing
 from cloth_sim_ros.sim.layout import choose_layout
 from cloth_sim_ros.sim.nearest import nearest
+from cloth_sim_ros.sim.nearest import NearNode
 from cloth_sim_ros.sim.pin_motion import PinMotion
 from cloth_sim_ros.sim.pin_move import PinMove
 from cloth_sim_ros.sim.pin_path import PinPath
@@ -240,13 +241,15 @@ class Simulation:
         """Return which nodes are held, (rows, cols) bool, with changes yet to be made."""
         return self._pins.pinned_nodes()
 
-    def nearest_node(self, point: Sequence[float]) -> tuple[int, int]:
-        """Return row and col of the node nearest to ``point`` [m]."""
-        return nearest(self.positions(), point)
+    def nearest_node(
+            self, point: Sequence[float], max_distance: float | None = None) -> NearNode:
+        """Return the node nearest to ``point`` [m]."""
+        return nearest(self.scene, self.positions(), point, max_distance)
 
-    def nearest_pin(self, point: Sequence[float]) -> tuple[int, int]:
-        """Return row and col of the pinned node nearest to ``point`` [m]."""
-        return nearest(self.positions(), point, self.pinned_nodes())
+    def nearest_pin(
+            self, point: Sequence[float], max_distance: float | None = None) -> NearNode:
+        """Return the pinned node nearest to ``point`` [m]."""
+        return nearest(self.scene, self.positions(), point, max_distance, self.pinned_nodes())
 
     def positions(self) -> np.ndarray:
         """Return all positions [m], (rows, cols, 3) float32."""

@@ -18,6 +18,7 @@ import sys
 from typing import Any
 
 from cloth_sim_interfaces.msg import ClothState
+from cloth_sim_ros.messages.pin_frames import PinFrames
 from cloth_sim_ros.messages.points import PointsMessage
 from cloth_sim_ros.messages.state import state_of
 from cloth_sim_ros.messages.stats import stats_message
@@ -32,7 +33,7 @@ from rclpy.serialization import serialize_message
 
 class BatchRecording:
     """
-    A recording of points, stats, wrenches and inputs.
+    A recording of points, stats, pins and inputs.
 
     :param directory: folder that the recording's own folder is made in
     :param node_name: for the names of the topics, with its namespace
@@ -49,7 +50,8 @@ class BatchRecording:
         self._frame_id = node_values['frame_id']
         self._points = PointsMessage(
             simulation.scene.rows, simulation.scene.cols, self._frame_id)
-        self._wrenches = WrenchMessages(self._frame_id)
+        self._pin_frames = PinFrames(node_name, self._frame_id)
+        self._wrenches = WrenchMessages(node_name)
         self._session = RecordingSession(directory, node_name, self._say, setting)
         self.path = self._session.start(node_values['recording.name'])
         values = {**simulation.scene.values, **node_values}
@@ -57,7 +59,8 @@ class BatchRecording:
         self._write_state(ClothState.RUNNING)
         reason = too_many_pins(np.count_nonzero(simulation.pinned_nodes()))
         self._has_wrenches = node_values['publish.wrenches'] and not reason
-        if node_values['publish.wrenches'] and reason:
+        self._has_pin_frames = node_values['publish.tf'] and not reason
+        if reason and (node_values['publish.wrenches'] or node_values['publish.tf']):
             self._say(reason)
         self._recorded = 0.0
         self.write(0.0, 0.0)
@@ -70,6 +73,8 @@ class BatchRecording:
             real_time_factor=real_time_factor)
         self._session.write('points', self._points.serialise(snapshot), snapshot.time)
         self._session.write('stats', serialize_message(stats), snapshot.time)
+        if self._has_pin_frames and self._simulation.pinned_nodes().any():
+            self._session.write('tf', self._pin_frames.serialise(snapshot), snapshot.time)
         if self._has_wrenches:
             for data in self._wrenches.serialise(snapshot):
                 self._session.write('pins/wrenches', data, snapshot.time)

@@ -23,6 +23,7 @@ For example:
   cloth_sim pin 0 15 --to 0.5 0 1.4 --speed 0.3
   cloth_sim pin 0 15 --release
   cloth_sim pin --near 0.5 0 1
+  cloth_sim pin --near 0.5 0 1 --max-distance 0.3
 """
 
 from argparse import ArgumentParser
@@ -47,6 +48,10 @@ def add_arguments(parser: ArgumentParser) -> None:
     parser.add_argument(
         '--near', nargs=3, type=float, metavar=_AXES,
         help='take the node nearest to this point [m], with --to the pin nearest to it')
+    parser.add_argument(
+        '--max-distance', type=float, metavar='M',
+        help='that node may be so far from the point of --near [m] (default: 0.1, or the node '
+             'spacing where that is longer)')
     what = parser.add_mutually_exclusive_group()
     what.add_argument('--release', action='store_true', help='let the node go')
     what.add_argument('--to', nargs=3, type=float, metavar=_AXES, help='move the pin there [m]')
@@ -63,7 +68,7 @@ def main(args: Namespace) -> int:
         kind, name, request = SetPin, 'set_pin', SetPin.Request(release=args.release, **place)
     else:
         kind, name, request = MovePin, 'move_pin', MovePin.Request(
-            target=_point(args.to), speed=_speed(args), **place)
+            target=_point(args.to), speed=_given('speed', args.speed), **place)
     with open_node(args) as node:
         print(node.call(kind, name, request).message)
     return 0
@@ -74,21 +79,26 @@ def _place(args: Namespace) -> dict[str, Any]:
         raise ClothSimError('one node is needed: give ROW COL, or --near X Y Z')
     if args.to is None and args.speed is not None:
         raise ClothSimError('a speed is that of a move: give --to X Y Z as well')
+    if args.near is None and args.max_distance is not None:
+        raise ClothSimError('a distance is that of a point: give --near X Y Z as well')
     if args.near is not None:
-        return {'use_point': True, 'point': _point(args.near)}
+        return {
+            'use_point': True, 'point': _point(args.near),
+            'max_distance': _given('max_distance', args.max_distance)}
     row, col = args.place
     if not (0 <= row <= _LARGEST and 0 <= col <= _LARGEST):
         raise ClothSimError(f'there is no node ({row}, {col}): rows and columns count from 0')
     return {'row': row, 'col': col}
 
 
-def _speed(args: Namespace) -> float:
-    if args.speed is None:
+def _given(name: str, value: float | None) -> float:
+    """Return what the node takes for ``value``: to it, 0 says that none is given."""
+    if value is None:
         return 0.0
-    # To the node, 0 says that no speed is given.
-    if args.speed == 0.0:
-        raise ClothSimError('a pin does not get there at a speed of 0 m/s: give one above 0')
-    return args.speed
+    if value == 0.0:
+        raise ClothSimError(
+            f'--{name.replace("_", "-")} must be above 0, got 0: give more, or leave it out')
+    return value
 
 
 def _point(parts: list[float]) -> Point:

@@ -12,28 +12,46 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-# cloth_sim_interfaces, built with cmake into the venv, which is a ROS prefix of its own.
+# The messages, built with cmake into the venv, which is a ROS prefix of its own:
+# cloth_sim_interfaces, and what this project needs of tf2_msgs where ROS lacks that.
 
 cmake_build() {
-  local build=$venv/build/cloth_sim_interfaces
+  local source=$1 package build
+  package=$(basename "$source")
+  build=$venv/build/$package
   rm -rf "$build"
   # A message that is gone must not live on in the prefix.
-  rm -rf "$venv"/{include,share,lib/python3.*/site-packages}/cloth_sim_interfaces \
-    "$venv"/lib/libcloth_sim_interfaces__*
+  rm -rf "$venv"/{include,share,lib/python3.*/site-packages}/"$package" "$venv"/lib/lib"$package"__*
   export AMENT_PREFIX_PATH=$venv${AMENT_PREFIX_PATH:+:$AMENT_PREFIX_PATH}
   export CMAKE_PREFIX_PATH=$venv${CMAKE_PREFIX_PATH:+:$CMAKE_PREFIX_PATH}
   export PATH=$venv/bin:$PATH
-  cmake -S cloth_sim_interfaces -B "$build" -DCMAKE_INSTALL_PREFIX="$venv" \
+  cmake -S "$source" -B "$build" -DCMAKE_INSTALL_PREFIX="$venv" \
     -DCMAKE_BUILD_TYPE=Release -DBUILD_TESTING=OFF -DPython3_EXECUTABLE="$venv/bin/python" &&
     cmake --build "$build" --parallel "$(nproc)" &&
     cmake --install "$build"
 }
 
+# Does the ROS in use bring this package? The wheels are in the venv itself.
+ros_has() {
+  local prefix
+  local IFS=:
+  for prefix in ${AMENT_PREFIX_PATH:-}; do
+    [ "$prefix" = "$venv" ] || [ ! -d "$prefix/share/$1" ] || return 0
+  done
+  return 1
+}
+
+build_package() {
+  local source=$1 package current
+  package=$(basename "$source")
+  current=$(digest "$source" < "$stamps/packages")
+  ! is_current "$package" "$current" || return 0
+  clear_stamp "$package"
+  long_step "Building $package" cmake_words cmake_build "$source"
+  set_stamp "$package" "$current"
+}
+
 build_interfaces() {
-  local current
-  current=$(digest cloth_sim_interfaces < "$stamps/packages")
-  ! is_current interfaces "$current" || return 0
-  clear_stamp interfaces
-  long_step 'Building cloth_sim_interfaces' cmake_words cmake_build
-  set_stamp interfaces "$current"
+  ros_has tf2_msgs || build_package scripts/setup/tf2_msgs
+  build_package cloth_sim_interfaces
 }

@@ -43,11 +43,13 @@ def display(manager, kind):
     return found
 
 
-@pytest.mark.parametrize('kind, key', [('PointCloud2', 'points'), ('MarkerArray', 'markers')])
-def test_shows_topics_of_the_node(manager, kind, key):
+@pytest.mark.parametrize('kind, type_name, key', [
+    ('PointCloud2', 'PointCloud2', 'points'), ('MarkerArray', 'MarkerArray', 'markers'),
+    ('Wrench', 'WrenchStamped', 'pins/wrenches')])
+def test_shows_topics_of_the_node(manager, kind, type_name, key):
     """Nothing would be shown: no such topic, or a quality of service that does not match."""
     topic, shown = TOPICS[key], display(manager, kind)
-    assert topic.type_name.endswith(f'/{kind}')
+    assert topic.type_name.endswith(f'/{type_name}')
     assert shown['Topic']['Value'] == topic.full_name('cloth_sim')
     assert shown['Topic']['Reliability Policy'] == 'Reliable'
     assert topic.reliable

@@ -29,13 +29,18 @@ NUMBERS = {
 def test_every_number_is_in_its_place():
     """A plot would show one number under the name of another."""
     snapshot = make_snapshot(2, 2, **NUMBERS)
-    message = stats_message(snapshot, 'world', step_wall_time=0.125, real_time_factor=0.75)
+    message = stats_message(
+        snapshot, 'world', step_wall_time=0.125, real_time_factor=0.75, wanted_factor=1.5,
+        too_slow=True)
     stats = deserialize_message(serialize_message(message), type(message))
     assert stats.header.frame_id == 'world'
     assert (stats.header.stamp.sec, stats.header.stamp.nanosec) == (1, 250000000)
     assert stats.sim_time == snapshot.time
     assert (stats.step_wall_time, stats.real_time_factor) == (0.125, 0.75)
-    own = {'header', 'sim_time', 'step_wall_time', 'real_time_factor'}
+    assert (stats.real_time_factor_wanted, stats.too_slow) == (1.5, True)
+    own = {
+        'header', 'sim_time', 'step_wall_time', 'real_time_factor', 'real_time_factor_wanted',
+        'too_slow'}
     names = set(stats.get_fields_and_field_types()) - own
     assert {name: getattr(stats, name) for name in names} == {
         name: getattr(snapshot, name) for name in names}

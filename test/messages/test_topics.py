@@ -25,6 +25,7 @@ import pytest
     ('stats', 'cloth_sim_interfaces/msg/ClothStats', 10, False),
     ('pins/wrenches', 'geometry_msgs/msg/WrenchStamped', 1024, False),
     ('state', 'cloth_sim_interfaces/msg/ClothState', 1, True),
+    ('tf', 'tf2_msgs/msg/TFMessage', 100, False),
     ('clock', 'rosgraph_msgs/msg/Clock', 10, False),
     ('diagnostics', 'diagnostic_msgs/msg/DiagnosticArray', 10, False),
 ])
@@ -43,9 +44,10 @@ def test_all_inputs_are_recorded():
         'inputs/parameters'}
     assert all(TOPICS[key].recorded for key in inputs)
     assert TOPICS['topology'].recorded and TOPICS['clock'].recorded
-    assert TOPICS['pins/wrenches'].recorded
+    assert TOPICS['pins/wrenches'].recorded and TOPICS['tf'].recorded
 
 
-def test_only_clock_and_diagnostics_are_global():
+def test_only_topics_that_all_nodes_have_in_common_are_global():
     """Topics of two nodes would run into each other."""
-    assert {key for key, topic in TOPICS.items() if topic.is_global} == {'clock', 'diagnostics'}
+    assert {key for key, topic in TOPICS.items() if topic.is_global} == {
+        'clock', 'diagnostics', 'tf'}

@@ -28,7 +28,7 @@ from rclpy.serialization import deserialize_message
 def decode(nodes, forces):
     """Return the messages of a snapshot with these forces at these nodes."""
     held = PinForces(np.array(nodes, dtype=int).reshape(-1, 2), np.reshape(forces, (-1, 3)))
-    messages = WrenchMessages('world')
+    messages = WrenchMessages('/arm/cloth')
     # Whatever was sent before must not be left in them.
     messages.serialise(make_snapshot(3, 4, pin_forces=PinForces(held.nodes, 7.0 + held.forces)))
     return [
@@ -39,7 +39,8 @@ def decode(nodes, forces):
 def test_each_pin_has_its_own_message():
     """A gripper would read the force of another one."""
     messages = decode([(0, 0), (2, 3)], [[1.0, 2.0, 3.0], [4.0, 5.0, 6.0]])
-    assert [message.header.frame_id for message in messages] == ['world/pin_0_0', 'world/pin_2_3']
+    assert [message.header.frame_id for message in messages] == [
+        'arm_cloth_pin_0_0', 'arm_cloth_pin_2_3']
     assert {(message.header.stamp.sec, message.header.stamp.nanosec)
             for message in messages} == {(1, 250000000)}
 

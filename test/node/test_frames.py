@@ -90,6 +90,21 @@ def test_stats_are_the_numbers_of_the_snapshot(cloth, simulation):
     assert stats.step_wall_time > 0.0
 
 
+def test_stats_say_that_the_run_is_slower_than_asked_for(cloth):
+    """A controller that streams by the wall clock would not know that its cloth lags behind."""
+    assert cloth.set_parameters(real_time_factor=1e6).successful
+    assert cloth.call(SetBool, 'pause', data=False).success
+    slow = cloth.wait_for('stats', lambda stats: stats.too_slow)
+    assert slow.real_time_factor_wanted == 1e6
+    assert 0.0 < slow.real_time_factor < 1e6
+    assert cloth.set_parameters(real_time_factor=0.0).successful
+    cloth.wait_for(
+        'stats', lambda stats: stats.real_time_factor_wanted == 0.0 and not stats.too_slow)
+    assert cloth.call(SetBool, 'pause', data=True).success
+    cloth.clear()
+    assert not cloth.wait_for('stats').too_slow
+
+
 def test_markers_draw_the_cloth(cloth):
     """A viewer would draw another surface than the cloud has."""
     cloth.call(Step, 'step', steps=3)

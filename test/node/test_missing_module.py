@@ -30,6 +30,11 @@ def test_says_where_ros_comes_from():
     assert '/opt/ros/jazzy/setup.bash' in way_out(ModuleNotFoundError(name='rclpy'))
 
 
+def test_says_what_a_small_ros_lacks():
+    """A user whose ROS has no tf2 would get a traceback."""
+    assert 'ros-jazzy-tf2-msgs' in way_out(ModuleNotFoundError(name='tf2_msgs'))
+
+
 def test_does_not_guess():
     """Another missing module would be taken for a missing ROS."""
     with pytest.raises(ModuleNotFoundError):

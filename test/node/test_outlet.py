@@ -28,6 +28,7 @@ NAMES_AND_TYPES = {
     '~/stats': 'cloth_sim_interfaces/msg/ClothStats',
     '~/pins/wrenches': 'geometry_msgs/msg/WrenchStamped',
     '~/state': 'cloth_sim_interfaces/msg/ClothState',
+    '/tf': 'tf2_msgs/msg/TFMessage',
     '/diagnostics': 'diagnostic_msgs/msg/DiagnosticArray',
     '~/inputs/push': 'cloth_sim_interfaces/msg/Push',
     '~/inputs/pin': 'cloth_sim_interfaces/msg/PinChange',

@@ -38,10 +38,33 @@ def test_pins_and_releases_a_node(cloth):
 
 def test_finds_the_nearest_node(cloth, simulation):
     """A pin by point would hold another node than the one meant."""
-    expected = simulation.nearest_node((0.21, -0.12, 1.3))
+    expected = simulation.nearest_node((0.21, -0.12, 1.05))
     response = cloth.call(
-        SetPin, 'set_pin', use_point=True, point=Point(x=0.21, y=-0.12, z=1.3))
-    assert (response.success, response.row, response.col) == (True, *expected)
+        SetPin, 'set_pin', use_point=True, point=Point(x=0.21, y=-0.12, z=1.05))
+    assert (response.success, response.row, response.col) == (True, expected.row, expected.col)
+    assert response.distance == pytest.approx(expected.distance)
+    assert response.message == f'node (5, 7) is pinned, {expected.distance:.3f} m from the point'
+
+
+def test_refuses_a_point_far_from_the_cloth(cloth):
+    """A request with the wrong point would pin or release a node at the other end of the room."""
+    response = cloth.call(SetPin, 'set_pin', use_point=True, point=Point(x=0.45, y=0.35, z=100.0))
+    assert not response.success
+    assert not cloth['inputs/pin']
+    assert 'no node is within 0.1 m of the point (0.45, 0.35, 100)' in response.message
+    assert 'the nearest, (0, 9), is 99 m away' in response.message
+    assert 'max_distance' in response.message
+
+
+@pytest.mark.parametrize('max_distance, success', [
+    (0.2, False), (0.4, True), (float('inf'), True), (-0.1, False), (float('nan'), False)])
+def test_the_caller_says_how_far_a_node_may_be(cloth, max_distance, success):
+    """Somebody who points from afar could not, or a distance that is none would be taken."""
+    response = cloth.call(
+        SetPin, 'set_pin', use_point=True, point=Point(x=0.45, y=0.35, z=1.3),
+        max_distance=max_distance)
+    assert response.success == success
+    assert 'max_distance' in response.message or (response.row, response.col) == (0, 9)
 
 
 @pytest.mark.parametrize('row, col', [(8, 0), (0, 10), (2**32 - 1, 2**32 - 1)])

@@ -66,8 +66,9 @@ def test_takes_the_usual_speed_and_the_nearest_pin(cloth):
     """A request without a speed would be refused, or one by point move a node that is free."""
     response = cloth.call(
         MovePin, 'move_pin', use_point=True, point=Point(x=0.1, y=-0.35, z=1.0),
-        target=Point(x=0.45, y=0.35, z=1.5))
+        target=Point(x=0.45, y=0.35, z=1.5), max_distance=1.0)
     assert (response.success, response.row, response.col) == (True, 0, 9)
+    assert response.distance == pytest.approx((0.35**2 + 0.7**2)**0.5)
     assert response.arrival == pytest.approx(0.5)
     assert cloth.wait_for('inputs/pin_target').speed == 1.0
 
@@ -81,6 +82,16 @@ def test_refuses_nonsense(cloth, case):
     assert not response.success
     assert reason in response.message
     assert not cloth['inputs/pin_target']
+
+
+def test_refuses_a_point_far_from_every_pin(cloth):
+    """A gripper that is nowhere near would drag the pin of another one."""
+    response = cloth.call(
+        MovePin, 'move_pin', use_point=True, point=Point(x=0.45, y=-0.35, z=1.0), target=TARGET)
+    assert not response.success
+    assert not cloth['inputs/pin_target']
+    assert 'no pin is within 0.1 m of the point (0.45, -0.35, 1)' in response.message
+    assert 'the nearest, (0, 9), is 0.7 m away' in response.message
 
 
 def test_says_that_there_is_no_pin(cloth):

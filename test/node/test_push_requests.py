@@ -111,6 +111,18 @@ def test_push_message_does_what_the_service_does(cloth, simulation):
     cloth.client.node.destroy_publisher(publisher)
 
 
+def test_push_message_of_another_frame_is_ignored(cloth):
+    """A push given in the frame of a gripper would act elsewhere, in a direction nobody meant."""
+    publisher = cloth.client.node.create_publisher(Push, f'{cloth.name}/push', 10)
+    cloth.client.spin_until(publisher.get_subscription_count, 'the node listens')
+    for frame, z in (('tool0', 1.0), ('world', 2.0), ('', 3.0)):
+        publisher.publish(Push(
+            header=Header(frame_id=frame), force=Vector3(z=z), duration=0.05))
+    cloth.wait_for('inputs/push', lambda push: push.force.z == 3.0)
+    assert [push.force.z for push in cloth['inputs/push']] == [2.0, 3.0]
+    cloth.client.node.destroy_publisher(publisher)
+
+
 def test_click_pushes_where_it_hits(cloth):
     """A click in RViz would do nothing, push elsewhere, or be taken from a foreign frame."""
     clicks = cloth.client.node.create_publisher(PointStamped, '/clicked_point', 10)

@@ -14,8 +14,21 @@
 
 """What the node says it is doing."""
 
+from pathlib import Path
+import time
+
 from cloth_sim_interfaces.msg import ClothState
+from cloth_sim_interfaces.srv import StartRecording
+from cloth_sim_interfaces.srv import Step
+from cloth_sim_ros.messages.stamp import nanoseconds
 import pytest
+from recorded import Recorded
+from std_srvs.srv import Trigger
+
+
+def stamp_of(message):
+    """Return the stamp of the header [ns]."""
+    return message.header.stamp.sec * 10**9 + message.header.stamp.nanosec
 
 
 def test_state_is_kept_for_those_who_come_late(cloth, simulation):
@@ -36,3 +49,18 @@ def test_diagnostics_tell_device_and_pace(cloth, simulation):
     assert all(status.name.startswith('cloth_sim: ') for status in told.status)
     assert any(simulation.device in status.message for status in told.status)
     assert any(status.message == 'paused' for status in told.status)
+
+
+def test_diagnostics_carry_the_time_of_the_node(cloth):
+    """An aggregator would take what comes from a paused or slow simulation for stale."""
+    begin = time.time_ns()
+    path = Path(cloth.call(StartRecording, 'start_recording', name='').path)
+    assert cloth.call(Step, 'step', steps=4).success
+    told = cloth.wait_for('diagnostics', lambda message: stamp_of(message) >= begin)
+    assert stamp_of(told) <= time.time_ns()
+    assert cloth.call(Trigger, 'stop_recording').success
+    recorded = [
+        (log_time, message) for topic, log_time, message in Recorded(path).entries
+        if topic == '/diagnostics']
+    assert recorded and all(stamp_of(message) >= begin for _, message in recorded)
+    assert {log_time for log_time, _ in recorded} <= {0, nanoseconds(4 * cloth.dt)}

@@ -37,6 +37,8 @@ def bag(tmp_path_factory):
     """Record a second of a cloth, and return the folder."""
     values = {field.name: field.default for field in NODE_FIELDS}
     values['recording.name'] = 'run'
+    # Whoever listens to /tf hears the nodes of other tests, too.
+    values['publish.tf'] = False
     simulation = Simulation(Scene(SCENE))
     run = BatchRun(simulation, values, str(tmp_path_factory.mktemp('bags')))
     run.advance(SECONDS)

@@ -205,9 +205,11 @@ def test_a_move_to_where_the_pin_is_ends_at_once(simulation: Simulation):
 
 def test_the_nearest_pin_is_found(simulation: Simulation):
     """A target for a pin would go to a free node beside it."""
-    assert simulation.nearest_pin((0.3, -0.5, 1.0)) == (0, 6)
+    found = simulation.nearest_pin((0.3, -0.5, 1.0), INF)
+    assert (found.row, found.col) == (0, 6)
     simulation.release(0, 6)
-    assert simulation.nearest_pin((0.3, -0.5, 1.0)) == (0, 0)
+    found = simulation.nearest_pin((0.3, -0.5, 1.0), INF)
+    assert (found.row, found.col) == (0, 0)
     simulation.release(0, 0)
     with pytest.raises(ClothSimError, match='pin a node first'):
         simulation.nearest_pin((0.0, 0.0, 0.0))

@@ -144,7 +144,9 @@ def test_a_pin_outside_is_refused(simulation: Simulation, node: tuple[int, int])
 def test_the_nearest_node_is_found(simulation: Simulation):
     """A click would grab the wrong node."""
     x, y, z = simulation.snapshot().positions[3, 2].tolist()
-    assert simulation.nearest_node((x + 0.01, y - 0.01, z + 0.3)) == (3, 2)
+    found = simulation.nearest_node((x + 0.01, y - 0.01, z + 0.03))
+    assert (found.row, found.col) == (3, 2)
+    assert found.distance == pytest.approx((2 * 0.01**2 + 0.03**2)**0.5, rel=1e-5)
     with pytest.raises(ClothSimError, match='3 finite numbers'):
         simulation.nearest_node((x, y, float('nan')))
 

@@ -30,7 +30,20 @@ def test_pins_and_releases(verb, cloth):
 def test_takes_the_nearest(verb):
     """A pin by point would hold another node."""
     result = verb('pin', '--near', '-0.45', '0.35', '1')
-    assert (result.returncode, result.stdout) == (0, 'node (0, 0) is pinned\n')
+    assert (result.returncode, result.stdout) == (
+        0, 'node (0, 0) is pinned, 0.000 m from the point\n')
+
+
+def test_takes_no_node_far_away(verb, cloth):
+    """A mistyped point would pin a node, or one that is meant could not be had."""
+    far = ('--near', '-0.45', '0.35', '1.5')
+    result = verb('pin', *far)
+    assert (result.returncode, result.stdout) == (1, '')
+    assert 'the nearest, (0, 0), is 0.5 m away' in result.stderr
+    assert not cloth['inputs/pin']
+    result = verb('pin', *far, '--max-distance', '0.6')
+    assert (result.returncode, result.stdout) == (
+        0, 'node (0, 0) is pinned, 0.500 m from the point\n')
 
 
 def test_moves(verb, cloth):
@@ -38,15 +51,17 @@ def test_moves(verb, cloth):
     result = verb('pin', '0', '9', '--to', '0.45', '0.35', '1.5', '--speed', '0.25')
     assert (result.returncode, result.stdout) == (
         0, 'node (0, 9) moves to (0.45, 0.35, 1.5) and arrives at 2 s\n')
-    result = verb('pin', '--near', '-0.4', '-0.35', '1', '--to', '-0.45', '0.35', '1.5')
+    result = verb('pin', '--near', '-0.45', '0.3', '1', '--to', '-0.45', '0.35', '1.5')
     assert (result.returncode, result.stdout) == (
-        0, 'node (0, 0) moves to (-0.45, 0.35, 1.5) and arrives at 0.5 s\n')
+        0, 'node (0, 0), 0.050 m from the point, moves to (-0.45, 0.35, 1.5) and arrives at '
+           '0.5 s\n')
     told = cloth.client.spin_until(lambda: cloth['inputs/pin_target'][1:], 'both are told')
     assert told[0].speed == 1.0
 
 
 @pytest.mark.parametrize('arguments', [
     ('5',), (), ('1', '2', '--near', '0', '0', '0'), ('-1', '0'), ('0', str(2**32)), ('8', '0'),
+    ('0', '0', '--max-distance', '1'), ('--near', '0', '0', '1', '--max-distance', '0'),
     ('0', '0', '--speed', '1'), ('0', '0', '--to', '0', '0', '1', '--speed', '0'),
     ('5', '3', '--to', '0', '0', '1')])
 def test_tells_why_not(verb, cloth, arguments):

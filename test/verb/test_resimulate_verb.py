@@ -149,7 +149,7 @@ def rewritten(bag: Path, change: Callable[[str, bytes], bytes | None]) -> Path:
     """Return a copy of a recording whose messages went through ``change``."""
     recorder = Recorder(bag.parent, 'rewritten', 'cloth_sim')
     for raw in Recording(bag).raw_messages():
-        key = raw.topic.removeprefix('/cloth_sim/')
+        key = raw.topic.removeprefix('/cloth_sim').lstrip('/')
         data = change(key, bytes(raw.data))
         if data is not None:
             recorder.write(key, data, raw.time * 1e-9)

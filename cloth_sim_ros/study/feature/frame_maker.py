@@ -27,6 +27,7 @@ from cloth_sim_ros.sim.simulation import Simulation
 import numpy as np
 from rclpy.serialization import serialize_message
 
+_NODE_NAME = 'cloth_sim'
 _FRAME_ID = 'world'
 _TOPICS = {'wrenches': 'pins/wrenches'}
 
@@ -47,7 +48,7 @@ class FrameMaker:
         self._outputs = outputs
         self._points = PointsMessage(scene.rows, scene.cols, _FRAME_ID)
         self._markers = MarkersMessage(scene.rows, scene.cols, _FRAME_ID)
-        self._wrenches = WrenchMessages(_FRAME_ID)
+        self._wrenches = WrenchMessages(_NODE_NAME)
         self._has_wrenches = 'wrenches' in outputs and not too_many_pins(
             np.count_nonzero(run.pinned_nodes()))
         self._folder = folder

@@ -1,0 +1,81 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+
+"""What is sent of the pins, as long as there are not too many: their frames and their wrenches."""
+
+from collections.abc import Callable
+from collections.abc import Collection
+from collections.abc import Mapping
+from typing import Any
+
+from cloth_sim_ros.messages.pin_frames import PinFrames
+from cloth_sim_ros.messages.wrenches import too_many_pins
+from cloth_sim_ros.messages.wrenches import WrenchMessages
+from cloth_sim_ros.node.outlet import Outlet
+from cloth_sim_ros.sim.simulation import Simulation
+from cloth_sim_ros.sim.snapshot import Snapshot
+import numpy as np
+
+FRAMES, WRENCHES = 'tf', 'pins/wrenches'
+_PARAMETERS = {FRAMES: 'publish.tf', WRENCHES: 'publish.wrenches'}
+
+
+class PinTopics:
+    """
+    Send /tf, one message a frame, and ~/pins/wrenches, one message a pin.
+
+    :param values: the node's parameter values, read at each frame
+    :param node_name: with its namespace
+    :param warn: called with the reason when pins become too many
+    """
+
+    def __init__(
+            self, simulation: Simulation, outlet: Outlet, values: Mapping[str, Any],
+            node_name: str, warn: Callable[[str], None]) -> None:
+        """Keep the parts."""
+        self._simulation = simulation
+        self._outlet = outlet
+        self._values = values
+        self._warn = warn
+        self._frames = PinFrames(node_name, values['frame_id'])
+        self._wrenches = WrenchMessages(node_name)
+        self._reason = ''
+
+    def wanted(self, *, by_recording: bool = True) -> frozenset[str]:
+        """Return which of FRAMES and WRENCHES are to be sent; WRENCHES need the pins' forces."""
+        wanted = frozenset(
+            key for key, parameter in _PARAMETERS.items()
+            if self._values[parameter] and self._outlet.wanted(key, by_recording=by_recording))
+        if not wanted:
+            return wanted
+        pins = int(np.count_nonzero(self._simulation.pinned_nodes()))
+        reason = too_many_pins(pins)
+        if reason and not self._reason:
+            self._warn(reason)
+        self._reason = reason
+        return wanted if pins > 0 and not reason else frozenset()
+
+    def send(
+            self, snapshot: Snapshot, wanted: Collection[str], *,
+            to_recording: bool = True) -> None:
+        """Send what is ``wanted`` of ``snapshot``, the frames before what is given in them."""
+        if FRAMES in wanted:
+            self._outlet.send(
+                FRAMES, lambda: self._frames.serialise(snapshot), snapshot.time,
+                to_recording=to_recording)
+        if WRENCHES in wanted:
+            for data in self._wrenches.serialise(snapshot):
+                self._outlet.send(
+                    WRENCHES, lambda data=data: data, snapshot.time, to_recording=to_recording)

@@ -1,0 +1,44 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+
+"""Which node a point means."""
+
+from cloth_sim_ros.sim.errors import ClothSimError
+from cloth_sim_ros.sim.nearest import nearest
+from cloth_sim_ros.sim.nearest import usual_reach
+from cloth_sim_ros.sim.scene import Scene
+import numpy as np
+import pytest
+
+
+def test_tells_the_distance():
+    """A caller could not tell a node that was hit from one that was only the nearest."""
+    positions = np.zeros((2, 3, 3), np.float32)
+    positions[..., 0] = np.arange(3)
+    positions[..., 1] = np.arange(2)[:, None]
+    scene = Scene({'rows': 2, 'cols': 3})
+    found = nearest(scene, positions, (2.3, 1.4, 0.0), 0.6)
+    assert (found.row, found.col) == (1, 2)
+    assert found.distance == pytest.approx(0.5)
+    with pytest.raises(ClothSimError, match=r'within 0.4 m.*\(1, 2\), is 0.5 m away'):
+        nearest(scene, positions, (2.3, 1.4, 0.0), 0.4)
+
+
+@pytest.mark.parametrize('shape, reach', [
+    ({'rows': 41, 'cols': 41}, 0.1), ({'rows': 3, 'cols': 6}, 0.5),
+    ({'rows': 1, 'cols': 51}, 0.1), ({'rows': 5, 'cols': 1}, 0.25)], ids=str)
+def test_a_point_on_the_cloth_is_in_reach(shape, reach):
+    """A point between the nodes of a coarse cloth would mean none of them."""
+    assert usual_reach(Scene({**shape, 'pins': []})) == pytest.approx(reach)
