@@ -130,6 +130,7 @@ class ClothSimNode(Node):
 
     def destroy_node(self) -> None:
         """Give the device's memory back, and everything of ROS."""
+        self._run_loop.close()
         self._switch.close()
         self._simulation.close()
         super().destroy_node()

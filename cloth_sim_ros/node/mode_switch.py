@@ -7,7 +7,6 @@ from collections.abc import Callable
 import threading
 import time
 
-from cloth_sim_ros.gl.errors import DeviceError
 from cloth_sim_ros.sim.engine import Preparation
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.simulation import Simulation
@@ -136,9 +135,7 @@ class ModeSwitch:
     def _give_up(self, mode: str, error: Exception) -> None:
         self._wanted = ''
         self._failed(mode, error)
-        if not isinstance(error, (ClothSimError, DeviceError)):
-            raise error
-        self._resolve(ClothSimError(str(error)))
+        self._resolve(ClothSimError(f'mode {mode} cannot be prepared: {error}'))
 
     def _refuse_others(self) -> None:
         others = [(mode, future) for mode, future in self._waiting if mode != self._wanted]

@@ -121,6 +121,12 @@ class RunLoop:
             'the cloth was put back to its start before all steps were made: ask for them again'))
         self.start()
 
+    def close(self) -> None:
+        """Undo a step under way, while there is a device to do so."""
+        self._timer.cancel()
+        if self._work is not None:
+            self._work.close()
+
     def step(self, steps: int) -> Future:
         """
         Begin to make ``steps`` steps of dt.

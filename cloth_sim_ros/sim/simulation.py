@@ -257,11 +257,7 @@ class Simulation:
             return self._state.read_positions()
 
     def set_mode(self, name: str) -> str:
-        """
-        Step with the mode ``name`` from now on, keeping the state; return the one before.
-
-        What the mode needs is compiled first, if no preparation has done that (``engines``).
-        """
+        """Step with the mode ``name`` from now on, keeping the state; return the one before."""
         self.stepping.refuse_mid_step('set_mode')
         previous = self.mode
         self.engines.use(name)

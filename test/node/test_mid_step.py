@@ -4,6 +4,9 @@
 """Requests that come while a step is under way: answered at once, done at its end, recorded so."""
 
 from pathlib import Path
+from signal import SIGINT
+from signal import Signals
+from signal import SIGTERM
 
 from cloth_sim_interfaces.srv import ApplyPush
 from cloth_sim_interfaces.srv import MovePin
@@ -40,8 +43,8 @@ def test_what_is_asked_within_steps_is_made_again_to_the_bit(
             assert push.success and push.nodes > 0
             assert cloth.call(SetPin, 'set_pin', row=20, col=10 + number).success
             moved = cloth.call(
-                MovePin, 'move_pin', row=0, col=0, target=Point(x=-0.5, y=0.5, z=1.0 + 0.01 * number),
-                speed=0.2)
+                MovePin, 'move_pin', row=0, col=0, speed=0.2,
+                target=Point(x=-0.5, y=0.5, z=1.0 + 0.01 * number))
             assert moved.success
             assert cloth.call(SetPin, 'set_pin', row=20, col=10 + number, release=True).success
         assert cloth.call(Trigger, 'clear_pushes').success
@@ -73,3 +76,18 @@ def test_the_health_is_published_while_a_step_is_under_way(client: GraphClient, 
         frame = cloth.wait_for(
             'stats', lambda stats: stats.sim_time == pytest.approx(time, abs=1e-4))
         assert frame.steps == pytest.approx(time / 0.02)
+
+
+@pytest.mark.parametrize('number', [SIGINT, SIGTERM])
+def test_a_signal_within_a_step_ends_the_node_in_order(
+        client: GraphClient, tmp_path: Path, number: Signals):
+    """The step would be undone on a device that is gone, or the recording be cut off."""
+    values = {**SLOW, 'rows': 64, 'cols': 64, 'mode': 'constraint'}
+    with NodeProcess(tmp_path, values, '-r', f'__ns:=/ended_{number.name}') as node:
+        cloth = ClothUnderTest(client, values, f'/ended_{number.name}/cloth_sim')
+        cloth.wait_for('stats', lambda stats: stats.steps >= 2)
+        node.send(number)
+        assert node.wait() == 0, node.output
+        assert 'Error' not in node.output and 'Exception' not in node.output, node.output
+    frames = list(Recording(tmp_path / 'bags' / 'slow').entries('points'))
+    assert len(frames) >= 2
