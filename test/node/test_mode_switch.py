@@ -28,14 +28,14 @@ NO_CACHE = {'MESA_SHADER_CACHE_DISABLE': 'true'}
 RUNNING = {**SCENE, 'publish.rate': 50.0}
 
 
-@pytest.fixture(scope='module')
+@pytest.fixture
 def cold(
-        client: GraphClient,
-        tmp_path_factory: pytest.TempPathFactory) -> Iterator[ClothUnderTest]:
+        client: GraphClient, tmp_path: Path,
+        request: pytest.FixtureRequest) -> Iterator[ClothUnderTest]:
     """Run a node whose modes have to be compiled."""
-    folder = tmp_path_factory.mktemp('cold_node')
-    with NodeProcess(folder, RUNNING, '-r', '__ns:=/cold', environment=NO_CACHE):
-        cloth = ClothUnderTest(client, RUNNING, '/cold/cloth_sim')
+    namespace = f'/cold_{request.node.name[-20:]}'
+    with NodeProcess(tmp_path, RUNNING, '-r', f'__ns:={namespace}', environment=NO_CACHE):
+        cloth = ClothUnderTest(client, RUNNING, f'{namespace}/cloth_sim')
         cloth.wait_for('stats')
         yield cloth
 
@@ -71,7 +71,6 @@ def test_the_cloth_goes_on_and_services_answer_meanwhile(cold: ClothUnderTest):
 
 def test_a_caller_may_have_the_answer_at_once(cold: ClothUnderTest):
     """A client with a short timeout could not switch modes on a new machine."""
-    cold.call(SetMode, 'set_mode', mode='mass_spring')
     cold.clear()
     answer = ask(cold, 'adaptive', wait=False)
     cold.client.spin_until(answer.done, 'set_mode answers')
@@ -139,7 +138,6 @@ def test_an_interrupt_while_compiling_closes_the_recording(
 
 def test_a_long_run_of_steps_leaves_the_node_free(cold: ClothUnderTest):
     """~/step with many steps would make the node mute for as long."""
-    assert cold.call(SetMode, 'set_mode', mode='mass_spring').success
     assert cold.call(SetBool, 'pause', data=True).success
     service = cold.client.service(Step, f'{cold.name}/step')
     answer = service.call_async(Step.Request(steps=30000))

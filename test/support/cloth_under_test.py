@@ -15,6 +15,7 @@
 """A running cloth node together with everything it says."""
 
 from collections.abc import Mapping
+import time
 from typing import Any
 
 from cloth_sim_interfaces.srv import ApplyPush
@@ -28,6 +29,7 @@ from cloth_sim_ros.messages.topics import TOPICS
 from cloth_sim_ros.node.parameters import FIELDS
 from cloth_sim_ros.sim.snapshot import POINT_DTYPE
 from graph_client import GraphClient
+from graph_client import PATIENCE
 from graph_client import Watch
 import numpy as np
 from rcl_interfaces.srv import DescribeParameters
@@ -91,7 +93,9 @@ class ClothUnderTest:
         # client that it does not know yet: it knows them all when the last one hears something.
         set_parameters = self.client.service(
             SetParametersAtomically, f'{self.name}/set_parameters_atomically')
+        deadline = time.monotonic() + PATIENCE
         while not self['inputs/parameters']:
+            assert time.monotonic() < deadline, f'{self.name} takes no parameters'
             set_parameters.call_async(SetParametersAtomically.Request(
                 parameters=_as_messages({'real_time_factor': 1.0})))
             self.client.spin_for(0.2)
