@@ -36,7 +36,7 @@ from launch_ros.substitutions import FindPackageShare
 AS_IN_FILE = ''
 
 # What config/cloth_sim.rviz shows, by the names that a node without a namespace has.
-RVIZ_TOPICS = ('/cloth_sim/markers', '/cloth_sim/points')
+RVIZ_TOPICS = ('/cloth_sim/markers', '/cloth_sim/points', '/cloth_sim/pins/wrenches')
 # A click belongs to the cloth of its namespace.
 CLICKS = ('/clicked_point', 'clicked_point')
 

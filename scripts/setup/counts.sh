@@ -23,8 +23,9 @@ print(sum(r.marker is None or r.marker.evaluate() for r in map(Requirement, line
 PYTHON
 }
 
+# pip writes INSTALLER last, when a package is complete.
 installed_packages() {
-  find "$venv"/lib*/python3.*/site-packages -maxdepth 1 -name '*.dist-info' 2> /dev/null | wc -l
+  compgen -G "$venv/lib/python3.*/site-packages/*.dist-info/INSTALLER" | wc -l
 }
 
 # pip finds and downloads one package after the other, and then installs all without a word.

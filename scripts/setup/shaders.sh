@@ -15,9 +15,20 @@
 # The driver compiles each shader once and keeps the result in its cache: after this, the first run
 # need not wait for that.
 
-# Print the folder of Mesa's cache.
-shader_cache() {
-  printf '%s\n' "${MESA_SHADER_CACHE_DIR:-${XDG_CACHE_HOME:-$HOME/.cache}/mesa_shader_cache}"
+# Print the folder that has Mesa's cache; Mesa does not ask HOME.
+cache_folder() {
+  local home
+  home=$(getent passwd "$(id -u)" | cut -d : -f 6)
+  printf '%s\n' "${MESA_SHADER_CACHE_DIR:-${XDG_CACHE_HOME:-$home/.cache}}"
+}
+
+# Print whether that cache is there; the drivers of GPUs have others.
+cache_state() {
+  if compgen -G "$(cache_folder)/mesa_shader_cache*" > /dev/null; then
+    echo there
+  else
+    echo none
+  fi
 }
 
 shader_cache_is_off() {
@@ -36,20 +47,19 @@ drivers() {
 
 # Never a reason for the set-up to fail: without a device, the first run says what is missing.
 compile_shaders() {
-  local current cache log
-  cache=$(shader_cache 2> /dev/null) || return 0
+  local current log
   if shader_cache_is_off; then
     say 'Shaders are compiled in every run, because MESA_SHADER_CACHE_DISABLE switches the cache off.'
     return 0
   fi
-  current=$({ drivers; echo "$cache"; } 2> /dev/null |
+  current=$({ drivers; cache_folder; } 2> /dev/null |
     digest shaders config/drape.yaml scripts/setup/compile_shaders.py)
-  [ ! -d "$cache" ] || ! is_current shaders "$current" || return 0
+  ! is_current shaders "$current, cache $(cache_state)" || return 0
   clear_stamp shaders
   log=$stamps/shaders.log
   if run_step "$log" 'Compiling the shaders (once per machine)' shader_words \
     "$venv/bin/python" scripts/setup/compile_shaders.py config/drape.yaml; then
-    set_stamp shaders "$current"
+    set_stamp shaders "$current, cache $(cache_state)"
   else
     say "Compiling the shaders: not done; the first run does it. $(tail -n 1 "$log")"
   fi

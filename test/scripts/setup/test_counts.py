@@ -51,8 +51,10 @@ def test_packages_are_counted_while_pip_looks_for_them(tmp_path):
 def test_packages_are_counted_while_pip_installs_them(tmp_path):
     """The longest part, of which pip says nothing, would look like a hang."""
     site = tmp_path / 'lib' / 'python3.12' / 'site-packages'
-    for name in ('pip', 'setuptools', 'PyYAML', 'numpy'):
+    for name in ('pip', 'setuptools', 'PyYAML', 'numpy', 'mcap'):
         (site / f'{name}-1.dist-info').mkdir(parents=True)
+        if name != 'mcap':  # which pip is at work on
+            (site / f'{name}-1.dist-info' / 'INSTALLER').write_text('pip\n')
     said = words(
         'pip_words', FOUND + 'Installing collected packages: numpy, mcap, lz4\n', tmp_path,
         packages_total='141', packages_before='3')

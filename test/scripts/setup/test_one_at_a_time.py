@@ -73,3 +73,17 @@ def child_of(session, command):
             if Path(f'/proc/{pid}/cmdline').read_text().split('\0')[:-1] == command:
                 return pid
     raise AssertionError(f'{command} does not run')
+
+
+def test_a_short_part_that_was_left_behind_is_named(tmp_path):
+    """It would be taken for a set-up, or be ended with the shell of the one who called it."""
+    holder = start_bash(PARTS, 'one_at_a_time\nsleep 300\n:', tmp_path, root=str(tmp_path))
+    child = child_of(holder.pid, ['sleep', '300'])
+    holder.kill()
+    waiting = start_bash(PARTS, 'one_at_a_time\necho goes on', tmp_path, root=str(tmp_path))
+    said = waiting.stdout.readline()
+    assert f'process {child} (sleep 300), started at ' in said
+    assert said.endswith(f'To end it: kill {child}\n')
+    os.kill(child, signal.SIGKILL)
+    assert waiting.communicate(timeout=60.0)[0] == 'goes on\n'
+    holder.communicate(timeout=60.0)

@@ -43,6 +43,10 @@ def test_the_shaders_are_compiled_once(tmp_path):
     assert f'\n{COMPILING}: done in ' in said
     assert any(path.is_file() for path in (tmp_path / 'cache').rglob('*'))
     assert compile_shaders(tmp_path, environment) == ''
+    (tmp_path / 'cache').rename(tmp_path / 'gone')
+    said = compile_shaders(
+        tmp_path, f'{environment} __EGL_VENDOR_LIBRARY_FILENAMES=/dev/null')
+    assert said.startswith(f'{COMPILING} ...\n'), 'a cache that was removed is made again'
 
 
 def test_without_a_cache_nothing_is_compiled(tmp_path):
