@@ -18,13 +18,10 @@ Start the cloth simulator, and RViz when asked for.
     ros2 launch cloth_sim_ros cloth_sim.launch.py params_file:=my_cloth.yaml rviz:=true
 """
 
-import shutil
-
 from launch import LaunchContext
 from launch import LaunchDescription
 from launch.actions import DeclareLaunchArgument
 from launch.actions import OpaqueFunction
-from launch.actions import SetEnvironmentVariable
 from launch.conditions import IfCondition
 from launch.substitutions import LaunchConfiguration
 from launch.substitutions import PathJoinSubstitution
@@ -32,9 +29,6 @@ from launch_ros.actions import Node
 from launch_ros.substitutions import FindPackageShare
 
 AS_IN_FILE = ''
-
-# The profile for large messages reserves 128 MiB of shared memory for each process.
-ENOUGH_SHARED_MEMORY = 1 << 30
 
 
 def shipped(name: str) -> PathJoinSubstitution:
@@ -61,14 +55,6 @@ def simulator(context: LaunchContext) -> list[Node]:
     )]
 
 
-def large_messages() -> list[SetEnvironmentVariable]:
-    """Use the profile where there is room; a container has 64 MB by default."""
-    if shutil.disk_usage('/dev/shm').free < ENOUGH_SHARED_MEMORY:
-        return []
-    return [SetEnvironmentVariable(
-        'FASTRTPS_DEFAULT_PROFILES_FILE', shipped('fastdds_large_messages.xml'))]
-
-
 def generate_launch_description() -> LaunchDescription:
     """Describe the arguments, the node and RViz."""
     return LaunchDescription([
@@ -86,7 +72,6 @@ def generate_launch_description() -> LaunchDescription:
             description='show the cloth in RViz'),
         DeclareLaunchArgument(
             'namespace', default_value='', description='namespace of the node'),
-        *large_messages(),
         OpaqueFunction(function=simulator),
         Node(
             condition=IfCondition(LaunchConfiguration('rviz')),

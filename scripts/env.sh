@@ -12,7 +12,7 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-# Source this in bash after scripts/setup.sh: the commands, the ROS prefix, the large messages.
+# Source this in bash after scripts/setup.sh: the commands and the ROS prefix.
 
 _cloth_sim_root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 # shellcheck source=/dev/null
@@ -29,12 +29,4 @@ if [ "$(ros_source)" = jazzy ]; then
   export LD_LIBRARY_PATH
 fi
 export VIRTUAL_ENV PATH AMENT_PREFIX_PATH CMAKE_PREFIX_PATH
-
-# The profile reserves 128 MiB of shared memory for each process. A container has 64 MB for all by
-# default: there Fast DDS goes on without the profile, slower with large clouds.
-_cloth_sim_shared=$(df --output=avail --block-size=1M /dev/shm 2> /dev/null | tail -n 1)
-if [ "${_cloth_sim_shared:-0}" -ge 1024 ]; then
-  FASTRTPS_DEFAULT_PROFILES_FILE=$_cloth_sim_root/config/fastdds_large_messages.xml
-  export FASTRTPS_DEFAULT_PROFILES_FILE
-fi
-unset _cloth_sim_root _cloth_sim_shared
+unset _cloth_sim_root

@@ -20,6 +20,8 @@ from cloth_sim_ros.messages.topology import serialise_topology
 from cloth_sim_ros.node.clock_topic import ClockTopic
 from cloth_sim_ros.node.frames import Frames
 from cloth_sim_ros.node.inputs import Inputs
+from cloth_sim_ros.node.large_messages import lost_clouds
+from cloth_sim_ros.node.large_messages import use_profile
 from cloth_sim_ros.node.live_parameters import LiveParameters
 from cloth_sim_ros.node.mode_service import ModeService
 from cloth_sim_ros.node.opening import write_opening
@@ -112,6 +114,9 @@ class ClothSimNode(Node):
             f'{scene.rows} x {scene.cols} nodes in mode {simulation.mode} on '
             f'{simulation.device}: dt {simulation.dt:g} s in {simulation.substeps} substeps, '
             f'{self._run_loop.run_state}')
+        lost = lost_clouds(scene.node_count, use_profile())
+        if lost and self._values['publish.points']:
+            self.get_logger().warning(lost)
         self._run_loop.start()
 
     def close_recording(self) -> None:

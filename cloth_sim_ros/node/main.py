@@ -19,6 +19,7 @@ import signal
 import sys
 
 from cloth_sim_ros.gl.errors import DeviceError
+from cloth_sim_ros.node.large_messages import use_profile
 from cloth_sim_ros.node.missing_module import way_out
 from cloth_sim_ros.sim.errors import ClothSimError
 
@@ -27,6 +28,7 @@ def main(args: Sequence[str] | None = None) -> int:
     """Run the node until SIGINT or SIGTERM and return the exit code."""
     # Until the node can take care of it, an interrupt ends the process without a traceback.
     signal.signal(signal.SIGINT, signal.SIG_DFL)
+    use_profile()
     try:
         # Imported here, so that a missing ROS or interface package gets an answer as well.
         from cloth_sim_ros.node.process import run_node

@@ -31,6 +31,7 @@ from argparse import Namespace
 import sys
 
 from cloth_sim_ros.analysis.recorded_node import find_node
+from cloth_sim_ros.node.large_messages import use_profile
 from cloth_sim_ros.playback.play_clock import PlayClock
 from cloth_sim_ros.playback.play_options import PlayOptions
 from cloth_sim_ros.playback.player import Player
@@ -72,6 +73,7 @@ def add_arguments(parser: ArgumentParser) -> None:
 
 def main(args: Namespace) -> int:
     """Play, and say how it went."""
+    use_profile()
     with StopSignals() as signals, PlayProgress() as progress:
         bag = BagReader(args.recording)
         options = _options(args, bag)

@@ -18,6 +18,7 @@ from signal import SIGINT
 from signal import SIGTERM
 
 from cloth_sim_interfaces.msg import ClothStats
+from cloth_sim_ros.node.large_messages import VARIABLE
 from cloth_sim_ros.recording.recorder import Recorder
 from cloth_sim_ros.verb.main import main
 from graph_client import GraphClient
@@ -28,6 +29,7 @@ from rosbags.rosbag2 import Writer
 from rosbags.typesys import get_types_from_msg
 from rosbags.typesys import get_typestore
 from rosbags.typesys import Stores
+from shared_memory import largest_segment
 
 
 @pytest.fixture(scope='module')
@@ -73,6 +75,15 @@ def test_a_signal_ends_it_well(number, arguments, bag, tmp_path):
         assert player.wait(client) == 0, player.problems
     assert 'Traceback' not in player.problems
     assert 'played' in player.output
+
+
+def test_large_clouds_get_shared_memory(bag, tmp_path, monkeypatch):
+    """Best-effort subscribers would miss most of the large clouds that are played."""
+    monkeypatch.delenv(VARIABLE)
+    with GraphClient() as client, PlayerProcess(tmp_path, bag, '--paused') as player:
+        client.spin_until(
+            lambda: client.node.count_publishers('/cloth_sim/stats'), 'the player is there')
+        assert largest_segment(player.process.pid) >= 16 << 20
 
 
 @pytest.mark.parametrize(('arguments', 'message'), [

@@ -1,0 +1,28 @@
+# Copyright 2026 the cloth_sim_ros authors
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+
+"""The shared memory that a process has of Fast DDS."""
+
+from pathlib import Path
+
+
+def largest_segment(pid: int) -> int:
+    """Return the size of the largest segment that a process has mapped [bytes]."""
+    sizes = [0]
+    for line in Path(f'/proc/{pid}/maps').read_text(encoding='ascii').splitlines():
+        if '/dev/shm/fastrtps_' in line:
+            begin, end = (int(address, 16) for address in line.split()[0].split('-'))
+            sizes.append(end - begin)
+    return max(sizes)
