@@ -177,7 +177,8 @@ class RunLoop:
         finally:
             # Each piece is checked at its end, so it should not be shorter than it has to be.
             took = time.monotonic() - begin
-            self._piece = self._piece * 2 if took < _PIECE * _SLICE else max(1, self._piece // 2)
+            self._piece = min(self._piece * 2, MOST_STEPS) if took < _PIECE * _SLICE \
+                else max(1, self._piece // 2)
             self._worked += took
             self._steps += self._simulation.steps - first
 

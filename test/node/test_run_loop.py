@@ -30,6 +30,7 @@ import numpy as np
 from std_srvs.srv import SetBool
 from std_srvs.srv import Trigger
 
+FRAME = 4  # steps of dt
 TOO_MUCH = {'force': Vector3(x=1e30), 'duration': 1.0}
 
 
@@ -104,3 +105,10 @@ def test_services_are_answered_during_a_long_frame(client, tmp_path):
         assert cloth.call(SetBool, 'pause', data=False).success
         node.send(SIGINT)
         assert node.wait() == 0
+
+
+def test_a_quick_cloth_runs_on(cloth):
+    """A node with a small cloth would end after 1024 frames that were made in no time."""
+    assert cloth.set_parameters(real_time_factor=0.0).successful
+    assert cloth.call(SetBool, 'pause', data=False).success
+    cloth.wait_for('stats', lambda stats: stats.steps > 1100 * FRAME)
