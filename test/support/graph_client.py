@@ -27,6 +27,9 @@ from rclpy.qos import QoSProfile
 
 # A machine that is busy besides compiles shaders for a minute.
 PATIENCE = 120.0
+# Always the same: with another time than before, the executor begins with its first subscription
+# again, and one that is always ready keeps the others from their turn.
+TURN = 0.02
 
 
 class Watch:
@@ -68,7 +71,7 @@ class GraphClient:
         deadline = time.monotonic() + PATIENCE
         while not (result := condition()):
             assert time.monotonic() < deadline, f'{what}: not within {PATIENCE} s'
-            self._executor.spin_once(timeout_sec=0.02)
+            self._executor.spin_once(timeout_sec=TURN)
         return result
 
     def service(self, kind: type, name: str) -> Any:
@@ -87,8 +90,8 @@ class GraphClient:
     def spin_for(self, seconds: float) -> None:
         """Take in what comes within ``seconds``."""
         end = time.monotonic() + seconds
-        while (left := end - time.monotonic()) > 0.0:
-            self._executor.spin_once(timeout_sec=left)
+        while time.monotonic() < end:
+            self._executor.spin_once(timeout_sec=TURN)
 
     def watch(self, kind: type, topic: str, *, depth: int = 1000, kept: bool = False) -> Watch:
         """Listen to ``topic``; ``kept`` asks for what was published before as well."""
