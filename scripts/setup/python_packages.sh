@@ -32,8 +32,11 @@ make_venv() {
   find_python
   [ -n "$python" ] || stop 'no Python 3.10 to 3.14 was found on the PATH: install one'
   [ "$ros_source" != jazzy ] || options=(--system-site-packages)
-  rm -rf "$venv"
+  # Out of the way in one go: half a .venv would not be known as one of this script's.
+  rm -rf "$venv.gone"
+  [ ! -e "$venv" ] || mv "$venv" "$venv.gone"
   mkdir -p "$stamps"
+  rm -rf "$venv.gone"
   long_step 'Making the virtual environment' no_words \
     "$python" -m venv "${options[@]}" "$venv"
   set_stamp venv "$root $ros_source"

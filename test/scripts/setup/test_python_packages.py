@@ -18,19 +18,24 @@
 import ast
 import hashlib
 from importlib.metadata import packages_distributions
+import os
 from pathlib import Path
 import re
+import signal
 import sys
 import zipfile
 
 import pytest
+from session_processes import processes_of
 from setup_parts import run_bash
+from setup_parts import start_bash
 
 ROOT = Path(__file__).resolve().parents[3]
 REQUIREMENTS = ROOT / 'requirements'
 LOCKS = ('run', 'test', 'sourced_ros')
 PIN = re.compile(r'([A-Za-z0-9._-]+)==(\S+)(?: ; (.*?))?(?: \\)?$')
 HASH = re.compile(r'    --hash=sha256:[0-9a-f]{64}(?: \\)?$')
+PARTS_OF_VENV = 'progress stamps find_python python_packages'
 # Studies on several machines; what needs it says so.
 OPTIONAL = {'distributed'}
 
@@ -127,6 +132,31 @@ def test_what_is_locked_is_installed(tmp_path):
     code, output = install(tmp_path, lock)
     assert code == 0, output
     assert (tmp_path / 'in' / 'towel.py').exists()
+
+
+def test_a_set_up_that_is_killed_while_it_starts_anew_can_be_run_again(tmp_path):
+    """A .venv that was half removed would be taken for somebody else's, and never be mended."""
+    venv = tmp_path / '.venv'
+    (venv / '.setup').mkdir(parents=True)
+    for name in ('a', 'lib', 'z'):
+        (venv / name).mkdir()
+        for number in range(5000):
+            (venv / name / str(number)).touch()
+    make = (PARTS_OF_VENV, 'make_venv\necho made', tmp_path)
+    places = {
+        'root': str(tmp_path), 'venv': str(venv), 'stamps': str(venv / '.setup'),
+        'ros_source': 'wheels'}
+    process = start_bash(*make, **places)
+    while (venv / 'a' / '0').exists():
+        assert process.poll() is None
+    for pid in processes_of(process.pid):
+        os.kill(pid, signal.SIGKILL)
+    process.communicate(timeout=60.0)
+    code, output = run_bash(*make, **places)
+    assert code == 0, output
+    assert output.endswith('made\n')
+    assert {path.name for path in tmp_path.iterdir()} == {'.venv'}
+    assert (venv / 'bin' / 'python').exists()
 
 
 def imported_modules():
