@@ -61,7 +61,7 @@ def test_topics_are_those_of_the_code():
 
 def test_services_are_those_of_the_code():
     """The table would lack a service, or give another type."""
-    made = re.compile(r"create_service\((\w+), '(~/\w+)'")
+    made = re.compile(r"(?:create_service\(|serve_later\(\w+, )(\w+), '(~/\w+)'")
     served = {
         name: kind for path in (ROOT / 'cloth_sim_ros' / 'node').glob('*.py')
         for kind, name in made.findall(path.read_text(encoding='utf-8'))}
