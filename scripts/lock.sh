@@ -35,7 +35,9 @@ export UV_CUSTOM_COMPILE_COMMAND=scripts/lock.sh
 lock() {
   local file=$1
   shift
+  # Extras stay in the pins: the pip of a new venv takes a pin without them for another package.
   uv pip compile --quiet --universal --python-version 3.10 --generate-hashes --no-annotate \
+    --no-strip-extras \
     --no-emit-package colorama --no-emit-package coloredlogs --no-emit-package humanfriendly \
     --no-emit-package pyreadline3 --no-emit-package pywin32 --output-file "$file" "$@"
 }
