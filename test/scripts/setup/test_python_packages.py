@@ -33,7 +33,7 @@ from setup_parts import start_bash
 ROOT = Path(__file__).resolve().parents[3]
 REQUIREMENTS = ROOT / 'requirements'
 LOCKS = ('run', 'test', 'sourced_ros')
-PIN = re.compile(r'([A-Za-z0-9._-]+)==(\S+)(?: ; (.*?))?(?: \\)?$')
+PIN = re.compile(r'([A-Za-z0-9._-]+)(?:\[[a-z,]+\])?==(\S+)(?: ; (.*?))?(?: \\)?$')
 HASH = re.compile(r'    --hash=sha256:[0-9a-f]{64}(?: \\)?$')
 PARTS_OF_VENV = 'progress stamps find_python python_packages'
 # Studies on several machines; what needs it says so.
@@ -175,7 +175,7 @@ def test_a_plain_set_up_brings_all_that_the_package_imports():
     """A command of the README would fail after scripts/setup.sh, for want of a package."""
     brought = {pin[0] for pin in pins('run')} | {'cloth-sim-ros'}
     where = packages_distributions()
-    built_here = {'cloth_sim_interfaces'}
+    built_here = {'cloth_sim_interfaces', 'tf2_msgs'}
     missing = {
         module for module in imported_modules() - built_here - OPTIONAL
         if not {name.lower().replace('_', '-') for name in where.get(module, [])} & brought}
