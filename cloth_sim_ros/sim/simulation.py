@@ -370,6 +370,7 @@ class Simulation:
         self._pins = PinRequests(self._pin_motion, self._state, self.stepping)
 
     def _make_step(self, number: int) -> modes.Pieces:
+        self.stepping.step_under_way = number
         begin, end = number * self.dt, (number + 1) * self.dt
         self._pin_motion.begin_step(begin, end)
         yield from self.engines.current.mode.step(self._state, begin, self._pushes)

@@ -27,6 +27,8 @@ class Stepping:
         self._dt = dt
         self.steps = steps
         self.is_mid_step = False
+        # Which is not the next one after ``steps``, where several are checked together.
+        self.step_under_way = steps
         # Changes to make when the step under way has ended.
         self._edits: list[Callable[[], None]] = []
         self.drop_aim()
@@ -39,7 +41,7 @@ class Stepping:
     @property
     def edit_time(self) -> float:
         """Return when changes that are asked for now are made [s]."""
-        return (self.steps + 1) * self._dt if self.is_mid_step else self.time
+        return (self.step_under_way + 1) * self._dt if self.is_mid_step else self.time
 
     @property
     def is_behind(self) -> bool:

@@ -70,7 +70,7 @@ def test_pieces_make_the_same_bits(simulate):
             # Looks use the device, and must leave what the step has bound as it was.
             cut.snapshot()
             cut.measure()
-            cut.nearest_node((0.0, 0.0, 0.0))
+            cut.nearest_node((0.0, 0.0, 0.0), max_distance=9.0)
     assert cut.snapshot().state_sha256 == whole.snapshot().state_sha256
     assert cut.time == whole.time
 
@@ -208,3 +208,28 @@ def test_work_ends_when_it_is_due_and_goes_on_to_its_aim(simulate):
     assert simulation.stepping.is_behind
     finish(simulation.work(lambda: False))
     assert simulation.steps == 6
+
+
+def test_changes_are_made_at_the_end_of_their_step_where_several_are_checked_together(context):
+    """A recorded change would have the time of an earlier step than the one that it ended."""
+    asked = Simulation(Scene({**_SCENE, 'mode': 'mass_spring'}), context=context)
+    plain = Simulation(Scene({**_SCENE, 'mode': 'mass_spring'}), context=context)
+    asked.stepping.aim_steps(6)
+    # Two substeps of the third step are made, and none of these steps has been checked.
+    left = 2 * asked.substeps + 2
+    calls = iter([False] * (left + 1) + [True] * 99)
+    work = asked.work(lambda: next(calls))
+    next(work)
+    assert asked.steps == 0
+    assert asked.stepping.edit_time == pytest.approx(0.03)
+    path = asked.move_pin(0, 0, (-0.5, 0.5, 1.2), speed=0.5)
+    assert path.begin == asked.stepping.edit_time
+    finish(work)
+    assert asked.steps == 3
+    plain.step(3)
+    plain.move_pin(0, 0, (-0.5, 0.5, 1.2), speed=0.5)
+    for each in (asked, plain):
+        each.step(4)
+    assert asked.snapshot().state_sha256 == plain.snapshot().state_sha256
+    for each in (asked, plain):
+        each.close()
