@@ -15,7 +15,7 @@
 
 # Set up and run the tests; arguments go to pytest.
 #
-#   scripts/test.sh                  the ordinary tests
+#   scripts/test.sh                  the ordinary tests, on all processors (at most 4)
 #   scripts/test.sh --long           the long ones as well
 #   scripts/test.sh test/sim -k pin  some of them
 
@@ -24,4 +24,6 @@ set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 scripts/setup.sh --tests
 . scripts/env.sh
+# Files stay together: their tests share nodes and simulations.
+[ $# -gt 0 ] || set -- --numprocesses=auto --maxprocesses=4 --dist=loadfile
 exec python -m pytest "$@"

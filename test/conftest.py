@@ -60,8 +60,9 @@ def without_worker_threads() -> None:
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:
-    """Add --long."""
+    """Add --long and --seed."""
     parser.addoption('--long', action='store_true', help='run the tests that take minutes, too')
+    parser.addoption('--seed', type=int, help='of the attacks that draw at random')
 
 
 def pytest_configure(config: pytest.Config) -> None:

@@ -24,23 +24,24 @@ PACKAGE = Path(__file__).resolve().parents[1] / 'cloth_sim_ros'
 
 # Each room, and the other rooms it may import.
 ROOMS = {
+    'files': set(),
     'gl': set(),
-    'sim': {'gl'},
+    'sim': {'gl', 'files'},
     'reference': {'sim'},
     'messages': {'sim'},
-    'recording': {'messages', 'sim'},
-    'playback': {'recording', 'messages', 'sim'},
-    'node': {'recording', 'messages', 'sim', 'gl'},
-    'study': {'recording', 'messages', 'sim', 'gl', 'reference'},
-    'analysis': {'recording', 'messages', 'sim', 'gl'},
-    'resimulation': {'analysis', 'recording', 'sim'},
+    'recording': {'messages', 'sim', 'files'},
+    'playback': {'recording', 'messages', 'sim', 'files'},
+    'node': {'recording', 'messages', 'sim', 'gl', 'files'},
+    'study': {'recording', 'messages', 'sim', 'gl', 'reference', 'files'},
+    'analysis': {'recording', 'messages', 'sim', 'gl', 'files'},
+    'resimulation': {'analysis', 'recording', 'sim', 'files'},
     'verb': {
         'node', 'study', 'resimulation', 'analysis', 'recording', 'messages', 'reference', 'sim',
-        'gl', 'playback'},
+        'gl', 'playback', 'files'},
 }
 
 # These rooms must run where there is no ROS; they may import no more than this beside Python.
-WITHOUT_ROS = ('gl', 'sim', 'reference')
+WITHOUT_ROS = ('files', 'gl', 'sim', 'reference')
 NUMERIC_MODULES = {'numpy', 'scipy', 'OpenGL', 'yaml'}
 
 SOURCES = sorted(path for path in PACKAGE.rglob('*.py') if path.parent != PACKAGE)

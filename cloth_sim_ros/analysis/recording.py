@@ -22,12 +22,15 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any
 
+from cloth_sim_ros.analysis.message_check import check_message
 from cloth_sim_ros.analysis.recorded_node import find_node
 from cloth_sim_ros.analysis.recorded_node import TYPES
 from cloth_sim_ros.analysis.steady_time import SteadyTime
+from cloth_sim_ros.files.echo import cut
 from cloth_sim_ros.recording.bag_reader import BagReader
 from cloth_sim_ros.recording.bag_topic import BagTopic
 from cloth_sim_ros.recording.bag_topic import RawMessage
+from cloth_sim_ros.recording.cut_off import nothing_flushed
 from cloth_sim_ros.sim.errors import ClothSimError
 
 
@@ -115,10 +118,10 @@ class Recording:
             if raw.type_name != names[raw.topic]:
                 continue
             message = self._bag.decode(raw)
-            header = getattr(message, 'header', None)
-            if header is not None:
-                _read_stamp(time, header, raw)
             key = raw.topic[begin:]
+            check_message(key, message)
+            if hasattr(message, 'header'):
+                time.read(message.header.stamp, raw.topic)
             if key in keys:
                 yield Entry(key, time.now, message, time.resets)
 
@@ -134,6 +137,12 @@ class Recording:
         """Return the error of those who find no frame of the cloth."""
         if not any(topic.count for topic in self.topics):
             return self._bag.no_message()
+        if self.problems and not self.count('stats', 'points'):
+            return nothing_flushed(self.path, 'holds no frame of the cloth')
+        if self.problems:
+            return ClothSimError(
+                f'{cut(self.path)} holds no frame of the node {self.node} that can be read '
+                f'({self.problems[0]}): give another recording')
         return ClothSimError(
             f'{self.path} holds no frame of the node {self.node}: name the recorded node with '
             '--node, or record with publish.points: true')
@@ -142,12 +151,3 @@ class Recording:
         wanted = {f'{self.node}/{key}': TYPES[key] for key in keys}
         return [
             topic for topic in self.topics if wanted.get(topic.name) == topic.type_name]
-
-
-def _read_stamp(time: SteadyTime, header: Any, raw: RawMessage) -> None:
-    try:
-        time.read(header.stamp, raw.topic)
-    except (AttributeError, TypeError) as error:
-        raise ClothSimError(
-            f'the header of {raw.topic} has no stamp: give a recording of a cloth_sim node'
-        ) from error

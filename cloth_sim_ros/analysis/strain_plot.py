@@ -29,7 +29,8 @@ _HEIGHT = 4.5  # [inch]
 
 def strain_histogram(run: Run) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Return edges of bins of strain, and the shares of the nodes of all frames and the last."""
-    largest = float(np.nanmax(run.columns['max_strain']))
+    strains = run.columns['max_strain']
+    largest = float(strains[np.isfinite(strains)].max(initial=0.0))
     edges = np.linspace(0.0, (largest or 1e-6) * (1.0 + 1e-6), BINS + 1)
     return edges, *run.strains.shares(edges)
 

@@ -16,5 +16,7 @@
 
 import os
 
-# PyOpenGL picks its platform when it is first imported.
-os.environ.setdefault('PYOPENGL_PLATFORM', 'egl')
+# PyOpenGL picks its platform when it is first imported. No other has contexts without a window.
+os.environ['PYOPENGL_PLATFORM'] = 'egl'
+# What Mesa warns of on the way to a device is no news: the refusal tells it, or there is a device.
+os.environ.setdefault('EGL_LOG_LEVEL', 'fatal')

@@ -16,12 +16,13 @@
 
 import ctypes
 
+from cloth_sim_ros.gl.context_loss import loss_noticed
 from cloth_sim_ros.gl.inventory import drop_buffer
 from cloth_sim_ros.gl.inventory import note_buffer
+from cloth_sim_ros.gl.libraries import GL
 from cloth_sim_ros.gl.quick_calls import Call
 from cloth_sim_ros.gl.quick_calls import memory_barrier
 import numpy as np
-from OpenGL import GL
 
 _WRITES = GL.GL_SHADER_STORAGE_BARRIER_BIT | GL.GL_TEXTURE_FETCH_BARRIER_BIT
 # What shader_writes_visible and shader_dispatches_visible do.
@@ -32,6 +33,8 @@ DISPATCHES_VISIBLE: Call = (memory_barrier, (_WRITES | GL.GL_COMMAND_BARRIER_BIT
 class Buffer:
     """
     Memory on the device.
+
+    Reading and writing raise DeviceError when the context was lost.
 
     :param data: what it holds at first, or the number of bytes
     """
@@ -68,17 +71,19 @@ class Buffer:
     def write(self, data: np.ndarray, offset: int = 0) -> None:
         """Overwrite the bytes from ``offset`` on with ``data``."""
         content = np.ascontiguousarray(data)
-        GL.glBindBuffer(GL.GL_SHADER_STORAGE_BUFFER, self._buffer)
-        GL.glBufferSubData(
-            GL.GL_SHADER_STORAGE_BUFFER, offset, content.nbytes, content)
+        with loss_noticed():
+            GL.glBindBuffer(GL.GL_SHADER_STORAGE_BUFFER, self._buffer)
+            GL.glBufferSubData(
+                GL.GL_SHADER_STORAGE_BUFFER, offset, content.nbytes, content)
 
     def read_into(self, target: np.ndarray, offset: int = 0) -> None:
         """Fill ``target`` (contiguous) with the bytes from ``offset`` on."""
-        GL.glMemoryBarrier(GL.GL_BUFFER_UPDATE_BARRIER_BIT)
-        GL.glBindBuffer(GL.GL_SHADER_STORAGE_BUFFER, self._buffer)
-        GL.glGetBufferSubData(
-            GL.GL_SHADER_STORAGE_BUFFER, offset, target.nbytes,
-            target.ctypes.data_as(ctypes.c_void_p))
+        with loss_noticed():
+            GL.glMemoryBarrier(GL.GL_BUFFER_UPDATE_BARRIER_BIT)
+            GL.glBindBuffer(GL.GL_SHADER_STORAGE_BUFFER, self._buffer)
+            GL.glGetBufferSubData(
+                GL.GL_SHADER_STORAGE_BUFFER, offset, target.nbytes,
+                target.ctypes.data_as(ctypes.c_void_p))
 
     def delete(self) -> None:
         """Give the memory back."""

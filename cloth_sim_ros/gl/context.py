@@ -18,19 +18,27 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 import os
 
+from cloth_sim_ros.gl.device_report import DeviceReport
+from cloth_sim_ros.gl.device_report import extensions_of_current_context
+from cloth_sim_ros.gl.device_report import refusal
+from cloth_sim_ros.gl.device_report import VERSION
 from cloth_sim_ros.gl.displays import headless_displays
 from cloth_sim_ros.gl.errors import DeviceError
-from OpenGL import EGL
-from OpenGL import error
-from OpenGL import GL
+from cloth_sim_ros.gl.libraries import EGL
+from cloth_sim_ros.gl.libraries import error
+from cloth_sim_ros.gl.libraries import GL
+from cloth_sim_ros.gl.libraries import GLQuerier
+from cloth_sim_ros.gl.libraries import VERSION_EXTENSIONS
 
 _SOFTWARE = ('llvmpipe', 'softpipe', 'swrast', 'swr')
-_VERSION = (4, 3)
-_CONTEXT_ATTRIBUTES = (
-    EGL.EGL_CONTEXT_MAJOR_VERSION, _VERSION[0],
-    EGL.EGL_CONTEXT_MINOR_VERSION, _VERSION[1],
-    EGL.EGL_CONTEXT_OPENGL_PROFILE_MASK, EGL.EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
-    EGL.EGL_NONE)
+_CORE = (
+    EGL.EGL_CONTEXT_MAJOR_VERSION, VERSION[0],
+    EGL.EGL_CONTEXT_MINOR_VERSION, VERSION[1],
+    EGL.EGL_CONTEXT_OPENGL_PROFILE_MASK, EGL.EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT)
+# Where a driver tells of a reset, context_loss notices it.
+_TELLS_RESETS = (
+    *_CORE, EGL.EGL_CONTEXT_OPENGL_RESET_NOTIFICATION_STRATEGY, EGL.EGL_LOSE_CONTEXT_ON_RESET)
+_ANY: tuple[int, ...] = ()
 
 
 class Context:
@@ -44,7 +52,7 @@ class Context:
     :param beside: a context whose device, buffers and programs the new one has as well. Made on
         another thread, it compiles there while the first goes on; ``release`` it there before it
         is used on this one. Some drivers compile for each context anew, when a program first runs.
-    :raises DeviceError: when there is no EGL device with OpenGL 4.3
+    :raises DeviceError: when there is no EGL device with OpenGL 4.3, with what there is
     """
 
     def __init__(
@@ -52,18 +60,20 @@ class Context:
         """Make the context and make it current."""
         if beside is None:
             with _worker_threads(single_thread):
-                self._display, self._context = _best_context()
+                self._display, self._context, self._attributes = _best_context()
         else:
-            self._display = beside._display
-            self._context = _make_context(beside._display, beside._context)
+            self._display, self._attributes = beside._display, beside._attributes
+            self._context = _make_context(self._display, self._attributes, beside._context)
             if self._context is None:
                 raise DeviceError(f'{beside.device} has no second GL context: set the mode before '
                                   'the run begins')
         self.make_current()
+        _tell_extensions()
         self.device = GL.glGetString(GL.GL_RENDERER).decode()
         self.version = GL.glGetString(GL.GL_VERSION).decode()
         self.is_software = is_software(self.device)
         self.max_buffer_bytes = _integer(GL.GL_MAX_SHADER_STORAGE_BLOCK_SIZE)
+        # 0 without texture buffers.
         self.max_texture_texels = _integer(GL.GL_MAX_TEXTURE_BUFFER_SIZE)
 
     def make_current(self) -> None:
@@ -93,27 +103,53 @@ class Context:
             self._context = None
 
 
-def _best_context() -> tuple[EGL.EGLDisplay, EGL.EGLContext]:
+def _best_context() -> tuple[EGL.EGLDisplay, EGL.EGLContext, tuple[int, ...]]:
     software = None
+    reports = []
     for display in headless_displays():
-        context = _make_context(display)
-        if context is None:
+        report = _report(display)
+        if report is None:
             continue
-        EGL.eglMakeCurrent(display, EGL.EGL_NO_SURFACE, EGL.EGL_NO_SURFACE, context)
-        if not is_software(GL.glGetString(GL.GL_RENDERER).decode()):
-            return display, context
-        software = software or (display, context)
-        if software[1] is not context:
-            EGL.eglDestroyContext(display, context)
+        made = _make_core_context(display) if report.has_core_profile else None
+        if made is None:
+            reports.append(report)
+            continue
+        if not is_software(report.renderer):
+            return made
+        if software is None:
+            software = made
+        else:
+            EGL.eglDestroyContext(display, made[1])
     if software is None:
-        raise DeviceError(
-            'there is no EGL device with OpenGL 4.3: install the GPU driver with its EGL '
-            'library, or Mesa (Debian and Ubuntu: apt install libegl1 libgl1-mesa-dri)')
+        raise DeviceError(refusal(reports))
     return software
 
 
+def _report(display: EGL.EGLDisplay) -> DeviceReport | None:
+    """Return what ``display`` has, whatever its version; None when it makes no context at all."""
+    context = _make_context(display, _ANY)
+    if context is None:
+        return None
+    try:
+        EGL.eglMakeCurrent(display, EGL.EGL_NO_SURFACE, EGL.EGL_NO_SURFACE, context)
+        return DeviceReport.of_current_context()
+    finally:
+        EGL.eglMakeCurrent(
+            display, EGL.EGL_NO_SURFACE, EGL.EGL_NO_SURFACE, EGL.EGL_NO_CONTEXT)
+        EGL.eglDestroyContext(display, context)
+
+
+def _make_core_context(
+        display: EGL.EGLDisplay) -> tuple[EGL.EGLDisplay, EGL.EGLContext, tuple[int, ...]] | None:
+    for attributes in (_TELLS_RESETS, _CORE):
+        context = _make_context(display, attributes)
+        if context is not None:
+            return display, context, attributes
+    return None
+
+
 def _make_context(
-        display: EGL.EGLDisplay,
+        display: EGL.EGLDisplay, attributes: tuple[int, ...],
         shared: EGL.EGLContext = EGL.EGL_NO_CONTEXT) -> EGL.EGLContext | None:
     try:
         if not EGL.eglBindAPI(EGL.EGL_OPENGL_API):
@@ -126,10 +162,24 @@ def _make_context(
         if not count.value:
             return None
         context = EGL.eglCreateContext(
-            display, configs[0], shared, _CONTEXT_ATTRIBUTES)
+            display, configs[0], shared, (*attributes, EGL.EGL_NONE))
     except error.Error:
         return None
     return context or None
+
+
+def _tell_extensions() -> None:
+    """
+    Tell PyOpenGL which extensions the current context has, where it has found none.
+
+    It takes to the way of asking that a core profile has after an error of the older one, which a
+    context without errors (MESA_NO_ERROR) does not give.
+    """
+    if not GLQuerier.getExtensions():
+        implied = [
+            name for version, names in VERSION_EXTENSIONS if version <= VERSION for name in names]
+        GLQuerier.extensions = [
+            name.encode() for name in extensions_of_current_context()] + implied
 
 
 def is_software(renderer: str) -> bool:
@@ -137,7 +187,10 @@ def is_software(renderer: str) -> bool:
 
 
 def _integer(name: int) -> int:
-    return int(GL.glGetIntegerv(name))
+    try:
+        return int(GL.glGetIntegerv(name))
+    except error.GLError:
+        return 0
 
 
 @contextmanager

@@ -16,8 +16,8 @@
 
 from collections.abc import Iterator
 
-from OpenGL import EGL
-from OpenGL import error
+from cloth_sim_ros.gl.libraries import EGL
+from cloth_sim_ros.gl.libraries import error
 from OpenGL.EGL.EXT.device_base import EGLDeviceEXT
 from OpenGL.EGL.EXT.device_base import eglQueryDevicesEXT
 from OpenGL.EGL.EXT.platform_base import eglGetPlatformDisplayEXT

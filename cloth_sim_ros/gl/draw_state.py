@@ -14,7 +14,7 @@
 
 """What decides whether a drawn pixel is seen: what is there already, and on which side it is."""
 
-from OpenGL import GL
+from cloth_sim_ros.gl.libraries import GL
 
 
 def blend_by_opacity() -> None:

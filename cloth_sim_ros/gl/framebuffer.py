@@ -15,8 +15,8 @@
 """A picture on the device, without a window, with smooth edges."""
 
 from cloth_sim_ros.gl.errors import DeviceError
+from cloth_sim_ros.gl.libraries import GL
 import numpy as np
-from OpenGL import GL
 
 _MOST_SAMPLES = 8
 

@@ -20,9 +20,9 @@ import re
 
 from cloth_sim_ros.gl import quick_calls
 from cloth_sim_ros.gl.errors import ShaderError
+from cloth_sim_ros.gl.libraries import GL
 from cloth_sim_ros.gl.shader_source import ShaderSource
 import numpy as np
-from OpenGL import GL
 
 # Mesa: "0:12(3): error", NVIDIA: "0(12) : error", others: "ERROR: 0:12:".
 _LINE = re.compile(r'\b0[:(](\d+)[):(]')
@@ -50,6 +50,10 @@ class LinkedProgram:
             last = list(stages.values())[-1]
             raise ShaderError(explain(last, _text(GL.glGetProgramInfoLog(self._program))))
         self._locations: dict[str, int] = {}
+
+    def delete(self) -> None:
+        """Give back what the driver keeps of the program; nobody uses it any more."""
+        GL.glDeleteProgram(self._program)
 
     def use(self) -> None:
         """Make this the program that later calls act on."""

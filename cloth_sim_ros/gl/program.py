@@ -17,10 +17,10 @@
 from cloth_sim_ros.gl import quick_calls
 from cloth_sim_ros.gl.errors import ShaderError
 from cloth_sim_ros.gl.inventory import note_program
+from cloth_sim_ros.gl.libraries import GL
 from cloth_sim_ros.gl.linked_program import LinkedProgram
 from cloth_sim_ros.gl.quick_calls import Call
 from cloth_sim_ros.gl.shader_source import ShaderSource
-from OpenGL import GL
 
 _MOST_GROUPS = 65535
 

@@ -22,7 +22,7 @@ shows in the next call that is looked at.
 
 from collections.abc import Callable
 
-from OpenGL.platform import PLATFORM
+from cloth_sim_ros.gl.libraries import PLATFORM
 from OpenGL.raw.GL import _types as gl_type
 
 # A call to be made over and over, and its arguments.

@@ -16,9 +16,9 @@
 
 from collections.abc import Mapping
 
+from cloth_sim_ros.gl.libraries import GL
 from cloth_sim_ros.gl.linked_program import LinkedProgram
 from cloth_sim_ros.gl.shader_source import ShaderSource
-from OpenGL import GL
 
 
 class RenderProgram(LinkedProgram):

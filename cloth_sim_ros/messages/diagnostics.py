@@ -34,9 +34,10 @@ ERROR = DiagnosticStatus.ERROR
 def diagnostics_message(
         snapshot: Snapshot | None, *, stamp: Time, node_name: str, device: str, paused: bool,
         real_time_factor: float, wanted_factor: float, automatic_substeps: bool, problem: str = '',
-        recording_path: str = '', recording_error: str = '') -> DiagnosticArray:
+        recording_path: str = '', recording_error: str = '', recording_is_whole: bool = False,
+        faults: int = 0, latest_fault: str = '', ignored: int = 0) -> DiagnosticArray:
     """
-    Return the health of the GL device, the pace, the solver, the stability and the recorder.
+    Return the health of each part: device, pace, solver, stability, recorder and program.
 
     :param snapshot: None before the first mode is compiled
     :param stamp: time of the node's clock: aggregators compare it with their own
@@ -46,7 +47,12 @@ def diagnostics_message(
     :param automatic_substeps: True where the substeps in a dt follow from what is stable
     :param problem: why the run has stopped, empty when it has not
     :param recording_path: folder being written to, empty when not recording
-    :param recording_error: why the last recording broke off, empty when it did not
+    :param recording_error: why the last recording has ended before it was stopped, empty when it
+        has not
+    :param recording_is_whole: True when it was completed all the same
+    :param faults: unexpected errors since the start
+    :param latest_fault: the last of them, in one line
+    :param ignored: messages on topics that made no sense, since the start
     """
     findings = {'GL device': _device(snapshot, device)}
     if snapshot is not None:
@@ -55,7 +61,8 @@ def diagnostics_message(
                 snapshot, paused, real_time_factor, wanted_factor, automatic_substeps),
             'solver': _solver(snapshot),
             'stability': _stability(snapshot, problem)})
-    findings['recorder'] = _recorder(recording_path, recording_error)
+    findings['recorder'] = _recorder(recording_path, recording_error, recording_is_whole)
+    findings['program'] = _program(faults, latest_fault, ignored)
     return DiagnosticArray(
         header=Header(stamp=stamp),
         status=[
@@ -128,8 +135,17 @@ def _stability(snapshot: Snapshot, problem: str) -> tuple[bytes, str, dict]:
     return OK, text, values
 
 
-def _recorder(path: str, error: str) -> tuple[bytes, str, dict]:
+def _recorder(path: str, error: str, is_whole: bool) -> tuple[bytes, str, dict]:
     values = {'path': path}
     if error:
-        return ERROR, error, values
+        return WARN if is_whole else ERROR, error, values
     return OK, f'recording to {path}' if path else 'not recording', values
+
+
+def _program(faults: int, latest: str, ignored: int) -> tuple[bytes, str, dict]:
+    values = {'unexpected errors': faults, 'latest': latest, 'ignored messages': ignored}
+    if faults:
+        return WARN, (
+            f'{faults} unexpected errors, the latest in {latest}: report it with its trace from '
+            'the log'), values
+    return OK, 'no unexpected error', values

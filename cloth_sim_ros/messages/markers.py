@@ -21,6 +21,7 @@ from cloth_sim_ros.messages.marker import put_marker
 from cloth_sim_ros.messages.push_arrows import push_arrows
 from cloth_sim_ros.messages.stamp import stamp
 from cloth_sim_ros.messages.strain_colors import strain_colors
+from cloth_sim_ros.messages.surface import MOST_DRAWN
 from cloth_sim_ros.messages.surface import Surface
 from cloth_sim_ros.sim.push import Push
 from cloth_sim_ros.sim.snapshot import FLAG_AT_LIMIT
@@ -45,7 +46,7 @@ class MarkersMessage:
     :param max_side: nodes drawn along each side at most; larger cloths are sampled evenly
     """
 
-    def __init__(self, rows: int, cols: int, frame_id: str, max_side: int = 256) -> None:
+    def __init__(self, rows: int, cols: int, frame_id: str, max_side: int = MOST_DRAWN) -> None:
         """Choose the nodes drawn."""
         self._frame_id = frame_id
         self._surface = Surface(rows, cols, max_side)

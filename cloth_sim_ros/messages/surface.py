@@ -17,6 +17,18 @@
 from cloth_sim_ros.messages.triangles import triangles
 import numpy as np
 
+# Nodes drawn along each side at most: more make a message that no viewer needs.
+MOST_DRAWN = 256
+# A point of three float64 and a colour of four float32.
+_BYTES_A_CORNER = 3 * 8 + 4 * 4
+
+
+def surface_bytes(rows: int, cols: int) -> int:
+    """Return how large the points and colours of the surface are [bytes]."""
+    if min(rows, cols) == 1:
+        return rows * cols * _BYTES_A_CORNER
+    return 6 * (min(rows, MOST_DRAWN) - 1) * (min(cols, MOST_DRAWN) - 1) * _BYTES_A_CORNER
+
 
 def _sampled(count: int, limit: int) -> np.ndarray | slice:
     if count <= limit:

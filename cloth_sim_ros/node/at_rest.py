@@ -6,7 +6,6 @@
 from collections.abc import Callable
 from typing import Any
 
-from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.simulation import Simulation
 from rclpy.task import Future
 
@@ -18,7 +17,8 @@ def at_rest(simulation: Simulation, action: Callable[[], Any]) -> Future:
     def act() -> None:
         try:
             future.set_result(action())
-        except ClothSimError as error:
+        except Exception as error:
+            # Raised where it is awaited: it is the answer of a request, not the end of the step.
             future.set_exception(error)
 
     simulation.stepping.at_rest(act)

@@ -14,23 +14,29 @@
 
 """The ROS node: puts the parts together, and holds no physics."""
 
+from collections.abc import Callable
 import time
+from typing import Any
 
 from cloth_sim_interfaces.msg import Command
 from cloth_sim_ros.messages.diagnostics import diagnostics_message
 from cloth_sim_ros.messages.topology import serialise_topology
 from cloth_sim_ros.node.clock_topic import ClockTopic
 from cloth_sim_ros.node.frames import Frames
+from cloth_sim_ros.node.guarded_node import GuardedNode
+from cloth_sim_ros.node.ignored_messages import IgnoredMessages
 from cloth_sim_ros.node.inputs import Inputs
-from cloth_sim_ros.node.large_messages import lost_clouds
-from cloth_sim_ros.node.large_messages import use_profile
+from cloth_sim_ros.node.large_messages import cloud_bytes
+from cloth_sim_ros.node.large_messages import SharedMemory
 from cloth_sim_ros.node.live_parameters import LiveParameters
 from cloth_sim_ros.node.mode_service import ModeService
 from cloth_sim_ros.node.mode_switch import ModeSwitch
+from cloth_sim_ros.node.namesake import Namesake
 from cloth_sim_ros.node.opening import write_opening
 from cloth_sim_ros.node.outlet import Outlet
 from cloth_sim_ros.node.pace_report import PaceReport
 from cloth_sim_ros.node.pacing import Pacing
+from cloth_sim_ros.node.parameter_requests import with_reasons
 from cloth_sim_ros.node.parameters import declare_fields
 from cloth_sim_ros.node.pin_service import PinService
 from cloth_sim_ros.node.pin_targets import PinTargets
@@ -40,18 +46,21 @@ from cloth_sim_ros.node.recording_session import RecordingSession
 from cloth_sim_ros.node.run_loop import RunLoop
 from cloth_sim_ros.node.run_services import RunServices
 from cloth_sim_ros.node.state_topic import StateTopic
+from cloth_sim_ros.recording.recording_error import RecordingError
+from cloth_sim_ros.recording.recording_error import RecordingFull
+from cloth_sim_ros.recording.recording_options import RecordingOptions
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.scene_fields import SCENE_FIELDS
 from cloth_sim_ros.sim.simulation import Simulation
 from rclpy.clock import Clock
 from rclpy.clock import ClockType
-from rclpy.node import Node
 from rclpy.parameter import Parameter
+from rclpy.service import Service
 
 _WATCH_PERIOD = 1.0
 
 
-class ClothSimNode(Node):
+class ClothSimNode(GuardedNode):
     """
     A cloth that ROS can watch and push. ~ stands for the node's name.
 
@@ -70,21 +79,25 @@ class ClothSimNode(Node):
 
     Parameters: those of sim/scene_fields.py and node/node_fields.py.
 
+    :param memory: what Fast DDS has to send clouds with
     :raises ClothSimError: when the parameters ask for what can't be
     :raises DeviceError: when there is no GL device for it
     """
 
-    def __init__(self) -> None:
+    def __init__(self, memory: SharedMemory) -> None:
         """Declare the parameters and make the parts; nothing moves yet."""
         super().__init__('cloth_sim')
+        self._memory = memory
         values = declare_fields(self, self._parameter_overrides)
         name = self.get_fully_qualified_name()
         self._values = values
         self._simulation = Simulation(
             Scene({field.name: values[field.name] for field in SCENE_FIELDS}), compiles=False)
         self._recording = RecordingSession(
-            values['recording.directory'], name, self._on_recording_lost)
-        self._recording_error = ''
+            values['recording.directory'], name, self._on_recording_lost,
+            options=RecordingOptions.from_values(values), wake=self._on_recording_ended)
+        # The thread that writes triggers it; the check runs where all else does.
+        self._recording_ended = self.create_guard_condition(self._recording.check)
         self._outlet = Outlet(self, self._recording)
         self._inputs = Inputs(self._outlet, self._simulation, values['frame_id'], name)
         self._frames = Frames(
@@ -95,20 +108,30 @@ class ClothSimNode(Node):
             say=self.get_logger().info)
         self._run_loop = RunLoop(
             self, self._simulation, frame_seconds=1.0 / values['publish.rate'],
-            pacing=self._pacing, paused=values['start_paused'], on_frame=self._on_frame,
-            on_stop=self._on_stop)
+            pacing=self._pacing, paused=values['start_paused'],
+            on_frame=self.guarded(self._on_frame, 'a frame'), on_stop=self._on_stop,
+            note=self.faults.note)
         self._switch = ModeSwitch(
             self, self._simulation, switched=self._on_switched, failed=self._on_mode_failed,
             changed=self._send_state)
         self._state = StateTopic(
             self._outlet, self._simulation, self._run_loop, self._switch, self._recording,
             values['frame_id'])
+        self._namesake = Namesake(self, '~/set_mode', self.get_logger().warning)
         self._clock_topic = ClockTopic(self, self._outlet, values['publish.clock'])
         LiveParameters(
             self, values, ask_mode=self._switch.ask, changed=self._on_parameters_changed)
+        self._ignored = IgnoredMessages(self.get_logger().warning)
         self._serve()
         self.create_timer(
             _WATCH_PERIOD, self._watch, clock=Clock(clock_type=ClockType.STEADY_TIME))
+
+    def create_service(
+            self, srv_type: type, srv_name: str, callback: Callable[[Any, Any], Any],
+            **options: Any) -> Service:
+        """Serve ``callback``; what is refused gets a reason in the words of this project."""
+        return super().create_service(
+            srv_type, srv_name, with_reasons(self, srv_type, callback), **options)
 
     def begin(self) -> None:
         """Say what runs where, record when the parameters say so, and run."""
@@ -119,9 +142,9 @@ class ClothSimNode(Node):
             self._start_recording(self._values['recording.name'])
         else:
             self._state.send()
-        lost = lost_clouds(scene.node_count, use_profile())
-        if lost and self._values['publish.points']:
-            self.get_logger().warning(lost)
+        sent = cloud_bytes(scene.node_count) if self._values['publish.points'] else 0
+        if warning := self._memory.warning(sent):
+            self.get_logger().warning(warning)
         self._switch.ask(simulation.mode)
 
     def close_recording(self) -> None:
@@ -137,9 +160,10 @@ class ClothSimNode(Node):
 
     def _serve(self) -> None:
         ModeService(self, self._simulation, self._switch)
-        PushRequests(self, self._simulation, self._inputs, self._values)
+        PushRequests(self, self._simulation, self._inputs, self._values, self._ignored)
         PinService(self, self._simulation, self._inputs)
-        PinTargets(self, self._simulation, self._inputs, self._values['frame_id'])
+        PinTargets(
+            self, self._simulation, self._inputs, self._values['frame_id'], self._ignored)
         RunServices(
             self, self._simulation, self._run_loop, reset=self._reset, changed=self._state.send)
         RecordingServices(
@@ -148,7 +172,6 @@ class ClothSimNode(Node):
 
     def _start_recording(self, name: str) -> str:
         path = self._recording.start(name)
-        self._recording_error = ''
         write_opening(
             self._recording, self._simulation, self._values, self.get_fully_qualified_name())
         self._state.send()
@@ -156,10 +179,18 @@ class ClothSimNode(Node):
         self.get_logger().info(f'recording to {path}')
         return path
 
-    def _on_recording_lost(self, reason: str) -> None:
-        self._recording_error = reason
-        self.get_logger().error(reason)
+    def _on_recording_ended(self) -> None:
+        # On the thread that writes; a node that is being shut down closes the recording itself.
+        if self.context.ok():
+            self._recording_ended.trigger()
+
+    def _on_recording_lost(self, error: RecordingError) -> None:
+        if isinstance(error, RecordingFull):
+            self.get_logger().warning(str(error))
+        else:
+            self.get_logger().error(str(error))
         self._state.send()
+        self._send_diagnostics()
 
     def _on_frame(self, worked: float, steps: int) -> None:
         too_slow = self._run_loop.running and self._pacing.too_slow
@@ -207,7 +238,8 @@ class ClothSimNode(Node):
 
     def _on_mode_failed(self, mode: str, error: Exception) -> None:
         if not self._simulation.is_ready:
-            raise error
+            self.fatal = error
+            return
         self.get_logger().error(f'mode {mode} cannot be prepared: {error}')
         self.set_parameters(
             [Parameter('mode', Parameter.Type.STRING, self._simulation.mode)])
@@ -222,13 +254,20 @@ class ClothSimNode(Node):
     def _watch(self) -> None:
         """Once a second: the health of the run, and a still picture for those who come late."""
         self._clock_topic.watch()
+        self._namesake.watch()
+        self._recording.check()
         simulation = self._simulation
         is_still = not self._run_loop.running and not simulation.stepping.is_mid_step
         if simulation.is_ready and is_still:
             self._frames.send(to_recording=False)
+        self._send_diagnostics()
+
+    def _send_diagnostics(self) -> None:
+        simulation = self._simulation
         if not self._outlet.wanted('diagnostics'):
             return
         snapshot = simulation.snapshot() if simulation.is_ready else None
+        ending = self._recording.ending
         self._outlet.send_message('diagnostics', diagnostics_message(
             snapshot, stamp=self.get_clock().now().to_msg(), node_name=self.get_name(),
             device=simulation.device,
@@ -236,5 +275,8 @@ class ClothSimNode(Node):
             real_time_factor=self._run_loop.real_time_factor,
             wanted_factor=self._values['real_time_factor'],
             automatic_substeps=self._values['auto_substeps'],
-            recording_path=self._recording.path, recording_error=self._recording_error),
+            recording_path=self._recording.path, recording_error=str(ending or ''),
+            recording_is_whole=isinstance(ending, RecordingFull),
+            faults=self.faults.count, latest_fault=self.faults.latest,
+            ignored=self._ignored.count),
             simulation.time)

@@ -15,6 +15,7 @@
 
 """Which frames a message may be given in."""
 
+from cloth_sim_ros.files.echo import shown
 from cloth_sim_ros.sim.errors import ClothSimError
 
 
@@ -22,5 +23,5 @@ def check_frame(given: str, own: str) -> None:
     """Raise ClothSimError unless the frame ``given`` is the cloth's ``own``, or empty."""
     if given not in ('', own):
         raise ClothSimError(
-            f'its frame is {given!r} and the cloth is in {own!r}: transform it to {own!r}, '
-            'or choose that as the fixed frame')
+            f'its frame is {shown(given)} and the cloth is in {shown(own)}: transform it to that '
+            'one, or choose that as the fixed frame')

@@ -12,88 +12,134 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-
-"""Shared memory that large clouds fit into, brought along by the process that sends them."""
+"""Shared memory that the clouds fit into, brought along by the process that sends them."""
 
 from collections.abc import MutableMapping
+from dataclasses import dataclass
 import os
-from pathlib import Path
+import re
 import shutil
 
+from cloth_sim_ros.files.regular_file import read_regular
 from cloth_sim_ros.gl.shared_directory import shared_directory
+from cloth_sim_ros.messages.surface import surface_bytes
+from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.snapshot import POINT_DTYPE
 
 VARIABLE = 'FASTRTPS_DEFAULT_PROFILES_FILE'
 _MIB = 1 << 20
 # Segment [bytes] and profile of Fast DDS. Twice the segment must be free: others need some, too.
+# Nobody could use more than 32 MiB: a reader's queue has 512 places, and a part at most 64 KiB.
 _PROFILES = (
-    (128 * _MIB, 'fastdds_large_messages.xml'), (16 * _MIB, 'fastdds_large_messages_16_mib.xml'))
+    (_MIB, 'fastdds_large_messages_1_mib.xml'),
+    (4 * _MIB, 'fastdds_large_messages_4_mib.xml'),
+    (16 * _MIB, 'fastdds_large_messages_16_mib.xml'),
+    (32 * _MIB, 'fastdds_large_messages.xml'))
+# A reader that runs late by so many frames still gets them all.
+_FRAMES = 3
 _FAST_DDS = ('', 'rmw_fastrtps_cpp', 'rmw_fastrtps_dynamic_cpp')
 # What Fast DDS takes by itself [bytes]: larger messages are lost to best-effort subscribers.
 _DEFAULT_SEGMENT = 512 << 10
+_MOST_PROFILE_BYTES = _MIB
+
+
+@dataclass(frozen=True)
+class SharedMemory:
+    """
+    The shared memory of Fast DDS in this process.
+
+    :param segment: how large it is [bytes]
+    :param lack: why it is not larger, with the way out; empty when it is large enough
+    :param is_full: True when that is for lack of room in /dev/shm
+    """
+
+    segment: int
+    lack: str = ''
+    is_full: bool = False
+
+    def warning(self, cloud: int) -> str:
+        """
+        Return what to warn of; empty when all is well.
+
+        :param cloud: size of a cloud [bytes]; 0 when none are sent
+        """
+        if self.lack and cloud > self.segment:
+            return (
+                f'a cloud has {cloud / 1e6:.2g} MB and Fast DDS {self.segment / 1e6:.2g} MB of '
+                'shared memory, so best-effort subscribers will miss some; subscribe reliably, '
+                f'or mend this: {self.lack}')
+        return self.lack if self.is_full else ''
+
+
+def cloud_bytes(nodes: int) -> int:
+    """Return how large the cloud of ``nodes`` nodes is [bytes]."""
+    return nodes * POINT_DTYPE.itemsize
+
+
+def frame_bytes(rows: int, cols: int) -> int:
+    """Return how large the cloud and the markers of a frame are together [bytes]."""
+    return cloud_bytes(rows * cols) + surface_bytes(rows, cols)
 
 
 def use_profile(
-        environment: MutableMapping[str, str] = os.environ, free: int | None = None) -> str:
+        frame: int, environment: MutableMapping[str, str] = os.environ,
+        free: int | None = None) -> SharedMemory:
     """
     Name a profile with enough shared memory to Fast DDS, unless the user has chosen otherwise.
 
-    It is read when ROS starts, and so has to be named before. Who calls again changes nothing.
+    It is read when the first ROS node is made, and so has to be named before.
 
+    :param frame: size of what is sent at a time [bytes]
     :param free: room in /dev/shm [bytes]; by default what there is
-    :return: why there is not enough, with the way out; empty when there is
     """
     implementation = environment.get('RMW_IMPLEMENTATION', '')
     if implementation not in _FAST_DDS:
-        return (
+        return SharedMemory(_DEFAULT_SEGMENT, (
             f'{implementation} takes no profile of Fast DDS: give it larger buffers, or set '
-            'RMW_IMPLEMENTATION=rmw_fastrtps_cpp')
+            'RMW_IMPLEMENTATION=rmw_fastrtps_cpp'))
     if VARIABLE in environment:
-        return _lack_of(environment[VARIABLE])
+        return _memory_of(environment[VARIABLE])
     transports = environment.get('FASTDDS_BUILTIN_TRANSPORTS', 'DEFAULT')
     if transports != 'DEFAULT':
-        return '' if transports.startswith('LARGE_DATA') else (
-            f'FASTDDS_BUILTIN_TRANSPORTS is {transports}: unset it, or set LARGE_DATA')
-    free = _free_memory() if free is None else free
-    for segment, name in _PROFILES:
-        if free >= 2 * segment:
-            environment[VARIABLE] = str(shared_directory('config') / name)
-            return ''
-    return (
-        f'/dev/shm has {free // _MIB} MiB free and {2 * segment // _MIB} are needed: make room, '
-        'in a container with --shm-size')
+        return SharedMemory(_DEFAULT_SEGMENT, '' if transports.startswith('LARGE_DATA') else (
+            f'FASTDDS_BUILTIN_TRANSPORTS is {transports}: unset it, or set LARGE_DATA'))
+    return _fitting(frame, environment, _free_memory() if free is None else free)
 
 
-def lost_clouds(nodes: int, lack: str) -> str:
-    """
-    Return what to say of clouds that best-effort subscribers will miss; empty when of none.
+def _fitting(frame: int, environment: MutableMapping[str, str], free: int) -> SharedMemory:
+    """Name the profile that suits ``frame``, or the largest that there is room for."""
+    suitable = [profile for profile in _PROFILES if profile[0] >= _FRAMES * frame]
+    wanted, name = (suitable or _PROFILES[-1:])[0]
+    fitting = [
+        profile for profile in _PROFILES if profile[0] <= wanted and 2 * profile[0] <= free]
+    segment = _DEFAULT_SEGMENT
+    if fitting:
+        segment, name = fitting[-1]
+        environment[VARIABLE] = str(shared_directory('config') / name)
+    # A reader that keeps up takes the parts of a frame out while the others come in.
+    if segment == wanted or fitting and segment >= frame:
+        return SharedMemory(segment)
+    return SharedMemory(segment, (
+        f'/dev/shm has {free / _MIB:.0f} MiB free and {2 * wanted // _MIB} MiB are needed for the '
+        'shared memory of Fast DDS: make room, in a container with --shm-size'), is_full=True)
 
-    :param nodes: of the cloth
-    :param lack: what use_profile returned
-    """
-    size = nodes * POINT_DTYPE.itemsize
-    if not lack or size <= _DEFAULT_SEGMENT:
-        return ''
-    return (
-        f'a cloud has {size / 1e6:.2g} MB and Fast DDS {_DEFAULT_SEGMENT / 1e6:.2g} MB of shared '
-        f'memory, so best-effort subscribers will miss some; subscribe reliably, or mend this: '
-        f'{lack}')
 
-
-def _lack_of(profile: str) -> str:
-    """Return what a profile lacks that somebody has chosen."""
+def _memory_of(profile: str) -> SharedMemory:
+    """Return what a profile gives that somebody has chosen."""
     if not profile:
-        return f'{VARIABLE} is empty: unset it'
+        return SharedMemory(_DEFAULT_SEGMENT, f'{VARIABLE} is empty: unset it')
     try:
-        text = Path(profile).read_text(encoding='utf-8', errors='replace')
-    except OSError:
+        text = read_regular(profile, _MOST_PROFILE_BYTES).decode(errors='replace')
+    except (OSError, ClothSimError):
         text = ''
-    if 'segment_size' in text:
-        return ''
-    name = _PROFILES[-1][1]
-    return (
+    found = re.search(r'<segment_size>\s*(\d+)', text)
+    if found:
+        segment, most = int(found[1]), _PROFILES[-1][0]
+        return SharedMemory(segment, '' if segment >= most else (
+            f'give {profile} a segment_size of up to {most}'))
+    return SharedMemory(_DEFAULT_SEGMENT, (
         f'{VARIABLE} names {profile}, which has no segment_size: unset it, or give the profile '
-        f'one as config/{name} does')
+        f'one as config/{_PROFILES[-1][1]} does'))
 
 
 def _free_memory() -> int:

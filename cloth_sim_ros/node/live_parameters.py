@@ -19,16 +19,13 @@ from collections.abc import Sequence
 from typing import Any
 
 from cloth_sim_ros.node.node_fields import check_together
-from cloth_sim_ros.node.parameters import as_parameter
-from cloth_sim_ros.node.parameters import FIELDS
+from cloth_sim_ros.node.parameters import as_field_type
+from cloth_sim_ros.node.parameters import FIELD_OF
 from cloth_sim_ros.node.parameters import plain_value
 from cloth_sim_ros.sim.errors import ClothSimError
-from cloth_sim_ros.sim.field import Field
 from rcl_interfaces.msg import SetParametersResult
 from rclpy.node import Node
 from rclpy.parameter import Parameter
-
-_FIELD_OF = {field.name: field for field in FIELDS}
 
 
 class LiveParameters:
@@ -54,8 +51,8 @@ class LiveParameters:
     def _on_set(self, parameters: list[Parameter]) -> SetParametersResult:
         try:
             checked = {
-                parameter.name: _FIELD_OF[parameter.name].check(plain_value(parameter))
-                for parameter in parameters if parameter.name in _FIELD_OF}
+                parameter.name: FIELD_OF[parameter.name].check(plain_value(parameter))
+                for parameter in parameters if parameter.name in FIELD_OF}
             check_together({**self._values, **checked})
             # Last, because it is the only one that can still fail, and nothing may change then.
             if 'mode' in checked:
@@ -66,20 +63,10 @@ class LiveParameters:
         return SetParametersResult(successful=True)
 
     def _after_set(self, parameters: list[Parameter]) -> None:
-        own = [parameter for parameter in parameters if parameter.name in _FIELD_OF]
+        own = [parameter for parameter in parameters if parameter.name in FIELD_OF]
         if own:
             self._changed(own)
 
 
 def _with_field_types(parameters: list[Parameter]) -> list[Parameter]:
-    """Take whole numbers where a field holds numbers: `ros2 param set` types 2 as an integer."""
-    return [_converted(parameter, _FIELD_OF.get(parameter.name)) for parameter in parameters]
-
-
-def _converted(parameter: Parameter, field: Field | None) -> Parameter:
-    whole = (Parameter.Type.INTEGER, Parameter.Type.INTEGER_ARRAY)
-    if field is None or field.kind is not float or parameter.type_ not in whole:
-        return parameter
-    if field.is_array != (parameter.type_ == Parameter.Type.INTEGER_ARRAY):
-        return parameter
-    return as_parameter(field, plain_value(parameter))
+    return [as_field_type(parameter) for parameter in parameters]

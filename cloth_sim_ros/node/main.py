@@ -19,6 +19,9 @@ import signal
 import sys
 
 from cloth_sim_ros.gl.errors import DeviceError
+from cloth_sim_ros.node.dead_segments import reclaim_dead_segments
+from cloth_sim_ros.node.grid_arguments import grid_of_arguments
+from cloth_sim_ros.node.large_messages import frame_bytes
 from cloth_sim_ros.node.large_messages import use_profile
 from cloth_sim_ros.node.missing_module import way_out
 from cloth_sim_ros.sim.errors import ClothSimError
@@ -28,11 +31,14 @@ def main(args: Sequence[str] | None = None) -> int:
     """Run the node until SIGINT or SIGTERM and return the exit code."""
     # Until the node can take care of it, an interrupt ends the process without a traceback.
     signal.signal(signal.SIGINT, signal.SIG_DFL)
-    use_profile()
+    args = sys.argv if args is None else args
     try:
+        # Before ROS starts, and first what gives room to the second.
+        reclaimed = reclaim_dead_segments()
+        memory = use_profile(frame_bytes(*grid_of_arguments(args)))
         # Imported here, so that a missing ROS or interface package gets an answer as well.
         from cloth_sim_ros.node.process import run_node
-        run_node(sys.argv if args is None else args)
+        run_node(args, memory, reclaimed)
     except ImportError as error:
         problem = way_out(error)
     except (ClothSimError, DeviceError) as error:

@@ -128,7 +128,11 @@ class ModeSwitch:
         if not mode:
             return
         previous = self._simulation.mode if self._simulation.is_ready else ''
-        self._simulation.set_mode(mode)
+        try:
+            self._simulation.set_mode(mode)
+        except Exception as error:
+            self._give_up(mode, error)
+            return
         self._switched(mode, previous)
         self._resolve(None)
 
@@ -154,7 +158,8 @@ class ModeSwitch:
                 future.set_exception(error)
 
     def _report(self) -> None:
-        if not self._is_reported:
+        # While one that nobody wants any more comes to its end, there is nothing to report.
+        if self.preparing and not self._is_reported:
             self._is_reported = True
             self._logger.info(
                 f'compiling shaders for mode {self.preparing}; the first time on a machine this '

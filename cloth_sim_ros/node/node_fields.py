@@ -20,10 +20,13 @@ from typing import Any
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.field import Field
 
+# A wait between frames has to fit the timers of ROS.
+SLOWEST = 1e-6
+
 NODE_FIELDS = (
     Field('frame_id', str, 'world', 'frame of every message'),
     Field('real_time_factor', float, 1.0, 'simulated time per wall time to keep to; 0 runs as '
-          'fast as possible', low=0.0, high=1e6, live=True),
+          f'fast as possible, otherwise {SLOWEST:g} or more', low=0.0, high=1e6, live=True),
     Field('start_paused', bool, False, 'wait for ~/pause or ~/step before the first step'),
     Field('publish.rate', float, 50.0, 'frames per simulated second', 'Hz', low=1e-3, high=1e6),
     Field('publish.points', bool, True, 'make ~/points', live=True),
@@ -37,6 +40,16 @@ NODE_FIELDS = (
     Field('recording.enabled', bool, False, 'record from the start'),
     Field('recording.name', str, '', 'folder of that recording inside recording.directory; '
           'empty takes a fresh name'),
+    Field('recording.max_bagfile_size', int, 0, 'size of a file before the next one of the '
+          'recording is begun; 0 splits by no size, others must be 1 MiB or more', 'bytes',
+          low=0, high=10**15),
+    Field('recording.max_bagfile_duration', float, 0.0, 'recorded time of a file before the next '
+          'one is begun; 0 splits by no time, others must be 1 s or more', 's',
+          low=0.0, high=1e9),
+    Field('recording.max_size', int, 0, 'size of all files of a recording, which is completed '
+          'there; 0 for no limit, others must be 1 MiB or more', 'bytes', low=0, high=10**15),
+    Field('recording.fsync', bool, False, 'wait for the disk at each flush of a recording, twice '
+          'a second; at its end it always does'),
     Field('clicked_point.force', float, (0.0, 0.0, 1.0), 'total force of the push that a message '
           'on /clicked_point makes, x y z', 'N', low=-1e9, high=1e9, is_array=True, live=True),
     Field('clicked_point.radius', float, 0.1, 'radius of that push', 'm', low=1e-6, high=1e6,
@@ -45,10 +58,27 @@ NODE_FIELDS = (
           live=True),
 )
 
+# Definitions and index alone take up to 100 kB of a file.
+_LEAST = {
+    'recording.max_bagfile_size': 2**20,
+    'recording.max_bagfile_duration': 1.0,
+    'recording.max_size': 2**20,
+}
+
 
 def check_together(values: Mapping[str, Any]) -> None:
     """Raise ClothSimError for what one field's range cannot say about the node's values."""
+    factor = values['real_time_factor']
+    if 0.0 < factor < SLOWEST:
+        raise ClothSimError(
+            f'real_time_factor {factor:g} is slower than {SLOWEST:g}: give 0 to run as fast as '
+            'possible, or a larger one; to stand still, pause')
     count = len(values['clicked_point.force'])
     if count != 3:
         raise ClothSimError(
             f'clicked_point.force needs 3 components, got {count}: write [x, y, z]')
+    for name, least in _LEAST.items():
+        if 0 < values[name] < least:
+            raise ClothSimError(
+                f'{name} must be 0 or {least} and more, got {values[name]}: give {least}, or 0 '
+                'for no limit')

@@ -32,6 +32,7 @@ from rclpy.node import Node
 from rclpy.parameter import Parameter
 
 FIELDS = SCENE_FIELDS + NODE_FIELDS
+FIELD_OF = {field.name: field for field in FIELDS}
 
 # Parameters that rclpy itself declares or reads on every node.
 _RCLPY_OWN = ('use_sim_time', 'start_type_description_service')
@@ -73,6 +74,17 @@ def as_parameter(field: Field, value: Any) -> Parameter:
     """Return the ROS parameter that holds a checked value of ``field``."""
     return Parameter.from_parameter_msg(
         ParameterMessage(name=field.name, value=parameter_value(field, value)))
+
+
+def as_field_type(parameter: Parameter) -> Parameter:
+    """Take whole numbers where a field holds numbers: `ros2 param set` types 2 as an integer."""
+    whole = (Parameter.Type.INTEGER, Parameter.Type.INTEGER_ARRAY)
+    field = FIELD_OF.get(parameter.name)
+    if field is None or field.kind is not float or parameter.type_ not in whole:
+        return parameter
+    if field.is_array != (parameter.type_ == Parameter.Type.INTEGER_ARRAY):
+        return parameter
+    return as_parameter(field, plain_value(parameter))
 
 
 def descriptor(field: Field) -> ParameterDescriptor:

@@ -21,6 +21,7 @@ from cloth_sim_interfaces.msg import PinTarget
 from cloth_sim_interfaces.srv import MovePin
 from cloth_sim_ros.node.answer import answer
 from cloth_sim_ros.node.frame_check import check_frame
+from cloth_sim_ros.node.ignored_messages import IgnoredMessages
 from cloth_sim_ros.node.inputs import Inputs
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.pin_path import PinPath
@@ -36,12 +37,14 @@ class PinTargets:
     Serve ~/move_pin and listen to ~/pins/target.
 
     :param frame_id: of the cloth
+    :param ignored: is given the messages that make no sense
     """
 
     def __init__(
-            self, node: Node, simulation: Simulation, inputs: Inputs, frame_id: str) -> None:
+            self, node: Node, simulation: Simulation, inputs: Inputs, frame_id: str,
+            ignored: IgnoredMessages) -> None:
         """Make the service and the subscription."""
-        self._node = node
+        self._ignored = ignored
         self._simulation = simulation
         self._inputs = inputs
         self._frame_id = frame_id
@@ -68,7 +71,7 @@ class PinTargets:
             check_frame(message.header.frame_id, self._frame_id)
             self._move(message.row, message.col, message)
         except ClothSimError as error:
-            self._node.get_logger().warning(f'a message on ~/pins/target is ignored: {error}')
+            self._ignored.note('~/pins/target', error)
 
     def _move(self, row: int, col: int, request: Any) -> PinPath:
         path = self._simulation.move_pin(

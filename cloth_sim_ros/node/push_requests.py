@@ -22,6 +22,7 @@ from cloth_sim_interfaces.msg import Push
 from cloth_sim_interfaces.srv import ApplyPush
 from cloth_sim_ros.node.answer import answer
 from cloth_sim_ros.node.frame_check import check_frame
+from cloth_sim_ros.node.ignored_messages import IgnoredMessages
 from cloth_sim_ros.node.inputs import Inputs
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.simulation import AppliedPush
@@ -39,13 +40,14 @@ class PushRequests:
     Serve ~/apply_push and ~/clear_pushes, listen to ~/push and /clicked_point.
 
     :param values: the node's parameter values, read at each click
+    :param ignored: is given the messages that make no sense
     """
 
     def __init__(
             self, node: Node, simulation: Simulation, inputs: Inputs,
-            values: Mapping[str, Any]) -> None:
+            values: Mapping[str, Any], ignored: IgnoredMessages) -> None:
         """Make the services and subscriptions."""
-        self._node = node
+        self._ignored = ignored
         self._simulation = simulation
         self._inputs = inputs
         self._values = values
@@ -75,7 +77,7 @@ class PushRequests:
                 center=_parts(message.center), radius=message.radius,
                 duration=message.duration, start=message.start or None)
         except ClothSimError as error:
-            self._node.get_logger().warning(f'a message on ~/push is ignored: {error}')
+            self._ignored.note('~/push', error)
 
     def _on_click(self, message: PointStamped) -> None:
         try:
@@ -85,7 +87,7 @@ class PushRequests:
                 center=_parts(message.point), radius=self._values['clicked_point.radius'],
                 duration=self._values['clicked_point.duration'])
         except ClothSimError as error:
-            self._node.get_logger().warning(f'a message on /clicked_point is ignored: {error}')
+            self._ignored.note('/clicked_point', error)
 
     def _push(self, **request: Any) -> AppliedPush:
         applied = self._simulation.push(**request)

@@ -17,11 +17,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from cloth_sim_ros.node.missing_module import way_out
 from cloth_sim_ros.recording.bag_folder import DIRECTORY_SETTING
 from cloth_sim_ros.recording.recording_error import RecordingError
+from cloth_sim_ros.recording.recording_faults import refusal
+from cloth_sim_ros.recording.recording_options import RecordingOptions
 from cloth_sim_ros.sim.errors import ClothSimError
 
 if TYPE_CHECKING:
@@ -34,19 +37,26 @@ class RecordingSession:
 
     :param directory: folder that every recording goes into
     :param node_name: with its namespace, for the names of the topics
-    :param lost: called with the reason when a recording ends because it can't be written to
+    :param lost: called with the reason when a recording has ended before it was stopped
     :param setting: what ``directory`` was given by, for errors
+    :param options: files, limit and fsync of each recording
+    :param wake: called on another thread when ``check`` has an end to report
     """
 
     def __init__(
-            self, directory: str, node_name: str, lost: Callable[[str], None],
-            setting: str = DIRECTORY_SETTING) -> None:
+            self, directory: str, node_name: str, lost: Callable[[RecordingError], None],
+            setting: str = DIRECTORY_SETTING, *,
+            options: RecordingOptions = RecordingOptions(),
+            wake: Callable[[], None] | None = None) -> None:
         """Prepare; nothing is written yet."""
         self._directory = directory
         self._node_name = node_name
         self._lost = lost
         self._setting = setting
+        self._options = options
+        self._wake = wake
         self._recorder: Recorder | None = None
+        self._ending: RecordingError | None = None
         self._offset = 0.0
 
     @property
@@ -59,13 +69,20 @@ class RecordingSession:
         """Absolute path of the folder being written to; empty when there is none."""
         return str(self._recorder.path) if self._recorder else ''
 
+    @property
+    def ending(self) -> RecordingError | None:
+        """Get why the last recording has ended before it was stopped; None when it has not."""
+        return self._ending
+
     def start(self, name: str = '') -> str:
         """Open a recording and return its path; ClothSimError when that can't be."""
+        self.check()
         if self._recorder is not None:
             raise ClothSimError(
                 f'a recording is being written to {self.path}: stop it first, by ~/stop_recording '
                 'or `cloth_sim record stop`')
         self._recorder = self._open(name)
+        self._ending = None
         self._offset = 0.0
         return self.path
 
@@ -76,21 +93,38 @@ class RecordingSession:
         try:
             self._recorder.write(key, data, self._offset + sim_time)
         except RecordingError as error:
-            self._recorder = None
-            self._lost(str(error))
+            self._end(error)
+
+    def check(self) -> None:
+        """Report an end of the recording that nobody has asked for."""
+        if self._recorder is None:
+            return
+        try:
+            self._recorder.check()
+        except RecordingError as error:
+            self._end(error)
 
     def rewind(self, sim_time: float) -> None:
         """Go on as simulated time returns from ``sim_time`` [s] to 0: players need it to grow."""
         self._offset += sim_time
 
     def stop(self) -> str:
-        """Close the recording and return its path; ClothSimError when there is none."""
+        """
+        Close the recording and return its path.
+
+        :raises ClothSimError: when there is none, or when it does not go up to here
+        """
         if self._recorder is None:
-            raise ClothSimError(
+            raise self._ending or ClothSimError(
                 'no recording is being written: start one first, by ~/start_recording or '
                 '`cloth_sim record start`')
         path = self.path
-        self.close()
+        try:
+            self._recorder.close()
+        except RecordingError as error:
+            self._end(error)
+            raise
+        self._recorder = None
         return path
 
     def close(self) -> None:
@@ -99,11 +133,19 @@ class RecordingSession:
         if recorder is not None:
             recorder.close()
 
+    def _end(self, error: RecordingError) -> None:
+        self._recorder = None
+        self._ending = error
+        self._lost(error)
+
     def _open(self, name: str) -> Recorder:
         try:
             # What writes recordings comes from pip, not from ROS: a node runs without it.
             from cloth_sim_ros.recording.recorder import Recorder
         except ImportError as error:
             raise ClothSimError(way_out(error)) from error
+        except OSError as error:
+            raise refusal(Path(self._directory), error, self._setting) from error
         return Recorder(
-            self._directory, name, self._node_name, setting=self._setting)
+            self._directory, name, self._node_name, setting=self._setting,
+            options=self._options, on_end=self._wake)

@@ -19,9 +19,9 @@ from collections.abc import Iterator
 import time
 
 from cloth_sim_interfaces.msg import ClothState
+from cloth_sim_ros.gl.errors import DeviceError
 from cloth_sim_ros.node.pacing import Pacing
 from cloth_sim_ros.sim.errors import ClothSimError
-from cloth_sim_ros.sim.errors import NonFiniteStateError
 from cloth_sim_ros.sim.simulation import Simulation
 from rclpy.clock import Clock
 from rclpy.clock import ClockType
@@ -46,19 +46,22 @@ class RunLoop:
     :param pacing: when the next frame is due
     :param on_frame: called after the state has changed, with the wall time that took [s] and the
         steps of dt made
-    :param on_stop: called when a step was not finite and the run has stopped before it
+    :param on_stop: called when a step was not finite and the run has stopped before it, or when
+        it has failed unexpectedly
+    :param note: counts an unexpected exception, and returns it in one line
     """
 
     def __init__(
             self, node: Node, simulation: Simulation, *, frame_seconds: float, pacing: Pacing,
             paused: bool, on_frame: Callable[[float, int], None],
-            on_stop: Callable[[], None]) -> None:
+            on_stop: Callable[[], None], note: Callable[[Exception, str], str]) -> None:
         """Make the timer; nothing moves before start."""
         self._simulation = simulation
         self._frame_seconds = frame_seconds
         self._pacing = pacing
         self._on_frame = on_frame
         self._on_stop = on_stop
+        self._note = note
         self._paused = paused
         self._problem = ''
         # Pieces of the step under way, and when the slice ends.
@@ -144,16 +147,20 @@ class RunLoop:
         if self._answer is not None:
             raise ClothSimError(
                 'steps are being made for another caller: wait until ~/step has answered')
-        self._answer = Future()
+        answer = self._answer = Future()
         self._paused, self._problem = True, ''
         self._simulation.stepping.at_rest(lambda: self._begin_steps(steps))
         self.start()
-        return self._answer
+        return answer
 
     def _begin_steps(self, steps: int) -> None:
         self._begin_frame()
         self._is_frame_open = True
-        self._simulation.stepping.aim_steps(steps)
+        try:
+            self._simulation.stepping.aim_steps(steps)
+        except ClothSimError as error:
+            self._begin_frame()
+            self._end_steps(error)
 
     def _begin_frame(self) -> None:
         """Let what comes next be a whole frame."""
@@ -167,15 +174,22 @@ class RunLoop:
             return
         begin = time.monotonic()
         self._deadline = begin + _SLICE
-        if not self._is_frame_open and self._work is None:
-            self._begin_frame()
-            self._is_frame_open = True
-            self._simulation.stepping.aim(self._frame_seconds)
         try:
+            if not self._is_frame_open and self._work is None:
+                self._begin_frame()
+                self._is_frame_open = True
+                self._simulation.stepping.aim(self._frame_seconds)
             is_made = self._go_on()
-        except NonFiniteStateError as error:
+        except (ClothSimError, DeviceError) as error:
             self._worked += time.monotonic() - begin
             self._stop(error)
+            return
+        except Exception as error:
+            # A fault in a step comes again with the next: it ends the run, and not the node.
+            self._worked += time.monotonic() - begin
+            self._stop(ClothSimError(
+                f'the run has failed unexpectedly, {self._note(error, "a step")}: the log of the '
+                'node has its trace; report it'))
             return
         self._worked += time.monotonic() - begin
         if is_made:
@@ -224,7 +238,7 @@ class RunLoop:
         elif answer is not None:
             answer.set_result(None)
 
-    def _stop(self, error: NonFiniteStateError) -> None:
+    def _stop(self, error: ClothSimError | DeviceError) -> None:
         """Show the last finite state, and tell that there is no more to come."""
         self._timer.cancel()
         self._work = None
@@ -233,8 +247,8 @@ class RunLoop:
         self._begin_frame()
         if steps > 0:
             self._on_frame(worked, steps)
-        self._on_stop()
         self._end_steps(error)
+        self._on_stop()
 
     def _wait(self, seconds: float) -> None:
         self._timer.timer_period_ns = int(seconds * _NANOSECONDS)

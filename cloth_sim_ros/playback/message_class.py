@@ -17,6 +17,7 @@
 from importlib import import_module
 import re
 
+from cloth_sim_ros.files.echo import shown
 from cloth_sim_ros.recording.message_decoder import recorded_type_hash
 from cloth_sim_ros.recording.message_definition import type_hash
 from cloth_sim_ros.sim.errors import ClothSimError
@@ -37,7 +38,7 @@ def message_class(type_name: str, definition: MessageDefinition) -> type:
     match = _TYPE_NAME.fullmatch(type_name)
     if match is None:
         raise ClothSimError(
-            f'{type_name!r} is no message type: record it anew, with a type like '
+            f'{shown(type_name)} is no message type: record it anew, with a type like '
             'std_msgs/msg/Header')
     package, name = match.groups()
     try:

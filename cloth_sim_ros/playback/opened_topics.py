@@ -18,6 +18,7 @@ from collections.abc import Callable
 from collections.abc import Iterable
 import sys
 
+from cloth_sim_ros.files.echo import cut
 from cloth_sim_ros.messages.topics import TOPICS
 from cloth_sim_ros.playback.message_class import message_class
 from cloth_sim_ros.playback.play_options import PlayOptions
@@ -40,7 +41,7 @@ def wanted_topics(topics: Iterable[BagTopic], options: PlayOptions) -> list[BagT
     for name in options.topics:
         if name not in names:
             raise ClothSimError(
-                f'the recording has no topic {name}: give some of {", ".join(sorted(names))}')
+                f'the recording has no topic {cut(name)}: give some of {", ".join(sorted(names))}')
     return [topic for topic in topics if not options.topics or topic.name in options.topics]
 
 
@@ -60,7 +61,7 @@ def open_topics(
         try:
             opened[topic.name, topic.type_name] = _open(node, topic, options)
         except ClothSimError as error:
-            warn(f'{topic.name} is left out: {error}')
+            warn(f'{cut(topic.name)} is left out: {cut(error)}')
     if not opened:
         raise ClothSimError(
             'the recording has no topic that can be played: give one with messages of types '
@@ -75,7 +76,8 @@ def _open(node: Node, topic: BagTopic, options: PlayOptions) -> PlayedTopic:
     try:
         return PlayedTopic(node, name, found, quality, _kept(topic, quality))
     except InvalidTopicNameException as error:
-        raise ClothSimError(f'{name} is no name of a topic: name it with --as') from error
+        raise ClothSimError(
+            f'{cut(name)} is no name of a topic: name it with --as') from error
 
 
 def _kept(topic: BagTopic, quality: QoSProfile) -> int:

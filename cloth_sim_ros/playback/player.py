@@ -139,7 +139,9 @@ class Player:
         topic = self._topics.get((message.topic, message.type_name))
         if topic is None:
             return
-        if self._simulated_clock is not None and self._is_of_the_cloth(message.topic):
+        # What is kept for late subscribers can be older: files of a split bag begin with it.
+        is_timely = self._is_of_the_cloth(message.topic) and not topic.kept
+        if self._simulated_clock is not None and is_timely:
             self._simulated_clock.read(topic.message_class, message.data)
         topic.publish(message.data)
         self._report.messages += 1

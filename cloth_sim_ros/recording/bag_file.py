@@ -12,93 +12,128 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""One mcap file as rosbag2 writes it, with its metadata.yaml."""
+"""One mcap file as rosbag2 writes it."""
 
+import io
 import os
 from pathlib import Path
 
-from cloth_sim_ros.messages.topic import Topic
-from cloth_sim_ros.recording.bag_metadata import BagMetadata
-from cloth_sim_ros.recording.message_definition import message_definition
-from cloth_sim_ros.recording.message_definition import type_hash
-from cloth_sim_ros.recording.offered_qos import offered_qos
-from cloth_sim_ros.recording.project_version import PACKAGE
-from cloth_sim_ros.recording.project_version import project_version
-from cloth_sim_ros.recording.yaml_text import yaml_text
+from cloth_sim_ros.recording.bag_channel import BagChannel
+from cloth_sim_ros.recording.mcap_size import McapSize
+from cloth_sim_ros.recording.watched_file import WatchedFile
 from mcap.writer import CompressionType
 from mcap.writer import Writer
 
 CHUNK_BYTES = 1024 * 1024
+# Of a metadata record, besides its text.
+_METADATA_BYTES = 128
 
 
 class BagFile:
     """
-    Writes messages into ``folder``; used from one thread.
+    Writes messages into a fresh file; used from one thread.
 
     After each flush, all before it is readable whatever happens to the process.
 
-    :param folder: empty, the bag takes its name
-    :param node_name: with its namespace, for the names of the topics
+    :param path: of the file
+    :param metadata: text of the metadata record
+    :param fsync: True to wait for the disk at each flush
+    :raises OSError: when it can't be made
     """
 
-    def __init__(self, folder: Path, node_name: str) -> None:
-        """Open the file; OSError when that cannot be."""
-        self._folder = folder
-        self._node_name = node_name
-        self._path = folder / f'{folder.name}_0.mcap'
-        self._metadata = BagMetadata(self._path.name, {PACKAGE: project_version()})
-        self._schemas: dict[str, int] = {}
-        self._channels: dict[str, int] = {}
-        self._stream = open(self._path, 'xb')
+    def __init__(self, path: Path, metadata: str, *, fsync: bool = False) -> None:
+        """Open the file."""
+        self._fsync = fsync
+        self._numbers: dict[tuple[str, str], int] = {}
+        self._schemas: dict[tuple[str, str, bytes], int] = {}
+        self._size = McapSize()
+        self._kept_bytes = 0
+        self._raw = WatchedFile(path)
+        self._stream = io.BufferedWriter(self._raw)
         try:
             self._writer = Writer(
                 self._stream, chunk_size=CHUNK_BYTES, compression=CompressionType.ZSTD)
             self._writer.start(profile='ros2')
-            self._add_metadata()
+            self._add_metadata(metadata)
             self.flush()
-        except OSError:
-            self._stream.close()
+        except Exception:
+            self.abandon()
             raise
 
-    def write(self, topic: Topic, data: bytes, time: int) -> None:
-        """Write the serialised message ``data`` of ``topic`` at ``time`` [ns]."""
-        name = topic.full_name(self._node_name)
-        if name not in self._channels:
-            self._add_topic(name, topic)
-        self._writer.add_message(self._channels[name], time, data, time)
-        self._metadata.add_message(name, time)
+    @property
+    def length(self) -> int:
+        """Get the length of what is in the file [bytes]."""
+        return self._raw.written
+
+    def bound(self, channel: BagChannel, length: int, metadata_length: int) -> int:
+        """
+        Return a size that the finished file does not pass after one more message [bytes].
+
+        :param length: of the message [bytes]
+        :param metadata_length: of the metadata record at the end [bytes]
+        """
+        more = length + metadata_length + _METADATA_BYTES
+        if channel.key not in self._numbers:
+            more += 2 * channel.length
+        return self._size.bound(more)
+
+    def add_channel(self, channel: BagChannel) -> None:
+        """Write what ``channel`` is, if that is not in the file yet."""
+        if channel.key in self._numbers:
+            return
+        schema = channel.type_name, channel.definition_encoding, channel.definition
+        if schema not in self._schemas:
+            self._schemas[schema] = self._writer.register_schema(*schema)
+        self._numbers[channel.key] = self._writer.register_channel(
+            channel.name, channel.message_encoding, self._schemas[schema], dict(channel.metadata))
+        self._size.add_channel(channel.length)
+        self._size.set_position(self._stream.tell())
+
+    def write(
+            self, channel: BagChannel, data: bytes, time: int, *, published: int | None = None,
+            sequence: int = 0) -> None:
+        """
+        Write the serialised message ``data``.
+
+        :param time: at which it was recorded [ns]
+        :param published: time at which it was published [ns]; None for ``time``
+        """
+        self.add_channel(channel)
+        self._writer.add_message(
+            self._numbers[channel.key], time, data, time if published is None else published,
+            sequence)
+        self._size.add_message(len(data))
+        self._size.set_position(self._stream.tell())
 
     def flush(self) -> None:
         """Hand everything so far to the operating system, in whole records."""
         self._writer.flush()
-        self._kept_bytes = self._stream.tell()
-        self._metadata.write(self._folder)
+        if self._fsync:
+            os.fsync(self._raw.fileno())
+        self._raw.check()
+        self._kept_bytes = self._raw.written
+        self._size.set_position(self._stream.tell())
 
-    def finish(self) -> None:
-        """Write the index and close the file."""
+    def finish(self, metadata: str, *, fsync: bool) -> None:
+        """Write the index, and close the file; with ``fsync`` when all of it is on the disk."""
         self._writer.flush()
-        self._add_metadata()
+        self._add_metadata(metadata)
         self._writer.finish()
+        self._stream.flush()
+        if fsync:
+            os.fsync(self._raw.fileno())
+        self._raw.check()
+        self._kept_bytes = self._raw.written
         self._stream.close()
-        self._metadata.write(self._folder)
 
     def abandon(self) -> None:
         """Close the file after a failed write, and cut off what came after the last flush."""
+        if self._stream.closed:
+            return
         try:
+            self._raw.give_up(self._kept_bytes)
+        finally:
             self._stream.close()
-        except OSError:
-            pass  # the bytes that could not be written before still can't be
-        os.truncate(self._path, self._kept_bytes)
 
-    def _add_metadata(self) -> None:
-        self._writer.add_metadata('rosbag2', {'serialized_metadata': self._metadata.text()})
-
-    def _add_topic(self, name: str, topic: Topic) -> None:
-        if topic.type_name not in self._schemas:
-            self._schemas[topic.type_name] = self._writer.register_schema(
-                topic.type_name, 'ros2msg', message_definition(topic.type_name).encode())
-        self._channels[name] = self._writer.register_channel(
-            name, 'cdr', self._schemas[topic.type_name], {
-                'offered_qos_profiles': yaml_text(offered_qos(topic)),
-                'topic_type_hash': type_hash(topic.type_name)})
-        self._metadata.add_topic(name, topic)
+    def _add_metadata(self, text: str) -> None:
+        self._writer.add_metadata('rosbag2', {'serialized_metadata': text})

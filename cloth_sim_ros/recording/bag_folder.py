@@ -18,11 +18,18 @@ from datetime import datetime
 from itertools import count
 import os
 from pathlib import Path
+import re
 
+from cloth_sim_ros.files.echo import cut
+from cloth_sim_ros.files.echo import shown
+from cloth_sim_ros.recording.folder_metadata import FRESH_METADATA_NAME
+from cloth_sim_ros.recording.folder_metadata import METADATA_NAME
+from cloth_sim_ros.recording.recording_faults import refusal
 from cloth_sim_ros.sim.errors import ClothSimError
 
-MOST_BYTES = 248  # file systems take 255, and the file's name is longer by _0.mcap
-
+MOST_BYTES = 243  # file systems take 255, and a file's name is longer, as by _99999.mcap
+# Letters and digits of any script; none of it means anything to a shell where it stands.
+_PLAIN = re.compile(r'\w[\w.+\-=,@]*')
 
 # The parameter that says where a node records into.
 DIRECTORY_SETTING = 'recording.directory'
@@ -47,18 +54,49 @@ def make_bag_folder(
         parent.mkdir(parents=True, exist_ok=True)
         return _make_named(parent / name) if name else _make_dated(parent)
     except OSError as error:
-        raise ClothSimError(
-            f'nothing can be recorded into {parent} ({error.strerror}): '
-            f'set {setting} to a folder that can be written to') from error
+        raise refusal(parent, error, setting) from error
+
+
+def sync_file(path: Path) -> None:
+    """Wait until the disk has the file ``path``; one that is gone needs no disk."""
+    try:
+        descriptor = os.open(path, os.O_RDONLY | os.O_NONBLOCK | os.O_NOFOLLOW)
+    except FileNotFoundError:
+        return
+    try:
+        os.fsync(descriptor)
+    finally:
+        os.close(descriptor)
+
+
+def sync_folder(folder: Path) -> None:
+    """Wait until the disk has the names of the files in ``folder``."""
+    descriptor = os.open(folder, os.O_RDONLY | os.O_DIRECTORY)
+    try:
+        os.fsync(descriptor)
+    finally:
+        os.close(descriptor)
+
+
+def remove_bag_folder(folder: Path, file_count: int = 1) -> None:
+    """Remove ``folder`` with up to ``file_count`` files of a bag, as far as that works."""
+    files = [f'{folder.name}_{number}.mcap' for number in range(file_count)]
+    try:
+        # By their names: a folder can't be listed where no file can be opened any more.
+        for name in (*files, METADATA_NAME, FRESH_METADATA_NAME):
+            (folder / name).unlink(missing_ok=True)
+        folder.rmdir()
+    except OSError:
+        pass
 
 
 def _check_name(name: str, parent: Path) -> None:
-    # One plain name can't lead anywhere else; control characters and half characters aren't plain.
-    is_plain = name.isprintable() and '/' not in name and name not in ('.', '..')
-    if not is_plain or len(name.encode()) > MOST_BYTES:
+    # A plain name leads nowhere else, is no option of a command and no pattern of a shell.
+    if not _PLAIN.fullmatch(name) or len(name.encode()) > MOST_BYTES:
         raise ClothSimError(
-            f'the recording name {name!r} is not the plain name of a folder inside {parent}: '
-            f'give one without /, .. and control characters, up to {MOST_BYTES} bytes')
+            f'the recording name {shown(name)} is not the plain name of a folder inside '
+            f'{cut(parent)}: begin it with a letter, a digit or _, go on with '
+            f'these and .+-=,@, and use up to {MOST_BYTES} bytes')
 
 
 def _make_named(folder: Path) -> Path:

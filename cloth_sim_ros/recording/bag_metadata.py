@@ -15,87 +15,113 @@
 """What rosbag2 wants to know of a bag before it opens it."""
 
 from collections.abc import Mapping
+from dataclasses import dataclass
 import os
 from pathlib import Path
 from typing import Any
 
-from cloth_sim_ros.messages.topic import Topic
-from cloth_sim_ros.recording.message_definition import type_hash
-from cloth_sim_ros.recording.offered_qos import offered_qos
+from cloth_sim_ros.recording.bag_channel import BagChannel
+from cloth_sim_ros.recording.folder_metadata import FRESH_METADATA_NAME
+from cloth_sim_ros.recording.folder_metadata import METADATA_NAME
 from cloth_sim_ros.recording.yaml_text import yaml_text
 
 VERSION = 9
 _NO_TIME_YET = 2**63 - 1
 
 
+@dataclass
+class _Span:
+    """Number and times [ns] of the messages of a file, or of all files."""
+
+    begin: int = _NO_TIME_YET
+    end: int = 0
+    message_count: int = 0
+
+    def add(self, time: int) -> None:
+        """Count a message at ``time``."""
+        self.begin = min(self.begin, time)
+        self.end = max(self.end, time)
+        self.message_count += 1
+
+    def content(self) -> dict[str, Any]:
+        """Return what metadata.yaml has of it."""
+        return {
+            'duration': {'nanoseconds': max(self.end - self.begin, 0)},
+            'starting_time': {'nanoseconds_since_epoch': self.begin},
+            'message_count': self.message_count,
+        }
+
+
 class BagMetadata:
     """
-    Topics, message counts and times of a bag of one file.
+    Topics, message counts and times of a bag.
 
-    :param file_name: of the mcap file, without its folder
+    :param file_name: of its first mcap file, without the folder
     :param custom_data: what else is to be known of the bag, words by words
     """
 
     def __init__(self, file_name: str, custom_data: Mapping[str, str] | None = None) -> None:
         """Begin an empty bag."""
-        self._file_name = file_name
         self._custom_data = dict(custom_data or {})
-        self._topics: dict[str, dict[str, Any]] = {}
-        self._begin = _NO_TIME_YET
-        self._end = 0
+        self._topics: dict[tuple[str, str], dict[str, Any]] = {}
+        self._all = _Span()
+        self._files: dict[str, _Span] = {}
+        self.begin_file(file_name)
 
-    def add_topic(self, name: str, topic: Topic) -> None:
-        """Note that ``topic`` is in the bag, under its full ``name``."""
-        self._topics[name] = {
+    def begin_file(self, name: str) -> None:
+        """Count what comes from now on as in the file ``name``."""
+        self._file = self._files.setdefault(name, _Span())
+
+    def add_topic(self, channel: BagChannel) -> None:
+        """Note that ``channel`` is in the bag; does nothing when it is noted already."""
+        if channel.key in self._topics:
+            return
+        self._topics[channel.key] = {
             'topic_metadata': {
-                'name': name,
-                'type': topic.type_name,
-                'serialization_format': 'cdr',
-                'offered_qos_profiles': offered_qos(topic),
-                'type_description_hash': type_hash(topic.type_name),
+                'name': channel.name,
+                'type': channel.type_name,
+                'serialization_format': channel.message_encoding,
+                'offered_qos_profiles': channel.qos,
+                'type_description_hash': channel.type_hash,
             },
             'message_count': 0,
         }
 
-    def add_message(self, name: str, time: int) -> None:
-        """Count a message of the topic ``name`` at ``time`` [ns]."""
-        self._topics[name]['message_count'] += 1
-        self._begin = min(self._begin, time)
-        self._end = max(self._end, time)
+    def add_message(self, channel: BagChannel, time: int) -> None:
+        """Count a message of ``channel`` at ``time`` [ns]."""
+        self._topics[channel.key]['message_count'] += 1
+        self._all.add(time)
+        self._file.add(time)
 
     def text(self) -> str:
         """Return the content of the metadata record of the mcap file."""
         return yaml_text(self._content())
 
-    def write(self, folder: Path) -> None:
+    def write(self, folder: Path, *, fsync: bool = False) -> None:
         """Write metadata.yaml; whoever reads it meanwhile finds the old one or the new one."""
-        fresh = folder / 'metadata.yaml.new'
+        fresh = folder / FRESH_METADATA_NAME
         try:
-            fresh.write_text(yaml_text({'rosbag2_bagfile_information': self._content()}) + '\n')
-            os.replace(fresh, folder / 'metadata.yaml')
+            with open(fresh, 'w', encoding='utf-8') as stream:
+                stream.write(
+                    yaml_text({'rosbag2_bagfile_information': self._content()}) + '\n')
+                stream.flush()
+                if fsync:
+                    os.fsync(stream.fileno())
+            os.replace(fresh, folder / METADATA_NAME)
         except OSError:
             fresh.unlink(missing_ok=True)
             raise
 
     def _content(self) -> dict[str, Any]:
-        message_count = sum(topic['message_count'] for topic in self._topics.values())
-        duration = max(self._end - self._begin, 0)
         return {
             'version': VERSION,
             'storage_identifier': 'mcap',
-            'duration': {'nanoseconds': duration},
-            'starting_time': {'nanoseconds_since_epoch': self._begin},
-            'message_count': message_count,
+            **self._all.content(),
             'topics_with_message_count': list(self._topics.values()),
             'compression_format': '',
             'compression_mode': '',
-            'relative_file_paths': [self._file_name],
-            'files': [{
-                'path': self._file_name,
-                'starting_time': {'nanoseconds_since_epoch': self._begin},
-                'duration': {'nanoseconds': duration},
-                'message_count': message_count,
-            }],
+            'relative_file_paths': list(self._files),
+            'files': [{'path': name, **span.content()} for name, span in self._files.items()],
             'custom_data': self._custom_data or None,
             'ros_distro': os.environ.get('ROS_DISTRO', 'jazzy'),
         }

@@ -20,15 +20,24 @@ from collections.abc import Iterator
 from dataclasses import replace
 from functools import cached_property
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any
 
+from cloth_sim_ros.files.echo import cut
+from cloth_sim_ros.files.regular_file import is_folder
 from cloth_sim_ros.recording.bag_topic import BagTopic
 from cloth_sim_ros.recording.bag_topic import RawMessage
 from cloth_sim_ros.recording.broken_mcap import BrokenMcap
+from cloth_sim_ros.recording.cut_off import nothing_flushed
+from cloth_sim_ros.recording.decompression import decompress_file
+from cloth_sim_ros.recording.decompression import decompress_message
+from cloth_sim_ros.recording.indexed_mcap import IndexedMcap
 from cloth_sim_ros.recording.message_decoder import MessageDecoder
-from cloth_sim_ros.recording.storage_files import is_compressed
+from cloth_sim_ros.recording.sqlite_bag import SqliteBag
+from cloth_sim_ros.recording.storage_files import compressed_files
+from cloth_sim_ros.recording.storage_files import compression_of
+from cloth_sim_ros.recording.storage_files import missing_files
 from cloth_sim_ros.recording.storage_files import storage_files
-from cloth_sim_ros.recording.whole_storage import WholeStorage
 from cloth_sim_ros.sim.errors import ClothSimError
 
 
@@ -46,8 +55,10 @@ class BagReader:
     def __init__(self, path: str | Path) -> None:
         """Open the files."""
         self.path = Path(path)
+        self._decompressed: TemporaryDirectory | None = None
+        self._compression = compression_of(self.path) if is_folder(self.path) else 'none'
         self._unread: list[str] = []
-        self._storages = self._open()
+        self._storages: list[Storage] = self._open()
 
     @property
     def problems(self) -> list[str]:
@@ -79,10 +90,7 @@ class BagReader:
         """Return the error of a bag that has none."""
         if not self.problems:
             return ClothSimError(f'{self.path} holds no message: give another recording')
-        return ClothSimError(
-            f'{self.path} holds no message, as it is cut off before the first was on the disk, a '
-            'second after the start of a recording: give another recording, or read it later if '
-            'it is being recorded')
+        return nothing_flushed(self.path, 'holds no message')
 
     def messages(
             self, names: Collection[str] | None = None, *, begin: int | None = None,
@@ -94,7 +102,8 @@ class BagReader:
         :param end: time before which the last one was recorded [ns]; None for the last of all
         """
         for storage in self._storages:
-            yield from storage.messages(names, begin, end)
+            for message in storage.messages(names, begin, end):
+                yield self._plain(message) if self._compression == 'message' else message
 
     def decode(self, message: RawMessage) -> Any:
         """Return the decoded message; ClothSimError when it can't be."""
@@ -104,18 +113,10 @@ class BagReader:
     def _decoder(self) -> MessageDecoder:
         return MessageDecoder(self.topics)
 
-    def _open(self) -> list[WholeStorage | BrokenMcap]:
-        if self.path.is_dir() and is_compressed(self.path):
-            try:
-                return [WholeStorage(self.path)]
-            except Exception as error:
-                raise ClothSimError(
-                    f'{self.path} cannot be read ({error}): decompress it, or record it anew'
-                ) from error
+    def _open(self) -> list['Storage']:
         opened = []
         errors = []
-        files = storage_files(self.path)
-        for file in files:
+        for file in self._files():
             try:
                 opened.append(_storage(file))
             except ClothSimError as error:
@@ -123,18 +124,52 @@ class BagReader:
         if not opened:
             raise errors[0]
         self._unread = [str(error) for error in errors]
+        self._unread += [
+            f'{name} of {self.path} is missing: the other files are read'
+            for name in missing_files(self.path)]
         return opened
 
+    def _files(self) -> list[Path]:
+        if self._compression != 'file':
+            return storage_files(self.path)
+        # It lives as long as this reader: each walk opens the files again.
+        self._decompressed = TemporaryDirectory()
+        found = []
+        for number, file in enumerate(compressed_files(self.path)):
+            found.append(Path(self._decompressed.name) / f'{number}_{file.stem}')
+            try:
+                decompress_file(file, found[-1])
+            except Exception as error:  # of the disk, and of the decompressor
+                raise self._undecompressed(error) from error
+        return found
 
-def _storage(file: Path) -> WholeStorage | BrokenMcap:
-    try:
-        storage = WholeStorage(file)
-    except Exception as error:  # what a broken file raises can be anything
-        if file.suffix == '.mcap':
+    def _plain(self, message: RawMessage) -> RawMessage:
+        try:
+            return message._replace(data=decompress_message(message.data))
+        except Exception as error:  # what a damaged byte raises can be anything
+            raise self._undecompressed(error) from error
+
+    def _undecompressed(self, error: Exception) -> ClothSimError:
+        return ClothSimError(
+            f'{cut(self.path)} cannot be read '
+            f'({cut(error) or type(error).__name__}): decompress it, or record it anew')
+
+
+Storage = IndexedMcap | SqliteBag | BrokenMcap
+
+
+def _storage(file: Path) -> Storage:
+    if file.suffix == '.mcap':
+        try:
+            storage = IndexedMcap(file)
+        except Exception:  # what a broken file raises can be anything
             return BrokenMcap(file)
+        # The index of an mcap file may leave the topics out: they are found on the way.
+        return storage if storage.topics else BrokenMcap(file)
+    try:
+        return SqliteBag(file)
+    except Exception as error:  # what a broken file raises can be anything
         raise ClothSimError(
-            f'{file} is no whole sqlite3 bag ({error or type(error).__name__}): give another '
-            f'one, or save what is left by `sqlite3 {file.name} .recover | sqlite3 whole.db3`'
-        ) from error
-    # The summary of an mcap file may leave the topics out: they are found on the way.
-    return storage if storage.topics or file.suffix != '.mcap' else BrokenMcap(file)
+            f'{cut(file)} is no whole sqlite3 bag '
+            f'({cut(error) or type(error).__name__}): give another one, or save what is '
+            f'left by `sqlite3 {cut(file.name)} .recover | sqlite3 whole.db3`') from error

@@ -17,24 +17,27 @@
 
 from collections import Counter
 from collections.abc import Collection
+from collections.abc import Generator
 from collections.abc import Iterator
 from functools import cached_property
 import math
 from pathlib import Path
 
+from cloth_sim_ros.files.echo import cut
+from cloth_sim_ros.files.regular_file import open_regular
 from cloth_sim_ros.recording.bag_topic import BagTopic
 from cloth_sim_ros.recording.bag_topic import RawMessage
+from cloth_sim_ros.recording.cut_off import nothing_flushed
 from cloth_sim_ros.recording.mcap_channels import McapChannels
+from cloth_sim_ros.recording.mcap_records import chunk_records
+from cloth_sim_ros.recording.mcap_records import MAGIC
+from cloth_sim_ros.recording.mcap_records import read_records
 from cloth_sim_ros.sim.errors import ClothSimError
 from mcap.records import Chunk
 from mcap.records import Footer
 from mcap.records import McapRecord
 from mcap.records import Message
 from mcap.records import MessageIndex
-from mcap.stream_reader import breakup_chunk
-from mcap.stream_reader import StreamReader
-
-MAGIC = b'\x89MCAP0\r\n'
 
 
 class BrokenMcap:
@@ -51,14 +54,16 @@ class BrokenMcap:
         self.path = path
         self.problem = ''
         try:
-            with open(path, 'rb') as stream:
+            with open_regular(path) as stream:
                 begin = stream.read(len(MAGIC))
         except OSError as error:
             raise ClothSimError(
                 f'{path} cannot be opened ({error.strerror}): give a file you may read'
             ) from error
         if not begin:
-            raise ClothSimError(f'{path} is empty: give a recording that was begun')
+            raise nothing_flushed(path, 'is empty')
+        if begin != MAGIC and MAGIC.startswith(begin):
+            raise nothing_flushed(path, f'has {len(begin)} bytes')
         if begin != MAGIC:
             raise ClothSimError(f'{path} is no mcap file: give the folder of a recording')
 
@@ -71,11 +76,12 @@ class BrokenMcap:
         chunk = None
 
         def unpack() -> Counter[int]:
-            records = self._unpacked(chunk) if chunk else []
-            for record in records:
+            found: Counter[int] = Counter()
+            for record in self._unpacked(chunk) if chunk else ():
                 channels.read(record)
-            return Counter(
-                record.channel_id for record in records if isinstance(record, Message))
+                if isinstance(record, Message):
+                    found[record.channel_id] += 1
+            return found
 
         for record in self._records():
             channels.read(record)
@@ -128,10 +134,9 @@ class BrokenMcap:
         """Yield the records, those in chunks too, up to the first that is not whole."""
         for record in self._records():
             if isinstance(record, Chunk):
-                records = self._unpacked(record)
-                if not records:
+                is_whole = yield from self._unpacked(record)
+                if not is_whole:
                     return
-                yield from records
             else:
                 yield record
 
@@ -139,23 +144,30 @@ class BrokenMcap:
         """Yield the records, chunks as they are, up to the first that is not whole."""
         self.problem = ''
         has_end = False
-        with open(self.path, 'rb') as stream:
+        with open_regular(self.path) as stream:
+            end = stream.seek(0, 2)
+            stream.seek(len(MAGIC))
             try:
-                for record in StreamReader(stream, emit_chunks=True).records:
+                for record in read_records(stream, end):
                     has_end = isinstance(record, Footer)
                     yield record
+                    if has_end:
+                        break
+                else:
+                    raise EOFError
             except Exception as error:  # what half a record raises can be anything
                 if not has_end:
                     self._end(error)
 
-    def _unpacked(self, chunk: Chunk) -> list[McapRecord]:
-        """Return what is in ``chunk``; nothing when it is damaged."""
+    def _unpacked(self, chunk: Chunk) -> Generator[McapRecord, None, bool]:
+        """Yield what is in ``chunk``, up to where it is damaged; return whether it is whole."""
         try:
-            return breakup_chunk(chunk, validate_crc=True)
+            yield from chunk_records(chunk)
         except Exception as error:  # what a damaged byte raises can be anything
             self._end(error)
-            return []
+            return False
+        return True
 
     def _end(self, error: Exception) -> None:
-        reason = f' ({error})' if str(error) else ''
+        reason = f' ({cut(error)})' if str(error) else ''
         self.problem = f'{self.path.name} is cut off: read up to its last whole record{reason}'

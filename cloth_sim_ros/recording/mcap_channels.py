@@ -15,16 +15,16 @@
 
 """What the records of an mcap file have said of its topics so far."""
 
+from collections.abc import Collection
 from collections.abc import Mapping
 
 from cloth_sim_ros.recording.bag_topic import BagTopic
+from cloth_sim_ros.recording.recorded_qos import recorded_qos
 from mcap.records import Channel
 from mcap.records import McapRecord
 from mcap.records import Schema
 from rosbags.interfaces import MessageDefinition
 from rosbags.interfaces import MessageDefinitionFormat
-from rosbags.interfaces import Qos
-from rosbags.rosbag2.metadata import parse_qos
 
 _FORMATS = {'ros2msg': MessageDefinitionFormat.MSG, 'ros2idl': MessageDefinitionFormat.IDL}
 
@@ -54,20 +54,19 @@ class McapChannels:
         schema = self._schemas.get(channel.schema_id)
         return channel.topic, schema.name if schema is not None else ''
 
+    def named(self, names: Collection[str] | None) -> dict[int, tuple[str, str]]:
+        """Return topic and type of the channels of the topics ``names``, or of all."""
+        told = {number: self.name(number) for number in self._channels}
+        return {
+            number: pair for number, pair in told.items() if names is None or pair[0] in names}
+
     def topics(self, counts: Mapping[int, int]) -> list[BagTopic]:
         """Return all channels as topics, with the numbers of their messages."""
         return [
             BagTopic(
-                *self.name(number), _qos(channel),
-                counts[number], _definition(self._schemas.get(channel.schema_id)))
+                *self.name(number), recorded_qos(channel.metadata.get('offered_qos_profiles')),
+                counts.get(number, 0), _definition(self._schemas.get(channel.schema_id)))
             for number, channel in self._channels.items()]
-
-
-def _qos(channel: Channel) -> tuple[Qos, ...]:
-    try:
-        return tuple(parse_qos(channel.metadata.get('offered_qos_profiles', '')))
-    except Exception:  # of another writer, in another form: nothing is read by it
-        return ()
 
 
 def _definition(schema: Schema | None) -> MessageDefinition:

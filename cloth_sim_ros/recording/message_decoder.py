@@ -19,21 +19,19 @@ from collections.abc import Iterable
 from functools import lru_cache
 from typing import Any
 
+from cloth_sim_ros.files.echo import cut
 from cloth_sim_ros.recording.bag_topic import BagTopic
 from cloth_sim_ros.recording.bag_topic import RawMessage
+from cloth_sim_ros.recording.checked_definition import parse_definition
 from cloth_sim_ros.sim.errors import ClothSimError
 from rosbags.interfaces import MessageDefinition
 from rosbags.interfaces import MessageDefinitionFormat
-from rosbags.interfaces.typing import Typesdict
 from rosbags.serde import SerdeError
-from rosbags.typesys import get_types_from_idl
-from rosbags.typesys import get_types_from_msg
 from rosbags.typesys import get_typestore
 from rosbags.typesys import Stores
 from rosbags.typesys.store import Typestore
 
 _TOO_LONG = 'size mismatch'
-_IDL_RULE = '=' * 80 + '\n'
 
 
 class MessageDecoder:
@@ -60,8 +58,9 @@ class MessageDecoder:
             return _decoded(self._stores[name], message.data, name)
         except Exception as error:  # what foreign text or a damaged byte raises can be anything
             raise ClothSimError(
-                f'a message of {message.topic} is no {name} ({error or type(error).__name__}): '
-                'give a recording of a cloth_sim node') from error
+                f'a message of {cut(message.topic)} is no {cut(name)} '
+                f'({cut(error) or type(error).__name__}): give a recording of a cloth_sim '
+                'node') from error
 
     def _store(self, name: str) -> Typestore:
         if name in self._definitions:
@@ -92,19 +91,8 @@ def _decoded(store: Typestore, data: bytes | memoryview, name: str) -> Any:
 @lru_cache(maxsize=64)
 def _parsed_store(definition: MessageDefinition, name: str) -> Typestore:
     store = get_typestore(Stores.EMPTY)
-    store.register(_parsed(definition, name))
+    store.register(parse_definition(definition, name))
     return store
-
-
-def _parsed(definition: MessageDefinition, name: str) -> Typesdict:
-    if definition.format is MessageDefinitionFormat.MSG:
-        return get_types_from_msg(definition.data, name)
-    types: Typesdict = {}
-    if not definition.data.startswith(f'{_IDL_RULE}IDL: '):
-        return get_types_from_idl(definition.data)
-    for part in definition.data.split(_IDL_RULE)[1:]:
-        types.update(get_types_from_idl(part.partition('\n')[2]))
-    return types
 
 
 def recorded_type_hash(type_name: str, definition: MessageDefinition) -> str:

@@ -14,6 +14,7 @@
 
 """A recording under way."""
 
+from collections.abc import Callable
 import os
 from pathlib import Path
 from queue import Empty
@@ -23,15 +24,19 @@ import time
 
 from cloth_sim_ros.messages.stamp import nanoseconds
 from cloth_sim_ros.messages.topics import TOPICS
-from cloth_sim_ros.recording.bag_file import BagFile
 from cloth_sim_ros.recording.bag_folder import DIRECTORY_SETTING
 from cloth_sim_ros.recording.bag_folder import make_bag_folder
-from cloth_sim_ros.recording.message_definition import message_definition
-from cloth_sim_ros.recording.message_definition import type_hash
+from cloth_sim_ros.recording.bag_folder import remove_bag_folder
+from cloth_sim_ros.recording.bag_writer import BagWriter
 from cloth_sim_ros.recording.recording_error import RecordingError
-from cloth_sim_ros.sim.errors import ClothSimError
+from cloth_sim_ros.recording.recording_error import RecordingFull
+from cloth_sim_ros.recording.recording_faults import ending
+from cloth_sim_ros.recording.recording_faults import refusal
+from cloth_sim_ros.recording.recording_options import RecordingOptions
+from cloth_sim_ros.recording.topic_channel import topic_channel
 
-FLUSH_PERIOD = 1.0     # wall time [s]
+# Wall time [s]. With what a flush takes, a process that is killed loses less than a second.
+FLUSH_PERIOD = 0.5
 POLL = 2e-3            # of one thread for the other [s]
 MOST_WAITING = 2**28   # bytes not yet written, before the simulation has to wait
 
@@ -47,25 +52,27 @@ class Recorder:
     :param name: of that folder; empty for one made of the date and the time
     :param node_name: with its namespace, for the names of the topics
     :param setting: what ``directory`` was given by, for errors
+    :param options: files, limit and fsync
+    :param on_end: called on another thread when the recording has ended before it was closed
     :raises ClothSimError: when the name leaves ``directory`` or is taken, or it can't be written
     """
 
     def __init__(
             self, directory: str | os.PathLike[str], name: str = '',
-            node_name: str = 'cloth_sim', *, setting: str = DIRECTORY_SETTING) -> None:
+            node_name: str = 'cloth_sim', *, setting: str = DIRECTORY_SETTING,
+            options: RecordingOptions = RecordingOptions(),
+            on_end: Callable[[], None] | None = None) -> None:
         """Open the recording."""
-        for topic in TOPICS.values():
-            if topic.recorded:
-                # Read now, and kept: what is missing is told before anything is recorded.
-                message_definition(topic.type_name)
-                type_hash(topic.type_name)
+        try:
+            # Read now, and kept: what is missing is told before anything is recorded.
+            self._channels = {
+                key: topic_channel(topic, node_name) for key, topic in TOPICS.items()
+                if topic.recorded}
+        except OSError as error:
+            raise refusal(Path(directory), error, setting) from error
         self.path = make_bag_folder(directory, name, setting)
         self._setting = setting
-        try:
-            self._file = BagFile(self.path, node_name)
-        except OSError as error:
-            _remove(self.path)
-            raise ClothSimError(self._reason(error)) from error
+        self._on_end = on_end
         self._queue: SimpleQueue = SimpleQueue()
         # Each is changed by one thread only, so that neither needs a lock.
         self._taken_bytes = 0
@@ -73,7 +80,15 @@ class Recorder:
         self._closed = False
         self._error: RecordingError | None = None
         self._ended = False
-        threading.Thread(target=self._work, name='recorder').start()
+        self._bag: BagWriter | None = None
+        try:
+            self._bag = BagWriter(self.path, options)
+            threading.Thread(target=self._work, name='recorder').start()
+        except (OSError, RuntimeError) as error:
+            if self._bag is not None:
+                self._bag.abandon()
+            remove_bag_folder(self.path)
+            raise refusal(self.path, error, setting) from error
 
     def write(self, key: str, data: bytes, sim_time: float) -> None:
         """
@@ -84,14 +99,23 @@ class Recorder:
         :raises RecordingError: once, when the recording could not go on; after that, nothing is
             recorded
         """
-        self._raise_error()
-        topic = TOPICS[key]
-        if self._closed or not topic.recorded:
+        self.check()
+        if self._closed or not TOPICS[key].recorded:
             return
         while self._taken_bytes - self._written_bytes > MOST_WAITING and not self._ended:
             time.sleep(POLL)
-        self._queue.put((topic, data, nanoseconds(sim_time)))
+        self._queue.put((self._channels[key], data, nanoseconds(sim_time)))
         self._taken_bytes += len(data)
+
+    def check(self) -> None:
+        """
+        Make sure that the recording goes on.
+
+        :raises RecordingError: as ``write`` does, once
+        """
+        error, self._error = self._error, None
+        if error is not None:
+            raise error
 
     def close(self) -> None:
         """
@@ -111,23 +135,29 @@ class Recorder:
                 interrupted = True
         if interrupted:
             raise KeyboardInterrupt
-        self._raise_error()
-
-    def _raise_error(self) -> None:
-        error, self._error = self._error, None
-        if error is not None:
-            raise error
+        self.check()
 
     def _work(self) -> None:
         try:
-            while self._write_for(FLUSH_PERIOD):
-                self._file.flush()
-            self._file.finish()
+            self._record()
         except Exception as error:
             self._closed = True
             self._give_up(error)
         finally:
             self._ended = True
+        if self._error is not None and self._on_end is not None:
+            self._on_end()
+
+    def _record(self) -> None:
+        full = None
+        try:
+            while self._write_for(FLUSH_PERIOD):
+                self._bag.flush()
+        except RecordingFull as error:
+            full = error
+            self._closed = True
+        self._bag.finish()
+        self._error = full
 
     def _write_for(self, period: float) -> bool:
         """Write what comes within ``period`` [s]; return False when it was the last."""
@@ -140,29 +170,13 @@ class Recorder:
                 return threading.main_thread().is_alive()
             if entry is None:
                 return False
-            self._file.write(*entry)
+            self._bag.write(*entry)
             self._written_bytes += len(entry[1])
         return True
 
     def _give_up(self, error: Exception) -> None:
         try:
-            self._file.abandon()
+            self._bag.abandon()
         except OSError:
             pass  # then it ends in half a record, which readers of broken files skip
-        self._error = RecordingError(self._reason(error))
-
-    def _reason(self, error: Exception) -> str:
-        reason = getattr(error, 'strerror', None) or error or type(error).__name__
-        return (
-            f'recording to {self.path} has ended ({reason}): make room, or set {self._setting} to '
-            'another disk, and start a new one')
-
-
-def _remove(folder: Path) -> None:
-    """Remove what was begun in ``folder``, as far as that works."""
-    try:
-        for path in folder.iterdir():
-            path.unlink()
-        folder.rmdir()
-    except OSError:
-        pass
+        self._error = ending(self.path, error, self._setting)

@@ -19,3 +19,7 @@ from cloth_sim_ros.sim.errors import ClothSimError
 
 class RecordingError(ClothSimError):
     """A recording that could not go on; what was flushed before stays readable."""
+
+
+class RecordingFull(RecordingError):
+    """A recording that was completed before it was stopped, as it may not become larger."""

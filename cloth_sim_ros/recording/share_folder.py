@@ -25,9 +25,12 @@ def share_folder(package: str) -> Path:
     """Return the share/ folder of ``package``, from the ament index or beside its Python code."""
     try:
         return Path(get_package_share_directory(package))
-    # Without a sourced ROS the index has no search path at all, which is an OSError.
-    except (KeyError, OSError):
+    except KeyError:
         pass
+    except OSError as error:
+        # Without a sourced ROS the index has no search path at all: an OSError without a number.
+        if error.errno is not None:
+            raise
     code = find_spec(package)
     for prefix in Path(code.origin).parents if code is not None and code.origin else ():
         folder = prefix / 'share' / package

@@ -16,6 +16,7 @@
 
 from typing import Any
 
+from cloth_sim_ros.files.echo import shown
 from cloth_sim_ros.resimulation.listener import Listener
 from cloth_sim_ros.resimulation.recorded_push import parts
 from cloth_sim_ros.resimulation.recorded_push import recorded_push
@@ -95,7 +96,7 @@ class InputReplay:
     def _command(self, message: Any) -> None:
         if message.command not in (RESET, CLEAR_PUSHES):
             raise ClothSimError(
-                f'this version has no command {message.command!r}: it is left out')
+                f'this version has no command {shown(message.command)}: it is left out')
         self.inputs += 1
         self._listener.command(message.command)
         if message.command == RESET:

@@ -23,7 +23,11 @@ class Listener:
     Hears inputs as they are given, and frames, in the order of the recording.
 
     The simulation is at the moment they belong to. To be derived from; does nothing by itself.
+
+    ``problem`` is why what was heard is not kept whole; empty where it is.
     """
+
+    problem = ''
 
     def begin(self) -> None:
         """Hear that all is set that holds at the beginning."""

@@ -32,5 +32,8 @@ def plain_value(value: Any) -> Any:
         return kind(getattr(value, slot))
     if value.type in _ARRAY_SLOTS:
         slot, kind = _ARRAY_SLOTS[value.type]
-        return [kind(part) for part in getattr(value, slot)]
+        try:
+            return [kind(part) for part in getattr(value, slot)]
+        except (TypeError, ValueError):  # of a type that the bag has defined in another way
+            return None
     return None

@@ -19,6 +19,7 @@ from itertools import chain
 from itertools import islice
 from typing import Any
 
+from cloth_sim_ros.analysis.frame import Frame
 from cloth_sim_ros.analysis.recording import Entry
 from cloth_sim_ros.analysis.recording import Recording
 from cloth_sim_ros.resimulation.recorded_scene import RecordedScene
@@ -40,7 +41,7 @@ class RecordedRun:
 
     ``path``, ``name`` and ``node`` are the recording's, ``scene`` has the parameters and the mode,
     ``begin`` is the stamp of the beginning, ``opening`` has the inputs there, ``device`` is the
-    GL_RENDERER or empty.
+    GL_RENDERER or empty, ``shown_size`` are rows and cols of the first cloud, or None.
 
     :raises ClothSimError: when it can't be run again, because it does not begin so
     """
@@ -72,6 +73,7 @@ class RecordedRun:
         self._rest = entries
         states = [entry.message for entry in self._early if entry.key == 'state']
         self.device: str = states[0].device if states else ''
+        self.shown_size = _shown_size(recording)
 
     @property
     def first_cloud(self) -> Any:
@@ -99,6 +101,13 @@ def _up_to_the_first_cloud(
         if last.key != 'points' and _is_at(last, begin):
             early.extend(islice(entries, 1))
     return early
+
+
+def _shown_size(recording: Recording) -> tuple[int, int] | None:
+    """Return rows and cols of the first cloud, whose bytes are there; None without one."""
+    for entry in recording.entries('points'):
+        return Frame.from_points(entry.time, entry.message).records.shape
+    return None
 
 
 def _is_at(entry: Entry, moment: Any) -> bool:

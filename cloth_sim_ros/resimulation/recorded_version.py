@@ -17,8 +17,8 @@
 from collections.abc import Mapping
 from pathlib import Path
 
+from cloth_sim_ros.recording.folder_metadata import folder_metadata
 from cloth_sim_ros.recording.project_version import PACKAGE
-import yaml
 
 
 def recorded_version(path: Path) -> str:
@@ -27,12 +27,7 @@ def recorded_version(path: Path) -> str:
 
     :param path: of its folder or of a file in it
     """
-    file = (path if path.is_dir() else path.parent) / 'metadata.yaml'
-    try:
-        content = yaml.safe_load(file.read_text(encoding='utf-8'))
-    except (OSError, UnicodeDecodeError, yaml.YAMLError):
-        return ''
-    for key in ('rosbag2_bagfile_information', 'custom_data'):
-        content = content.get(key) if isinstance(content, Mapping) else None
-    version = content.get(PACKAGE) if isinstance(content, Mapping) else None
+    folder = path if path.is_dir() else path.parent
+    custom = folder_metadata(folder).get('custom_data')
+    version = custom.get(PACKAGE) if isinstance(custom, Mapping) else None
     return version if isinstance(version, str) else ''

@@ -26,6 +26,7 @@ from cloth_sim_ros.resimulation.input_replay import InputReplay
 from cloth_sim_ros.resimulation.listener import Listener
 from cloth_sim_ros.resimulation.recorded_run import RecordedRun
 from cloth_sim_ros.resimulation.recorded_run import stamp_of
+from cloth_sim_ros.resimulation.rerun_limits import RerunLimits
 from cloth_sim_ros.resimulation.run_start import RunStart
 from cloth_sim_ros.resimulation.run_start import WITHOUT_MEMORY
 from cloth_sim_ros.resimulation.step_clock import StepClock
@@ -62,10 +63,17 @@ class Rerun:
         self._keep_mode = 'mode' in changes
         self.changed = run.scene.changed(scene)
         self._clock = StepClock(recorded['dt'], scene['dt'])
+        begin = self._clock.steps(run.begin)
+        if begin < 0:
+            raise ClothSimError(
+                f'the recording begins at {self._clock.recorded_time(run.begin):.6g} s, before 0: '
+                're-simulate the recording as it was written')
         # What was recorded beyond the stability limit is made again as it was.
+        self._limits = RerunLimits(run, recorded['dt'])
+        self._limits.check_size(scene, changes)
         self.simulation = Simulation(scene, check_stability=bool(self.changed))
         self.start = RunStart(run, recorded, self.simulation)
-        self.start.take_up(self._clock.steps(run.begin))
+        self.start.take_up(begin)
         self.check = FrameCheck()
         self.problem = ''
         self._replay = InputReplay(self.simulation, Listener(), keep_mode=self._keep_mode)
@@ -140,6 +148,7 @@ class Rerun:
                 f'{self._clock.recorded_time(stamp_of(entry.message)):.6g} s after one of '
                 f'{self.simulation.time:.6g} s, without a reset: re-simulate the recording as it '
                 'was written, not one in another order')
+        self._limits.check_step(entry, due * self.simulation.dt, self.simulation.time)
         begin = time.perf_counter()
         try:
             # It ends with a look at the state, so the device has done its work by then.

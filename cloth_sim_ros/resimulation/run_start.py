@@ -120,7 +120,12 @@ class RunStart:
     def _pinned(self) -> np.ndarray:
         pinned = self._simulation.scene.pinned_nodes()
         for entry in self._opening('inputs/pin'):
-            pinned[entry.message.row, entry.message.col] = entry.message.pinned
+            node = entry.message.row, entry.message.col
+            if not all(0 <= place < side for place, side in zip(node, pinned.shape)):
+                raise ClothSimError(
+                    f'the recording begins with a pin at node {node}, and the cloth has '
+                    f'{pinned.shape[0]} x {pinned.shape[1]} nodes: record it anew')
+            pinned[node] = entry.message.pinned
         return pinned
 
     def _pushes_at(self, now: float) -> list[Push]:

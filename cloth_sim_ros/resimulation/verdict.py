@@ -14,6 +14,7 @@
 
 """What is to be said of a run that was made again."""
 
+from cloth_sim_ros.files.echo import shown
 from cloth_sim_ros.resimulation.frame_check import Difference
 from cloth_sim_ros.resimulation.frame_check import FrameCheck
 from cloth_sim_ros.resimulation.rerun import Rerun
@@ -134,7 +135,7 @@ def version_lines(
     :param changes: names given in place of recorded ones
     """
     lines = [
-        f'not recorded, so the default is taken: {field.name} {field.default!r}'
+        f'not recorded, so the default is taken: {field.name} {shown(field.default)}'
         for field in missing if field.name not in changes]
     return lines + [f'recorded, but unknown here and left out: {name}' for name in unknown]
 

@@ -5,6 +5,7 @@
 
 from dataclasses import replace
 
+from cloth_sim_ros.files.echo import shown
 from cloth_sim_ros.gl.context import Context
 from cloth_sim_ros.sim import modes
 from cloth_sim_ros.sim.engine import Engine
@@ -54,7 +55,8 @@ class Engines:
     def check(self, mode: str) -> None:
         """Raise ClothSimError when ``mode`` can't step this scene."""
         if mode not in MODES:
-            raise ClothSimError(f'there is no mode {mode!r}: choose one of {", ".join(MODES)}')
+            raise ClothSimError(
+                f'there is no mode {shown(mode)}: choose one of {", ".join(MODES)}')
         modes.AVAILABLE[mode].check(self._scene, check_stability=self._check_stability)
 
     def use(self, mode: str) -> None:

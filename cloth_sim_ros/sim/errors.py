@@ -14,9 +14,7 @@
 
 """Errors a user can mend: each says rule, value and way out in one sentence."""
 
-
-class ClothSimError(ValueError):
-    """A request that cannot be carried out; nothing was changed by it."""
+from cloth_sim_ros.files.errors import ClothSimError
 
 
 class NonFiniteStateError(ClothSimError):

@@ -19,8 +19,12 @@ from dataclasses import dataclass
 import math
 from typing import Any
 
+from cloth_sim_ros.files.echo import cut
+from cloth_sim_ros.files.echo import shown
 from cloth_sim_ros.sim.errors import ClothSimError
 
+# Of a list.
+MOST_ELEMENTS = 100_000
 _NAMES = {
     bool: 'true or false', int: 'a whole number', float: 'a number', str: 'a word',
 }
@@ -62,31 +66,34 @@ class Field:
             return self._check_one(value)
         if isinstance(value, str) or not isinstance(value, Sequence):
             raise ClothSimError(
-                f'{self.name} must be a list, got {value!r}: write {self._list_with(value)}')
+                f'{self.name} must be a list, got {shown(value)}: write {self._list_with(value)}')
+        if len(value) > MOST_ELEMENTS:
+            raise ClothSimError(
+                f'{self.name} has {len(value)} elements: give at most {MOST_ELEMENTS}')
         return tuple(self._check_one(element) for element in value)
 
     def _check_one(self, value: Any) -> Any:
         is_number = isinstance(value, (int, float)) and not isinstance(value, bool)
         if self.kind is float and is_number:
-            value = float(value)
+            value = _as_float(value)
         if self.choices and value not in self.choices:
             raise ClothSimError(
-                f'{self.name} must be one of {", ".join(self.choices)}, got {value!r}')
+                f'{self.name} must be one of {", ".join(self.choices)}, got {shown(value)}')
         if type(value) is not self.kind:
             raise ClothSimError(
-                f'{self.name} must be {_NAMES[self.kind]}, got {value!r}{self._way_out()}')
+                f'{self.name} must be {_NAMES[self.kind]}, got {shown(value)}{self._way_out()}')
         if self.kind is float and not math.isfinite(value):
-            raise ClothSimError(f'{self.name} must be finite, got {value}{self._way_out()}')
+            raise ClothSimError(f'{self.name} must be finite, got {shown(value)}{self._way_out()}')
         too_low = self.low is not None and value < self.low
         too_high = self.high is not None and value > self.high
         if too_low or too_high:
             raise ClothSimError(
-                f'{self.name} {value} is outside its range{self._way_out()}')
+                f'{self.name} {shown(value)} is outside its range{self._way_out()}')
         return value
 
     def _list_with(self, value: Any) -> str:
         if self.kind is str and isinstance(value, str):
-            return f'["{value}"]'
+            return f'["{cut(value)}"]'
         return f'[...], as in {list(self.default)}' if self.default else '[...]'
 
     def _way_out(self) -> str:
@@ -96,3 +103,10 @@ class Field:
         if self.low is not None and self.high is not None:
             return f': give a value from {self.low:g} to {self.high:g}{unit}'
         return f': give a value in {self.unit}' if self.unit else ''
+
+
+def _as_float(number: int | float) -> float:
+    try:
+        return float(number)
+    except OverflowError:
+        return math.inf if number > 0 else -math.inf

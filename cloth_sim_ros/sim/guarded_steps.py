@@ -104,7 +104,8 @@ class GuardedSteps:
         for number in range(first, first + count):
             try:
                 yield from _in_pieces(step(number), is_due)
-            except GeneratorExit:
+            except BaseException:
+                # Closed, interrupted, or the device has failed: no half step is left behind.
                 _go_back(parts, kept, mode)
                 raise
             substeps += mode.substeps

@@ -120,7 +120,12 @@ def choose_layout(scene: Scene, context: Context) -> Layout:
         block = block or (_SOFTWARE_BLOCK if context.is_software else _GPU_BLOCK)
         local = (8, 4) if context.is_software else (16, 8)
     if loads == 'auto':
-        loads = 'texture' if context.is_software else 'storage'
+        has_textures = context.is_software and context.max_texture_texels > 0
+        loads = 'texture' if has_textures else 'storage'
+    if loads == 'texture' and not context.max_texture_texels:
+        raise DeviceError(
+            f'loads: texture needs texture buffers, which {context.device} lacks: set loads: '
+            'storage, or auto')
     layout = Layout(scene.rows, scene.cols, kind, loads == 'texture', block, local)
     _refuse_too_large(layout, context)
     return layout

@@ -20,6 +20,7 @@ from dataclasses import dataclass
 import math
 
 from cloth_sim_ros.sim.errors import ClothSimError
+from cloth_sim_ros.sim.pin_move import FARTHEST
 from cloth_sim_ros.sim.scene import Scene
 import numpy as np
 
@@ -52,7 +53,12 @@ def nearest(
     :raises ClothSimError: when the point is none, no node is pinned, or the node is too far away
     """
     if len(point) != 3 or not all(math.isfinite(part) for part in point):
-        raise ClothSimError(f'a point needs 3 finite numbers [m], got {tuple(point)}')
+        raise ClothSimError(
+            f'a point needs 3 finite numbers [m], got {tuple(point)}: give x, y and z')
+    if max(map(abs, point)) > FARTHEST:
+        raise ClothSimError(
+            f'a point is at most {FARTHEST:g} m from the origin along each axis, got '
+            f'{tuple(point)}: give it in metres')
     if max_distance is None:
         max_distance = usual_reach(scene)
     if not max_distance > 0.0:

@@ -22,8 +22,8 @@ import math
 from cloth_sim_ros.sim.errors import ClothSimError
 
 # Farther out float32 holds no cloth any more.
-_FARTHEST = 1e6
-_FASTEST = 1e6
+FARTHEST = 1e6
+_SLOWEST, _FASTEST = 1e-6, 1e6
 
 
 @dataclass(frozen=True)
@@ -52,14 +52,14 @@ class PinMove:
         if len(target) != 3 or not all(math.isfinite(part) for part in target):
             raise ClothSimError(
                 'the target of a pin must be 3 finite numbers [m], '
-                f'got {[float(part) for part in target]}')
-        if max(map(abs, target)) > _FARTHEST:
+                f'got {[float(part) for part in target]}: give x, y and z')
+        if max(map(abs, target)) > FARTHEST:
             raise ClothSimError(
-                f'the target of a pin is at most {_FARTHEST:g} m along each axis, '
+                f'the target of a pin is at most {FARTHEST:g} m along each axis, '
                 f'got {[float(part) for part in target]}: keep the cloth near the origin')
-        if not 0.0 < speed <= _FASTEST:
+        if not _SLOWEST <= speed <= _FASTEST:
             raise ClothSimError(
-                f'the speed of a pin must be above 0 and at most {_FASTEST:g} m/s, '
+                f'the speed of a pin is from {_SLOWEST:g} to {_FASTEST:g} m/s, '
                 f'got {speed} m/s: give it in simulated time')
         return cls(row, col, tuple(float(part) for part in target), float(speed), float(start))
 

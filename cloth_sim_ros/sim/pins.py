@@ -17,6 +17,7 @@
 from collections.abc import Sequence
 import re
 
+from cloth_sim_ros.files.echo import shown
 from cloth_sim_ros.sim.errors import ClothSimError
 import numpy as np
 
@@ -45,14 +46,14 @@ def pinned_nodes(
     """
     pinned = np.zeros((rows, cols), dtype=bool)
     for name in names:
-        node = re.fullmatch(r'\s*(\d+)\s*,\s*(\d+)\s*', name)
+        node = re.fullmatch(r'\s*(\d{1,9})\s*,\s*(\d{1,9})\s*', name)
         if node:
             row, col = int(node[1]), int(node[2])
             check_node(row, col, rows, cols)
             pinned[row, col] = True
         elif name not in _REGIONS:
             raise ClothSimError(
-                f'{parameter} has {name!r}: give {PIN_NAMES}')
+                f'{parameter} has {shown(name)}: give {PIN_NAMES}')
         elif name != 'none':
             pinned[_REGIONS[name]] = True
     return pinned
@@ -63,7 +64,7 @@ def only_node(name: str, rows: int, cols: int, parameter: str) -> tuple[int, int
     nodes = np.argwhere(pinned_nodes([name], rows, cols, parameter)).tolist()
     if len(nodes) != 1:
         raise ClothSimError(
-            f'{parameter} has {name!r}, which is {len(nodes)} nodes: '
+            f'{parameter} has {shown(name)}, which is {len(nodes)} nodes: '
             'give a corner, or a node as "row,col"')
     return tuple(nodes[0])
 

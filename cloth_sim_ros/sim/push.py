@@ -18,12 +18,16 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 import math
 
+from cloth_sim_ros.files.echo import shown
 from cloth_sim_ros.sim.errors import ClothSimError
 import numpy as np
 
 REGIONS = ('all', 'sphere')
-# Forces and accelerations are float32 on the device, which ends at 3e38.
-_MOST = 1e30
+# Forces are float32 on the device, which ends at 3e38 [N].
+_STRONGEST = 1e30
+# What a scene may have as well [m], [s].
+_FARTHEST = 1e6
+_LONGEST = 1e9
 # What a node on the surface of a sphere may lie outside of it, over how far from the origin the
 # sphere reaches: see Push.contains.
 _ROUNDING = 2.0**-23
@@ -56,27 +60,31 @@ class Push:
         """Return a Push, or raise ClothSimError saying which value is wrong."""
         if region not in REGIONS:
             raise ClothSimError(
-                f'a push needs the region {" or ".join(REGIONS)}, got {region!r}')
-        vectors = {'force': force, 'center': center}
-        for name, vector in vectors.items():
+                f'a push needs the region {" or ".join(REGIONS)}, got {shown(region)}: '
+                'leave it empty for all')
+        vectors = {'force': (force, _STRONGEST, 'N'), 'center': (center, _FARTHEST, 'm')}
+        for name, (vector, most, unit) in vectors.items():
             if len(vector) != 3 or not all(math.isfinite(part) for part in vector):
                 raise ClothSimError(
-                    f'the {name} of a push must be 3 finite numbers, '
-                    f'got {[float(part) for part in vector]}')
-            if max(map(abs, vector)) > _MOST:
+                    f'the {name} of a push must be 3 finite numbers [{unit}], '
+                    f'got {[float(part) for part in vector]}: give x, y and z')
+            if max(map(abs, vector)) > most:
                 raise ClothSimError(
-                    f'the {name} of a push is at most {_MOST:g} along each axis, '
-                    f'got {[float(part) for part in vector]}')
-        if not math.isfinite(start) or start < 0.0:
+                    f'the {name} of a push is at most {most:g} {unit} along each axis, '
+                    f'got {[float(part) for part in vector]}: give less')
+        # Written so that what is no number is refused.
+        if not 0.0 <= start <= _LONGEST:
             raise ClothSimError(
-                f'the start of a push must be a finite time, got {start} s: give 0 or more')
-        if not math.isfinite(duration) or duration <= 0.0:
+                f'the start of a push is from 0 to {_LONGEST:g} s, got {start} s: give it in '
+                'simulated seconds')
+        if not 0.0 < duration <= _LONGEST:
             raise ClothSimError(
-                'the duration of a push must be finite and above 0, '
+                f'the duration of a push is above 0 and at most {_LONGEST:g} s, '
                 f'got {duration} s: give it in simulated seconds')
-        if not math.isfinite(radius) or radius < 0.0:
+        if not 0.0 <= radius <= _FARTHEST:
             raise ClothSimError(
-                f'the radius of a push must be finite and not negative, got {radius} m')
+                f'the radius of a push is from 0 to {_FARTHEST:g} m, got {radius} m: give it in '
+                'metres')
         if region == 'sphere' and radius == 0.0:
             raise ClothSimError(
                 'a push on a sphere needs a radius above 0, got 0 m: '

@@ -29,6 +29,8 @@ import numpy as np
 
 # Beyond it a sum of pushes would leave float32.
 _MOST_ACCELERATION = 1e36
+# Each costs time in each substep, and those on a sphere hold their nodes.
+MOST_PUSHES = 1000
 
 
 @dataclass(frozen=True)
@@ -100,8 +102,9 @@ class PushField:
         Take up ``push``; it is spread over the free nodes that are in its region as it begins.
 
         :raises ClothSimError: when it begins now and no free node is there to push, or would be
-            accelerated beyond what the device can hold
+            accelerated beyond what the device can hold; when there are too many
         """
+        self._check_count()
         entry = _Entry(push)
         if push.start <= now:
             self._begin(entry)
@@ -116,6 +119,7 @@ class PushField:
         :param pinned: the nodes that will be pinned by then
         :raises ClothSimError: as ``add`` does, by the present positions
         """
+        self._check_count()
         entry = _Entry(push)
         self._settle(entry, pinned)
         _check(entry)
@@ -210,6 +214,12 @@ class PushField:
         """Give the buffer back."""
         if self._buffer is not None:
             self._buffer.delete()
+
+    def _check_count(self) -> None:
+        if len(self._entries) >= MOST_PUSHES:
+            raise ClothSimError(
+                f'{MOST_PUSHES} pushes act or are to come, and there can be no more: wait for the '
+                'end of one, or clear them')
 
     def _shares(self, begin: float, end: float) -> list[tuple[_Entry, float]]:
         """Begin the pushes that act from ``begin`` to ``end`` [s]; return their parts of it."""

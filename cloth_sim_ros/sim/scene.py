@@ -14,10 +14,14 @@
 
 """What is modelled: the static description of a cloth, read from parameters."""
 
+from collections.abc import Iterable
 from collections.abc import Mapping
 import difflib
 from typing import Any
 
+from cloth_sim_ros.files.echo import cut
+from cloth_sim_ros.files.echo import MOST_SHOWN
+from cloth_sim_ros.files.echo import shown
 from cloth_sim_ros.sim import grid
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.field import Field
@@ -153,7 +157,7 @@ class Scene:
             row, col = only_node(name, self.rows, self.cols, 'pin_moves.node')
             if not pinned[row, col]:
                 raise ClothSimError(
-                    f'pin_moves.node has {name!r}, which is not pinned: add it to pins')
+                    f'pin_moves.node has {shown(name)}, which is not pinned: add it to pins')
             moves.append(
                 PinMove.checked(row=row, col=col, target=target, speed=speed, start=start))
         return tuple(moves)
@@ -172,17 +176,18 @@ class Scene:
         return [flat[i * width:(i + 1) * width] for i in range(count)]
 
 
-def refuse_unknown(given: Mapping[str, Any], fields: tuple[Field, ...]) -> None:
-    """Raise ClothSimError when ``given`` has a name that ``fields`` lacks."""
+def refuse_unknown(given: Iterable[str], fields: tuple[Field, ...]) -> None:
+    """Raise ClothSimError when ``fields`` lacks one of the names ``given``."""
     known = [field.name for field in fields]
     for name in given:
         if name not in known:
-            raise ClothSimError(f'there is no parameter {name}: {_hint(name, known)}')
+            raise ClothSimError(f'there is no parameter {cut(name)}: {_hint(name, known)}')
 
 
 def _hint(name: str, known: list[str]) -> str:
     groups = sorted({each.partition('.')[0] for each in known if '.' in each})
-    close = difflib.get_close_matches(name, known + groups, n=1)
+    # What is longer than what is shown is like nothing, which takes long to find.
+    close = difflib.get_close_matches(name[:MOST_SHOWN], known + groups, n=1)
     if not close:
         return 'see the parameter table in README.md'
     if close[0] in known:

@@ -16,62 +16,48 @@
 
 from collections.abc import Mapping
 from pathlib import Path
-import re
 from typing import Any
 
+from cloth_sim_ros.files.checked_yaml import load_yaml
+from cloth_sim_ros.files.echo import cut
 from cloth_sim_ros.sim.errors import ClothSimError
-import yaml
-
-
-class _RosLoader(yaml.SafeLoader):
-    """Reads numbers as ROS does: 1e6 is one, which YAML 1.1 takes for a word."""
-
-
-_RosLoader.add_implicit_resolver(
-    'tag:yaml.org,2002:float',
-    re.compile(r'^[-+]?(\d+\.?\d*|\.\d+)[eE][-+]?\d+$'), list('-+.0123456789'))
-
-
-def parse_value(text: str) -> Any:
-    """Return the value ``text`` has in a parameter file; yaml.YAMLError when it has none."""
-    return yaml.load(text, Loader=_RosLoader)
-
-
-def load_yaml(path: str | Path) -> Any:
-    """Return what the YAML file at ``path`` holds; ClothSimError when it can't be read."""
-    try:
-        return parse_value(Path(path).read_text(encoding='utf-8'))
-    except (OSError, UnicodeDecodeError) as error:
-        raise ClothSimError(f'{path} cannot be read: {error}') from error
-    except yaml.YAMLError as error:
-        raise ClothSimError(f'{path} is not valid YAML: {error}') from error
 
 
 def load_parameters(path: str | Path) -> dict[str, Any]:
     """
     Return the parameters of a ROS parameter YAML as dotted names and values.
 
-    Every node section of the file is taken, later ones over earlier ones.
+    Every node section of the file is taken, later ones over earlier ones; within one, each
+    parameter stands once.
 
     :raises ClothSimError: when the file can't be read or is no parameter file
     """
     document = load_yaml(path)
     if not isinstance(document, Mapping):
-        raise ClothSimError(f'{path} holds no parameters: write "/**: {{ros__parameters: ...}}"')
+        raise ClothSimError(
+            f'{cut(path)} holds no parameters: write "/**: {{ros__parameters: ...}}"')
     parameters: dict[str, Any] = {}
     for section in document.values():
         if not isinstance(section, Mapping) or not isinstance(
                 section.get('ros__parameters'), Mapping):
             raise ClothSimError(
-                f'{path} has a section without ros__parameters: '
+                f'{cut(path)} has a section without ros__parameters: '
                 'write "/**: {ros__parameters: ...}"')
-        _flatten(section['ros__parameters'], '', parameters)
+        names: dict[str, Any] = {}
+        _flatten(section['ros__parameters'], '', names, path)
+        parameters.update(names)
     return parameters
 
 
-def _flatten(tree: Mapping[str, Any], prefix: str, into: dict[str, Any]) -> None:
+def _flatten(
+        tree: Mapping[str, Any], prefix: str, into: dict[str, Any], path: str | Path) -> None:
     for key, value in tree.items():
+        name = f'{prefix}{key}'
         if isinstance(value, Mapping):
-            _flatten(value, f'{prefix}{key}.', into)
+            _flatten(value, f'{name}.', into, path)
+        elif name in into:
+            raise ClothSimError(
+                f'{path} has the parameter {cut(name)} twice, nested and with a dot: '
+                'keep one')
         else:
-            into[f'{prefix}{key}'] = value
+            into[name] = value

@@ -14,6 +14,10 @@ from cloth_sim_ros.sim.errors import NonFiniteStateError
 MakeSteps = Callable[[int, int], Iterator[None]]
 
 
+# Seconds are an int32 in a stamp of ROS, and changes are stamped with the end of a step [s].
+LATEST = 2**31 - 2
+
+
 class Stepping:
     """
     Count steps of dt towards an aim, and hold changes back while one is under way.
@@ -57,20 +61,23 @@ class Stepping:
         """Go on for ``seconds`` more; what is no whole dt is carried over."""
         if not math.isfinite(seconds) or seconds < 0.0:
             raise ClothSimError(f'cannot advance by {seconds} s: give a time of 0 s or more')
-        self._target += seconds
+        carried = self._carried + seconds
         # The small share keeps a sum of frame times from falling just short of a step.
-        self._goal = math.floor(self._target / self._dt + 1e-6)
+        count = math.floor(carried / self._dt + 1e-6)
+        self._aim_at(self._goal + count)
+        # Only what is left over is summed: a sum of all times would lose its last digits.
+        self._carried = carried - count * self._dt
 
     def aim_steps(self, count: int) -> None:
         """Make ``count`` steps of dt from now on."""
         if count < 0:
             raise ClothSimError(f'cannot make {count} steps: give 0 or more')
-        self._goal = self.steps + count
-        self._target = self._goal * self._dt
+        self._aim_at(self.steps + count)
+        self._carried = 0.0
 
     def drop_aim(self) -> None:
         """Let the aim be where the run is."""
-        self._goal, self._target = self.steps, self.time
+        self._goal, self._carried = self.steps, 0.0
 
     def run(self, make_steps: MakeSteps) -> Iterator[None]:
         """Make steps towards the aim; yield where ``make_steps`` does, within a step."""
@@ -83,6 +90,9 @@ class Stepping:
             self.steps = error.steps
             self.drop_aim()
             self._make_edits()
+            raise
+        except Exception:
+            self.drop_aim()
             raise
         finally:
             pieces.close()
@@ -106,6 +116,13 @@ class Stepping:
         if self.is_mid_step:
             raise RuntimeError(
                 f'{name} needs the step under way to end: go on with its work, or close it')
+
+    def _aim_at(self, goal: int) -> None:
+        if goal * self._dt > LATEST:
+            raise ClothSimError(
+                f'simulated time ends at {LATEST} s, as stamps of ROS do, and the run would come '
+                f'to {goal * self._dt:.10g} s: reset it, which begins at 0 again')
+        self._goal = goal
 
     def _make_edits(self) -> None:
         self.is_mid_step = False

@@ -31,6 +31,8 @@ import tempfile
 import time
 from typing import Any
 
+from cloth_sim_ros.files.echo import MOST_SHOWN
+from cloth_sim_ros.files.echo import shown
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.scene_fields import MODES
 import numpy as np
@@ -136,7 +138,7 @@ class RunningNode:
                 self._log.seek(0)
                 raise ClothSimError(
                     f'the node did not do what was waited for within {_PATIENCE:g} s: it said '
-                    f'{self._log.read().strip()!r}')
+                    f'{shown(self._log.read().strip()[-MOST_SHOWN:])}')
 
     def call(self, kind: type, service: str, **fields: Any) -> Any:
         """Send a request and return its future."""

@@ -22,6 +22,8 @@ import tempfile
 import time
 from typing import Any
 
+from cloth_sim_ros.files.echo import MOST_SHOWN
+from cloth_sim_ros.files.echo import shown
 from cloth_sim_ros.sim.errors import ClothSimError
 import rclpy
 from sensor_msgs.msg import PointCloud2
@@ -64,5 +66,5 @@ def time_to_first_cloud(
         log.seek(0)
         raise ClothSimError(
             f'no cloud came from a node with {parameter_file} within {timeout:g} s: it said '
-            f'{log.read().strip()!r}')
+            f'{shown(log.read().strip()[-MOST_SHOWN:])}')
     return seen[0] - begin

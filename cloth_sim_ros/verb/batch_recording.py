@@ -26,6 +26,9 @@ from cloth_sim_ros.messages.wrenches import too_many_pins
 from cloth_sim_ros.messages.wrenches import WrenchMessages
 from cloth_sim_ros.node.opening import write_opening
 from cloth_sim_ros.node.recording_session import RecordingSession
+from cloth_sim_ros.recording.recording_error import RecordingError
+from cloth_sim_ros.recording.recording_error import RecordingFull
+from cloth_sim_ros.recording.recording_options import RecordingOptions
 from cloth_sim_ros.sim.simulation import Simulation
 import numpy as np
 from rclpy.serialization import serialize_message
@@ -34,6 +37,9 @@ from rclpy.serialization import serialize_message
 class BatchRecording:
     """
     A recording of points, stats, pins and inputs.
+
+    ``problem`` says why it is not whole; it is empty when it is, or when it was completed at the
+    size that was asked for.
 
     :param directory: folder that the recording's own folder is made in
     :param node_name: for the names of the topics, with its namespace
@@ -52,7 +58,10 @@ class BatchRecording:
             simulation.scene.rows, simulation.scene.cols, self._frame_id)
         self._pin_frames = PinFrames(node_name, self._frame_id)
         self._wrenches = WrenchMessages(node_name)
-        self._session = RecordingSession(directory, node_name, self._say, setting)
+        self.problem = ''
+        self._session = RecordingSession(
+            directory, node_name, self._on_lost, setting,
+            options=RecordingOptions.from_values(node_values))
         self.path = self._session.start(node_values['recording.name'])
         values = {**simulation.scene.values, **node_values}
         write_opening(self._session, simulation, values, f'/{node_name.strip("/")}')
@@ -67,18 +76,21 @@ class BatchRecording:
 
     def write(self, step_wall_time: float, real_time_factor: float) -> None:
         """Write the present instant."""
+        if not self._session.active:
+            return
         snapshot = self._simulation.snapshot(pin_forces=self._has_wrenches)
         stats = stats_message(
             snapshot, self._frame_id, step_wall_time=step_wall_time,
             real_time_factor=real_time_factor)
         self._session.write('points', self._points.serialise(snapshot), snapshot.time)
+        # Not at the end: an interrupt may come in between.
+        self._recorded = snapshot.time
         self._session.write('stats', serialize_message(stats), snapshot.time)
         if self._has_pin_frames and self._simulation.pinned_nodes().any():
             self._session.write('tf', self._pin_frames.serialise(snapshot), snapshot.time)
         if self._has_wrenches:
             for data in self._wrenches.serialise(snapshot):
                 self._session.write('pins/wrenches', data, snapshot.time)
-        self._recorded = snapshot.time
 
     def send_message(self, key: str, message: Any, sim_time: float) -> None:
         """Write ``message`` of the topic ``key`` at ``sim_time`` [s], as a node's outlet does."""
@@ -93,23 +105,33 @@ class BatchRecording:
         self._write_state(ClothState.STOPPED)
 
     def close(self) -> None:
-        """Finish the recording."""
-        self._session.close()
+        """Finish the recording; where that fails, ``problem`` says so."""
+        try:
+            self._session.close()
+        except RecordingError as error:
+            self._on_lost(error)
 
     def close_interrupted(self) -> None:
         """Finish the recording of a run that was interrupted, and say how far it goes."""
+        is_whole = self._session.active
         try:
             self.close()
         finally:
-            print(
-                f'cloth_sim {self._verb}: interrupted; the recording {self.path} is complete up '
-                f'to {self._recorded:.6g} s', file=sys.stderr)
+            if is_whole and not self.problem:
+                print(
+                    f'cloth_sim {self._verb}: interrupted; the recording {self.path} is complete '
+                    f'up to {self._recorded:.6g} s', file=sys.stderr)
 
     def _write_state(self, run_state: str) -> None:
         state = state_of(
             self._simulation, frame_id=self._frame_id, run_state=run_state,
             recording_path=self.path)
         self._session.write('state', serialize_message(state), self._simulation.time)
+
+    def _on_lost(self, error: RecordingError) -> None:
+        if not isinstance(error, RecordingFull):
+            self.problem = str(error)
+        print(f'cloth_sim {self._verb}: {error}', file=sys.stderr)
 
     def _say(self, reason: str) -> None:
         print(f'cloth_sim {self._verb}: {reason}')

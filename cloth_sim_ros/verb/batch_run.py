@@ -62,6 +62,11 @@ class BatchRun:
         """Folder of the recording; empty when there is none."""
         return self._recording.path if self._recording else ''
 
+    @property
+    def recording_problem(self) -> str:
+        """Why the recording does not hold the run; empty when it does."""
+        return self._recording.problem if self._recording else ''
+
     def advance(self, seconds: float) -> None:
         """
         Simulate the whole steps of dt in ``seconds``; stop early at the last finite state.

@@ -24,7 +24,9 @@ from argparse import RawDescriptionHelpFormatter
 from collections.abc import Sequence
 from importlib import import_module
 import sys
+from typing import NoReturn
 
+from cloth_sim_ros.files.echo import cut
 from cloth_sim_ros.gl.errors import DeviceError
 from cloth_sim_ros.node.missing_module import way_out
 from cloth_sim_ros.sim.errors import ClothSimError
@@ -44,6 +46,7 @@ VERBS = {
     'record': 'start or stop a recording of a running node',
     'status': 'show what a running node is doing',
     'info': 'tell what a recording holds',
+    'recover': 'make a recording that was cut off whole for other tools',
     'analyze': 'analyse recordings: table, CSV, JSON and plots',
     'render': 'draw the cloth of recordings, as a sheet of pictures or a video',
     'play': 'publish a recording again',
@@ -51,9 +54,19 @@ VERBS = {
     'paper': 'make Fig. 10 and 11 of the paper',
     'study': 'measure error against cost, and where a scene stops being stable',
 }
+_MOST_TOLD = 500
 # 128 and the number of the signal, as shells have it.
 INTERRUPTED = 130
 TERMINATED = 143
+_MOST_CHARACTERS = 2000
+
+
+class _Parser(ArgumentParser):
+    """Repeats no more of a command line than is needed to find the mistake."""
+
+    def error(self, message: str) -> NoReturn:
+        """Print usage and ``message``, cut, and exit with code 2."""
+        super().error(cut(message, _MOST_TOLD))
 
 
 def main(argv: Sequence[str] | None = None) -> int:
@@ -64,13 +77,16 @@ def main(argv: Sequence[str] | None = None) -> int:
     name, *rest = arguments
     try:
         verb = import_module(f'cloth_sim_ros.verb.{name}')
-        parser = ArgumentParser(
+        parser = _Parser(
             prog=f'cloth_sim {name}', description=verb.__doc__,
             formatter_class=RawDescriptionHelpFormatter)
         verb.add_arguments(parser)
         with raise_on_sigterm():
             return verb.main(parser.parse_args(rest))
-    except (ClothSimError, DeviceError) as error:
+    except ClothSimError as error:
+        # It may repeat what a file holds: no line breaks, and nothing that a terminal acts upon.
+        problem = cut(error, _MOST_CHARACTERS)
+    except DeviceError as error:
         problem = str(error)
     except ImportError as error:
         problem = way_out(error)
@@ -84,7 +100,7 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 def _no_verb(arguments: list[str]) -> int:
     verbs = '\n'.join(f'  {name:10} {text}' for name, text in VERBS.items())
-    parser = ArgumentParser(
+    parser = _Parser(
         prog='cloth_sim', usage='cloth_sim VERB ...', formatter_class=RawDescriptionHelpFormatter,
         description=f'Simulate cloth, and talk to a running cloth_sim_node.\n\nverbs:\n{verbs}',
         epilog='cloth_sim VERB --help tells more about a verb.')

@@ -21,14 +21,20 @@ import time
 from typing import Any
 
 from cloth_sim_interfaces.srv import SetMode
+from cloth_sim_ros.files.echo import cut
+from cloth_sim_ros.files.echo import shown
 from cloth_sim_ros.node.interfaces import check_interfaces
+from cloth_sim_ros.node.ros_refusal import no_node
 from cloth_sim_ros.sim.errors import ClothSimError
 import rclpy
+from rclpy._rclpy_pybind11 import RCLError
 from rclpy.client import Client
 from rclpy.context import Context
+from rclpy.exceptions import InvalidTopicNameException
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.qos import QoSProfile
+from rclpy.validate_full_topic_name import validate_full_topic_name
 
 _LOOK_AGAIN = 0.05
 _SETTLE = 0.1
@@ -46,14 +52,23 @@ class NodeClient:
     def __init__(self, node: str, timeout: float) -> None:
         """Join the graph."""
         self._target = f'/{node.lstrip("/")}'
+        try:
+            validate_full_topic_name(self._target)
+        except InvalidTopicNameException as error:
+            raise ClothSimError(
+                f'{shown(node)} is no name of a node: give its name with its namespace by --node, '
+                'as in left/cloth_sim') from error
         self._timeout = timeout
         check_interfaces()
         # In a context of its own, rclpy leaves the signals alone: Ctrl-C works as in any command.
         self._context = Context()
-        rclpy.init(args=[], context=self._context)
-        self._node = Node(
-            f'cloth_sim_verb_{os.getpid()}', context=self._context,
-            start_parameter_services=False, enable_rosout=False)
+        try:
+            rclpy.init(args=[], context=self._context)
+            self._node = Node(
+                f'cloth_sim_verb_{os.getpid()}', context=self._context,
+                start_parameter_services=False, enable_rosout=False)
+        except RCLError as error:
+            raise no_node(error) from error
         self._executor = SingleThreadedExecutor(context=self._context)
         self._executor.add_node(self._node)
         self._clients: dict[str, Client] = {}
@@ -88,7 +103,7 @@ class NodeClient:
                 waiting = ''
             if patient and client.service_is_ready():
                 deadline = time.monotonic() + self._timeout
-            self._wait(deadline, f'{self._target}/{name} does not answer')
+            self._wait(deadline, f'{cut(self._target)}/{name} does not answer')
         response = future.result()
         if not response.success:
             raise ClothSimError(response.message)
@@ -113,14 +128,14 @@ class NodeClient:
                     self._node.destroy_subscription(subscription)
                     return message
                 deadline = time.monotonic() + self._timeout
-            self._wait(deadline, f'nothing comes on {self._target}/{name}')
+            self._wait(deadline, f'nothing comes on {cut(self._target)}/{name}')
 
     def _client(self, kind: type, name: str) -> Client:
         if name not in self._clients:
             client = self._node.create_client(kind, f'{self._target}/{name}')
             deadline = time.monotonic() + self._timeout
             while not client.service_is_ready():
-                self._wait(deadline, f'no node offers {self._target}/{name}')
+                self._wait(deadline, f'no node offers {cut(self._target)}/{name}')
             # The node has to learn of this client, too, or its answer gets lost.
             self._executor.spin_once(timeout_sec=_SETTLE)
             self._clients[name] = client

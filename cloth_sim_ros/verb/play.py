@@ -73,9 +73,11 @@ def add_arguments(parser: ArgumentParser) -> None:
 
 def main(args: Namespace) -> int:
     """Play, and say how it went."""
-    use_profile()
     with StopSignals() as signals, PlayProgress() as progress:
         bag = BagReader(args.recording)
+        largest = _largest_message(bag)
+        if warning := use_profile(largest).warning(largest):
+            progress.warn(warning)
         options = _options(args, bag)
         clock = PlayClock(options.rate)
         with PlayerNode(clock) as node:
@@ -89,6 +91,12 @@ def main(args: Namespace) -> int:
     for problem in [*problems, *bag.problems]:
         print(f'cloth_sim play: {problem}', file=sys.stderr)
     return 0
+
+
+def _largest_message(bag: BagReader) -> int:
+    """Return the size of the largest first message of a topic [bytes]: those of one are alike."""
+    firsts = (next(bag.messages([topic.name]), None) for topic in bag.topics if topic.count)
+    return max((len(message.data) for message in firsts if message), default=0)
 
 
 def _options(args: Namespace, bag: BagReader) -> PlayOptions:

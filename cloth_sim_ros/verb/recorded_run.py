@@ -26,7 +26,7 @@ def record_run(
         scene: Scene, node_values: dict[str, Any], seconds: float, directory: str | Path,
         name: str, *, check_stability: bool = True, setting: str = '--out') -> str:
     """
-    Simulate ``seconds`` into ``directory``/``name``; return why it stopped early, or ''.
+    Simulate ``seconds`` into ``directory``/``name``; return why either stopped early, or ''.
 
     :param check_stability: False lets dt pass the stability limit
     :param setting: what ``directory`` was given by, for errors
@@ -37,6 +37,6 @@ def record_run(
         run = BatchRun(
             simulation, {**node_values, 'recording.name': name}, str(directory), setting=setting)
         run.advance(seconds)
-        return run.problem
+        return run.problem or run.recording_problem
     finally:
         simulation.close()

@@ -21,6 +21,7 @@ from argparse import Namespace
 import math
 
 from cloth_sim_ros.analysis.recording import Recording
+from cloth_sim_ros.files.echo import shown
 
 
 def add_recording_arguments(parser: ArgumentParser) -> None:
@@ -50,5 +51,5 @@ def list_of_times(text: str) -> list[float]:
     except ValueError:
         times = [math.nan]
     if not all(math.isfinite(time) for time in times):
-        raise ArgumentTypeError(f'{text!r} is no list of times: write them as in 0.5,1,2')
+        raise ArgumentTypeError(f'{shown(text)} is no list of times: write them as in 0.5,1,2')
     return sorted(times)

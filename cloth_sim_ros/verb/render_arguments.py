@@ -24,6 +24,8 @@ from cloth_sim_ros.analysis.rendering.recording_source import RecordingSource
 from cloth_sim_ros.analysis.rendering.source import Source
 from cloth_sim_ros.analysis.rendering.stage import Style
 from cloth_sim_ros.analysis.rendering.state_source import StateSource
+from cloth_sim_ros.files.echo import cut
+from cloth_sim_ros.files.echo import shown
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.verb.recording_arguments import add_node_argument
 
@@ -96,8 +98,8 @@ def pixels(text: str) -> tuple[int, int]:
     try:
         width, height = (int(part) for part in text.split('x'))
     except ValueError as error:
-        raise ArgumentTypeError(f'{text!r} is no size: write it as in 640x480') from error
+        raise ArgumentTypeError(f'{shown(text)} is no size: write it as in 640x480') from error
     if not all(_LEAST_SIDE <= side <= _MOST_SIDE for side in (width, height)):
         raise ArgumentTypeError(
-            f'a side must be from {_LEAST_SIDE} to {_MOST_SIDE} pixels, got {text}')
+            f'a side must be from {_LEAST_SIDE} to {_MOST_SIDE} pixels, got {cut(text)}')
     return width, height

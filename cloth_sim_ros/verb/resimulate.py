@@ -91,7 +91,7 @@ def main(args: Namespace) -> int:
             print(f'recorded into {listener.path}')
         if args.compare:
             _compare(run, listener.path, f'{listener.path}_compared' if args.out else None)
-    return int(verdict.is_failure)
+    return int(verdict.is_failure or bool(listener.problem))
 
 
 def _folder(args: Namespace) -> AbstractContextManager[str | None]:
@@ -124,6 +124,8 @@ def _listener(run: RecordedRun, rerun: Rerun, folder: str | None) -> Listener:
     # The ROS packages are needed for a recording alone.
     from cloth_sim_ros.verb.resimulated_recording import ResimulatedRecording
     values = {field.name: run.scene.other(field) for field in NODE_FIELDS}
+    # The run is to be recorded whole, whatever the first recording was limited to.
+    values['recording.max_size'] = 0
     values['recording.name'] = fresh_name(folder, f'{run.name}_again')
     return ResimulatedRecording(rerun.simulation, values, folder, run.node)
 

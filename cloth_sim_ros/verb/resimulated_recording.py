@@ -89,6 +89,11 @@ class ResimulatedRecording(Listener):
         """Write that the run has stopped."""
         self.recording.write_stop()
 
+    @property
+    def problem(self) -> str:
+        """Why the recording does not hold the run; empty when it does."""
+        return self.recording.problem if self.recording is not None else ''
+
     def close(self) -> None:
         """Finish the recording."""
         if self.recording is not None:

@@ -33,6 +33,8 @@ from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.simulation import Simulation
 from cloth_sim_ros.sim.snapshot import Snapshot
 from cloth_sim_ros.verb.batch_run import BatchRun
+from cloth_sim_ros.verb.recording_option_arguments import add_recording_options
+from cloth_sim_ros.verb.recording_option_arguments import recording_changes
 from cloth_sim_ros.verb.scene_arguments import add_scene_arguments
 from cloth_sim_ros.verb.scene_arguments import read_scene
 import numpy as np
@@ -44,6 +46,7 @@ def add_arguments(parser: ArgumentParser) -> None:
     parser.add_argument('--seconds', type=float, default=1.0, metavar='T',
                         help='simulated time (default: %(default)s)')
     parser.add_argument('--record', metavar='DIR', help='write a recording into this folder')
+    add_recording_options(parser)
     parser.add_argument('--out', metavar='STATE.npz',
                         help='write the last positions, velocities, strains, flags and the time')
     parser.add_argument('--json', action='store_true',
@@ -52,6 +55,7 @@ def add_arguments(parser: ArgumentParser) -> None:
 
 def main(args: Namespace) -> int:
     """Run the scene and tell what came out."""
+    args.changes += recording_changes(args)
     scene, node_values = read_scene(args)
     simulation = Simulation(scene)
     run = BatchRun(simulation, node_values, args.record)
@@ -63,8 +67,8 @@ def main(args: Namespace) -> int:
     print(json.dumps(result) if args.json else in_words(result, run.recording_path))
     if run.problem:
         print(f'cloth_sim run: {run.problem}', file=sys.stderr)
-        return 1
-    return 0
+    # That of the recording stands there since it came.
+    return int(bool(run.problem or run.recording_problem))
 
 
 def write_state(path: str, last: Snapshot) -> None:

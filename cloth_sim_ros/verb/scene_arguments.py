@@ -20,14 +20,16 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
+from cloth_sim_ros.files.checked_yaml import parse_yaml
+from cloth_sim_ros.files.echo import cut
+from cloth_sim_ros.files.echo import shown
+from cloth_sim_ros.node.node_fields import check_together
 from cloth_sim_ros.node.node_fields import NODE_FIELDS
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.scene import refuse_unknown
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.scene_fields import SCENE_FIELDS
 from cloth_sim_ros.sim.scene_file import load_parameters
-from cloth_sim_ros.sim.scene_file import parse_value
-import yaml
 
 
 def add_scene_arguments(parser: ArgumentParser) -> None:
@@ -64,6 +66,7 @@ def scene_from(
     refuse_unknown(given, SCENE_FIELDS + NODE_FIELDS)
     node_values = {
         field.name: field.check(given.pop(field.name, field.default)) for field in NODE_FIELDS}
+    check_together(node_values)
     return Scene(given), node_values
 
 
@@ -71,8 +74,5 @@ def parse_change(change: str) -> tuple[str, Any]:
     """Return name and value of ``name=value``; ClothSimError when it is none."""
     name, separator, text = change.partition('=')
     if not separator or not name:
-        raise ClothSimError(f'a change needs name=value, got {change!r}')
-    try:
-        return name.strip(), parse_value(text)
-    except yaml.YAMLError as error:
-        raise ClothSimError(f'{name} has a value that is not YAML: {text!r}') from error
+        raise ClothSimError(f'a change needs name=value, got {shown(change)}')
+    return name.strip(), parse_yaml(text, f'the value of {cut(name)}')

@@ -32,10 +32,11 @@ make_venv() {
   find_python
   [ -n "$python" ] || stop 'no Python 3.10 to 3.14 was found on the PATH: install one'
   [ "$ros_source" != jazzy ] || options=(--system-site-packages)
-  # Out of the way in one go: half a .venv would not be known as one of this script's.
-  rm -rf "$venv.gone"
+  # There and away in one go each: half a .venv would not be known as one of this script's.
+  rm -rf "$venv.gone" "$venv.fresh"
   [ ! -e "$venv" ] || mv "$venv" "$venv.gone"
-  mkdir -p "$stamps"
+  mkdir -p "$venv.fresh/${stamps#"$venv/"}"
+  mv "$venv.fresh" "$venv"
   rm -rf "$venv.gone"
   long_step 'Making the virtual environment' no_words \
     "$python" -m venv "${options[@]}" "$venv"

@@ -42,7 +42,8 @@ def diagnose(snapshot, **changes):
 def test_a_healthy_run_is_ok_in_all_parts():
     """A run would raise an alarm for nothing, or a part would be missing."""
     found = diagnose(make_snapshot(2, 2))
-    assert set(found) == {'GL device', 'real-time factor', 'solver', 'stability', 'recorder'}
+    assert set(found) == {
+        'GL device', 'real-time factor', 'solver', 'stability', 'recorder', 'program'}
     assert {status.level for status in found.values()} == {OK}
     assert {status.hardware_id for status in found.values()} == {'llvmpipe'}
     assert found['GL device'].message == 'llvmpipe'
@@ -67,6 +68,7 @@ def test_a_healthy_run_is_ok_in_all_parts():
     ('stability', ERROR, 'lost at node (1, 2)', {}, {'problem': 'lost at node (1, 2)'}),
     ('recorder', OK, '/bags/a', {}, {'recording_path': '/bags/a'}),
     ('recorder', ERROR, 'disk is full', {}, {'recording_error': 'the disk is full'}),
+    ('program', WARN, '2 unexpected errors', {}, {'faults': 2, 'latest_fault': '~/reset: E'}),
 ])
 def test_what_is_wrong_is_told(part, level, text, state, run):
     """A fault would go unnoticed, or be told without a way out."""

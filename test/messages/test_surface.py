@@ -14,7 +14,9 @@
 
 """Which nodes are drawn."""
 
+from cloth_sim_ros.messages.surface import MOST_DRAWN
 from cloth_sim_ros.messages.surface import Surface
+from cloth_sim_ros.messages.surface import surface_bytes
 from cloth_sim_ros.messages.triangles import triangles
 import numpy as np
 import pytest
@@ -60,3 +62,12 @@ def test_a_chain_is_drawn_node_by_node(rows, cols):
     assert surface.is_chain
     points = surface.points(surface.sample(lattice(rows, cols)))
     np.testing.assert_array_equal(points, lattice(rows, cols).reshape(-1, 3))
+
+
+@pytest.mark.parametrize(('rows', 'cols'), [(1, 300), (300, 1), (3, 4), (300, 20)])
+def test_its_size_is_known_beforehand(rows, cols):
+    """The shared memory would be chosen for messages of another size."""
+    surface = Surface(rows, cols, MOST_DRAWN)
+    points = surface.points(surface.sample(lattice(rows, cols)))
+    colors = surface.colors(surface.sample(np.zeros((rows, cols, 4), np.float32)))
+    assert surface_bytes(rows, cols) == points.nbytes + colors.nbytes

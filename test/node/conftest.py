@@ -23,22 +23,10 @@ from cloth_under_test import NAMESPACE
 from cloth_under_test import PAUSED
 from cloth_under_test import SCENE
 from graph_client import GraphClient
+from graph_fixtures import client  # noqa: F401
+from graph_fixtures import discovery  # noqa: F401
 from node_process import NodeProcess
 import pytest
-import quick_discovery
-
-
-@pytest.fixture(scope='session', autouse=True)
-def discovery() -> Iterator[None]:
-    """Find nodes soon."""
-    yield from quick_discovery.quick_discovery()
-
-
-@pytest.fixture(scope='session')
-def client() -> Iterator[GraphClient]:
-    """Join the graph once."""
-    with GraphClient() as client:
-        yield client
 
 
 @pytest.fixture(scope='session')
@@ -50,7 +38,7 @@ def shared_node(tmp_path_factory: pytest.TempPathFactory) -> Iterator[NodeProces
 
 
 @pytest.fixture(scope='session')
-def shared_cloth(shared_node: NodeProcess, client: GraphClient) -> ClothUnderTest:
+def shared_cloth(shared_node: NodeProcess, client: GraphClient) -> ClothUnderTest:  # noqa: F811
     """Listen to the shared node once."""
     return ClothUnderTest(client, PAUSED)
 

@@ -21,7 +21,10 @@ from xml.etree import ElementTree
 
 from cloth_sim_interfaces.msg import ClothStats
 from cloth_sim_interfaces.srv import Step
-from cloth_sim_ros.node.large_messages import lost_clouds
+from cloth_sim_ros.gl.shared_directory import shared_directory
+from cloth_sim_ros.node.large_messages import cloud_bytes
+from cloth_sim_ros.node.large_messages import frame_bytes
+from cloth_sim_ros.node.large_messages import SharedMemory
 from cloth_sim_ros.node.large_messages import use_profile
 from cloth_sim_ros.node.large_messages import VARIABLE
 from node_process import NodeProcess
@@ -32,6 +35,7 @@ from rclpy.qos import ReliabilityPolicy
 from sensor_msgs.msg import PointCloud2
 from shared_memory import largest_segment
 from std_srvs.srv import SetBool
+from udp_sockets import udp_sockets
 
 MIB = 1 << 20
 LARGE = {
@@ -61,36 +65,38 @@ def test_a_best_effort_subscriber_gets_every_cloud(client, tmp_path, monkeypatch
         client.node.destroy_subscription(subscription)
 
 
-@pytest.mark.parametrize('free, name, mebibytes', [
-    (256 * MIB, 'fastdds_large_messages.xml', 128),
-    (256 * MIB - 1, 'fastdds_large_messages_16_mib.xml', 16),
-    (32 * MIB, 'fastdds_large_messages_16_mib.xml', 16)])
-def test_takes_the_profile_that_fits(free, name, mebibytes):
-    """In a container there would be no shared memory at all: the segment does not fit."""
+@pytest.mark.parametrize('side, free, mebibytes', [
+    (32, 64 * MIB, 1), (35, 64 * MIB, 1), (36, 64 * MIB, 4), (64, 64 * MIB, 4),
+    (128, 64 * MIB, 16),
+    (256, 64 * MIB, 32), (1024, 64 * MIB, 32), (256, 64 * MIB - 1, 16), (256, 32 * MIB - 1, 4),
+    (256, 2 * MIB, 1)])
+def test_takes_the_profile_that_fits(side, free, mebibytes):
+    """A small cloth would hold memory for large ones, or a container have none at all."""
     environment = {}
-    assert use_profile(environment, free) == ''
+    memory = use_profile(frame_bytes(side, side), environment, free)
     file = Path(environment[VARIABLE])
-    assert file.name == name
     segment = ElementTree.parse(file).find('.//{*}segment_size')
-    assert int(segment.text) == mebibytes * MIB
-    assert use_profile(environment, 0) == '', 'once is enough'
+    assert int(segment.text) == memory.segment == mebibytes * MIB
 
 
 def test_the_profiles_differ_in_their_memory_alone():
-    """What is mended in one would be left in the other."""
-    texts = []
-    for free in (256 * MIB, 32 * MIB):
+    """What is mended in one would be left in the others."""
+    texts = set()
+    for side in (1, 64, 128, 256):
         environment = {}
-        use_profile(environment, free)
+        use_profile(frame_bytes(side, side), environment, 64 * MIB)
         root = ElementTree.parse(environment[VARIABLE]).getroot()
-        for name in ('segment_size', 'maxMessageSize'):
-            root.find(f'.//{{*}}{name}').text = ''
-        texts.append(re.sub(r'\s', '', ElementTree.tostring(root, encoding='unicode')))
-    assert texts[0] == texts[1]
+        sizes = [root.find(f'.//{{*}}{name}') for name in ('segment_size', 'maxMessageSize')]
+        # Fast DDS takes no part that is larger than the whole.
+        assert int(sizes[0].text) == 4 * int(sizes[1].text)
+        for size in sizes:
+            size.text = ''
+        texts.add(re.sub(r'\s', '', ElementTree.tostring(root, encoding='unicode')))
+    assert len(texts) == 1
 
 
 @pytest.mark.parametrize('environment, lack', [
-    ({}, '/dev/shm has 31 MiB free and 32 are needed'),
+    ({}, '/dev/shm has 2 MiB free and 64 MiB are needed'),
     ({'RMW_IMPLEMENTATION': 'rmw_cyclonedds_cpp'}, 'rmw_cyclonedds_cpp takes no profile'),
     ({'RMW_IMPLEMENTATION': 'rmw_fastrtps_cpp', VARIABLE: ''}, f'{VARIABLE} is empty'),
     ({VARIABLE: str(quick_discovery.PROFILE)}, 'which has no segment_size'),
@@ -100,18 +106,37 @@ def test_the_profiles_differ_in_their_memory_alone():
 def test_what_the_user_has_chosen_stays(environment, lack):
     """A user's own profile would be replaced, or clouds be lost without a word."""
     given = dict(environment)
-    told = use_profile(environment, 32 * MIB - 1)
+    told = use_profile(frame_bytes(1000, 1000), environment, 2 * MIB - 1).warning(44_000_000)
     assert environment == given
     assert lack in told and bool(lack) == bool(told)
 
 
-@pytest.mark.parametrize('side, lack, told', [
-    (109, 'too little', False), (110, 'too little', True), (1000, '', False)])
-def test_only_large_clouds_are_spoken_of(side, lack, told):
-    """A small cloth would be started with a warning, or a large one without."""
-    text = lost_clouds(side * side, lack)
-    assert bool(text) == told
-    assert not told or '0.53 MB' in text and 'subscribe reliably' in text and lack in text
+def test_a_small_profile_of_the_user_is_told(tmp_path):
+    """Large clouds would be lost though the profile has shared memory."""
+    profile = tmp_path / 'own.xml'
+    profile.write_text('<segment_size> 1000000 </segment_size>')
+    memory = use_profile(1, {VARIABLE: str(profile)})
+    assert memory.segment == 1_000_000
+    assert f'give {profile} a segment_size' in memory.warning(1_000_001)
+    assert memory.warning(1_000_000) == ''
+
+
+@pytest.mark.parametrize('cloud, memory, told', [
+    (524_288, SharedMemory(524_288, 'too little'), ''),
+    (524_289, SharedMemory(524_288, 'too little'), 'subscribe reliably, or mend this: too little'),
+    (1, SharedMemory(524_288, 'too little', is_full=True), 'too little'),
+    (44_000_000, SharedMemory(524_288), '')])
+def test_only_what_matters_is_spoken_of(cloud, memory, told):
+    """A small cloth would be started with a warning, or a large one, or a full disk, without."""
+    assert memory.warning(cloud).endswith(told) and bool(memory.warning(cloud)) == bool(told)
+
+
+@pytest.mark.parametrize('free', [0, 2 * MIB - 1, 16 * MIB])
+def test_a_full_memory_is_told_with_numbers(free):
+    """The profile would be dropped in silence, and the clouds of a large cloth be lost."""
+    told = use_profile(frame_bytes(256, 256), {}, free).warning(cloud_bytes(256**2))
+    assert f'/dev/shm has {free / MIB:.0f} MiB free and 64 MiB are needed' in told
+    assert 'make room, in a container with --shm-size' in told
 
 
 @pytest.mark.parametrize('points', [True, False])
@@ -123,3 +148,15 @@ def test_the_node_warns(points, client, tmp_path):
         client.call(SetBool, f'/warns_{points}/cloth_sim/pause', data=True)
     told = 'a cloud has 0.72 MB and Fast DDS 0.52 MB of shared memory' in node.output
     assert told == points, node.output
+
+
+def test_the_profile_for_one_machine_listens_on_loopback_alone(client, tmp_path):
+    """A host that knows the address would reach a node that was meant for this machine."""
+    profile = shared_directory('config') / 'fastdds_localhost.xml'
+    with NodeProcess(tmp_path, {'rows': 4, 'cols': 4}, '-r', '__ns:=/closed', environment={
+            VARIABLE: str(profile)}) as node:
+        # It serves this machine as ever.
+        assert client.call(SetBool, '/closed/cloth_sim/pause', data=True).success
+        # Sockets that only send have a port from the ephemeral range.
+        listening = [(host, port) for host, port in udp_sockets(node.pid) if port < 32768]
+    assert listening and {host for host, _ in listening} == {'127.0.0.1'}

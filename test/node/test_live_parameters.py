@@ -19,18 +19,19 @@ import pytest
 from rcl_interfaces.srv import GetParameters
 
 BAD = {
-    'negative': ({'real_time_factor': -1.0}, 'out of range'),
-    'no number': ({'real_time_factor': float('nan')}, ''),
-    'infinite': ({'real_time_factor': float('inf')}, 'out of range'),
-    'word for a number': ({'real_time_factor': 'fast'}, 'Wrong parameter type'),
-    'number for a switch': ({'publish.points': 1}, 'Wrong parameter type'),
+    'negative': ({'real_time_factor': -1.0}, 'outside its range: give a value from 0 to'),
+    'no number': ({'real_time_factor': float('nan')}, 'must be finite'),
+    'infinite': ({'real_time_factor': float('inf')}, 'must be finite'),
+    'slower than a timer can wait': ({'real_time_factor': 1e-12}, 'to stand still, pause'),
+    'word for a number': ({'real_time_factor': 'fast'}, 'must be a number'),
+    'number for a switch': ({'publish.points': 1}, 'must be true or false'),
     'no number in a list': ({'clicked_point.force': [0.0, 0.0, float('nan')]}, 'must be finite'),
     'too few components': ({'clicked_point.force': [1.0]}, 'needs 3 components, got 1'),
-    'no radius': ({'clicked_point.radius': 0.0}, 'out of range'),
+    'no radius': ({'clicked_point.radius': 0.0}, 'outside its range'),
     'unknown mode': ({'mode': 'fluid'}, 'must be one of'),
     'good beside bad': (
         {'publish.points': False, 'clicked_point.force': [1.0]}, 'needs 3 components'),
-    'unknown name': ({'no.such.name': 1.0}, 'undeclared parameter'),
+    'unknown name': ({'no.such.name': 1.0}, 'there is no parameter no.such.name'),
 }
 LIVE = [
     'mode', 'real_time_factor', 'publish.points', 'clicked_point.force', 'clicked_point.radius']

@@ -14,6 +14,9 @@
 
 """How the node's command refuses to start: exit code 1 and one line, never a traceback."""
 
+import os
+
+from command import cloth_sim
 from node_process import NodeProcess
 import pytest
 
@@ -99,3 +102,15 @@ def test_says_how_to_get_what_is_missing(module, reason, tmp_path):
         f'import sys; sys.modules["{module}"] = None; '
         'from cloth_sim_ros.node.main import main; sys.exit(main())')
     assert reason in refusal(NodeProcess(tmp_path, start=start))
+
+
+def test_says_what_ros_refuses(tmp_path):
+    """Who secures the graph without keys, or without a ROS for it, would get a traceback."""
+    secured = {
+        'ROS_SECURITY_ENABLE': 'true', 'ROS_SECURITY_STRATEGY': 'Enforce',
+        'ROS_SECURITY_KEYSTORE': str(tmp_path / 'nowhere')}
+    text = refusal(NodeProcess(tmp_path, environment=secured))
+    assert 'ROS makes no node: SECURITY ERROR' in text and 'unset ROS_SECURITY_ENABLE' in text
+    verb = cloth_sim('pause', env={**os.environ, **secured})
+    assert verb.returncode == 1 and len(verb.stderr.splitlines()) == 1
+    assert 'ROS makes no node: SECURITY ERROR' in verb.stderr

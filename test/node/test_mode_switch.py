@@ -77,7 +77,8 @@ def test_a_caller_may_have_the_answer_at_once(cold: ClothUnderTest):
     assert answer.result().success and '~/state' in answer.result().message
     cold.wait_for('state', lambda state: state.preparing == 'adaptive')
     cold.wait_for('state', lambda state: state.mode == 'adaptive')
-    assert cold.call(SetMode, 'set_mode', mode='adaptive', wait=False).message.startswith(
+    # Of the mode that it has, as soon as the step under way is made.
+    assert cold.call(SetMode, 'set_mode', mode='adaptive', wait=True).message.startswith(
         'mode adaptive, was')
 
 

@@ -68,6 +68,7 @@ def test_records_the_published_bytes(cloth):
     bag = record(
         cloth, *[lambda: cloth.call(Step, 'step', steps=4)] * 3)
     recorded = bag.messages('points')
+    cloth.client.spin_until(lambda: len(cloth['points']) >= 4, 'all frames arrive')
     published = [cloth.points_of(cloud) for cloud in cloth['points']]
     assert len(recorded) == len(published) == 4, 'the frame of the start, and one for each step'
     for cloud, points in zip(recorded, published):

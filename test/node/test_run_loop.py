@@ -117,3 +117,22 @@ def test_a_quick_cloth_runs_on(client, tmp_path):
             lambda: not node.running or (
                 stats.messages and stats.messages[-1].steps > 2000 * FRAME), 'the 2000th frame')
         assert node.running, node.output
+
+
+def test_a_run_stops_where_stamps_end(client, tmp_path):
+    """The node would fail at each frame from then on, or leave a step without its answer."""
+    start = (
+        'import sys; import cloth_sim_ros.sim.stepping as stepping; stepping.LATEST = 0.1; '
+        'from cloth_sim_ros.node.main import main; sys.exit(main())')
+    with NodeProcess(tmp_path, SCENE, '-r', '__ns:=/late', start=start) as node:
+        cloth = ClothUnderTest(client, SCENE, '/late/cloth_sim')
+        cloth.wait_for('state', lambda state: state.run_state == 'stopped')
+        assert 'simulated time ends at 0.1 s' in node.output
+        cloth.wait_for('stats', lambda stats: cloth.steps_of(stats) == 20)
+        assert all(cloth.steps_of(stats) <= 20 for stats in cloth['stats'])
+        for _ in range(2):
+            answer = cloth.call(Step, 'step', steps=1)
+            assert not answer.success and 'reset it' in answer.message
+        assert cloth.call(Trigger, 'reset').success
+        assert cloth.call(SetBool, 'pause', data=True).success
+        assert cloth.call(Step, 'step', steps=1).message.startswith('1 steps made')

@@ -20,16 +20,10 @@ from cloth_sim_ros.sim.simulation import Simulation
 from cloth_sim_ros.verb.batch_run import BatchRun
 from cloth_under_test import SCENE
 from graph_client import GraphClient
+from graph_fixtures import discovery  # noqa: F401
 import pytest
-import quick_discovery
 
 SECONDS = 1.0
-
-
-@pytest.fixture(scope='session', autouse=True)
-def discovery():
-    """Find nodes soon."""
-    yield from quick_discovery.quick_discovery()
 
 
 @pytest.fixture(scope='session')

@@ -23,6 +23,7 @@ from cloth_sim_interfaces.msg import ClothStats
 from cloth_sim_ros.messages.topics import TOPICS
 from cloth_sim_ros.recording.bag_reader import BagReader
 from cloth_sim_ros.recording.recorder import Recorder
+from cloth_sim_ros.recording.recording_options import RecordingOptions
 from copied_bag import copy_bag
 from copied_bag import WALL
 from player_process import PlayerProcess
@@ -220,6 +221,25 @@ def test_a_recorded_clock_is_played_and_no_other(client, player, tmp_path):
     assert [message.clock.sec for message in clock] == list(range(100, 120))
 
 
+def test_the_clock_never_goes_back_where_a_split_recording_goes_on(client, player, tmp_path):
+    """Nodes with use_sim_time would forget all that they know at each new file."""
+    recorder = Recorder(
+        tmp_path, 'run', options=RecordingOptions(max_bagfile_duration=1.0))
+    recorder.write('state', serialize_message(ClothState()), 0.0)
+    for number in range(1, 40):
+        stats = ClothStats(steps=number)
+        stats.header.stamp = Time(sec=number // 10, nanosec=number % 10 * 10**8)
+        recorder.write('stats', serialize_message(stats), number / 10)
+    recorder.close()
+    assert len(list(recorder.path.glob('*.mcap'))) == 4
+    clock = listen(client, '/clock', Clock)
+    process = player(recorder.path, '--clock', '--rate', 10)
+    process.resume(client)
+    assert process.wait(client) == 0, process.problems
+    times = [message.clock.sec + 1e-9 * message.clock.nanosec for message in clock]
+    assert times == sorted(times) and len(times) == 39
+
+
 def test_topics_of_the_node_can_get_another_name(bag, client, player):
     """A recording could not be watched beside the node it came from."""
     name = '/replay/cloth_sim/stats'
@@ -235,7 +255,8 @@ def test_topics_of_the_node_can_get_another_name(bag, client, player):
 def test_another_publisher_is_named(bag, client, tmp_path):
     """A user would watch a mixture of two cloths and not know why."""
     publisher = client.node.create_publisher(ClothStats, '/cloth_sim/stats', 10)
-    with PlayerProcess(tmp_path, bag, '--rate', 10) as process:
+    # Long enough for a machine that is busy besides to find it.
+    with PlayerProcess(tmp_path, bag, '--rate', 10, '--delay', 5) as process:
         assert process.wait(client) == 0, process.problems
     assert '/test_client publishes /cloth_sim/stats as well' in process.problems
     assert 'cloth_sim_player publishes' not in process.problems

@@ -18,8 +18,11 @@ from cloth_sim_ros.messages.topics import TOPICS
 from cloth_sim_ros.recording.bag_metadata import BagMetadata
 from cloth_sim_ros.recording.message_definition import type_hash
 from cloth_sim_ros.recording.offered_qos import offered_qos
+from cloth_sim_ros.recording.topic_channel import topic_channel
 import pytest
 import yaml
+
+STATS = topic_channel(TOPICS['stats'], 'cloth_sim')
 
 
 def read(folder):
@@ -31,14 +34,14 @@ def read(folder):
 def metadata():
     """Return the metadata of a bag with one topic, and no messages yet."""
     made = BagMetadata('a_0.mcap')
-    made.add_topic('/cloth_sim/stats', TOPICS['stats'])
+    made.add_topic(STATS)
     return made
 
 
 def test_content_is_that_of_version_9(metadata, tmp_path):
     """Players would refuse the bag, or show other topics and times than it holds."""
     for time in (2_500_000_000, 1_500_000_000, 4_000_000_000):
-        metadata.add_message('/cloth_sim/stats', time)
+        metadata.add_message(STATS, time)
     metadata.write(tmp_path)
     times = {
         'duration': {'nanoseconds': 2_500_000_000},
@@ -76,7 +79,7 @@ def test_an_empty_bag_has_no_time_yet(metadata, tmp_path):
 def test_writing_again_leaves_one_file(metadata, tmp_path):
     """Half a file would be left behind, or the old one kept."""
     metadata.write(tmp_path)
-    metadata.add_message('/cloth_sim/stats', 5)
+    metadata.add_message(STATS, 5)
     metadata.write(tmp_path)
     assert [path.name for path in tmp_path.iterdir()] == ['metadata.yaml']
     assert read(tmp_path)['message_count'] == 1
@@ -86,8 +89,23 @@ def test_a_failed_write_keeps_the_old_file(metadata, tmp_path):
     """A full disk would take the metadata of what is recorded already."""
     metadata.write(tmp_path)
     (tmp_path / 'metadata.yaml.new').symlink_to('/dev/full')
-    metadata.add_message('/cloth_sim/stats', 5)
+    metadata.add_message(STATS, 5)
     with pytest.raises(OSError, match='No space left'):
         metadata.write(tmp_path)
     assert read(tmp_path)['message_count'] == 0
     assert [path.name for path in tmp_path.iterdir()] == ['metadata.yaml']
+
+
+def test_each_file_has_times_of_its_own(metadata, tmp_path):
+    """A player would begin the second file at the time of the first."""
+    metadata.add_message(STATS, 5)
+    metadata.begin_file('a_1.mcap')
+    for time in (7, 9):
+        metadata.add_message(STATS, time)
+    metadata.write(tmp_path)
+    content = read(tmp_path)
+    assert content['relative_file_paths'] == ['a_0.mcap', 'a_1.mcap']
+    assert [file['message_count'] for file in content['files']] == [1, 2]
+    assert content['files'][1]['starting_time'] == {'nanoseconds_since_epoch': 7}
+    assert content['files'][1]['duration'] == {'nanoseconds': 2}
+    assert (content['message_count'], content['duration']) == (3, {'nanoseconds': 4})

@@ -202,7 +202,8 @@ def test_compressed_bags_of_rosbag2_are_read(recorded, tmp_path, expected, compr
 
 
 @pytest.mark.parametrize('content, reason', [
-    (b'', 'is empty'), (b'\x89MCAP', 'no mcap file'), (b'nothing of the kind', 'no mcap file')])
+    (b'', 'is empty'), (b'\x89MCAP', 'has 5 bytes, as it is cut off'),
+    (b'nothing of the kind', 'no mcap file')])
 def test_what_is_no_bag_is_refused(tmp_path, content, reason):
     """A wrong file would end in a traceback."""
     file = tmp_path / 'bag.mcap'

@@ -42,3 +42,12 @@ def test_tells_the_distance():
 def test_a_point_on_the_cloth_is_in_reach(shape, reach):
     """A point between the nodes of a coarse cloth would mean none of them."""
     assert usual_reach(Scene({**shape, 'pins': []})) == pytest.approx(reach)
+
+
+@pytest.mark.parametrize('point', [
+    (0.0, 0.0), (float('nan'), 0.0, 0.0), (0.0, float('inf'), 0.0), (0.0, 0.0, 1e200)])
+def test_a_point_that_is_none_is_refused(point: tuple[float, ...]):
+    """The node nearest to nowhere would be pinned, or a square leave the range of a float."""
+    scene = Scene({'rows': 3, 'cols': 3})
+    with pytest.raises(ClothSimError, match='a point .*: give '):
+        nearest(scene, scene.rest_positions(), point)

@@ -15,6 +15,7 @@
 """Pushes act on the nodes of their region, for their time, and add up."""
 
 from cloth_sim_ros.sim.errors import ClothSimError
+from cloth_sim_ros.sim.push_field import MOST_PUSHES
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.simulation import Simulation
 import numpy as np
@@ -117,7 +118,7 @@ def test_cleared_pushes_do_no_more():
     ({'duration': -1.0}, 'the duration of a push'),
     ({'force': (float('nan'), 0.0, 0.0)}, 'the force of a push'),
     ({'start': -1.0}, 'the start of a push'),
-    ({'force': (0.0, 0.0, 1e31)}, 'is at most 1e[+]30 along each axis'),
+    ({'force': (0.0, 0.0, 1e31)}, 'is at most 1e[+]30 N along each axis'),
 ])
 def test_a_refused_push_leaves_nothing_behind(changed: dict, message: str):
     """Half a push would act on."""
@@ -189,3 +190,25 @@ def test_a_pinned_cloth_has_nothing_to_push():
     simulation = Simulation(Scene({**_FREE, 'pins': ['all']}))
     with pytest.raises(ClothSimError, match=r'no free node .*\(the whole cloth\)'):
         simulation.push((0.0, 0.0, 1.0), duration=0.1)
+
+
+def test_the_number_of_pushes_is_bounded():
+    """A client that pushes again and again would slow the run down without end."""
+    simulation = Simulation(Scene(_FREE))
+    for _ in range(MOST_PUSHES):
+        simulation.push((0.0, 0.0, 1e-3), duration=0.02)
+    for start in (None, 1.0):
+        with pytest.raises(ClothSimError, match='1000 pushes act or are to come.*clear them'):
+            simulation.push((0.0, 0.0, 1e-3), duration=0.02, start=start)
+    assert len(simulation.pushes) == MOST_PUSHES
+    simulation.advance(0.1)
+    assert simulation.push((0.0, 0.0, 1e-3), duration=0.02).nodes == 29
+
+
+def test_a_scene_has_as_many_pushes_at_most():
+    """The pushes of a scene would not be bounded."""
+    count = MOST_PUSHES + 1
+    with pytest.raises(ClothSimError, match='1000 pushes'):
+        Simulation(Scene({
+            **_FREE, 'pushes.start': [0.0] * count, 'pushes.duration': [1.0] * count,
+            'pushes.force': [0.0] * 3 * count}))

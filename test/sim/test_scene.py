@@ -87,7 +87,7 @@ def test_the_name_of_a_group_gets_its_members(name: str, hint: str):
     ({'pushes.start': [1.0], 'pushes.duration': [0.1], 'pushes.force': [1.0, 2.0]},
      'pushes.force needs 3 per push, 3 for the 1'),
     ({'pushes.start': [1.0], 'pushes.duration': [0.0], 'pushes.force': [1.0, 2.0, 3.0]},
-     'the duration of a push must be finite and above 0'),
+     'the duration of a push is above 0 and at most'),
     ({'pin_moves.start': [1.0]}, 'node needs 1 per move, 1 for the 1 in pin_moves.start'),
     ({'pin_moves.node': ['0,0']}, 'pin_moves.node needs 1 per move, 0 for the 0'),
     ({**_MOVE, 'pin_moves.target': [1.0, 2.0]}, 'pin_moves.target needs 3 per move, 3 for the 1'),

@@ -18,7 +18,6 @@ from pathlib import Path
 
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.scene_file import load_parameters
-from cloth_sim_ros.sim.scene_file import parse_value
 import pytest
 
 
@@ -53,10 +52,12 @@ def test_a_missing_file_is_named(tmp_path: Path):
         load_parameters(tmp_path / 'nothing.yaml')
 
 
-@pytest.mark.parametrize(('text', 'value'), [
-    ('1e6', 1e6), ('1.0e6', 1e6), ('-2.5E-3', -2.5e-3), ('3', 3), ('0.5', 0.5), ('true', True),
-    ('[1e2, 2.0]', [100.0, 2.0]), ('top_edge', 'top_edge'), ("'1e6'", '1e6')])
-def test_numbers_are_read_as_ros_reads_them(text: str, value: object):
-    """A stiffness of 1e6 would be a number to the node and a word to `cloth_sim run`."""
-    assert parse_value(text) == value
-    assert type(parse_value(text)) is type(value)
+@pytest.mark.parametrize(('text', 'rule'), [
+    ('    dt: 0.01\n    dt: 0.02\n', 'the key dt twice'),
+    ('    stiffness.bend: 1.0\n    stiffness: {bend: 2.0}\n', 'stiffness.bend twice')])
+def test_a_parameter_that_stands_twice_is_refused(tmp_path: Path, text: str, rule: str):
+    """One of two values would be taken without a word."""
+    path = tmp_path / 'scene.yaml'
+    path.write_text(f'/**:\n  ros__parameters:\n{text}')
+    with pytest.raises(ClothSimError, match=rule):
+        load_parameters(path)

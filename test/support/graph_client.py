@@ -30,6 +30,8 @@ PATIENCE = 120.0
 # Always the same: with another time than before, the executor begins with its first subscription
 # again, and one that is always ready keeps the others from their turn.
 TURN = 0.02
+# Without a message, the queues of the subscriptions are empty.
+QUIET = 3 * TURN
 
 
 class Watch:
@@ -55,6 +57,7 @@ class GraphClient:
         self._executor = SingleThreadedExecutor(context=self._context)
         self._executor.add_node(self.node)
         self._clients: dict[str, Any] = {}
+        self._received = 0
 
     def __enter__(self) -> 'GraphClient':
         """Return itself."""
@@ -93,13 +96,24 @@ class GraphClient:
         while time.monotonic() < end:
             self._executor.spin_once(timeout_sec=TURN)
 
+    def spin_until_quiet(self) -> None:
+        """Take in what has been published already: until no watched topic has more to say."""
+        received = None
+        while received != self._received:
+            received = self._received
+            self.spin_for(QUIET)
+
     def watch(self, kind: type, topic: str, *, depth: int = 1000, kept: bool = False) -> Watch:
         """Listen to ``topic``; ``kept`` asks for what was published before as well."""
         watch = Watch()
         durability = DurabilityPolicy.TRANSIENT_LOCAL if kept else DurabilityPolicy.VOLATILE
+
+        def keep(message: Any) -> None:
+            self._received += 1
+            watch.messages.append(message)
+
         subscription = self.node.create_subscription(
-            kind, topic, watch.messages.append,
-            QoSProfile(depth=depth, durability=durability))
+            kind, topic, keep, QoSProfile(depth=depth, durability=durability))
         self.spin_until(
             lambda: self.node.count_publishers(subscription.topic_name), f'{topic} is published')
         return watch

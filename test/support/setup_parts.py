@@ -31,8 +31,13 @@ def start_bash(names: str, command: str, folder: Path, **variables: str) -> subp
         ['bash', '-euo', 'pipefail', '-c', '\n'.join([*lines, command])], cwd=folder,
         stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
         start_new_session=True,
-        # A shell that was started with SIGINT ignored can't trap it.
-        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL))
+        # A shell that was started with a signal ignored, by nohup for instance, can't trap it.
+        preexec_fn=_listen)
+
+
+def _listen() -> None:
+    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+        signal.signal(number, signal.SIG_DFL)
 
 
 def run_bash(names: str, command: str, folder: Path, **variables: str) -> tuple[int, str]:

@@ -22,18 +22,12 @@ from cloth_sim_ros.verb.main import main
 from cloth_under_test import ClothUnderTest
 from cloth_under_test import PAUSED
 from graph_client import GraphClient
+from graph_fixtures import discovery  # noqa: F401
 from node_process import NodeProcess
 import pytest
-import quick_discovery
 
 NAMESPACE = '/verbs'
 NODE = f'{NAMESPACE}/cloth_sim'
-
-
-@pytest.fixture(scope='session', autouse=True)
-def discovery() -> Iterator[None]:
-    """Find nodes soon."""
-    yield from quick_discovery.quick_discovery()
 
 
 @pytest.fixture(scope='session')

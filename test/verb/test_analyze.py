@@ -265,7 +265,7 @@ FOREIGN = {
             PointField(name=field.name, offset=field.offset, datatype=77, count=1)
             for field in cloud().fields]))], 'of unknown fields'),
     'no points': ([('/cloth_sim/points', cloud(height=0, data=b''))], 'has no point'),
-    'no stamp': ([('/cloth_sim/stats', NO_STAMP)], 'has no stamp'),
+    'no stamp': ([('/cloth_sim/stats', NO_STAMP)], 'has None as its header.stamp.sec'),
 }
 
 

@@ -51,7 +51,7 @@ def recorded(tmp_path_factory) -> Path:
 
 @pytest.mark.parametrize('arguments', [('info',), ('info', '--node', 'cloth_sim'), (
     'render', '--out', 'picture.png'), ('analyze',), ('resimulate',), ('play', '--delay', '0')])
-@pytest.mark.parametrize('length', [8, 42, 538, 3000, 20000])
+@pytest.mark.parametrize('length', [0, 5, 8, 42, 538, 3000, 20000])
 def test_a_recording_cut_off_in_its_first_chunk_is_told_so(
         recorded, tmp_path, monkeypatch, capsys, length, arguments):
     """A user would be told to record points, which were being recorded."""
@@ -62,8 +62,22 @@ def test_a_recording_cut_off_in_its_first_chunk_is_told_so(
     capsys.readouterr()
     assert main([arguments[0], 'cut.mcap', *arguments[1:]]) == 1
     said = capsys.readouterr().err
-    assert 'cut.mcap holds no message, as it is cut off before the first was on the disk' in said
+    assert 'as it is cut off before anything was flushed' in said
     assert 'publish.points' not in said and 'Traceback' not in said
+
+
+@pytest.mark.parametrize('verb', ['info', 'analyze', 'render', 'resimulate', 'play', 'recover'])
+@pytest.mark.parametrize('left', [(), ('metadata.yaml.new',), ('small_0.mcap',)])
+def test_the_folder_of_a_recording_that_never_got_anything_is_told_so(
+        tmp_path, monkeypatch, capsys, left, verb):
+    """A run killed at its start would be said to be of another program."""
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / 'small').mkdir()
+    for name in left:
+        (tmp_path / 'small' / name).touch()
+    arguments = {'render': ('--out', 'picture.png')}.get(verb, ())
+    assert main([verb, 'small', *arguments]) == 1
+    assert 'as it is cut off before anything was flushed' in capsys.readouterr().err
 
 
 def test_says_what_is_wrong_with_a_recording(tmp_path, capsys):

@@ -85,3 +85,12 @@ def test_run_needs_no_ros(tmp_path):
             '    sys.modules[name] = None'))
     assert result.returncode == 0, result.stderr
     assert Path(state).exists()
+
+
+@pytest.mark.parametrize('name', ['a b', 'a//b', '', '-', '~/a', '*'])
+def test_refuses_what_is_no_name_of_a_node(name):
+    """A mistyped name would end in a traceback of ROS."""
+    result = cloth_sim('pause', f'--node={name}', '--timeout', '0.1')
+    assert result.returncode == 1
+    assert len(result.stderr.splitlines()) == 1, result.stderr
+    assert f'{name!r} is no name of a node: give its name' in result.stderr

@@ -36,6 +36,7 @@ from cloth_sim_ros.analysis.rendering.view import View
 from cloth_sim_ros.gl.context import Context
 from cloth_sim_ros.gl.draw_state import blend_by_opacity
 from cloth_sim_ros.gl.draw_state import draw_nearest
+from cloth_sim_ros.gl.errors import DeviceError
 from cloth_sim_ros.gl.framebuffer import Framebuffer
 from cloth_sim_ros.sim.snapshot import FLAG_AT_LIMIT
 import numpy as np
@@ -62,6 +63,10 @@ class Renderer:
         self._scale = scale
         self._detail = detail
         self._context = Context()
+        if not self._context.max_texture_texels:
+            raise DeviceError(
+                f'{self._context.device} lacks texture buffers, which drawing needs: draw it on '
+                'another device')
         self._framebuffer = Framebuffer(view.width, view.height, detail)
         self._nodes = NodeBuffer(self._context.max_texture_texels)
         self._lines = NodeBuffer(self._context.max_texture_texels)

@@ -17,16 +17,19 @@
 from collections.abc import Iterator
 from collections.abc import Sequence
 from pathlib import Path
-from zipfile import BadZipFile
 
 from cloth_sim_ros.analysis.frame import Frame
 from cloth_sim_ros.analysis.rendering.source import Source
 from cloth_sim_ros.analysis.rendering.surface_normals import surface_normals
+from cloth_sim_ros.files.checked_npz import load_arrays
+from cloth_sim_ros.files.echo import cut
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.snapshot import POINT_DTYPE
 import numpy as np
 
 _WRITE_IT_ANEW = 'write it with `cloth_sim run --out`'
+# From there on a run counts as lost, and squares leave the range of float32 [m].
+_FARTHEST = 1e12
 
 
 class StateSource(Source):
@@ -46,19 +49,20 @@ class StateSource(Source):
         positions = _positions(path, arrays)
         shape = positions.shape[:2]
         records = np.zeros(shape, POINT_DTYPE)
+        normals = surface_normals(positions)
         for place, axis in enumerate('xyz'):
             records[axis] = positions[..., place]
-            records[f'normal_{axis}'] = surface_normals(positions)[..., place]
+            records[f'normal_{axis}'] = normals[..., place]
         self._missing = [key for key in ('strain', 'flags') if arrays.get(key) is None]
         records['strain'] = np.nan
         for key in ('strain', 'flags'):
             if key not in self._missing:
-                if arrays[key].shape != shape:
-                    raise ClothSimError(
-                        f'{key} in {path} has the shape {arrays[key].shape}, the cloth {shape}: '
-                        f'{_WRITE_IT_ANEW}')
-                records[key] = arrays[key]
-        self._frame = Frame(float(arrays.get('time', 0.0)), records)
+                records[key] = _checked(path, arrays, key, shape)
+        time = _checked(path, arrays, 'time', ()) if 'time' in arrays else 0.0
+        if not np.isfinite(time):
+            raise ClothSimError(
+                f'time in {path} is {time:g} s, and no finite number: {_WRITE_IT_ANEW}')
+        self._frame = Frame(float(time), records)
 
     @property
     def modes(self) -> list[str]:
@@ -91,13 +95,28 @@ class StateSource(Source):
 
 def _read(path: str | Path) -> dict[str, np.ndarray]:
     try:
-        with np.load(path, allow_pickle=False) as file:
-            return {key: file[key] for key in file.files}
+        return load_arrays(path, 'state file', _WRITE_IT_ANEW)
     except FileNotFoundError as error:
-        raise ClothSimError(f'there is no state file {path}: {_WRITE_IT_ANEW}') from error
-    # What is an array and no archive has no context, which is a TypeError.
-    except (OSError, ValueError, EOFError, BadZipFile, TypeError) as error:
-        raise ClothSimError(f'{path} is no state file: {_WRITE_IT_ANEW}') from error
+        raise ClothSimError(
+            f'there is no state file {cut(path)}: {_WRITE_IT_ANEW}') from error
+    except OSError as error:
+        raise ClothSimError(
+            f'{cut(path)} cannot be read ({error.strerror}): {_WRITE_IT_ANEW}') from error
+
+
+def _checked(
+        path: str | Path, arrays: dict[str, np.ndarray], key: str,
+        shape: tuple[int, ...]) -> np.ndarray:
+    """Return the array ``key``; ClothSimError when it is none of numbers and of ``shape``."""
+    array = arrays[key]
+    if array.shape != shape:
+        raise ClothSimError(
+            f'{key} in {path} has the shape {array.shape}, the cloth {shape}: {_WRITE_IT_ANEW}')
+    kinds = np.integer if key == 'flags' else np.floating
+    if not np.issubdtype(array.dtype, kinds):
+        raise ClothSimError(
+            f'{key} in {path} has the type {array.dtype}: {_WRITE_IT_ANEW}')
+    return array
 
 
 def _positions(path: str | Path, arrays: dict[str, np.ndarray]) -> np.ndarray:
@@ -108,7 +127,10 @@ def _positions(path: str | Path, arrays: dict[str, np.ndarray]) -> np.ndarray:
         raise ClothSimError(
             f'positions in {path} have the shape {positions.shape}, not (rows, cols, 3): '
             f'{_WRITE_IT_ANEW}')
-    if not np.issubdtype(positions.dtype, np.number) or not np.isfinite(positions).all():
+    is_number = np.issubdtype(positions.dtype, np.number)
+    positions = positions.astype(float) if is_number else positions
+    if not is_number or not (np.abs(positions) <= _FARTHEST).all():
         raise ClothSimError(
-            f'positions in {path} are not all finite numbers: take a state before the blow-up')
-    return positions.astype(float)
+            f'positions in {path} are not all finite numbers up to {_FARTHEST:g} m: take a state '
+            'before the blow-up')
+    return positions

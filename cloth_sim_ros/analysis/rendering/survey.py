@@ -19,6 +19,7 @@ from collections.abc import Sequence
 from cloth_sim_ros.analysis.frame import Frame
 from cloth_sim_ros.analysis.rendering.extent import Extent
 from cloth_sim_ros.analysis.rendering.strain_range import StrainRange
+from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.push import Push
 from cloth_sim_ros.sim.snapshot import FLAG_AT_LIMIT
 from cloth_sim_ros.sim.snapshot import FLAG_PINNED
@@ -74,8 +75,12 @@ class Survey:
 
     @property
     def points(self) -> np.ndarray:
-        """Get points around all that has to be in view [m], (n, 3)."""
+        """Get points around all in view [m], (n, 3); ClothSimError without a finite one."""
         cloth = self._cloth.points
+        if not len(cloth):
+            raise ClothSimError(
+                'no node that is to be drawn has a finite position: choose moments before the '
+                'run was lost, with --at')
         room = _WITH_WORDS * self.arrow_length / self._largest_force if self._arrows else 0.0
         tips = [tail + room * force for tail, force in self._arrows]
         # A region larger than the cloth is not worth a small picture.

@@ -20,6 +20,8 @@ import os
 from pathlib import Path
 from typing import Any
 
+from cloth_sim_ros.files.checked_npz import load_arrays
+from cloth_sim_ros.files.regular_file import open_regular
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.study.runs.result import Result
 import numpy as np
@@ -44,6 +46,8 @@ class ResultsFolder:
         self.folder = Path(folder)
         try:
             self.folder.mkdir(parents=True, exist_ok=True)
+            if (self.folder / LINES).exists():
+                open_regular(self.folder / LINES).close()
             self._file = open(self.folder / LINES, 'a+b')
         except OSError as error:
             raise ClothSimError(
@@ -72,10 +76,11 @@ class ResultsFolder:
         if line is None or not line['arrays']:
             return line and Result(**{**line, 'arrays': {}})
         try:
-            with np.load(self._array_path(key)) as arrays:
-                return Result(**{**line, 'arrays': dict(arrays)})
-        except (OSError, ValueError):
+            arrays = load_arrays(
+                self._array_path(key), 'file of results', 'start the study again')
+        except (OSError, ClothSimError):
             return None
+        return Result(**{**line, 'arrays': arrays})
 
     def add(self, result: Result) -> None:
         """Keep ``result``."""
@@ -99,8 +104,9 @@ class ResultsFolder:
             whole += len(line)
             try:
                 values = json.loads(line)
+                Result(**values)
                 self._lines[values['key']] = values
-            except (ValueError, TypeError, KeyError) as error:
+            except (ValueError, TypeError, KeyError, RecursionError) as error:
                 raise ClothSimError(
                     f'line {number} of {self.folder / LINES} is no result of a study: take it '
                     'out, or give another --out') from error

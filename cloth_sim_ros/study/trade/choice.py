@@ -18,6 +18,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from cloth_sim_ros.files.checked_yaml import MOST_BYTES
+from cloth_sim_ros.files.regular_file import read_regular
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.scene_file import load_parameters
@@ -109,13 +111,16 @@ def read_choice(path: Path) -> tuple[dict[str, Any], Budget, str]:
     values = load_parameters(path)
     told = dict(
         line.removeprefix('# ').split(': ', 1)
-        for line in path.read_text(encoding='utf-8').splitlines()
+        for line in read_regular(path, MOST_BYTES).decode().splitlines()
         if line.startswith('# ') and ': ' in line)
     summary = f'error {told.get(_OWN_ERROR)}, real-time factor {told.get(_OWN_SPEED)}'
-    if _ERROR in told:
-        return values, Budget(error=float(told[_ERROR])), summary
-    if _SPEED in told:
-        return values, Budget(real_time_factor=float(told[_SPEED])), summary
+    try:
+        if _ERROR in told:
+            return values, Budget(error=float(told[_ERROR])), summary
+        if _SPEED in told:
+            return values, Budget(real_time_factor=float(told[_SPEED])), summary
+    except ValueError:
+        pass  # a word where a number should be tells no more than nothing
     raise ClothSimError(
         f'{path} does not tell what it was chosen by: give a file that --budget-error or '
         '--budget-rtf wrote')

@@ -17,18 +17,22 @@
 from collections.abc import Mapping
 from dataclasses import dataclass
 from itertools import product
+import math
 from pathlib import Path
 from typing import Any
 
+from cloth_sim_ros.files.checked_yaml import load_yaml
+from cloth_sim_ros.files.echo import cut
+from cloth_sim_ros.files.echo import shown
 from cloth_sim_ros.gl.shared_directory import shared_directory
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.scene import refuse_unknown
 from cloth_sim_ros.sim.scene_fields import SCENE_FIELDS
-from cloth_sim_ros.sim.scene_file import load_yaml
 from cloth_sim_ros.study.trade.setting import Setting
 from cloth_sim_ros.study.trade.variant import Variant
 
 MODELS = ('springs', 'hard', 'limited')
+_MOST_SETTINGS = 100_000
 _PARTS = ('times', 'frame', 'variants', 'reference', 'cost', 'methods')
 
 
@@ -71,7 +75,8 @@ def load_grid(path: str | Path) -> Grid:
 def grid_of(given: Any, name: str = 'the grid') -> Grid:
     """Return the grid that ``given`` describes; ClothSimError when it describes none."""
     if not isinstance(given, Mapping) or set(given) != set(_PARTS):
-        found = sorted(given) if isinstance(given, Mapping) else type(given).__name__
+        found = sorted(map(cut, given))[:len(_PARTS) + 1] if isinstance(
+            given, Mapping) else type(given).__name__
         raise ClothSimError(
             f'{name} needs {", ".join(_PARTS)}, got {found}: start from {default_grid_path()}')
     try:
@@ -87,7 +92,7 @@ def grid_of(given: Any, name: str = 'the grid') -> Grid:
             settings=tuple(
                 setting for method, parts in given['methods'].items()
                 for setting in _settings(method, parts)))
-    except (TypeError, KeyError, ValueError, AttributeError) as error:
+    except (TypeError, KeyError, ValueError, AttributeError, OverflowError) as error:
         if isinstance(error, ClothSimError):
             raise
         raise ClothSimError(
@@ -104,8 +109,13 @@ def _settings(method: str, parts: Mapping[str, Any]) -> list[Setting]:
     model, fixed, over = (parts[name] for name in ('model', 'set', 'over'))
     if model not in MODELS:
         raise ClothSimError(
-            f'the model of {method} must be one of {", ".join(MODELS)}, got {model!r}')
+            f'the model of {method} must be one of {", ".join(MODELS)}, got {shown(model)}')
     refuse_unknown({**fixed, **over}, SCENE_FIELDS)
+    count = math.prod(len(choices) for choices in over.values())
+    if count > _MOST_SETTINGS:
+        raise ClothSimError(
+            f'{method} has {count} settings, and at most {_MOST_SETTINGS} are measured: give '
+            'fewer values')
     return [
         Setting(method, model, dict(fixed), dict(zip(over, chosen)))
         for chosen in product(*over.values())]

@@ -240,8 +240,8 @@ def test_a_push_on_a_region_has_a_ring(flat, rendered):
 @pytest.mark.parametrize('radius', [1e6, 1e300, sys.float_info.max])
 def test_a_push_on_a_huge_region_is_an_arrow(flat, rendered, radius):
     """A recording with such a push could not be drawn, or with warnings only."""
-    push = Push.checked(
-        force=(0.0, 0.0, 2.0), start=0.0, duration=9.0, region='sphere', radius=radius)
+    # As a recording of another program may have it: today's node refuses more than 1e6 m.
+    push = Push((0.0, 0.0, 2.0), start=0.0, duration=9.0, region='sphere', radius=radius)
     with warnings.catch_warnings():
         warnings.simplefilter('error')
         image = rendered(flat(pushes=(push,), strain=0.0))[0]

@@ -70,7 +70,11 @@ def child_of(session, command):
     """Return the one process of a session with this command."""
     while running := processes_of(session):
         for pid in running:
-            if Path(f'/proc/{pid}/cmdline').read_text().split('\0')[:-1] == command:
+            try:
+                words = Path(f'/proc/{pid}/cmdline').read_text().split('\0')[:-1]
+            except FileNotFoundError:
+                continue  # a short-lived one that has ended meanwhile
+            if words == command:
                 return pid
     raise AssertionError(f'{command} does not run')
 

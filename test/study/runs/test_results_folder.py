@@ -14,6 +14,8 @@
 
 """Results that are kept are found again."""
 
+import os
+
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.study.runs.result import unmade
 from cloth_sim_ros.study.runs.results_folder import LINES
@@ -32,10 +34,25 @@ def test_two_studies_do_not_write_into_one_folder(tmp_path):
     ResultsFolder(tmp_path).__exit__()
 
 
-def test_a_strange_line_is_named(tmp_path):
+@pytest.mark.parametrize('line', [
+    'nonsense', '{"key": 1}', '3', '[' * 100_000, '{"key": ' * 100_000, '{"key": []}'],
+    ids=lambda line: line[:12])
+def test_a_strange_line_is_named(tmp_path, line):
     """A damaged file would end in a traceback, or be written over."""
-    (tmp_path / LINES).write_text('{"key": 1}\nnonsense\n')
+    first = unmade(RUN, 'failed', 'first').line()
+    (tmp_path / LINES).write_text(f'{first}\n{line}\n')
     with pytest.raises(ClothSimError, match='line 2 of'):
+        ResultsFolder(tmp_path)
+
+
+@pytest.mark.parametrize('kind', ['pipe', 'device'])
+def test_lines_that_are_no_file_are_refused(tmp_path, kind):
+    """A study would wait for ever, or read without an end."""
+    if kind == 'pipe':
+        os.mkfifo(tmp_path / LINES)
+    else:
+        (tmp_path / LINES).symlink_to('/dev/zero')
+    with pytest.raises(ClothSimError, match='only regular files are read'):
         ResultsFolder(tmp_path)
 
 

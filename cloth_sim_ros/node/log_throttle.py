@@ -1,0 +1,41 @@
+# SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
+# SPDX-License-Identifier: Apache-2.0
+
+"""What may come a thousand times a second is logged now and then, with the number left out."""
+
+from collections.abc import Callable
+import time
+
+_MOST_KINDS = 100
+
+
+class LogThrottle:
+    """
+    Decide what to log of things of many kinds.
+
+    :param quiet: time between two lines of the same kind [s]
+    :param clock: wall time [s]
+    """
+
+    def __init__(self, quiet: float, clock: Callable[[], float] = time.monotonic) -> None:
+        """Begin with nothing logged."""
+        self._quiet = quiet
+        self._clock = clock
+        # Of each kind: when it was logged, and how many were left out since.
+        self._logged: dict[str, tuple[float, int]] = {}
+
+    def left_out(self, kind: str) -> int | None:
+        """
+        Return how many of this kind were left out since one was logged.
+
+        None when this one is to be left out as well.
+        """
+        now = self._clock()
+        logged, missed = self._logged.get(kind, (-self._quiet, 0))
+        if now - logged < self._quiet:
+            self._logged[kind] = logged, missed + 1
+            return None
+        if len(self._logged) >= _MOST_KINDS:
+            self._logged.clear()
+        self._logged[kind] = now, 0
+        return missed

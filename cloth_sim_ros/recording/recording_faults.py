@@ -1,0 +1,56 @@
+# SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
+# SPDX-License-Identifier: Apache-2.0
+
+"""Why a recording cannot begin or go on, in words, with the way out."""
+
+import errno
+from pathlib import Path
+
+from cloth_sim_ros.recording.recording_error import RecordingError
+from cloth_sim_ros.recording.watched_file import FileChangedError
+from cloth_sim_ros.sim.errors import ClothSimError
+
+_NO_ROOM = {errno.ENOSPC, errno.EDQUOT, errno.EFBIG}
+_TOO_MANY_FILES = {errno.EMFILE, errno.ENFILE}
+_USED_UP = {errno.ENOMEM, errno.EAGAIN}
+
+
+def refusal(folder: Path, error: Exception, setting: str) -> ClothSimError:
+    """
+    Return the error of a recording that cannot begin.
+
+    :param folder: that it should have gone into
+    :param setting: what ``folder`` was given by
+    """
+    return ClothSimError(
+        f'nothing can be recorded into {folder} ({_reason(error)}): {_way_out(error, setting)}')
+
+
+def ending(path: Path, error: Exception, setting: str) -> RecordingError:
+    """
+    Return the error of a recording that cannot go on.
+
+    :param path: its folder
+    :param setting: what the folder around it was given by
+    """
+    return RecordingError(
+        f'recording to {path} has ended ({_reason(error)}): {_way_out(error, setting)}, and start '
+        'a new one')
+
+
+def _reason(error: Exception) -> str:
+    return getattr(error, 'strerror', None) or str(error) or type(error).__name__
+
+
+def _way_out(error: Exception, setting: str) -> str:
+    if isinstance(error, FileChangedError):
+        return 'leave the folder of a recording alone while it is written'
+    number = getattr(error, 'errno', None)
+    if number in _NO_ROOM:
+        return f'make room, or set {setting} to another disk'
+    if number in _TOO_MANY_FILES:
+        return 'raise the limit of open files (ulimit -n), or close some'
+    # Python reports a thread that the system refuses as a RuntimeError.
+    if number in _USED_UP or isinstance(error, (RuntimeError, MemoryError)):
+        return 'end other programs, or raise the limits of memory and processes (ulimit -a)'
+    return f'set {setting} to a folder that can be written to'

@@ -1,0 +1,245 @@
+# SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
+# SPDX-License-Identifier: Apache-2.0
+
+"""Faults of the disk, and of who works on it, while a real node records."""
+
+from collections.abc import Callable
+from collections.abc import Iterator
+import os
+from pathlib import Path
+import resource
+import shutil
+import time
+
+from cloth_sim_interfaces.msg import ClothState
+from cloth_sim_interfaces.srv import StartRecording
+from cloth_sim_interfaces.srv import Step
+from cloth_sim_ros.recording.bag_reader import BagReader
+from cloth_under_test import ClothUnderTest
+from cloth_under_test import PAUSED
+from diagnostic_msgs.msg import DiagnosticStatus
+from file_permissions import WITHOUT_OVERRIDE
+from graph_client import GraphClient
+from node_process import NodeProcess
+import pytest
+from std_srvs.srv import SetBool
+from std_srvs.srv import Trigger
+import yaml
+
+SOON = 2.0  # wall time within which a fault is reported [s]
+START = (
+    f'{WITHOUT_OVERRIDE}\nimport sys; from cloth_sim_ros.node.main import main; '
+    'sys.exit(main())')
+NAME = '/recording_faults/cloth_sim'
+
+
+@pytest.fixture(scope='module')
+def node(tmp_path_factory: pytest.TempPathFactory) -> Iterator[NodeProcess]:
+    """Start the node that the faults happen to."""
+    with NodeProcess(
+            tmp_path_factory.mktemp('faults'), PAUSED, '-r', '__ns:=/recording_faults',
+            start=START) as node:
+        yield node
+
+
+@pytest.fixture(scope='module')
+def listening(node: NodeProcess, client: GraphClient) -> ClothUnderTest:
+    """Listen to the node once."""
+    return ClothUnderTest(client, PAUSED, NAME)
+
+
+@pytest.fixture
+def cloth(listening: ClothUnderTest) -> ClothUnderTest:
+    """Bring the node back to its start, paused."""
+    listening.restore()
+    return listening
+
+
+def file_removed(_: NodeProcess, path: Path) -> None:
+    """Take the mcap file away."""
+    mcap(path).unlink()
+
+
+def file_truncated(_: NodeProcess, path: Path) -> None:
+    """Leave a part of the mcap file."""
+    os.truncate(mcap(path), mcap(path).stat().st_size - 100)
+
+
+def file_replaced(_: NodeProcess, path: Path) -> None:
+    """Put a copy in place of the mcap file."""
+    shutil.copy(mcap(path), path / 'copy')
+    (path / 'copy').replace(mcap(path))
+
+
+def folder_removed(_: NodeProcess, path: Path) -> None:
+    """Take the whole folder away; the node may be writing metadata.yaml into it."""
+    while path.exists():
+        shutil.rmtree(path, ignore_errors=True)
+
+
+def disk_full(_: NodeProcess, path: Path) -> Callable[[], None]:
+    """Have what is written beside the mcap file go where there is no room."""
+    full = path / 'metadata.yaml.new'
+    while not full.is_symlink():
+        try:
+            full.symlink_to('/dev/full')
+        except FileExistsError:
+            pass  # the node has it for a moment
+    return lambda: full.unlink(missing_ok=True)
+
+
+def read_only(_: NodeProcess, path: Path) -> Callable[[], None]:
+    """Let nobody make files in the folder."""
+    path.chmod(0o555)
+    return lambda: path.chmod(0o755)
+
+
+def no_descriptors(node: NodeProcess, _: Path) -> Callable[[], None]:
+    """Let the node open no more files."""
+    taken = {int(name) for name in os.listdir(f'/proc/{node.pid}/fd')}
+    free = next(number for number in range(len(taken) + 1) if number not in taken)
+    return limit(node, resource.RLIMIT_NOFILE, free)
+
+
+FAULTS = {
+    file_removed: 'was removed or replaced by another program',
+    file_truncated: 'was truncated by another program',
+    file_replaced: 'was removed or replaced by another program',
+    folder_removed: 'was removed or replaced by another program',
+    disk_full: 'No space left on device',
+    read_only: 'Permission denied',
+    no_descriptors: 'Too many open files',
+}
+
+
+def mcap(path: Path) -> Path:
+    """Return the file of the recording ``path``."""
+    return path / f'{path.name}_0.mcap'
+
+
+def limit(node: NodeProcess, kind: int, value: int) -> Callable[[], None]:
+    """Lower a limit of the node, and return what raises it again."""
+    before = resource.prlimit(node.pid, kind)
+    resource.prlimit(node.pid, kind, (value, before[1]))
+    return lambda: resource.prlimit(node.pid, kind, before) and None
+
+
+def flushed(path: Path) -> int:
+    """Return how many messages of the recording are flushed."""
+    content = yaml.safe_load((path / 'metadata.yaml').read_text())
+    return content['rosbag2_bagfile_information']['message_count']
+
+
+def record(cloth: ClothUnderTest) -> Path:
+    """Start a recording with something in it, and return its folder."""
+    path = Path(cloth.call(StartRecording, 'start_recording').path)
+    assert cloth.call(Step, 'step', steps=20).success
+    cloth.client.spin_until(lambda: flushed(path) > 0, 'the first flush')
+    return path
+
+
+@pytest.mark.parametrize('running', [False, True], ids=['paused', 'running'])
+@pytest.mark.parametrize('fault', FAULTS)
+def test_a_fault_is_reported_soon_and_the_simulation_goes_on(cloth, node, fault, running):
+    """A run of hours would record into nothing, or end because it cannot be recorded."""
+    path = record(cloth)
+    cloth.call(SetBool, 'pause', data=not running)
+    cloth.clear()
+    begin = time.monotonic()
+    undo = fault(node, path)
+    reason = FAULTS[fault]
+    try:
+        cloth.client.spin_until(lambda: is_told(cloth, node, path, reason), 'the end is told')
+        assert time.monotonic() - begin < SOON
+        answer = cloth.call(Trigger, 'stop_recording')
+        assert not answer.success and reason in answer.message
+        assert cloth.call(SetBool, 'pause', data=True).success
+        assert cloth.call(Step, 'step', steps=4).success
+    finally:
+        if undo is not None:
+            undo()
+    if fault not in (file_removed, folder_removed):
+        assert sum(1 for _ in BagReader(path).messages()) > 0
+    again = cloth.call(StartRecording, 'start_recording')
+    assert again.success
+    assert cloth.call(Trigger, 'stop_recording').success
+
+
+def is_told(cloth: ClothUnderTest, node: NodeProcess, path: Path, reason: str) -> bool:
+    """Return whether ~/state, /diagnostics and the log give the end and its reason."""
+    said = f'recording to {path} has ended ('
+    in_diagnostics = any(
+        status.level == DiagnosticStatus.ERROR and status.message.startswith(said)
+        and reason in status.message
+        for array in cloth['diagnostics'] for status in array.status)
+    return (
+        in_diagnostics and cloth['state'] and not cloth['state'][-1].recording
+        and any(said in line and reason in line for line in node.output.splitlines()))
+
+
+@pytest.mark.parametrize('fault', [file_removed, file_truncated])
+def test_stopping_at_once_is_refused_with_the_reason(cloth, node, fault):
+    """A script would be told that its recording is closed, where there is none."""
+    path = record(cloth)
+    fault(node, path)
+    answer = cloth.call(Trigger, 'stop_recording')
+    assert not answer.success and FAULTS[fault] in answer.message
+    assert not cloth.client.read_kept(ClothState, f'{NAME}/state').recording
+
+
+def test_without_descriptors_a_start_is_refused(client, tmp_path):
+    """A node that has opened too much would throw an exception, or end."""
+    with NodeProcess(tmp_path, PAUSED, '-r', '__ns:=/no_descriptors') as node:
+        cloth = ClothUnderTest(client, PAUSED, '/no_descriptors/cloth_sim')
+        cloth.frame(0)
+        # The first time the code that records is read as well, the second time not.
+        for _ in range(2):
+            undo = no_descriptors(node, tmp_path)
+            try:
+                answer = cloth.call(StartRecording, 'start_recording', name='refused')
+                assert not answer.success
+                assert '(Too many open files): raise the limit of open files' in answer.message
+                assert cloth.call(Step, 'step', steps=1).success
+            finally:
+                undo()
+            assert not (tmp_path / 'bags' / 'refused').exists()
+            path = cloth.call(StartRecording, 'start_recording').path
+            assert cloth.call(Trigger, 'stop_recording').success
+            assert sum(1 for _ in BagReader(path).messages()) > 0
+
+
+def test_a_read_only_directory_refuses_a_start(cloth, node):
+    """A node would end, or record nothing without a word."""
+    bags = node.folder / 'bags'
+    bags.mkdir(exist_ok=True)
+    bags.chmod(0o555)
+    try:
+        answer = cloth.call(StartRecording, 'start_recording')
+    finally:
+        bags.chmod(0o755)
+    assert not answer.success
+    assert 'Permission denied): set recording.directory to a folder that can' in answer.message
+
+
+def test_a_recording_that_has_its_size_is_complete(client, tmp_path):
+    """A long run would fill the disk, or a limit leave a broken recording without a word."""
+    values = {**PAUSED, 'recording.max_size': 2**20, 'rows': 48, 'cols': 48}
+    with NodeProcess(tmp_path, values, '-r', '__ns:=/limited') as node:
+        cloth = ClothUnderTest(client, values, '/limited/cloth_sim')
+        path = Path(cloth.call(StartRecording, 'start_recording').path)
+        cloth.call(SetBool, 'pause', data=False)
+        said = f'the recording {path} is complete up to '
+        cloth.client.spin_until(
+            lambda: cloth['state'] and not cloth['state'][-1].recording, 'the end is told')
+        cloth.wait_for('diagnostics', lambda array: any(
+            status.level == DiagnosticStatus.WARN and status.message.startswith(said)
+            for status in array.status))
+        assert said in node.output
+        answer = cloth.call(Trigger, 'stop_recording')
+        assert not answer.success and answer.message.startswith(said)
+        cloth.clear()
+        cloth.wait_for('stats')
+    assert sum(file.stat().st_size for file in path.iterdir()) <= 2**20
+    reader = BagReader(path)
+    assert sum(raw.topic.endswith('points') for raw in reader.messages()) > 3
+    assert reader.problems == []

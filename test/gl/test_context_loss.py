@@ -1,0 +1,74 @@
+# SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
+# SPDX-License-Identifier: Apache-2.0
+
+"""
+A device that is reset is noticed.
+
+No software device can be reset, so the status that the driver would give is stood in for.
+"""
+
+from cloth_sim_ros.gl import context_loss
+from cloth_sim_ros.gl.context import Context
+from cloth_sim_ros.gl.errors import DeviceError
+from cloth_sim_ros.sim.scene import Scene
+from cloth_sim_ros.sim.simulation import Simulation
+from OpenGL import GL
+from OpenGL.error import GLError
+import pytest
+
+SCENE = Scene({'rows': 4, 'cols': 4})
+
+
+def lose(monkeypatch, status=GL.GL_GUILTY_CONTEXT_RESET):
+    """Have the driver say that the context is lost."""
+    monkeypatch.setattr(context_loss, 'reset_status', lambda: status)
+
+
+def test_the_driver_is_asked():
+    """A reset would never be noticed: the answer has to come from the driver."""
+    Context(single_thread=True)
+    assert context_loss._status_call() is not None
+    assert context_loss.reset_status() == GL.GL_NO_ERROR
+
+
+@pytest.mark.parametrize('status, reason', [
+    (GL.GL_GUILTY_CONTEXT_RESET, 'by what this process did'),
+    (GL.GL_INNOCENT_CONTEXT_RESET, 'by what another process did'),
+    (GL.GL_UNKNOWN_CONTEXT_RESET, 'for an unknown reason'), (0x1234, '(0x1234)')])
+def test_a_reset_ends_a_step_with_the_reason(status, reason, monkeypatch):
+    """The cloth would stand still, or be full of zeros, and nobody would know why."""
+    simulation = Simulation(SCENE)
+    simulation.step(3)
+    lose(monkeypatch, status)
+    with pytest.raises(DeviceError) as caught:
+        simulation.step()
+    assert str(caught.value).startswith(f'the GL device was reset {reason}, and all that it held')
+    assert 'start again' in str(caught.value)
+
+
+@pytest.mark.parametrize('ask', [
+    lambda simulation: simulation.snapshot(), lambda simulation: simulation.measure(),
+    lambda simulation: simulation.positions(), lambda simulation: simulation.reset(),
+    lambda simulation: simulation.pin(3, 3)],
+    ids=['snapshot', 'measure', 'positions', 'reset', 'pin'])
+def test_no_answer_comes_from_a_lost_device(ask, monkeypatch):
+    """A reader would take what is left in memory for the cloth."""
+    simulation = Simulation(SCENE)
+    simulation.step(3)
+    lose(monkeypatch)
+    with pytest.raises(DeviceError, match='the GL device was reset'):
+        ask(simulation)
+
+
+def test_what_gl_says_of_a_lost_context_is_told_as_such(monkeypatch):
+    """The error that GL gives then is a number in a traceback."""
+    lose(monkeypatch)
+    with pytest.raises(DeviceError, match='the GL device was reset'), context_loss.loss_noticed():
+        raise GLError(0x0507)
+
+
+def test_other_errors_stay_as_they_are():
+    """A fault of the program would be told as a reset."""
+    Context(single_thread=True)
+    with pytest.raises(GLError), context_loss.loss_noticed():
+        raise GLError(GL.GL_INVALID_VALUE)

@@ -1,0 +1,54 @@
+# SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
+# SPDX-License-Identifier: Apache-2.0
+
+"""The size of the cloth is known before there is a node."""
+
+from pathlib import Path
+
+from cloth_sim_ros.node.grid_arguments import grid_of_arguments
+from cloth_sim_ros.sim.scene_file import load_parameters
+import pytest
+
+SCENES = Path(__file__).resolve().parents[2] / 'config'
+
+
+@pytest.mark.parametrize('options, grid', [
+    ([], (32, 32)),
+    (['-p', 'rows:=64'], (64, 32)),
+    (['--param', 'cols:=7', '-p', 'rows:=8', '-p', 'rows:=9'], (9, 7)),
+    (['-p', 'cloth_sim:rows:=40', '-p', 'dt:=0.01', '-r', '__ns:=/left'], (40, 32)),
+    (['-p', 'rows:=many', '-p', 'cols:=-3', '-p', 'rows', '-p', 'cols:=true'], (32, 32)),
+    (['-p', 'rows:=[', '-p', 'cols:="', '-p', 'rows:=3.5', '-p'], (32, 32)),
+    (['--params-file', 'nowhere.yaml', '-p', 'cols:=5'], (32, 5))], ids=str)
+def test_options_are_read(options, grid):
+    """The shared memory would be chosen for a cloth of another size."""
+    assert grid_of_arguments(['node', '--ros-args', *options]) == grid
+
+
+@pytest.mark.parametrize('text', [
+    '/**: {ros__parameters: {rows: 50, cols: 60, stiffness: {bend: 1.0}}}',
+    '/left/cloth_sim: {ros__parameters: {rows: 50, cols: 60}}',
+    'left: {cloth_sim: {ros__parameters: {rows: 50, cols: 60}}}',
+    '/**: {ros__parameters: {rows: 50, cols: 2}}\nother: {ros__parameters: {rows: 2, cols: 60}}'])
+def test_files_are_read(text, tmp_path):
+    """The shared memory would be chosen for the default cloth."""
+    file = tmp_path / 'scene.yaml'
+    file.write_text(text)
+    assert grid_of_arguments(['--ros-args', '--params-file', str(file)]) == (50, 60)
+
+
+@pytest.mark.parametrize('text', ['', '[1, 2]', 'a: &a [*a]', '{', '\x00', 'rows: 4\nrows: ['])
+def test_what_cannot_be_read_is_left_to_ros(text, tmp_path):
+    """A file with a mistake would end in a traceback and not in the reason that ROS gives."""
+    file = tmp_path / 'scene.yaml'
+    file.write_text(text)
+    assert grid_of_arguments(['--params-file', str(file)]) == (32, 32)
+
+
+def test_the_scenes_are_read():
+    """The scenes that come along would get shared memory for another cloth."""
+    files = list(SCENES.glob('*.yaml'))
+    for file in files:
+        given = {'rows': 32, 'cols': 32, **load_parameters(file)}
+        assert grid_of_arguments(['--params-file', str(file)]) == (given['rows'], given['cols'])
+    assert len(files) > 2

@@ -1,0 +1,135 @@
+# SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
+# SPDX-License-Identifier: Apache-2.0
+
+"""A real node with a fault put into one of its parts: it answers, counts, and goes on."""
+
+from cloth_sim_interfaces.msg import Push
+from cloth_sim_interfaces.srv import ApplyPush
+from cloth_sim_interfaces.srv import Step
+from cloth_under_test import ClothUnderTest
+from cloth_under_test import PAUSED
+from cloth_under_test import SCENE
+from geometry_msgs.msg import Vector3
+from node_process import NodeProcess
+import pytest
+from std_srvs.srv import SetBool
+from std_srvs.srv import Trigger
+
+START = """
+import sys
+from cloth_sim_ros.node.main import main
+from cloth_sim_ros.{module} import {name}
+
+def fails(*arguments, **options):
+    {name}.calls += 1
+    if {name}.calls in {when}:
+        raise ZeroDivisionError('a fault put in by a test')
+    return works(*arguments, **options)
+
+works, {name}.calls, {name}.{method} = {name}.{method}, 0, fails
+sys.exit(main())
+"""
+ALWAYS = 'range(10**9)'
+
+
+def with_fault(module, name, method, when=ALWAYS):
+    """Return the program of a node with a fault in one method, in those calls of it."""
+    return START.format(module=module, name=name, method=method, when=when)
+
+
+def status_of(cloth, faults=1):
+    """Return what /diagnostics says of the program after so many faults."""
+    found = cloth.wait_for('diagnostics', lambda array: any(
+        status.name.endswith('program') and status.level == status.WARN
+        and status.message.startswith(f'{faults} unexpected error')
+        for status in array.status))
+    return next(status for status in found.status if status.name.endswith('program'))
+
+
+@pytest.mark.parametrize('service, kind, method', [
+    ('apply_push', ApplyPush, '_apply'), ('clear_pushes', Trigger, '_clear')])
+def test_a_request_that_fails_is_answered(client, tmp_path, service, kind, method):
+    """The node would end, or the caller wait for ever for an answer."""
+    start = with_fault('node.push_requests', 'PushRequests', method)
+    with NodeProcess(tmp_path, PAUSED, '-r', '__ns:=/fails', start=start) as node:
+        cloth = ClothUnderTest(client, PAUSED, '/fails/cloth_sim')
+        for _ in range(2):
+            answer = cloth.call(kind, service)
+            assert not answer.success and 'ZeroDivisionError' in answer.message
+        assert service in status_of(cloth, faults=2).message
+        assert cloth.call(Step, 'step', steps=1).success
+        assert node.output.count('Traceback') == 1, 'a fault that comes again is not logged again'
+        assert 'a fault put in by a test' in node.output
+
+
+def test_a_coroutine_that_fails_is_answered(client, tmp_path):
+    """The caller of a service that waits for the end of a step would wait for ever."""
+    start = with_fault('node.cloth_sim_node', 'ClothSimNode', '_reset', 'range(2)')
+    with NodeProcess(tmp_path, SCENE, '-r', '__ns:=/later', start=start):
+        cloth = ClothUnderTest(client, SCENE, '/later/cloth_sim')
+        cloth.wait_for('stats')
+        answer = cloth.call(Trigger, 'reset')
+        assert not answer.success and 'ZeroDivisionError' in answer.message
+        cloth.clear()
+        cloth.wait_for('stats')
+        assert cloth.call(Trigger, 'reset').success
+
+
+def test_a_message_that_fails_is_left_out(client, tmp_path):
+    """A message on a topic would end the node."""
+    start = with_fault('node.push_requests', 'PushRequests', '_on_push', '(1,)')
+    with NodeProcess(tmp_path, PAUSED, '-r', '__ns:=/topic', start=start):
+        cloth = ClothUnderTest(client, PAUSED, '/topic/cloth_sim')
+        publisher = client.node.create_publisher(Push, '/topic/cloth_sim/push', 10)
+        client.spin_until(publisher.get_subscription_count, 'the node listens')
+        for _ in range(2):
+            publisher.publish(Push(force=Vector3(z=1.0), duration=1.0))
+        assert cloth.wait_for('inputs/push').force.z == 1.0
+        assert '~/push' in status_of(cloth).message
+        assert len(cloth['inputs/push']) == 1
+
+
+def test_a_step_that_fails_stops_the_run(client, tmp_path):
+    """A fault in a step would end the node, or be tried again for ever in silence."""
+    start = with_fault('sim.simulation', 'Simulation', '_make_step', '(20,)')
+    with NodeProcess(tmp_path, SCENE, '-r', '__ns:=/step', start=start) as node:
+        cloth = ClothUnderTest(client, SCENE, '/step/cloth_sim')
+        cloth.wait_for('state', lambda state: state.run_state == 'stopped')
+        assert 'the run has failed unexpectedly' in node.output and 'Traceback' in node.output
+        assert status_of(cloth)
+        assert cloth.call(SetBool, 'pause', data=False).success
+        cloth.wait_for('stats', lambda stats: stats.steps > 40)
+
+
+def test_a_device_that_is_lost_stops_the_run(client, tmp_path):
+    """The node would end when the driver resets the GPU, or hand out what is left in memory."""
+    start = with_fault('sim.bounds_check', 'BoundsCheck', 'passes', 'range(20, 10**9)').replace(
+        'import sys', 'import sys\nfrom cloth_sim_ros.gl.errors import DeviceError').replace(
+        'ZeroDivisionError', 'DeviceError')
+    with NodeProcess(tmp_path, SCENE, '-r', '__ns:=/lost', start=start) as node:
+        cloth = ClothUnderTest(client, SCENE, '/lost/cloth_sim')
+        cloth.wait_for('state', lambda state: state.run_state == 'stopped')
+        assert 'a fault put in by a test' in node.output
+        assert 'unexpected' not in node.output
+        cloth.wait_for('diagnostics', lambda array: any(
+            'a fault put in by a test' in status.message for status in array.status))
+        assert cloth.call(Trigger, 'clear_pushes').success
+
+
+def test_a_frame_that_fails_is_left_out(client, tmp_path):
+    """A frame that cannot be made would stop all that come after it."""
+    start = with_fault('node.frames', 'Frames', 'send', '(4,)')
+    with NodeProcess(tmp_path, SCENE, '-r', '__ns:=/frame', start=start) as node:
+        cloth = ClothUnderTest(client, SCENE, '/frame/cloth_sim')
+        cloth.wait_for('stats', lambda stats: stats.steps > 60)
+        assert node.output.count('unexpected error in a frame') == 1
+
+
+def test_a_fault_at_the_start_ends_the_node(tmp_path):
+    """A node whose first mode cannot be prepared would stay there and do nothing."""
+    start = with_fault('sim.engine', 'Preparation', 'run').replace(
+        'raise ZeroDivisionError', 'arguments[0].error = ValueError').replace(
+        'return works', 'return; works')
+    with NodeProcess(tmp_path, SCENE, '-r', '__ns:=/start', start=start) as node:
+        assert node.wait() == 1
+        assert 'a fault put in by a test' in node.output

@@ -1,0 +1,35 @@
+# SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
+# SPDX-License-Identifier: Apache-2.0
+
+"""What a process has had of the processor, its memory, descriptors and threads."""
+
+import os
+from pathlib import Path
+import re
+
+
+def processor_time(pid: int) -> float:
+    """Return the time that all threads of a process have run so far [s]."""
+    total = 0
+    for task in Path(f'/proc/{pid}/task').iterdir():
+        try:
+            total += int((task / 'schedstat').read_text(encoding='ascii').split()[0])
+        except (OSError, ValueError):
+            pass  # the thread has ended meanwhile
+    return total * 1e-9
+
+
+def memory(pid: int) -> int:
+    """Return what a process has in memory that it shares with no file [bytes]."""
+    status = Path(f'/proc/{pid}/status').read_text(encoding='ascii', errors='replace')
+    return int(re.search(r'RssAnon:\s+(\d+) kB', status)[1]) * 1024
+
+
+def descriptors(pid: int) -> int:
+    """Return how many descriptors a process has open."""
+    return len(os.listdir(f'/proc/{pid}/fd'))
+
+
+def threads(pid: int) -> int:
+    """Return how many threads a process has."""
+    return len(os.listdir(f'/proc/{pid}/task'))
