@@ -13,9 +13,9 @@
 // limitations under the License.
 
 #version 430 core
-// Mark the edges of each cell, four bits a mark: which are held at their limit now (MARKS_TENSION,
-// else those beyond it), which are engaged, and which were the time before. An edge is engaged
-// when it is held, and until it has been let go and has come back some way.
+// Mark the edges of each cell, four bits a mark: which are beyond their limit now, so that it holds
+// them, which are engaged, and which were the time before. An edge is engaged when it is held, and
+// until it has been let go and has come back some way.
 
 #include "lattice.glsl"
 #include "edges.glsl"
@@ -28,9 +28,6 @@
 
 layout(local_size_x = LOCAL_X, local_size_y = LOCAL_Y) in;
 
-#if MARKS_TENSION
-layout(std430, binding = TENSION) readonly buffer Tension { vec4 tension[]; };
-#endif
 layout(std430, binding = AT_LIMIT) buffer AtLimit { uint at_limit[]; };
 
 uniform float release;  // of the limit: an edge stays engaged above this strain
@@ -42,17 +39,9 @@ float strain(int row, int col, int row2, int col2, int rest) {
     return from.w * to.w * abs(l / rest_length[rest] - 1.0);
 }
 
-bool is_held(int row, int col, int edge, float strain) {
-#if MARKS_TENSION
-    return tension[node_index(row, col)][edge] != 0.0;
-#else
-    return strain > limit;
-#endif
-}
-
-uint mark(uint before, int row, int col, int edge, float strain) {
+uint mark(uint before, int edge, float strain) {
     uint bit = 1u << edge;
-    if (is_held(row, col, edge, strain)) {
+    if (strain > limit) {
         return bit | bit << ENGAGED;
     }
     return strain > release * limit ? before & bit << ENGAGED : 0u;
@@ -68,14 +57,12 @@ void main() {
     uint before = at_limit[index];
     uint marks = 0u;
 #if HAS_STRUCTURAL
-    marks |= mark(before, row, col, EDGE_ROW, strain(row, col, row, col + 1, REST_ROW));
-    marks |= mark(before, row, col, EDGE_COLUMN, strain(row, col, row + 1, col, REST_COLUMN));
+    marks |= mark(before, EDGE_ROW, strain(row, col, row, col + 1, REST_ROW));
+    marks |= mark(before, EDGE_COLUMN, strain(row, col, row + 1, col, REST_COLUMN));
 #endif
 #if HAS_SHEAR
-    marks |= mark(
-        before, row, col, EDGE_DIAGONAL, strain(row, col, row + 1, col + 1, REST_DIAGONAL));
-    marks |= mark(
-        before, row, col, EDGE_CROSSING, strain(row, col + 1, row + 1, col, REST_DIAGONAL));
+    marks |= mark(before, EDGE_DIAGONAL, strain(row, col, row + 1, col + 1, REST_DIAGONAL));
+    marks |= mark(before, EDGE_CROSSING, strain(row, col + 1, row + 1, col, REST_DIAGONAL));
 #endif
     at_limit[index] = marks | (before >> ENGAGED & 15u) << ENGAGED_BEFORE;
 }

@@ -17,10 +17,8 @@
 // invocation. A spring inside the block is evaluated once for both its ends.
 // STRAIN_LIMIT, for the adaptive mode:
 // NO_LIMIT
-// TENSION_LIMIT: add the tension each edge has from the substep before, and update the velocities
-//     only; limit_sweep.comp has the last word on them.
-// PENALTY_LIMIT: springs stretched beyond the limit are stiffer.
-// RIGID_LIMIT: springs beyond the limit give no force, and only the velocities are updated.
+// RIGID_LIMIT: springs beyond the limit give no force, and only the velocities are updated:
+//     paper_sweep.comp has the last word on them.
 
 #include "lattice.glsl"
 #include "state_in.glsl"
@@ -31,12 +29,6 @@
 #include "symplectic_euler.glsl"
 
 layout(local_size_x = LOCAL_X, local_size_y = LOCAL_Y) in;
-
-#if STRAIN_LIMIT == TENSION_LIMIT
-#include "tension_in.glsl"
-#elif STRAIN_LIMIT == PENALTY_LIMIT
-uniform float penalty;  // [N/m] stiffness added beyond the limit
-#endif
 
 #define TILE (BLOCK + 2 * HALO)
 
@@ -59,13 +51,7 @@ void add_spring(int index, int row, int col, int drow, int dcol, int family, int
 #if STRAIN_LIMIT != NO_LIMIT
     if (family != BEND) {
         vec2 l = length_and_inverse(d);
-#if STRAIN_LIMIT == TENSION_LIMIT
-        f += (load_tension(index, drow, dcol) * l.y) * d;
-#elif STRAIN_LIMIT == PENALTY_LIMIT
-        f += (from.w * to.w * penalty * beyond_limit(l.x, rest_length[rest]) * l.y) * d;
-#else
         f *= is_beyond_limit(l.x, rest_length[rest]) ? 0.0 : 1.0;
-#endif
     }
 #endif
     force[row][col] += f;
@@ -119,7 +105,7 @@ void main() {
             vec4 v = load_velocity(index);
             v.xyz = next_velocity(v, force[row][col], applied_acceleration(index));
             velocity_out[index] = v;
-#if STRAIN_LIMIT == NO_LIMIT || STRAIN_LIMIT == PENALTY_LIMIT
+#if STRAIN_LIMIT == NO_LIMIT
             position_out[index] =
                 vec4(next_position(position[row][col].xyz, v.xyz), position[row][col].w);
 #endif

@@ -13,15 +13,12 @@
 // limitations under the License.
 
 #version 430 core
-// How fast edges turn, how hard their tensions pull at a node, and by what length structural and
-// shear edges are too long or too short: the largest of each, for each invocation, which looks at STRIP nodes of a column. The reader takes the largest of them.
+// How fast edges turn, and the strain of structural and shear edges: the largest of each, for each
+// invocation, which looks at STRIP nodes of a column. The reader takes the largest of them.
 
 #include "lattice.glsl"
 #include "state_in.glsl"
 #include "applied_acceleration.glsl"
-
-#define TENSION_ACCESS readonly
-#include "solver/tension.glsl"
 
 layout(local_size_x = LOCAL_X, local_size_y = LOCAL_Y) in;
 
@@ -42,9 +39,8 @@ Node load_node(int row, int col) {
     return Node(load_position(index), v.xyz + v.w * substep * applied_acceleration(index));
 }
 
-// Square of the angular velocity, as if the edge had its rest length [1/s2], and how much
-// too long or too short it is [m].
-vec2 turn_and_misfit(Node here, int row, int col, int drow, int dcol, int rest) {
+// Square of the angular velocity, as if the edge had its rest length [1/s2], and its strain.
+vec2 turn_and_strain(Node here, int row, int col, int drow, int dcol, int rest) {
     Node there = load_node(row + drow, col + dcol);
     vec3 d = there.position.xyz - here.position.xyz;
     vec3 u = there.velocity - here.velocity;
@@ -52,21 +48,11 @@ vec2 turn_and_misfit(Node here, int row, int col, int drow, int dcol, int rest) 
     float present = there.position.w;
     return present * vec2(
         dot(across, across) / (rest_length[rest] * rest_length[rest]),
-        rest < 3 ? abs(length(d) - rest_length[rest]) : 0.0);
-}
-
-// Tension over the rest length of the edge that begins here and of the one that ends here [1/s2].
-float pull(int row, int col, int drow, int dcol, int rest) {
-    int index = solver_index(row, col);
-    int behind = solver_index(row - drow, col - dcol);
-    float begins = max(tension[tension_entry(TENSION_FOUND, index, drow, dcol)], 0.0);
-    float ends = max(tension[tension_entry(TENSION_FOUND, behind, drow, dcol)], 0.0);
-    return (begins + ends) / rest_length[rest];
+        rest < 3 ? abs(length(d) / rest_length[rest] - 1.0) : 0.0);
 }
 
 #define LOOK(DROW, DCOL, REST) \
-    most = max(most, turn_and_misfit(here, row, col, DROW, DCOL, REST)); \
-    pulls += pull(row, col, DROW, DCOL, REST);
+    most = max(most, turn_and_strain(here, row, col, DROW, DCOL, REST));
 
 void main() {
     int col = int(gl_GlobalInvocationID.x);
@@ -76,10 +62,8 @@ void main() {
         return;
     }
     vec2 most = vec2(0.0);
-    float most_pulls = 0.0;
     for (int row = first; row < min(first + STRIP, ROWS); ++row) {
         Node here = load_node(row, col);
-        float pulls = 0.0;
 #if HAS_STRUCTURAL
         LOOK(0, 1, 0)
         LOOK(1, 0, 1)
@@ -92,10 +76,8 @@ void main() {
         LOOK(0, 2, 3)
         LOOK(2, 0, 4)
 #endif
-        most_pulls = max(most_pulls, load_velocity(node_index(row, col)).w * pulls);
     }
-    int entry = 3 * (strip * COLS + col);
+    int entry = 2 * (strip * COLS + col);
     partial_sums[entry] = most.x;
-    partial_sums[entry + 1] = most_pulls;
-    partial_sums[entry + 2] = most.y;
+    partial_sums[entry + 1] = most.y;
 }

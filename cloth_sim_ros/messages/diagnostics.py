@@ -127,11 +127,25 @@ def _stability(snapshot: Snapshot, problem: str) -> tuple[bytes, str, dict]:
     }
     if problem:
         return ERROR, problem, values
+    if not snapshot.lengths_are_held:
+        return WARN, (
+            f'edges are off by {snapshot.max_strain:.2g} of their length, with '
+            f'{snapshot.strain_bound:.2g} allowed: take a shorter dt, or push and pull with less '
+            'force'), values
+    if snapshot.solves:
+        return _turns(margin, values)
     text = f'a substep is {margin:.3g} of the stability limit'
     if margin > 1.0:
         return ERROR, f'{text}: take a shorter dt, or auto_substeps: true', values
     if margin > SAFE_MARGIN + 1e-3:
         return WARN, f'{text}, above the safe {SAFE_MARGIN}: take a shorter dt', values
+    return OK, text, values
+
+
+def _turns(margin: float, values: dict) -> tuple[bytes, str, dict]:
+    text = f'edges turn by {margin**2:.3g} of what is exact in a substep'
+    if margin > 1.0 + 1e-3:
+        return WARN, f'{text}: raise constraint.max_substeps, or take a shorter dt', values
     return OK, text, values
 
 

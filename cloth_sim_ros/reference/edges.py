@@ -14,8 +14,11 @@
 
 """The springs of a cloth as one flat list of edges, for schemes that solve for all at once."""
 
+from __future__ import annotations
+
 from collections.abc import Sequence
 from dataclasses import dataclass
+from dataclasses import fields
 
 from cloth_sim_ros.reference.springs import spring_sets
 from cloth_sim_ros.sim.scene import Scene
@@ -51,6 +54,11 @@ class Edges:
         """Return which edges belong to ``families``, bool."""
         return np.isin(self.family, families)
 
+    def only(self, families: Sequence[str]) -> Edges:
+        """Return the edges that belong to ``families``, in the same order."""
+        chosen = self.of(families)
+        return Edges(*(getattr(self, field.name)[chosen] for field in fields(self)))
+
     def differences(self, field: np.ndarray) -> np.ndarray:
         """Return the field at the first end less that at the second."""
         return field[self.first] - field[self.second]
@@ -69,6 +77,15 @@ class Edges:
         lengths = np.linalg.norm(differences, axis=1, keepdims=True)
         return np.divide(
             differences, lengths, out=np.zeros_like(differences), where=lengths > 0.0)
+
+    def along(self, velocities: np.ndarray, directions: np.ndarray) -> np.ndarray:
+        """Return how fast each edge grows [m/s]."""
+        return np.sum(self.differences(velocities) * directions, axis=1)
+
+    def across(self, velocities: np.ndarray, directions: np.ndarray) -> np.ndarray:
+        """Return the velocity of the first end past the second, across the edge [m/s]."""
+        rates = self.differences(velocities)
+        return rates - np.sum(rates * directions, axis=1, keepdims=True) * directions
 
     def scatter(self, vectors: np.ndarray, nodes: int) -> np.ndarray:
         """Return at each node what its edges give: ``vectors`` to the first, - to the second."""

@@ -20,14 +20,12 @@ from cloth_sim_ros.reference.edges import Edges
 import numpy as np
 
 # Of the length, lost by an edge that turns in one substep: (omega h)^2 / 2.
-TURN = 0.005
+TURN = 0.0025
 
 
 def across_edges(edges: Edges, positions: np.ndarray, velocities: np.ndarray) -> np.ndarray:
     """Return the velocity of each edge's first end past its second, across the edge [m/s]."""
-    directions = edges.directions(positions)
-    rates = edges.differences(velocities)
-    return rates - np.sum(rates * directions, axis=1, keepdims=True) * directions
+    return edges.across(velocities, edges.directions(positions))
 
 
 def turn_substep(edges: Edges, positions: np.ndarray, velocities: np.ndarray) -> float:
@@ -42,20 +40,3 @@ def turn_substep(edges: Edges, positions: np.ndarray, velocities: np.ndarray) ->
     across = across_edges(edges, positions, velocities)
     omega = np.max(np.linalg.norm(across, axis=1) / edges.rest_length, initial=0.0)
     return math.sqrt(2.0 * TURN) / omega if omega > 0.0 else math.inf
-
-
-def geometric_substep(
-        edges: Edges, tension: np.ndarray, inverse_masses: np.ndarray) -> float:
-    """
-    Return a substep [s] that is stable under the tensions [N], by a bound for each node.
-
-    A tension T pulls a node that leaves the line back with the stiffness T / L0. A step with
-    frozen directions takes this geometric stiffness explicitly. Its largest eigenvalue over
-    M is at most that of the node with the greatest sum of 2 T / L0.
-    """
-    stiffness = np.maximum(tension, 0.0) / edges.rest_length
-    total = np.zeros(len(inverse_masses))
-    np.add.at(total, edges.first, stiffness)
-    np.add.at(total, edges.second, stiffness)
-    greatest = np.max(2.0 * total * inverse_masses, initial=0.0)
-    return 2.0 / math.sqrt(greatest) if greatest > 0.0 else math.inf

@@ -71,26 +71,21 @@ SCENE_FIELDS = (
           'stiffness and damping; all others are left out', choices=FAMILIES, is_array=True),
     Field('constraint.newton_iterations', int, 2, 'linear solves in each substep; 1 is the '
           "paper's method", low=1, high=20),
-    Field('constraint.delta', float, 1e-3, 'regularisation of hard edges; less holds lengths '
-          'better and takes more solver iterations', low=1e-7, high=1.0),
-    Field('constraint.hardening_time', float, 0.3, 'in which, at most, the edges of a cloth '
-          'that comes stretched become hard, and in which edges give back the length they had '
-          'when they became stiffer', 's', low=0.0, high=1e3),
+    Field('constraint.strain', float, 0.008, 'strain of a hard edge that carries the weight of '
+          'the whole cloth; less is harder and takes more solver iterations', low=1e-5, high=1.0),
     Field('constraint.max_substeps', int, 32, 'most substeps of dt that auto_substeps takes '
           'there', low=1, high=MOST_SUBSTEPS),
-    Field('solver.tolerance', float, 1e-3, 'residual at which the linear solver stops, over '
-          'that at its start', low=1e-6, high=0.5),
+    Field('solver.tolerance', float, 0.002, 'error at which the linear solver stops, over the '
+          'change of velocity that it solves for', low=1e-6, high=0.5),
     Field('solver.max_iterations', int, 60, 'iterations after which it stops in any case',
           low=1, high=10000),
     Field('solver.preconditioner', str, 'multigrid', 'multigrid, or block_jacobi, which needs '
           'many more iterations', choices=('multigrid', 'block_jacobi')),
     Field('adaptive.scheme', str, 'constraint', 'what holds a spring at its limit: constraint '
-          '(impulses with memory), penalty (a stiffer spring), or paper (pulled to rest length)',
-          choices=('constraint', 'penalty', 'paper')),
+          '(the implicit step), or paper (explicit steps that pull it to rest length)',
+          choices=('constraint', 'paper')),
     Field('adaptive.threshold', float, 0.1, 'strain at which a structural or shear spring '
           'becomes a constraint in mode adaptive', low=0.005, high=0.5),
-    Field('adaptive.sweeps', int, 3, 'sweeps over all constraints in each substep; twice '
-          'as many while the limit owes energy', low=1, high=1000),
     Field('pushes.start', float, (), 'start of each timed push', 's', low=0.0, high=1e9,
           is_array=True),
     Field('pushes.duration', float, (), 'length of each timed push', 's', low=0.0, high=1e9,

@@ -75,6 +75,12 @@ class SceneProgram:
         self._program.use()
         return self._program
 
+    def delete(self) -> None:
+        """Give the program back; it is compiled anew when it is used again."""
+        if self._program is not None:
+            self._program.delete()
+            self._program = self._set = None
+
 
 def scene_defines(scene: Scene) -> dict[str, object]:
     """Return what the scene's shaders compile in."""

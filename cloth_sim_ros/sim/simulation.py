@@ -128,8 +128,8 @@ class Simulation:
 
     @property
     def stability_margin(self) -> float:
-        """Return the substep over the stability limit: 1 and above blows up."""
-        return self.dt / self.substeps / self.stability_limit
+        """Return the substep over what it should be at most, see Snapshot."""
+        return self.engines.current.mode.substep_margin if self.is_ready else 0.0
 
     @property
     def pushes(self) -> tuple[AppliedPush, ...]:
@@ -338,7 +338,8 @@ class Simulation:
             snapshot = Snapshot(
                 **vars(measures), **mode.report(), records=records, mode=self.mode,
                 time=self.time, steps=self.steps, dt=self.dt,
-                substeps=self.substeps, stability_margin=self.stability_margin)
+                substeps=self.substeps, stability_margin=self.stability_margin,
+                strain_bound=mode.strain_bound)
         if tension or pin_forces:
             self.stepping.refuse_mid_step('forces')
             return with_forces(

@@ -16,6 +16,7 @@
 
 from dataclasses import dataclass
 import hashlib
+import math
 
 from cloth_sim_ros.sim.pin_forces import PinForces
 import numpy as np
@@ -25,6 +26,10 @@ POINT_DTYPE = np.dtype([
     (name, np.float32) for name in (
         'x', 'y', 'z', 'vx', 'vy', 'vz', 'normal_x', 'normal_y', 'normal_z', 'strain')
 ] + [('flags', np.uint32)])
+
+# What is reported of lengths: hard edges that are off by more, and limits passed by more.
+_MOST_HARD_STRAIN = 0.05
+_MOST_OVER_BOUND = 1.5
 
 FLAG_PINNED = 1
 FLAG_AT_LIMIT = 2
@@ -65,11 +70,16 @@ class Snapshot(Measures):
     :param steps: of dt since the start or the last reset
     :param dt: [s]
     :param substeps: in each dt
-    :param stability_margin: substep over the stability limit
+    :param stability_margin: substep over the stability limit, or, in an implicit step, over the
+        longest in which edges turn by no more than they should
+    :param strain_bound: what no structural or shear edge should be stretched or shortened beyond
+        in the present mode, 0 for hard edges
     :param solver_iterations: most of a solve in the last step, 0 in a mode without a solver
     :param solver_residual: relative, where the worst solve of the last step stopped
     :param solver_reached: False when a solve of the last step stopped before the residual asked
         for
+    :param solves: linear solves in the last step, 0 in a mode without a solver
+    :param mean_iterations: of these solves
     :param active_constraints: springs at their limit
     :param active_fraction: of all springs
     :param constraint_switches: activations and deactivations in the last step
@@ -87,14 +97,23 @@ class Snapshot(Measures):
     dt: float
     substeps: int
     stability_margin: float
+    strain_bound: float = math.inf
     solver_iterations: int = 0
     solver_residual: float = 0.0
     solver_reached: bool = True
+    solves: int = 0
+    mean_iterations: float = 0.0
     active_constraints: int = 0
     active_fraction: float = 0.0
     constraint_switches: int = 0
     tension: np.ndarray | None = None
     pin_forces: PinForces | None = None
+
+    @property
+    def lengths_are_held(self) -> bool:
+        """Return whether no edge is beyond the strain bound by more than is to be expected."""
+        return not self.max_strain > max(
+            _MOST_OVER_BOUND * self.strain_bound, _MOST_HARD_STRAIN)
 
     @property
     def positions(self) -> np.ndarray:

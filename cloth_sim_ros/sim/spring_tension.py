@@ -24,7 +24,7 @@ _LEAST_LENGTH = 1e-10
 
 def spring_tension(
         scene: Scene, positions: np.ndarray, velocities: np.ndarray,
-        nodes: np.ndarray | None = None, *, penalty: float = 0.0) -> np.ndarray:
+        nodes: np.ndarray | None = None) -> np.ndarray:
     """
     Return k (l - L0) + k_d dl/dt of every spring [N], (rows, cols, 6) float32; above 0 it pulls.
 
@@ -33,8 +33,6 @@ def spring_tension(
     :param positions: (rows, cols, 3) [m]
     :param velocities: (rows, cols, 3) [m/s]
     :param nodes: (n, 2) rows and columns, for the springs at these nodes alone: the others are 0
-    :param penalty: stiffness that structural and shear springs gain beyond adaptive.threshold
-        [N/m]
     """
     tension = np.zeros((scene.rows, scene.cols, len(EDGE_KINDS)), dtype=np.float32)
     for kind in EDGE_KINDS:
@@ -51,8 +49,5 @@ def spring_tension(
         if scene.damping(kind.family) > 0.0:
             dv = velocities[ends].astype(float) - velocities[starts]
             pull += scene.damping(kind.family) * np.sum(dv * d, axis=-1) / length
-        if penalty > 0.0 and kind.family != 'bend':
-            most = scene['adaptive.threshold'] * rest
-            pull += penalty * (stretch - np.clip(stretch, -most, most))
         tension[(*starts, kind.number)] = pull
     return tension

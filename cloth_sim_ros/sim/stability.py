@@ -59,34 +59,6 @@ def safe_substep(scene: Scene) -> float:
     return min(SAFETY * stability_limit(scene), any_shape_limit(scene))
 
 
-class StiffenedLimit:
-    """
-    The longest substep that automatic substeps may take when springs become stiffer.
-
-    :param scene: the cloth with its own stiffness; structural and shear springs gain more
-    """
-
-    def __init__(self, scene: Scene) -> None:
-        """Find the fastest waves of ``scene`` and of the stiffness to be gained."""
-        unit = {f'stiffness.{family}': float(scene.models(family) and family != 'bend')
-                for family in FAMILIES}
-        undamped = {f'damping.{family}': 0.0 for family in FAMILIES}
-        gained = _wave_matrices(Scene({**scene.values, **unit, **undamped}))[0]
-        own, damping = _wave_matrices(scene)
-        self._scene = scene
-        # Of the flat cloth, and of any shape.
-        self._waves = [
-            tuple(float(np.max(of(matrix))) for matrix in (own, gained, damping))
-            for of in (_largest_eigenvalue, lambda matrix: matrix[0] + matrix[2])]
-
-    def safe_substep(self, gained: float) -> float:
-        """Return the longest substep [s] with ``gained`` [N/m] on structural and shear springs."""
-        flat, any_shape = (
-            _least_limit(self._scene, np.array([own + gained * unit]), np.array([damping]))
-            for own, unit, damping in self._waves)
-        return min(SAFETY * flat, any_shape)
-
-
 def choose_substeps(scene: Scene) -> int:
     """Return how many substeps auto_substeps makes of dt: what is safe, times refine."""
     return scene['refine'] * needed_substeps(scene['dt'], safe_substep(scene))

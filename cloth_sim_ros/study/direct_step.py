@@ -12,15 +12,17 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-
 """The implicit step solved directly in float64: what the device's solution is held against."""
 
+from cloth_sim_ros.reference.edges import Edges
 from cloth_sim_ros.reference.edges import edges_of
-from cloth_sim_ros.reference.solve import solve_primal
 from cloth_sim_ros.sim.scene import FAMILIES
 from cloth_sim_ros.sim.scene import Scene
+from cloth_sim_ros.sim.scene_program import rest_lengths
 from cloth_sim_ros.sim.solver.edge_law import EdgeLaw
 import numpy as np
+from scipy import sparse
+from scipy.sparse.linalg import splu
 
 
 def direct_step(
@@ -28,23 +30,42 @@ def direct_step(
     """
     Return dv [m/s] of the step that ``law`` describes, (rows, cols, 3), by a sparse LU.
 
+    It is the first solve of a cloth without tensions, so that there is no geometric mass term,
+    with lengths foreseen along the edges alone.
+
     :param positions: (rows, cols, 3) [m]
     :param velocities: (rows, cols, 3) [m/s]
     """
-    edges = edges_of(scene)
+    h = law.length
     x, v = (field.reshape(-1, 3).astype(float) for field in (positions, velocities))
     free = ~scene.pinned_nodes().ravel()
-    kind = np.array([FAMILIES.index(family) for family in edges.family])
-    weight, pull = np.array(law.weights)[kind], np.array(law.pulls)[kind]
-    factor = np.where(
-        free[edges.first] & free[edges.second], 1.0, np.array(law.pinned_weights)[kind])
-    in_system = weight > 0.0
-    jacobian = edges.jacobian(edges.directions(x), len(x))[in_system]
-    extension = (edges.lengths(x) - edges.rest_length)[in_system]
-    weight, pull, factor = weight[in_system], pull[in_system], factor[in_system]
-    # Gravity first, and the edges' answer to where that leads.
-    falling = law.length * free[:, None] * np.asarray(scene['gravity'])
-    residual = (pull / weight * extension + jacobian @ (v + falling).ravel()) / law.length
-    change, _ = solve_primal(
-        jacobian, np.repeat(free.astype(float), 3), 1.0 / (weight * factor), residual, law.length)
-    return (falling + change.reshape(-1, 3)).reshape(positions.shape)
+    edges = edges_of(scene, FAMILIES)
+    directions = edges.directions(x)
+    rates = edges.along(v, directions)
+    tension, weight = _pull(scene, law, edges, edges.lengths(x) + h * rates, rates)
+    jacobian = edges.jacobian(directions, len(x))[:, np.repeat(free, 3)]
+    matrix = sparse.identity(jacobian.shape[1]) + jacobian.T @ sparse.diags(weight) @ jacobian
+    right = h * np.tile(scene['gravity'], np.count_nonzero(free)) - h * (jacobian.T @ tension)
+    change = np.zeros_like(x)
+    change[free] = splu(matrix.tocsc()).solve(right).reshape(-1, 3)
+    return change.reshape(positions.shape)
+
+
+def _pull(
+        scene: Scene, law: EdgeLaw, edges: Edges, lengths: np.ndarray,
+        rates: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Return the tension over the node mass [m/s2] and the weight in the matrix of each edge."""
+    family = np.array([FAMILIES.index(name) for name in edges.family], dtype=int)
+    stiffness, damping, shortest, longest = (
+        np.array(values)[family]
+        for values in (law.stiffness, law.damping, law.shortest, law.longest))
+    rest = edges.rest_length
+    # 1 / E goes with the inverse of the rest length.
+    limit_stiffness = law.limit_stiffness[0] * rest_lengths(scene)[0] / rest
+    beyond = np.maximum(lengths - longest * rest, 0.0)
+    has_lower = shortest > 0.0
+    beyond[has_lower] += np.minimum(lengths - shortest * rest, 0.0)[has_lower]
+    in_force = (beyond != 0.0) | (shortest == longest)
+    tension = stiffness * (lengths - rest) + damping * rates + limit_stiffness * beyond
+    slope = stiffness + in_force * limit_stiffness
+    return tension, law.length * (law.length * slope + damping)

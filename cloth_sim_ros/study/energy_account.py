@@ -132,10 +132,10 @@ class EnergyAccount:
     def _uncertain(self, seen: Snapshot) -> float:
         """Return the energy [J] that the state at the start may have besides what it tells."""
         if not self._is_symplectic:
-            # Edges that are off their length are springs until they have hardened.
-            hardening = (springs for springs in spring_sets(self._run.scene)
+            # Edges that are off their length are springs until their limit has closed in.
+            stretched = (springs for springs in spring_sets(self._run.scene)
                          if springs.family in self._run.scene['constraint.hard'])
-            return elastic_energy(tuple(hardening), seen.positions.astype(float))
+            return elastic_energy(tuple(stretched), seen.positions.astype(float))
         # What is set as the velocity now is taken as that of half a substep ago.
         free, forces = self._forces(seen)
         kick = 0.5 * self._run.dt / self._run.substeps / self._run.scene.node_mass

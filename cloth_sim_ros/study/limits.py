@@ -81,24 +81,22 @@ def spread(runs: Sequence[LimitRun]) -> float:
     return max(peaks) / min(peaks) - 1.0
 
 
-def _row(name: str, scheme: str, runs: Sequence[LimitRun]) -> str:
+def _row(name: str, runs: Sequence[LimitRun]) -> str:
     strains = ' '.join(f'{run.max_strain:.3f}' for run in runs)
     switching = ' '.join(f'{100.0 * run.switching:.1f}' for run in runs)
     substeps = ' '.join(f'{run.substeps:.0f}' for run in runs)
-    return f'| {name} | {scheme} | {strains} | {100.0 * spread(runs):.1f} | {switching} ' \
-        f'| {substeps} |'
+    return f'| {name} | {strains} | {100.0 * spread(runs):.1f} | {switching} | {substeps} |'
 
 
 def main() -> None:
     """Print the table of docs/adaptive.md."""
     parser = ArgumentParser(description=__doc__)
     parser.add_argument('--seconds', type=float, default=10.0, help='simulated, of each run')
-    parser.add_argument('--schemes', nargs='+', default=['constraint', 'penalty'])
     args = parser.parse_args()
     dts = ' '.join(f'{dt:g}' for dt in _DTS)
-    print(f'| scene | scheme | max strain at dt {dts} | spread of peak kinetic energy, % '
+    print(f'| scene | max strain at dt {dts} | spread of peak kinetic energy, % '
           '| edges that switch a step, % | substeps a simulated second |')
-    print('|---|---|---|---|---|---|')
+    print('|---|---|---|---|---|')
     for name, scene in (
             ('paper P5', lambda **values: paper_scene(5.0, **values)),
             ('paper P20', lambda **values: paper_scene(20.0, **values)),
@@ -106,10 +104,8 @@ def main() -> None:
             ('unit N=12 P20', lambda **values: unit_scene(12, 20.0, **values)),
             ('unit N=32 P5', lambda **values: unit_scene(32, 5.0, **values)),
             ('unit N=32 P20', lambda **values: unit_scene(32, 20.0, **values))):
-        for scheme in args.schemes:
-            runs = [limit_run(scene(dt=dt, **{'adaptive.scheme': scheme}), args.seconds)
-                    for dt in _DTS]
-            print(_row(name, scheme, runs), flush=True)
+        runs = [limit_run(scene(dt=dt), args.seconds) for dt in _DTS]
+        print(_row(name, runs), flush=True)
 
 
 if __name__ == '__main__':

@@ -17,7 +17,7 @@
 The paper's own solver, as a baseline: J J^T formed pair by pair, then plain conjugate gradients.
 
 Va et al. 2021, Tab. 3 to 6. Different from the print: unit rows, the inverse mass inside, and the
-same regularisation as ``hard_edges``, without which the matrix is singular (docs/numerics.md).
+same compliance as ``hard_edges``, without which the matrix is singular (docs/numerics.md).
 """
 
 from cloth_sim_ros.gl.buffer import Buffer
@@ -27,7 +27,7 @@ from cloth_sim_ros.gl.shader_source import ShaderSource
 from cloth_sim_ros.reference.edges import Edges
 from cloth_sim_ros.reference.edges import edges_of
 from cloth_sim_ros.sim.scene import Scene
-from cloth_sim_ros.sim.solver.edge_law import DELTA
+from cloth_sim_ros.sim.solver.edge_law import full_pull
 from cloth_sim_ros.sim.solver.solve_report import SolveReport
 import numpy as np
 
@@ -45,7 +45,9 @@ _PAIR_LOCAL = 16
 
 class PaperSolver:
     """
-    Solves (J W J^T + E) lambda = C / h^2 + J (v / h + g) for hard edges of one state.
+    Solves (J W J^T + E / h^2) lambda = C / h^2 + J (v / h + g) for hard edges of one state.
+
+    E is that of the scene, see ``full_pull``.
 
     :param positions: (rows, cols, 3) [m]
     :param velocities: (rows, cols, 3) [m/s]
@@ -135,8 +137,9 @@ class PaperSolver:
             name: Program(ShaderSource(f'paper_solver/{name}.comp', defines))
             for name in (
                 'constraint', 'spmm', 'spmv', 'dot', 'scalars', 'update', 'direction')}
+        softness = 1.0 / (full_pull(scene, scene['constraint.strain']) * self._step**2)
         for name, uniform, value in (
-                ('constraint', 'substep', self._step), ('spmm', 'regularisation', DELTA)):
+                ('constraint', 'substep', self._step), ('spmm', 'softness', softness)):
             self._programs[name].use()
             self._programs[name].set_float(uniform, value)
         self._programs['scalars'].use()

@@ -42,7 +42,8 @@ class SolveSpeed:
     :param solver: multigrid, or the name of the baseline
     :param step: springs or hard, and dt [s]
     :param drape_time: when the state was taken [s]
-    :param residual: as the solver measures it, relative to that at the start
+    :param residual: as the solver measures it: over the change of velocity, that of the paper's
+        over the one at its start
     :param reached: whether that is the 1e-2 asked for
     :param velocity_error: norm of dv less that of a direct float64 solve, over that norm
     :param median: solves a second, over the rounds

@@ -48,8 +48,10 @@ class Step:
     dt: float
 
     def law(self, scene: Scene) -> EdgeLaw:
-        """Return what edges weigh in it."""
-        return hard_edges(self.dt) if self.hard else implicit_springs(scene, self.dt)
+        """Return the law of its edges, without the geometric mass term."""
+        if self.hard:
+            return hard_edges(scene, self.dt, strain=scene['constraint.strain'])
+        return implicit_springs(scene, self.dt)
 
     def __str__(self) -> str:
         """Return it in words."""
@@ -110,8 +112,7 @@ class _SolverStep:
 
     def solve(self) -> None:
         """Set up and solve the step."""
-        self._solver.assemble(self._state)
-        self._solver.make_right_side(self._state, self._forcing)
+        self._solver.prepare(self._state, self._forcing)
         self._solver.solve()
 
     def delete(self) -> None:
@@ -121,9 +122,10 @@ class _SolverStep:
 
 
 class MultigridStep(_SolverStep):
-    """The solver of the modes, as they use it."""
+    """The solver of the modes; it starts from nothing each time, as in a first step."""
 
     name = 'multigrid'
+    options = {'max_iterations': 100}
 
 
 class BlockJacobiStep(_SolverStep):

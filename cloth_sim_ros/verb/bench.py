@@ -22,32 +22,48 @@ threads of llvmpipe.
 --solver measures the implicit step instead: solves a second, set-up included, with the iterations
 to a residual of 1e-2 and the error against a direct float64 solve beside them.
 
+--modes compares whole modes on a light cloth that falls from two corners: real-time factor beside
+stretch, work and rise of energy. Each makes 20 ms in turn; docs/performance.md defines the
+figures.
+
 For example:
   cloth_sim bench
   cloth_sim bench --sizes 512 1024 --rounds 9 --json
   cloth_sim bench --variants block=4 block=2 block=1,loads=storage
   cloth_sim bench --solver
   cloth_sim bench --solver --baseline paper
+  cloth_sim bench --modes --grids 32,64
   cloth_sim bench --start-up config/drape.yaml
 """
 
 from argparse import ArgumentParser
+from argparse import ArgumentTypeError
 from argparse import Namespace
+from functools import partial
 import json
 import statistics
 
+from cloth_sim_ros.files.echo import shown
+from cloth_sim_ros.study.modes.comparison import compare_modes
+from cloth_sim_ros.study.modes.contenders import CONTENDERS
+from cloth_sim_ros.study.modes.report import comparison_table
 from cloth_sim_ros.study.solver_speed import compare_solvers
 from cloth_sim_ros.study.solver_speed import SolverComparison
 from cloth_sim_ros.study.speed import compare_variants
 from cloth_sim_ros.study.speed import Comparison
 from cloth_sim_ros.study.timed_solver import BASELINES
 from cloth_sim_ros.verb.scene_arguments import parse_change
+from tqdm import tqdm
 
 _START_UP_TIMEOUT = 60.0
 _SIZES = [128, 512, 1024]
 _SOLVER_SIZES = [52, 128]
 # The paper's matrix takes time and memory with the square of the edges.
 _PAPER_SOLVER_SIZES = [20]
+_GRIDS = [32, 64, 128]
+_ROUNDS = 7
+# Of --modes, whose rounds on fine grids take minutes.
+_MODES_ROUNDS = 3
 
 
 def add_arguments(parser: ArgumentParser) -> None:
@@ -58,14 +74,25 @@ def add_arguments(parser: ArgumentParser) -> None:
     parser.add_argument('--variants', nargs='+', metavar='name=value,...',
                         default=['layout=fused', 'layout=paper'],
                         help='scene parameters of each variant (default: %(default)s)')
-    parser.add_argument('--rounds', type=int, default=7, metavar='N',
-                        help='rounds of each layout (default: %(default)s)')
+    parser.add_argument('--rounds', type=int, metavar='N',
+                        help=f'rounds of each variant (default: {_ROUNDS}, with --modes '
+                             f'{_MODES_ROUNDS})')
     parser.add_argument('--round-seconds', type=float, default=0.4, metavar='T',
                         help='wall time of a round (default: %(default)s)')
     parser.add_argument('--solver', action='store_true',
                         help='measure the solver of the implicit step instead')
     parser.add_argument('--baseline', choices=('paper', 'block_jacobi'),
                         help='measure this solver in turn with it, and their ratio')
+    parser.add_argument('--modes', action='store_true',
+                        help='compare whole modes on a falling cloth instead')
+    parser.add_argument('--grids', type=_parse_grids, default=_GRIDS, metavar='N,N,...',
+                        help='nodes along each side with --modes (default: '
+                             f'{",".join(map(str, _GRIDS))})')
+    parser.add_argument('--seconds', type=float, default=1.2, metavar='T',
+                        help='simulated in a round with --modes (default: %(default)s)')
+    parser.add_argument('--only', nargs='+', choices=CONTENDERS, default=list(CONTENDERS),
+                        metavar='NAME', help='compare these with --modes, of '
+                                             f'{", ".join(CONTENDERS)} (default: all)')
     parser.add_argument('--start-up', metavar='SCENE.yaml',
                         help='measure the time of a node to its first cloud instead; needs ROS')
     parser.add_argument('--set', action='append', default=[], metavar='name=value',
@@ -75,6 +102,10 @@ def add_arguments(parser: ArgumentParser) -> None:
 
 def main(args: Namespace) -> int:
     """Measure and print."""
+    if args.modes:
+        return _compare_modes(args)
+    if args.rounds is None:
+        args.rounds = _ROUNDS
     if args.start_up:
         # ROS is needed for this figure alone.
         from cloth_sim_ros.study.start_up import time_to_first_cloud
@@ -93,6 +124,24 @@ def main(args: Namespace) -> int:
             variants, args.sizes or _SIZES, args.rounds, args.round_seconds):
         print(json.dumps(comparison.as_dict()) if args.json else _in_words(comparison),
               flush=True)
+    return 0
+
+
+def _parse_grids(text: str) -> list[int]:
+    try:
+        return list(dict.fromkeys(int(part) for part in text.split(',')))
+    except ValueError:
+        raise ArgumentTypeError(
+            f'{shown(text)} is no list of whole numbers: give some as 32,64') from None
+
+
+def _compare_modes(args: Namespace) -> int:
+    comparison = compare_modes(
+        [CONTENDERS[name] for name in dict.fromkeys(args.only)], args.grids,
+        seconds=args.seconds, rounds=_MODES_ROUNDS if args.rounds is None else args.rounds,
+        progress=partial(tqdm, unit=' frames', leave=False, disable=None))
+    print(json.dumps(comparison.as_dict(), allow_nan=False) if args.json
+          else comparison_table(comparison))
     return 0
 
 

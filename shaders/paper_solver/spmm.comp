@@ -22,7 +22,7 @@
 
 layout(local_size_x = 16, local_size_y = 16) in;
 
-uniform float regularisation;  // E over w_i + w_j
+uniform float softness;  // E / h^2 over the rest length [1/(kg m)]
 
 void main() {
     int i = int(gl_GlobalInvocationID.x);
@@ -41,8 +41,7 @@ void main() {
         }
     }
     if (i == j) {
-        value += regularisation
-            * (inverse_mass(int(edges[i].x)) + inverse_mass(int(edges[i].y)));
+        value += softness * edges[i].z;
     }
     if (value != 0.0) {
         uint at = atomicAdd(row_count[i], 1u);

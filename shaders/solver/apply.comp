@@ -38,6 +38,9 @@ void main() {
     vec4 velocity = load_velocity(index);
     vec4 position = load_position(index);
     vec3 change = load_vector(cloth_entry(SOLUTION, level_index(0, row, col)));
+    vec3 before = is_further == 1
+        ? load_vector(cloth_entry(CHANGE, level_index(0, row, col))) : vec3(0.0);
+    store_vector(cloth_entry(CHANGE, level_index(0, row, col)), before + change);
     change += common_change;
     velocity.xyz += change;
     vec3 moved = substep * (is_further == 1 ? change : velocity.xyz);

@@ -1,29 +1,39 @@
-// Copyright 2026 the cloth_sim_ros authors
-//
-// Licensed under the Apache License, Version 2.0 (the "License");
-// you may not use this file except in compliance with the License.
-// You may obtain a copy of the License at
-//
-//     http://www.apache.org/licenses/LICENSE-2.0
-//
-// Unless required by applicable law or agreed to in writing, software
-// distributed under the License is distributed on an "AS IS" BASIS,
-// WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
-// See the License for the specific language governing permissions and
-// limitations under the License.
+// SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
+// SPDX-License-Identifier: Apache-2.0
 
 #version 430 core
-// Before the first iteration: what the update does with the residual after each of the others.
+// Before the first iteration: where the solution starts, what that leaves of the residual, and
+// its first smoothing.
 
 #include "solver/levels.glsl"
 #include "solver/vectors.glsl"
 #include "solver/system.glsl"
-#include "solver/smooth_residual.glsl"
+#include "solver/smoothing_steps.glsl"
+#include "solver/cloth_product.glsl"
 
-layout(local_size_x = POINT_LOCAL) in;
+layout(local_size_x = LOCAL_X, local_size_y = LOCAL_Y) in;
+
+uniform int start_field;  // where the solution starts, of which
+uniform float guess;      // this share
 
 void main() {
-    FOR_POINTS {
-        smooth_residual(index, load_vector(cloth_entry(RESIDUAL, index)));
+    ivec2 first = first_of_block();
+    if (!in_cloth(first)) {
+        return;
+    }
+    load_edges(first);
+    load_values(first, start_field);
+    FOR_TILE {
+        value[row][col] *= is_free(node[row][col]) ? guess : 0.0;
+    }
+    make_product();
+    FOR_BLOCK {
+        int index = tile_index(first, row, col);
+        vec3 residual = load_vector(cloth_entry(RESIDUAL, index)) - product[row][col];
+        store_vector(cloth_entry(SOLUTION, index), value[row][col]);
+        store_vector(cloth_entry(RESIDUAL, index), residual);
+        store_vector(
+            cloth_entry(SMOOTHED_INTO, index),
+            first_step * times(load_cloth_inverse(index), residual));
     }
 }

@@ -30,7 +30,7 @@ void main() {
     if (!in_cloth(first)) {
         return;
     }
-    load_nodes(first);
+    load_edges(first);
     load_values(first, SMOOTHED_TWICE);
     load_correction(1, first);
     FOR_TILE {

@@ -27,7 +27,7 @@ void main() {
     if (!in_cloth(first)) {
         return;
     }
-    load_nodes(first);
+    load_edges(first);
     load_values(first, SMOOTHED_TWICE);
     make_product();
     FOR_BLOCK {

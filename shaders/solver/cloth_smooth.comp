@@ -31,7 +31,7 @@ void main() {
     if (!in_cloth(first)) {
         return;
     }
-    load_nodes(first);
+    load_edges(first);
     load_values(first, SMOOTHED);
     make_product();
     float step_size = goes_up ? first_step : second_step;

@@ -17,8 +17,8 @@
 
 #include "solver/levels.glsl"
 #include "solver/system.glsl"
-#include "solver/edge_weight.glsl"
 #include "solver/edge_tensors.glsl"
+#include "solver/cloth_edge_block.glsl"
 
 #if HAS_BEND
 #define REACH 2
@@ -28,46 +28,34 @@
 
 layout(local_size_x = LOCAL_X, local_size_y = LOCAL_Y) in;
 
-vec4 load_node(ivec2 at) { return load_system(cloth_entry(NODE, node_index(at.x, at.y))); }
-
-Symmetric edge_between(vec4 from, vec4 to, int family) {
-    vec3 d = from.xyz - to.xyz;
-    return weight_over_square(from, to, d, family) * outer_square(d);
-}
-
-Symmetric edge_from(ivec2 at, ivec2 by, int family) {
-    return edge_between(load_node(at), load_node(at + by), family);
-}
-
 Symmetric finer_edge(ivec2 at, int direction) {
-    return edge_from(at, TOWARDS[direction], direction < 2 ? STRUCTURAL : SHEAR);
+    return edge_block(at, TOWARDS[direction], direction);
 }
 
 #include "solver/average_edges.glsl"
 
-// What ties a free node to a pinned one.
-Symmetric tie(vec4 here, ivec2 at, int family) {
-    vec4 there = load_node(at);
-    if (there.w >= 0.0) {
-        return Symmetric(0.0);
+// What ties a free node to a pinned one: by an edge that begins here, or ends here.
+Symmetric ties(ivec2 at, ivec2 by, int edge) {
+    Symmetric sum = Symmetric(0.0);
+    if (load_node(at + by).w < 0.0) {
+        sum += edge_block(at, by, edge);
     }
-    return edge_between(here, there, family);
+    if (load_node(at - by).w < 0.0) {
+        sum += edge_block(at - by, by, edge);
+    }
+    return sum;
 }
 
-Symmetric ties(vec4 here, ivec2 at, ivec2 by, int family) {
-    return tie(here, at + by, family) + tie(here, at - by, family);
-}
-
-Symmetric all_ties(vec4 here, ivec2 at) {
+Symmetric all_ties(ivec2 at) {
     Symmetric sum = Symmetric(0.0);
 #if HAS_STRUCTURAL
-    sum += ties(here, at, ivec2(0, 1), STRUCTURAL) + ties(here, at, ivec2(1, 0), STRUCTURAL);
+    sum += ties(at, ivec2(0, 1), 0) + ties(at, ivec2(1, 0), 1);
 #endif
 #if HAS_SHEAR
-    sum += ties(here, at, ivec2(1, 1), SHEAR) + ties(here, at, ivec2(1, -1), SHEAR);
+    sum += ties(at, ivec2(1, 1), 2) + ties(at, ivec2(1, -1), 3);
 #endif
 #if HAS_BEND
-    sum += ties(here, at, ivec2(0, 2), BEND) + ties(here, at, ivec2(2, 0), BEND);
+    sum += ties(at, ivec2(0, 2), 4) + ties(at, ivec2(2, 0), 5);
 #endif
     return sum;
 }
@@ -92,8 +80,10 @@ Symmetric coarse_edge(int row, int col, int direction) {
     // A bend edge of the cloth is as long as an edge here.
     if (direction < 2) {
         ivec2 by = 2 * TOWARDS[direction];
-        edge += edge_from(first, by, BEND) + edge_from(first + ivec2(0, 1), by, BEND)
-            + edge_from(first + ivec2(1, 0), by, BEND) + edge_from(first + ivec2(1, 1), by, BEND);
+        int bend = 4 + direction;
+        edge += edge_block(first, by, bend) + edge_block(first + ivec2(0, 1), by, bend)
+            + edge_block(first + ivec2(1, 0), by, bend)
+            + edge_block(first + ivec2(1, 1), by, bend);
     }
 #endif
     return edge;
@@ -122,9 +112,8 @@ void main() {
     int near_pin = has_pin_around(first) ? 4 : 0;
     for (int i = 0; i < near_pin; ++i) {
         ivec2 at = first + ivec2(i / 2, i % 2);
-        vec4 here = load_node(at);
-        if (is_free(here)) {
-            ground += all_ties(here, at);
+        if (load_node(at).w > 0.0) {
+            ground += all_ties(at);
         }
     }
     store_symmetric(level, GROUND, index, ground);

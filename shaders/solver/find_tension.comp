@@ -1,60 +1,64 @@
-// Copyright 2026 the cloth_sim_ros authors
-//
-// Licensed under the Apache License, Version 2.0 (the "License");
-// you may not use this file except in compliance with the License.
-// You may obtain a copy of the License at
-//
-//     http://www.apache.org/licenses/LICENSE-2.0
-//
-// Unless required by applicable law or agreed to in writing, software
-// distributed under the License is distributed on an "AS IS" BASIS,
-// WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
-// See the License for the specific language governing permissions and
-// limitations under the License.
+// SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
+// SPDX-License-Identifier: Apache-2.0
 
 #version 430 core
-// The tension of each edge: what the right side began it with, and what the solution adds.
+// The tension of each edge, over the node mass: what the right side began it with, and what the
+// solution adds.
 
 #include "solver/levels.glsl"
 #include "solver/vectors.glsl"
 #include "solver/system.glsl"
 #include "solver/cloth_tile.glsl"
-
-#define TENSION_ACCESS
-#include "solver/tension.glsl"
+#include "solver/cloth_edges.glsl"
 
 layout(local_size_x = LOCAL_X, local_size_y = LOCAL_Y) in;
 
 uniform float substep;  // [s]
 
 vec3 solution[TILE][TILE];
+vec4 tension[TILE][TILE];
+#if HAS_BEND
+vec4 bend_tension[TILE][TILE];
+#endif
 
-void find(ivec2 first, int row, int col, int drow, int dcol, int family) {
+void find(int row, int col, int drow, int dcol, int edge, int family, int rest) {
     if (!is_in_block(row, col)) {
         return;
     }
-    vec4 from = node[row][col];
-    vec4 to = node[row + drow][col + dcol];
-    vec3 d = from.xyz - to.xyz;
-    float rate = dot(d, solution[row][col] - solution[row + drow][col + dcol])
-        * inversesqrt(max(dot(d, d), 1e-20));
-    int index = tile_index(first, row, col);
-    tension[tension_entry(TENSION_FOUND, index, drow, dcol)] =
-        tension[tension_entry(TENSION_BEGUN, index, drow, dcol)]
-        + edge_weight(from, to, family) * rate / substep;
+    vec3 d = node[row][col].xyz - node[row + drow][col + dcol].xyz;
+    float square = max(dot(d, d), 1e-20);
+    float weight = weight_along(row, col, edge) * square + weight_across(row, col, edge);
+    float added = weight * dot(d, solution[row][col] - solution[row + drow][col + dcol])
+        * inversesqrt(square) / substep;
+#if HAS_BEND
+    if (edge > 3) {
+        bend_tension[row][col][edge - 4] = bend_tension[row][col][edge - 2] + added;
+        return;
+    }
+#endif
+    tension[row][col][edge] += added;
 }
-
-#define FIND(row, col, drow, dcol, family, rest) find(first, row, col, drow, dcol, family)
 
 void main() {
     ivec2 first = first_of_block();
     if (!in_cloth(first)) {
         return;
     }
+    load_edges(first);
     FOR_TILE {
-        int index = tile_index(first, row, col);
-        node[row][col] = load_system(cloth_entry(NODE, index));
-        solution[row][col] = load_vector(cloth_entry(SOLUTION, index));
+        int entry = tile_index(first, row, col);
+        solution[row][col] = load_vector(cloth_entry(SOLUTION, entry));
+        tension[row][col] = load_system(cloth_entry(BEGUN, entry));
+#if HAS_BEND
+        bend_tension[row][col] = load_system(cloth_entry(BEND_TENSION, entry));
+#endif
     }
-    FOR_CLOTH_EDGES(FIND)
+    FOR_CLOTH_EDGES(find)
+    FOR_BLOCK {
+        int entry = tile_index(first, row, col);
+        system_data[cloth_entry(TENSION, entry)] = tension[row][col];
+#if HAS_BEND
+        system_data[cloth_entry(BEND_TENSION, entry)] = bend_tension[row][col];
+#endif
+    }
 }

@@ -26,16 +26,19 @@ layout(local_size_x = LOCAL_X, local_size_y = LOCAL_Y) in;
 
 void main() {
     ivec2 first = first_of_block();
-    vec2 sums = vec2(0.0);
+    vec3 sums = vec3(0.0);
     if (in_cloth(first)) {
-        load_nodes(first);
+        load_edges(first);
         load_values(first, PRECONDITIONED);
         make_product();
         FOR_BLOCK {
             int index = tile_index(first, row, col);
             vec3 residual = load_vector(cloth_entry(RESIDUAL, index));
             store_vector(cloth_entry(PRODUCT, index), product[row][col]);
-            sums += vec2(dot(residual, value[row][col]), dot(product[row][col], value[row][col]));
+            vec3 solution = load_vector(cloth_entry(SOLUTION, index));
+            sums += vec3(
+                dot(residual, value[row][col]), dot(product[row][col], value[row][col]),
+                dot(solution, solution));
         }
     }
     store_sums(sums);

@@ -27,23 +27,25 @@ layout(std430, binding = SOLVER_DISPATCHES) writeonly buffer Dispatches { uint d
 
 uniform int sum_count;
 uniform float tolerance_square;
+uniform bool sets_scale;     // in a first solve
+uniform float least_scale;   // of it
 
 #if LOADS_TEXTURE
 layout(binding = SOLVER_SUMS) uniform samplerBuffer sums_in;
-#define LOAD_SUMS(i) texelFetch(sums_in, i).xy
+#define LOAD_SUMS(i) texelFetch(sums_in, i).xyz
 #else
 layout(std430, binding = SOLVER_SUMS) readonly buffer PartialSums { vec4 partial_sums[]; };
-#define LOAD_SUMS(i) partial_sums[i].xy
+#define LOAD_SUMS(i) partial_sums[i].xyz
 #endif
 
 uniform int groups_count;
 uniform ivec2 groups_of_each[MOST_GROUPS_COUNTS];  // workgroups of the passes that are switched
 
-shared vec2 sums[REDUCE_LOCAL];
+shared vec3 sums[REDUCE_LOCAL];
 
 bool is_number(float value) { return (floatBitsToUint(value) & 0x7f800000u) != 0x7f800000u; }
 
-void decide(float now, float curvature) {
+void decide(float now, float curvature, float size) {
     bool first = iterations == 0.0;
     float start = first ? now : measure_start;
     keep = first ? 0.0 : now / measure;
@@ -62,7 +64,10 @@ void decide(float now, float curvature) {
     // The step just found is made, and reduces the measure as the last one did. What is not sound
     // makes no step, and stays what it is: a NaN, for one.
     measure_after = first || !sound ? now : now * min(keep, 1.0);
-    uint another = sound && measure_after > tolerance_square * start ? 1u : 0u;
+    if (sets_scale) {
+        scale = max(size, least_scale);
+    }
+    uint another = sound && measure_after > tolerance_square * scale ? 1u : 0u;
     for (int i = 0; i < groups_count; ++i) {
         dispatches[3 * i] = another * uint(groups_of_each[i].x);
         dispatches[3 * i + 1] = uint(groups_of_each[i].y);
@@ -72,17 +77,17 @@ void decide(float now, float curvature) {
 
 void main() {
     int at = int(gl_LocalInvocationIndex);
-    vec2 sum = vec2(0.0);
+    vec3 sum = vec3(0.0);
     for (int i = at; i < sum_count; i += REDUCE_LOCAL) {
         sum += LOAD_SUMS(i);
     }
     sums[at] = sum;
     barrier();
     if (at == 0) {
-        vec2 total = vec2(0.0);
+        vec3 total = vec3(0.0);
         for (int i = 0; i < REDUCE_LOCAL; ++i) {
             total += sums[i];
         }
-        decide(total.x, total.y);
+        decide(total.x, total.y, total.z);
     }
 }

@@ -1,23 +1,14 @@
-// Copyright 2026 the cloth_sim_ros authors
-//
-// Licensed under the Apache License, Version 2.0 (the "License");
-// you may not use this file except in compliance with the License.
-// You may obtain a copy of the License at
-//
-//     http://www.apache.org/licenses/LICENSE-2.0
-//
-// Unless required by applicable law or agreed to in writing, software
-// distributed under the License is distributed on an "AS IS" BASIS,
-// WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
-// See the License for the specific language governing permissions and
-// limitations under the License.
+// SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
+// SPDX-License-Identifier: Apache-2.0
 
 #version 430 core
-// The right side of the linearised step, over the node mass [m/s]: what applied accelerations and
-// edges of frozen direction change in the velocity. Each edge pulls by edge_pulls times its
-// extension and edge_weights times the rate of its length.
-// FORESEES_TURN: an edge also pulls back what moving across its direction will lengthen it by.
-// KEEPS_TENSION: begin each edge's tension with its pull, and allow for offsets of rest lengths.
+// What a solve of the step begins with, over the node mass: the right side [m/s], and how much
+// each edge resists along its direction and across it. Directions are frozen at where nodes are.
+// An edge pulls as its law does at the length that the velocities lead to, with the limit in force
+// that it has at the length expected of the solution.
+// IS_FURTHER 0: the first solve, from the velocities before, FORESEES_TURN with what moving across
+// its direction adds to the length of an edge.
+// IS_FURTHER 1: nodes have moved, and the solve finds what the tensions lack of the law there.
 
 #include "solver/levels.glsl"
 #include "solver/vectors.glsl"
@@ -25,72 +16,86 @@
 #include "state_in.glsl"
 #include "solver/state_index.glsl"
 #include "solver/cloth_tile.glsl"
+#include "solver/edge_law.glsl"
+#include "solver/foreseen_length.glsl"
+#if !IS_FURTHER
 #include "applied_acceleration.glsl"
-
-#if KEEPS_TENSION
-#define TENSION_ACCESS
-#include "solver/tension.glsl"
 #endif
 
 layout(local_size_x = LOCAL_X, local_size_y = LOCAL_Y) in;
 
-uniform float edge_pulls[3];   // [1/s] structural, shear, bend
-uniform float rest_length[5];  // [m] along a row, along a column, diagonal, two along each
-uniform float substep;         // [s]
-#if KEEPS_TENSION
-uniform float offset_share;   // of the offsets of rest lengths, at the end of the step
-#endif
-#if KEEPS_TENSION && HAS_LAG
-uniform float edge_lags[3];    // [1/s2] damping over the length of the step
-#endif
+uniform float kick;          // [s] that what is applied acts for
+uniform int start_field;     // a change of velocity, of which
+uniform float guess;         // this share is expected now
+uniform bool knows_tension;  // false where no step before this one has found any
+uniform float geometric;     // beta of the geometric mass term
 
 vec3 velocity[TILE][TILE];
-#if FORESEES_TURN
-vec3 foreseen[TILE][TILE];     // velocity with the applied acceleration alone
-#endif
+vec3 expected[TILE][TILE];   // change of velocity
 vec3 change[TILE][TILE];
+vec4 tension[TILE][TILE];    // found last
+vec4 begun[TILE][TILE];
+#if HAS_BEND
+vec4 bend_tension[TILE][TILE];
+vec4 bend_weight[TILE][TILE];
+#endif
 
-// The rate at which an edge of length l along n grows by moving at u, besides dot(u, n).
-float growth_by_turning(float l, vec3 n, vec3 u) {
-    vec3 across = substep * (u - dot(u, n) * n);
-    float square = dot(across, across);
-    return square / ((sqrt(l * l + square) + l) * substep);
+float found_tension(int row, int col, int edge) {
+#if HAS_BEND
+    if (edge > 3) {
+        return bend_tension[row][col][edge - 4];
+    }
+#endif
+    return tension[row][col][edge];
 }
 
-void add_to_change(ivec2 first, int row, int col, int drow, int dcol, int family, int rest) {
+void keep(int row, int col, int edge, float begun_here, float along_here, float across_here) {
+#if HAS_BEND
+    if (edge > 3) {
+        bend_tension[row][col][edge - 2] = begun_here;
+        bend_weight[row][col][edge - 4] = along_here;
+        bend_weight[row][col][edge - 2] = across_here;
+        return;
+    }
+#endif
+    begun[row][col][edge] = begun_here;
+    along[row][col][edge] = along_here;
+    across[row][col][edge] = across_here;
+}
+
+void add_edge(int row, int col, int drow, int dcol, int edge, int family, int rest) {
     vec4 from = node[row][col];
     vec4 to = node[row + drow][col + dcol];
+    float moves = is_held_together(from, to);
     vec3 d = from.xyz - to.xyz;
     float square = max(dot(d, d), 1e-20);
     float inverse_length = inversesqrt(square);
     float l = square * inverse_length;
     vec3 n = inverse_length * d;
-    float rate = dot(n, velocity[row][col] - velocity[row + drow][col + dcol]);
-#if FORESEES_TURN
-    rate += growth_by_turning(l, n, foreseen[row][col] - foreseen[row + drow][col + dcol]);
+    vec3 u = velocity[row][col] - velocity[row + drow][col + dcol];
+    float ahead = foreseen_length(l, n, u);
+    // Edges come to their limits in the step, and leave them.
+    float judged =
+        ahead + substep * dot(n, expected[row][col] - expected[row + drow][col + dcol]);
+    Pull pull = pull_at(ahead, judged, dot(n, u), family, rest);
+    float tension_here = moves * pull.tension;
+    float found = knows_tension
+        ? found_tension(row, col, edge) : pull_at(l, l, 0.0, family, rest).tension;
+#if IS_FURTHER
+    float missing = tension_here - found;
+#else
+    float missing = tension_here;
 #endif
-    float share = edge_share(from, to, family);
-    float extension = l - rest_length[rest];
-#if KEEPS_TENSION
-    int index = tile_index(first, row, col);
-    extension -= offset_share * tension[tension_entry(TENSION_OFFSET, index, drow, dcol)];
-#endif
-    float pull = share * (edge_pulls[family] * extension + edge_weights[family] * rate);
-#if KEEPS_TENSION
+    float sideways =
+        moves * geometric * substep * substep * max(found, 0.0) * inverse_length;
+    float weight = moves * substep * (substep * pull.slope + edge_damping[family]);
     if (is_in_block(row, col)) {
-        tension[tension_entry(TENSION_BEGUN, index, drow, dcol)] = pull / substep;
-#if HAS_LAG
-        tension[tension_entry(TENSION_LAG, index, drow, dcol)] =
-            share * edge_lags[family] * extension;
-#endif
+        keep(row, col, edge, tension_here, (weight - sideways) / square, sideways);
     }
-#endif
-    change[row][col] -= pull * n;
-    change[row + drow][col + dcol] += pull * n;
+    vec3 impulse = (substep * missing) * n;
+    change[row][col] -= impulse;
+    change[row + drow][col + dcol] += impulse;
 }
-
-#define ADD(row, col, drow, dcol, family, rest) \
-    add_to_change(first, row, col, drow, dcol, family, rest)
 
 void main() {
     ivec2 first = first_of_block();
@@ -100,24 +105,38 @@ void main() {
     FOR_TILE {
         ivec2 at = first + ivec2(col, row) - REACH;
         int index = state_index(at.y, at.x);
-        node[row][col] = load_system(cloth_entry(NODE, tile_index(first, row, col)));
-        velocity[row][col] = load_velocity(index).xyz;
-#if FORESEES_TURN
-        foreseen[row][col] = velocity[row][col];
-        if (is_free(node[row][col])) {
-            foreseen[row][col] += substep * applied_acceleration(index);
-        }
-#endif
+        int entry = tile_index(first, row, col);
+        vec4 position = load_position(index);
+        vec4 v = load_velocity(index);
+        node[row][col] = vec4(position.xyz, position.w * (v.w > 0.0 ? 1.0 : -1.0));
+        velocity[row][col] = v.xyz;
+        expected[row][col] = guess * load_vector(cloth_entry(start_field, entry));
         change[row][col] = vec3(0.0);
+        along[row][col] = across[row][col] = begun[row][col] = vec4(0.0);
+        tension[row][col] = load_system(cloth_entry(TENSION, entry));
+#if HAS_BEND
+        bend_tension[row][col] = load_system(cloth_entry(BEND_TENSION, entry));
+#endif
     }
-    FOR_CLOTH_EDGES(ADD)
+    FOR_CLOTH_EDGES(add_edge)
     FOR_BLOCK {
         ivec2 at = first + ivec2(col, row) - REACH;
+        int entry = tile_index(first, row, col);
         vec3 total = vec3(0.0);
         if (is_free(node[row][col])) {
-            vec3 applied = applied_acceleration(state_index(at.y, at.x));
-            total = change[row][col] + substep * applied;
+            total = change[row][col];
+#if !IS_FURTHER
+            total += kick * applied_acceleration(state_index(at.y, at.x));
+#endif
         }
-        store_vector(cloth_entry(RESIDUAL, tile_index(first, row, col)), total);
+        store_vector(cloth_entry(RESIDUAL, entry), total);
+        system_data[cloth_entry(NODE, entry)] = node[row][col];
+        system_data[cloth_entry(ALONG, entry)] = along[row][col];
+        system_data[cloth_entry(ACROSS, entry)] = across[row][col];
+        system_data[cloth_entry(BEGUN, entry)] = begun[row][col];
+#if HAS_BEND
+        system_data[cloth_entry(BEND_WEIGHT, entry)] = bend_weight[row][col];
+        system_data[cloth_entry(BEND_TENSION, entry)] = bend_tension[row][col];
+#endif
     }
 }

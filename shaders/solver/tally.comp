@@ -24,16 +24,20 @@ layout(std430, binding = SOLVER_TALLY) buffer Tally {
     float most_iterations;
     float worst_residual;  // squared, relative
     float unreached;
+    float solves;
+    float all_iterations;
 };
 
 uniform float tolerance_square;
 
 void main() {
     most_iterations = max(most_iterations, iterations);
+    solves += 1.0;
+    all_iterations += iterations;
     // Rounding alone makes it negative.
-    float residual = abs(measure_start > 0.0 ? measure_after / measure_start : measure_after);
+    float residual = abs(scale > 0.0 ? measure_after / scale : measure_after);
     // Written so that what is no number counts as not reached, and stays.
-    bool reached = measure_start >= 0.0 && residual <= tolerance_square;
+    bool reached = scale >= 0.0 && residual <= tolerance_square;
     unreached += reached ? 0.0 : 1.0;
     worst_residual = residual <= worst_residual ? worst_residual : residual;
 }

@@ -18,6 +18,7 @@
 #include "solver/levels.glsl"
 #include "solver/vectors.glsl"
 #include "solver/system.glsl"
+#include "solver/points.glsl"
 #include "solver/smooth_residual.glsl"
 
 #define SCALARS_ACCESS readonly
@@ -37,12 +38,11 @@ void main() {
     FOR_POINTS {
         vec3 direction = load(PRECONDITIONED, index);
         vec3 image = load(PRODUCT, index);
-        vec3 solution = vec3(0.0);
+        vec3 solution = load(SOLUTION, index);
         vec3 residual = load(RESIDUAL, index);
         if (goes_on) {
             direction += kept * load(DIRECTION, index);
             image += kept * load(IMAGE, index);
-            solution = load(SOLUTION, index);
         }
         // Also where it is no number.
         if (!(length == 0.0)) {

@@ -64,8 +64,8 @@ def test_changes_are_named():
 
 def test_what_is_missing_takes_its_default():
     """A recording from before a parameter was there could not be run again."""
-    scene = recorded(without=('adaptive.sweeps', 'gravity', 'frame_id'), adaptive__threshold=0.2)
-    assert [field.name for field in scene.missing] == ['gravity', 'adaptive.sweeps']
+    scene = recorded(without=('adaptive.scheme', 'gravity', 'frame_id'), adaptive__threshold=0.2)
+    assert [field.name for field in scene.missing] == ['gravity', 'adaptive.scheme']
     assert scene.scene()['gravity'] == (0.0, 0.0, -9.81)
     assert scene.scene()['adaptive.threshold'] == 0.2
     assert scene.other(next(field for field in FIELDS if field.name == 'frame_id')) == 'world'

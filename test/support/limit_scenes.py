@@ -12,7 +12,7 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""The two scenes that the constraint and the adaptive modes are measured in."""
+"""The scene of the paper, for the reference."""
 
 from typing import Any
 
@@ -40,11 +40,3 @@ def paper_scene(dt: float, strength: float, bend: float = 1.0, **values: Any) ->
     return Scene({
         'rows': 12, 'cols': 12, 'width': 11.0, 'height': 11.0, 'node_mass': 1.0, 'dt': dt,
         **springs(1000.0, 10.0, bend), **push_up(strength, 142.0), **values})
-
-
-def unit_scene(nodes: int, dt: float, strength: float, **values: Any) -> Scene:
-    """Return a soft cloth of 1 m x 1 m and 0.2 kg, held at two corners, pushed at 1 s."""
-    mass = 0.2 * (1.0 - 2.0 / nodes**2)
-    return Scene({
-        'rows': nodes, 'cols': nodes, 'areal_density': 0.2, 'dt': dt,
-        **springs(5.0, 1e-3, 0.1), **push_up(strength, mass), **values})

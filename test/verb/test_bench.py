@@ -73,3 +73,46 @@ def test_the_paper_solver_is_a_named_baseline():
     comparison = json.loads(done.stdout)
     assert {speed['solver'] for speed in comparison['speeds']} == {'multigrid', 'paper'}
     assert len(comparison['ratios']) == 6
+
+
+def bench_modes(*arguments):
+    """Return how a short comparison of modes has ended."""
+    return subprocess.run(
+        [sys.executable, '-m', 'cloth_sim_ros.verb', 'bench', '--modes', '--seconds', '0.06',
+         '--rounds', '2', *arguments],
+        capture_output=True, text=True)
+
+
+def test_modes_are_compared_in_one_document():
+    """Programs could not read the comparison, or not on what it was made."""
+    done = bench_modes('--grids', '6,10', '--json')
+    assert done.returncode == 0, done.stderr
+    found = json.loads(done.stdout)
+    assert [(row['grid'], row['contender']) for row in found['speeds']] == [
+        (grid, name) for grid in (6, 10) for name in ('mass_spring', 'constraint', 'adaptive')]
+    assert found['device'] and found['worker_threads'] == '0'
+    assert {'cloth_sim_ros', 'OpenGL', 'numpy'} <= set(found['versions'])
+    for row in found['speeds']:
+        assert 0.0 <= row['stretch']['worst_frame_percentile'] <= row['stretch']['peak']
+        assert len(row['ratios']) == 2 and row['processor_ratio'] > 0.0
+    assert (found['seconds'], found['rounds']) == (pytest.approx(0.06), 2)
+
+
+def test_some_modes_can_be_compared_alone():
+    """A change of one mode would be measured with all others beside it."""
+    done = bench_modes('--grids', '6', '--only', 'adaptive', 'mass_spring')
+    assert done.returncode == 0, done.stderr
+    rows = [line.split('|') for line in done.stdout.splitlines() if line.startswith('| 6 ')]
+    assert [row[2].strip() for row in rows] == ['adaptive', 'mass_spring']
+    assert 'Wall time grows' not in done.stdout
+
+
+@pytest.mark.parametrize(('arguments', 'reason'), [
+    (['--grids', '6,ten'], "'6,ten' is no list of whole numbers: give some as 32,64"),
+    (['--grids', '6', '--only', 'magic'], 'mass_spring'),
+    (['--grids', '1'], 'at least 2'), (['--grids', '6', '--seconds', 'nan'], 'nan s')])
+def test_a_comparison_that_makes_no_sense_is_refused(arguments, reason):
+    """A slip of the keyboard would end in a traceback."""
+    done = bench_modes(*arguments)
+    assert done.returncode != 0 and reason in done.stderr
+    assert 'Traceback' not in done.stderr

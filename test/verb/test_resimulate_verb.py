@@ -165,16 +165,16 @@ def test_what_another_version_lacks_is_named(bag, again):
         event = deserialize_message(data, ParameterEvent)
         event.new_parameters = [
             parameter for parameter in event.new_parameters
-            if parameter.name != 'adaptive.sweeps'] + [Parameter(name='air.drag')]
+            if parameter.name != 'adaptive.scheme'] + [Parameter(name='air.drag')]
         return serialise_parameter_event(event)
 
     path = rewritten(bag, change)
     code, lines, _ = again(path)
     assert (code, lines) == (0, [
         '3 of 3 frames equal to the bit',
-        'not recorded, so the default is taken: adaptive.sweeps 3',
+        "not recorded, so the default is taken: adaptive.scheme 'constraint'",
         'recorded, but unknown here and left out: air.drag'])
-    assert 'not recorded' not in ''.join(again(path, '--set', 'adaptive.sweeps=3')[1])
+    assert 'not recorded' not in ''.join(again(path, '--set', 'adaptive.scheme=constraint')[1])
 
 
 def test_another_device_is_named(bag, again):

@@ -19,30 +19,31 @@ import math
 from cloth_sim_ros.gl.buffer import Buffer
 from cloth_sim_ros.sim.layout import Layout
 from cloth_sim_ros.sim.modes.limit_marks import LimitMarks
+from cloth_sim_ros.sim.modes.limited_springs import LimitedSprings
 from cloth_sim_ros.sim.modes.mode import Pieces
 from cloth_sim_ros.sim.modes.one_pass import OnePass
 from cloth_sim_ros.sim.modes.paper_limit import PaperLimit
-from cloth_sim_ros.sim.modes.penalty_limit import PenaltyLimit
 from cloth_sim_ros.sim.modes.spring_substeps import spring_substeps
-from cloth_sim_ros.sim.modes.strain_limit import StrainLimit
 from cloth_sim_ros.sim.modes.strain_watch import StrainWatch
-from cloth_sim_ros.sim.modes.tension_limit import TensionLimit
 from cloth_sim_ros.sim.push_field import PushField
 from cloth_sim_ros.sim.scene import Scene
-from cloth_sim_ros.sim.scene_fields import MOST_SUBSTEPS
+from cloth_sim_ros.sim.spring_tension import spring_tension
 from cloth_sim_ros.sim.stability import stability_limit
 from cloth_sim_ros.sim.state import State
 import numpy as np
 
 # Of dt: a rest that is no substep any more.
 _NOTHING = 1e-9
+# Of the limit: below it, edges that were held are left to their springs.
+_FAR = 0.8
 
 
 class Adaptive:
     """
-    Mass-spring substeps while no edge comes near its limit, and limited ones while some do.
+    Explicit mass-spring substeps while no edge comes near its limit, limited ones while some do.
 
-    ``substeps`` are those of the last step: limited substeps may have to be shorter.
+    The limited ones are those of the implicit step, or those of the paper: ``adaptive.scheme``.
+    ``substeps`` are those of the last step.
     """
 
     name = 'adaptive'
@@ -50,15 +51,21 @@ class Adaptive:
     def __init__(self, scene: Scene, layout: Layout, *, check_stability: bool = True) -> None:
         """Choose the substeps and compile the passes."""
         self.spring_families = scene.families
-        self.stability_limit = stability_limit(scene)
+        self._spring_limit = stability_limit(scene)
         self.substeps = spring_substeps(scene, self.name, check_stability=check_stability)
+        self._scene = scene
         self._dt: float = scene['dt']
         self._length = self._dt / self.substeps
         self._fewest_substeps = self.substeps
         self._springs = OnePass(scene, layout)
         self._watch = StrainWatch(scene, layout)
-        self._limit = _make_limit(scene, layout, self._length, self._watch)
-        self._marks = LimitMarks(scene, layout, self._limit)
+        self._limit: LimitedSprings | PaperLimit = (
+            PaperLimit(scene, layout, self._length)
+            if scene['adaptive.scheme'] == 'paper'
+            else LimitedSprings(scene, layout, scene.families))
+        self._marks = LimitMarks(scene, layout)
+        # The last substep was a limited one; some of the last step were.
+        self._is_limited = self._made_limited = False
         # Length of the last substep [s]; 0 where none was.
         self._before = 0.0
 
@@ -67,41 +74,55 @@ class Adaptive:
         """Raise ClothSimError when dt is too long for the springs of ``scene``."""
         spring_substeps(scene, Adaptive.name, check_stability=check_stability)
 
+    @property
+    def stability_limit(self) -> float:
+        """Return the longest stable substep of the kind that the last step has made [s]."""
+        return self._limit.stability_limit if self._made_limited else self._spring_limit
+
+    @property
+    def substep_margin(self) -> float:
+        """Return the longest substep over what it should be."""
+        if self._made_limited:
+            return self._limit.substep_margin
+        return self._length / self._spring_limit
+
+    @property
+    def strain_bound(self) -> float:
+        """Return the strain limit that holds now."""
+        return self._limit.strain_bound
+
     def step(self, state: State, begin: float, pushes: PushField) -> Pieces:
         """Step ``state`` on by one dt."""
+        self._limit.clear_tally()
+        self._made_limited = False
         done, substeps = 0.0, 0
         while self._dt - done > _NOTHING * self._dt:
-            left = self._dt - done
+            now, left = begin + done, self._dt - done
+            count = math.ceil(left / self._length - _NOTHING)
+            length = left / count
             calm = 0
-            if self._limit.is_idle:
-                count = math.ceil(left / self._length - _NOTHING)
-                length = left / count
-                calm = min(count, self._watch.calm_substeps(
-                    state, begin + done, length, pushes))
-                self._limit.see(self._watch.seen)
+            if not self._is_limited or self._is_far_from_limit(state, now, left, pushes):
+                calm = min(count, self._watch.calm_substeps(state, now, length, pushes))
             if calm:
-                self._substep(self._springs, state, begin + done, length, pushes)
-                for index in range(1, calm):
-                    yield
-                    start = begin + done + index * length
-                    self._springs.substep(state, pushes.forcing(start, start + length), length)
+                self._is_limited = False
+                yield from self._spring_substeps(state, now, length, calm, pushes)
                 self._watch.spend(calm)
+                done += calm * length
+                substeps += calm
             else:
-                length = self._next_length(begin + done, left, pushes)
-                self._substep(self._limit, state, begin + done, length, pushes)
-            done += max(calm, 1) * length
-            substeps += max(calm, 1)
-            yield
+                yield from self._limited_substeps(state, now, left, pushes)
+                done += left
+                substeps += self._limit.substeps
         self.substeps = substeps
-        self._marks.update(state, some=not self._limit.is_idle)
+        self._marks.update(state, some=self._made_limited)
 
     def run_all_passes(self, state: State, pushes: PushField) -> Pieces:
         """Make substeps with and without limit of a ``state`` that nobody needs."""
         self._watch.strains(state, pushes.still, self._length)
         yield
-        for part in (self._springs, self._limit):
-            self._substep(part, state, 0.0, self._length, pushes)
-            yield
+        self._springs.substep(state, pushes.still, self._length, self._length)
+        yield
+        yield from self._limit.run_all_passes(state, pushes)
         self._marks.update(state, some=True)
         yield
         self.forget()
@@ -110,13 +131,15 @@ class Adaptive:
         """Hold no edge and expect nothing of the state."""
         self.substeps = self._fewest_substeps
         self._before = 0.0
+        self._is_limited = self._made_limited = False
         self._watch.forget()
         self._limit.forget()
         self._marks.forget()
 
     def report(self) -> dict[str, float]:
-        """Return how many edges are at their limit, and how many changed in the last step."""
-        return self._marks.count()
+        """Return how the solves ended, and how many edges are at their limit or changed."""
+        solves = self._limit.report() if self._made_limited else {}
+        return {**solves, **self._marks.count()}
 
     def limit_marks(self) -> Buffer | None:
         """Return which edges are at their limit; None if none are."""
@@ -126,36 +149,41 @@ class Adaptive:
             self, positions: np.ndarray, velocities: np.ndarray,
             nodes: np.ndarray | None = None) -> np.ndarray:
         """Return the tension of every edge, of its spring and of what holds it [N]."""
-        return self._limit.tension(positions, velocities, nodes)
+        if self._is_limited:
+            return self._limit.tension(positions, velocities, nodes)
+        return spring_tension(self._scene, positions, velocities, nodes)
 
     def delete(self) -> None:
         """Give everything back."""
         for part in (self._springs, self._watch, self._limit, self._marks):
             part.delete()
 
-    def _substep(
-            self, part: OnePass | StrainLimit, state: State, start: float, length: float,
-            pushes: PushField) -> None:
-        # A velocity belongs to the middle of its substep, so forces act from there to the next.
-        kick = length
-        if self._before and abs(self._before - length) > _NOTHING * length:
-            kick = 0.5 * (self._before + length)
-        part.substep(state, pushes.forcing(start, start + length, kick), length, kick)
-        self._before = length
+    def _is_far_from_limit(
+            self, state: State, now: float, left: float, pushes: PushField) -> bool:
+        """Return whether edges that were near their limit stay away from it for ``left`` [s]."""
+        strains = self._watch.strains(state, pushes.forcing(now, now + left), left)
+        # Written so that what is no number is not far.
+        return max(strains) < _FAR * self._scene['adaptive.threshold']
 
-    def _next_length(self, now: float, left: float, pushes: PushField) -> float:
-        ahead = min(left, self._before or left)
-        longest = self._limit.next_length(pushes.greatest_acceleration(now, now + ahead))
-        # Also of a cloth that is about to blow up, a step comes to its end.
-        longest = max(longest, self._dt / MOST_SUBSTEPS)
-        return left / math.ceil(left / longest - _NOTHING)
+    def _spring_substeps(
+            self, state: State, now: float, length: float, count: int,
+            pushes: PushField) -> Pieces:
+        for index in range(count):
+            start = now + index * length
+            # A velocity belongs to the middle of its substep, so forces act from there to the
+            # next.
+            kick = length
+            if self._before and abs(self._before - length) > _NOTHING * length:
+                kick = 0.5 * (self._before + length)
+            self._springs.substep(
+                state, pushes.forcing(start, start + length, kick), length, kick)
+            self._before = length
+            yield
 
-
-def _make_limit(
-        scene: Scene, layout: Layout, longest: float, watch: StrainWatch) -> StrainLimit:
-    fixed = not scene['auto_substeps']
-    if scene['adaptive.scheme'] == 'paper':
-        return PaperLimit(scene, layout, longest, watch)
-    if scene['adaptive.scheme'] == 'penalty':
-        return PenaltyLimit(scene, layout, longest, watch, fixed=fixed)
-    return TensionLimit(scene, layout, longest, fixed=fixed)
+    def _limited_substeps(
+            self, state: State, now: float, left: float, pushes: PushField) -> Pieces:
+        if not self._is_limited:
+            self._limit.resume(self._before)
+        self._is_limited = self._made_limited = True
+        yield from self._limit.advance(state, now, left, pushes)
+        self._before = self._limit.last_length

@@ -20,7 +20,6 @@ from cloth_sim_ros.gl.buffer import Buffer
 from cloth_sim_ros.gl.buffer import shader_writes_visible
 from cloth_sim_ros.sim import bindings
 from cloth_sim_ros.sim.layout import Layout
-from cloth_sim_ros.sim.modes.strain_limit import StrainLimit
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.scene_program import SceneProgram
 from cloth_sim_ros.sim.stability import OFFSETS
@@ -40,13 +39,11 @@ _FADING_STEPS = 8
 class LimitMarks:
     """The marks of limit_mark.comp; nothing is done for a cloth that has none."""
 
-    def __init__(self, scene: Scene, layout: Layout, limit: StrainLimit) -> None:
+    def __init__(self, scene: Scene, layout: Layout) -> None:
         """Allocate the marks; the pass is compiled when it is first needed."""
         self._layout = layout
-        self._limit = limit
         self._program = SceneProgram('limit_mark.comp', scene, layout, {
-            'LOCAL_X': _LOCAL[0], 'LOCAL_Y': _LOCAL[1],
-            'MARKS_TENSION': int(limit.tensions is not None)})
+            'LOCAL_X': _LOCAL[0], 'LOCAL_Y': _LOCAL[1]})
         self._groups = -(-layout.cols // _LOCAL[0]), -(-layout.rows // _LOCAL[1])
         self._edges = sum(
             max(scene.rows - abs(drow), 0) * max(scene.cols - abs(dcol), 0)
@@ -72,8 +69,6 @@ class LimitMarks:
         else:
             state.bind_in()
             self.buffer.bind_storage(bindings.AT_LIMIT)
-            if self._limit.tensions is not None:
-                self._limit.tensions.bind_storage(bindings.TENSION)
             program = self._program.use()
             program.set_float('release', _RELEASE if self._fading > 1 else math.inf)
             program.dispatch(*self._groups)

@@ -14,6 +14,8 @@
 
 """Mass-spring: explicit springs to 12 neighbours, symplectic Euler (paper, section 4.1)."""
 
+import math
+
 from cloth_sim_ros.gl.buffer import Buffer
 from cloth_sim_ros.sim.layout import Layout
 from cloth_sim_ros.sim.modes.mode import Pieces
@@ -32,6 +34,7 @@ class MassSpring:
     """Forces and update in one pass; the paper's two passes when the scene asks for them."""
 
     name = 'mass_spring'
+    strain_bound = math.inf
 
     def __init__(self, scene: Scene, layout: Layout, *, check_stability: bool = True) -> None:
         """Choose the substeps and compile the passes."""
@@ -40,6 +43,7 @@ class MassSpring:
         self.stability_limit = stability_limit(scene)
         self.substeps = spring_substeps(scene, self.name, check_stability=check_stability)
         self._length: float = scene['dt'] / self.substeps
+        self.substep_margin = self._length / self.stability_limit
         self._passes = OnePass(scene, layout) if layout.kind == 'fused' else TwoPass(scene, layout)
 
     @staticmethod

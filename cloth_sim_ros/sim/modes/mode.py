@@ -41,6 +41,10 @@ class Mode(Protocol):
     A way to step the state of a scene.
 
     ``spring_families`` are those whose edges are springs, so that they hold elastic energy.
+    ``stability_limit`` is the longest stable substep [s], ``substep_margin`` a substep over it,
+    or, in an implicit step, over the longest in which edges turn by no more than they should.
+    ``strain_bound`` is what no structural or shear edge should be stretched or shortened beyond,
+    0 for hard edges.
 
     :param check_stability: False takes a dt above the stability limit, to study what happens
     :raises ClothSimError: when the mode can't step the scene as it asks
@@ -49,6 +53,8 @@ class Mode(Protocol):
     name: str
     substeps: int
     stability_limit: float
+    substep_margin: float
+    strain_bound: float
     spring_families: tuple[str, ...]
 
     def __init__(self, scene: Scene, layout: Layout, *, check_stability: bool = True) -> None:

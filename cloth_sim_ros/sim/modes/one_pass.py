@@ -48,14 +48,12 @@ class OnePass:
         state.swap()
 
     def run(
-            self, state: State, forcing: Forcing, length: float, kick: float | None = None, *,
-            penalty: float | None = None) -> None:
+            self, state: State, forcing: Forcing, length: float,
+            kick: float | None = None) -> None:
         """Write the state after ``length`` [s], without making it the present one."""
         state.bind_in()
         state.bind_out()
         step = self._step.use_for_step(forcing, length, length if kick is None else kick)
-        if penalty is not None:
-            step.set_float('penalty', penalty)
         step.dispatch(*self._groups)
         shader_writes_visible()
 

@@ -14,19 +14,24 @@
 
 """The paper's adaptive scheme (Tab. 9): an edge beyond the limit is pulled to its rest length."""
 
+import math
+
 from cloth_sim_ros.sim.forcing import Forcing
 from cloth_sim_ros.sim.layout import Layout
-from cloth_sim_ros.sim.modes.held_tension import read_held_tension
+from cloth_sim_ros.sim.modes.mode import Pieces
 from cloth_sim_ros.sim.modes.one_pass import OnePass
-from cloth_sim_ros.sim.modes.strain_watch import StrainWatch
-from cloth_sim_ros.sim.modes.sweeps import Sweeps
+from cloth_sim_ros.sim.modes.paper_sweeps import PaperSweeps
+from cloth_sim_ros.sim.push_field import PushField
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.spring_tension import spring_tension
+from cloth_sim_ros.sim.stability import stability_limit
 from cloth_sim_ros.sim.state import State
 import numpy as np
 
 # Enough for the linear system of a small cloth; the error falls by some 10 % a sweep.
 _SWEEPS = 60
+# Of a substep: rounding that is no reason for another one.
+_NOTHING = 1e-9
 
 
 class PaperLimit:
@@ -36,57 +41,66 @@ class PaperLimit:
     Kept for comparison: it fails at steps that the other schemes take (docs/adaptive.md).
 
     :param length: of each substep [s]
-    :param watch: measures the strain
     """
 
-    tensions = None
+    substeps = 0  # of the last advance
+    last_length = 0.0  # [s]
 
     def __init__(
-            self, scene: Scene, layout: Layout, length: float, watch: StrainWatch) -> None:
+            self, scene: Scene, layout: Layout, length: float) -> None:
         """Compile the passes."""
         self._scene = scene
-        self._layout = layout
-        self._limit: float = scene['adaptive.threshold']
         self._length = length
-        self._watch = watch
+        self.strain_bound: float = scene['adaptive.threshold']
+        self.stability_limit = stability_limit(scene)
+        self.substep_margin = length / self.stability_limit
         self._springs = OnePass(scene, layout, 'RIGID_LIMIT')
-        self._sweeps = Sweeps(scene, layout, 'PAPER_LAW')
-        self.forget()
+        self._sweeps = PaperSweeps(scene, layout)
 
-    @property
-    def is_idle(self) -> bool:
-        """Tell whether no edge is beyond the limit."""
-        return not self._some_beyond
+    def advance(self, state: State, begin: float, seconds: float, pushes: PushField) -> Pieces:
+        """Step ``state`` on by ``seconds``."""
+        self.substeps = math.ceil(seconds / self._length - _NOTHING)
+        length = seconds / self.substeps
+        for substep in range(self.substeps):
+            start = begin + substep * length
+            kick = 0.5 * ((self.last_length or length) + length)
+            self._substep(state, pushes.forcing(start, start + length, kick), length, kick)
+            self.last_length = length
+            yield
 
-    def see(self, strain: float) -> None:
-        """Take no notice: the limit is where it is."""
+    def run_all_passes(self, state: State, pushes: PushField) -> Pieces:
+        """Make a substep of a ``state`` that nobody needs."""
+        self._substep(state, pushes.still, self._length, self._length)
+        yield
 
-    def next_length(self, acceleration: float) -> float:
-        """Return the longest substep that may come next [s]."""
-        return self._length
+    def resume(self, last_length: float) -> None:
+        """Go on after springs alone, the last substep of which had ``last_length`` [s]."""
+        self.last_length = last_length
 
-    def substep(self, state: State, forcing: Forcing, length: float, kick: float) -> None:
-        """Step ``state`` on by ``length`` [s], with forces that act for ``kick`` [s]."""
+    def clear_tally(self) -> None:
+        """Count nothing: there are no solves."""
+
+    def report(self) -> dict[str, float]:
+        """Return nothing."""
+        return {}
+
+    def _substep(self, state: State, forcing: Forcing, length: float, kick: float) -> None:
         self._sweeps.clear()
         self._springs.run(state, forcing, length, kick)
-        self._sweeps.bind_tensions()
-        self._sweeps.run(state, _SWEEPS, length, kick, length, self._limit)
-        self._sweeps.finish(state, length, kick, self._limit)
-        self._some_beyond = self._watch.strains(state, forcing, 0.0)[0] > self._limit
+        self._sweeps.run(state, _SWEEPS, length, kick)
+        self._sweeps.finish(state, length)
 
     def tension(
             self, positions: np.ndarray, velocities: np.ndarray,
             nodes: np.ndarray | None = None) -> np.ndarray:
         """Return what each edge was pulled back with in the last substep, or its spring's [N]."""
         springs = spring_tension(self._scene, positions, velocities, nodes)
-        if self.is_idle:
-            return springs
-        held = read_held_tension(self._sweeps.tensions, self._layout)
+        held = self._sweeps.read_tensions()
         return np.where(held == 0.0, springs, held)
 
     def forget(self) -> None:
-        """Hold nothing, as at the start."""
-        self._some_beyond = False
+        """Begin anew."""
+        self.last_length = 0.0
 
     def delete(self) -> None:
         """Give the buffers back."""

@@ -51,8 +51,6 @@ class StrainWatch:
         self._reach = _FEWEST
         self._left = 0
         self._until = 0.0
-        # The largest strain at the last look.
-        self.seen = 0.0
         self._edits = -1
 
     def calm_substeps(
@@ -91,7 +89,6 @@ class StrainWatch:
         self._until = now + reach * length
         self._edits = state.edits
         present, ahead = self.strains(state, forcing, reach * length)
-        self.seen = present
         self._left = reach
         if not max(present, ahead) < self._near:
             # An edge's length is a convex function of time: until then it is below the chord.

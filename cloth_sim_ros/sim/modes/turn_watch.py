@@ -21,50 +21,40 @@ from cloth_sim_ros.sim.layout import Layout
 from cloth_sim_ros.sim.scene import FAMILIES
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.scene_program import SceneProgram
-from cloth_sim_ros.sim.solver.tensions import Tensions
 from cloth_sim_ros.sim.state import State
 from cloth_sim_ros.sim.strips import Strips
 
 # Of the length, lost by an edge that turns in one substep: (omega h)^2 / 2.
-_TURN = 0.005
+_TURN = 0.0025
 
 
 class TurnWatch:
     """
-    Measures how fast edges turn and how tight they are; docs/numerics_implicit.md, Substeps.
+    Measures how fast edges turn, and how far they are stretched; docs/implicit_step.md.
 
     :param families: of the edges that are looked at
     """
 
-    def __init__(
-            self, scene: Scene, layout: Layout, families: tuple[str, ...],
-            tensions: Tensions) -> None:
+    def __init__(self, scene: Scene, layout: Layout, families: tuple[str, ...]) -> None:
         """Allocate room for the result; nothing is compiled yet."""
-        self._tensions = tensions
-        self._strips = Strips(layout, 3)
+        self._strips = Strips(layout, 2)
         self._program = SceneProgram('turn_watch.comp', scene, layout, {
             **Strips.defines(),
             **{f'HAS_{family.upper()}': int(family in families) for family in FAMILIES}})
 
-    def look(
-            self, state: State, forcing: Forcing, dt: float) -> tuple[float, float, float]:
+    def look(self, state: State, forcing: Forcing, dt: float) -> tuple[float, float]:
         """
-        Return the longest substep [s] in which no edge turns too far, the stable one, and misfit.
+        Return the longest substep [s] in which no edge turns too far, and the largest strain.
 
-        The misfit is the largest abs(l - L0) of structural and shear edges [m].
+        The strain is abs(l / L0 - 1), of structural and shear edges.
 
         :param forcing: that acts for ``dt`` [s] from now
         """
         program = self._program.use_for_step(forcing, dt)
         state.bind_in()
-        self._tensions.bind_for(program)
         self._strips.dispatch(program)
-        turns, pulls, misfit = (float(largest) for largest in self._strips.largest())
-        # Of the pulls 2 T / L0 at a node, which bound the largest eigenvalue of M^-1 K_geo.
-        return (
-            math.sqrt(2.0 * _TURN / turns) if turns > 0.0 else math.inf,
-            2.0 / math.sqrt(2.0 * pulls) if pulls > 0.0 else math.inf,
-            misfit)
+        turns, strain = (float(largest) for largest in self._strips.largest())
+        return math.sqrt(2.0 * _TURN / turns) if turns > 0.0 else math.inf, strain
 
     def delete(self) -> None:
         """Give the room back."""

@@ -1,121 +1,152 @@
-# Copyright 2026 the cloth_sim_ros authors
-#
-# Licensed under the Apache License, Version 2.0 (the "License");
-# you may not use this file except in compliance with the License.
-# You may obtain a copy of the License at
-#
-#     http://www.apache.org/licenses/LICENSE-2.0
-#
-# Unless required by applicable law or agreed to in writing, software
-# distributed under the License is distributed on an "AS IS" BASIS,
-# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
-# See the License for the specific language governing permissions and
-# limitations under the License.
+# SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
+# SPDX-License-Identifier: Apache-2.0
 
-"""What an edge weighs in the implicit step, and how hard it pulls back to its rest length."""
+"""
+How hard edges pull in the implicit step: hard edges, strain limits and springs by one law.
+
+    lambda(l) = k (l - L0) + k_d dl/dt + (l - l_max) / E    above l_max
+                                       + (l - l_min) / E    below l_min
+
+lambda > 0 pulls. See docs/implicit_step.md.
+"""
 
 from collections.abc import Collection
 from dataclasses import dataclass
 
+from cloth_sim_ros.gl.program import Program
 from cloth_sim_ros.sim.scene import FAMILIES
 from cloth_sim_ros.sim.scene import Scene
+from cloth_sim_ros.sim.scene_program import rest_lengths
 
-# Of the unregularised constraint, which is singular: docs/numerics.md.
-DELTA = 1e-3
-# Of a hard edge's weight: that with which an edge without a spring begins to harden.
-_SOFTEST = 1e-5
+# Weighs the geometric mass term. From 1/4 on, waves across tight edges are stable at any length of
+# the step; at 1/4 those that are much shorter than it change sign in each step, for ever.
+BETA = 0.5
+# The weight is that on the ground: a scene without gravity has the same law.
+STANDARD_GRAVITY = 9.81
+# A cloth that hangs by a whole edge is to stretch by no more than this share of what an edge
+# stretches that carries it alone.
+_HANGING_SHARE = 0.03
+# Larger than any length in rest lengths, and a number to float32.
+_FAR = 1e30
+# Of each rest length, the family.
+_FAMILY_OF = (0, 0, 1, 2, 2)
 
 
 @dataclass(frozen=True)
 class EdgeLaw:
     """
-    The edges of one implicit step. Tuples have a figure for each family, over the node mass.
+    The edges of one implicit step. Forces are over the node mass.
 
     :param length: of the step [s]
-    :param weights: a of the matrix between two free nodes
-    :param pulls: of the right side, on the extension [1/s]
-    :param pinned_weights: what an edge to a pinned node weighs and pulls, over one between two
-        free ones
-    :param keeps: share of the tension found so far that a further solve of the same step keeps:
-        1 for hard edges, whose tension is whatever it takes, 0 for springs
-    :param lags: damping over the length of the step [1/s2], 0 for hard edges
+    :param stiffness: k of each family [1/s2]
+    :param damping: k_d of each family [1/s]
+    :param shortest: l_min of each family [rest lengths]; far below 0 where there is none
+    :param longest: l_max of each family [rest lengths]
+    :param limit_stiffness: 1 / E [1/s2] along a row, a column, the diagonal, and two along each
+    :param geometric: beta of the geometric mass term; 0 leaves it out
     """
 
     length: float
-    weights: tuple[float, ...]
-    pulls: tuple[float, ...]
-    pinned_weights: tuple[float, ...]
-    keeps: tuple[float, ...]
-    lags: tuple[float, ...]
+    stiffness: tuple[float, ...]
+    damping: tuple[float, ...]
+    shortest: tuple[float, ...]
+    longest: tuple[float, ...]
+    limit_stiffness: tuple[float, ...]
+    geometric: float = 0.0
 
     @property
-    def stiffnesses(self) -> tuple[float, ...]:
-        """Return the stiffness over the node mass between two free nodes [1/s2]."""
-        return tuple(pull / self.length for pull in self.pulls)
+    def weights(self) -> tuple[float, ...]:
+        """Return what edges weigh in the matrix along their direction, in order of rest length."""
+        return tuple(
+            self.length * (self.length * (
+                self.stiffness[family] + (limit if self._has_limit(family) else 0.0))
+                + self.damping[family])
+            for family, limit in zip(_FAMILY_OF, self.limit_stiffness))
 
     @property
     def largest_weight(self) -> float:
         """Return the weight of the heaviest edge."""
-        return max(
-            weight * max(factor, 1.0)
-            for weight, factor in zip(self.weights, self.pinned_weights))
+        return max(self.weights)
+
+    @property
+    def has_limits(self) -> bool:
+        """Tell whether there are edges that come to limits and leave them."""
+        return any(
+            self._has_limit(family) and least < most
+            for family, (least, most) in enumerate(zip(self.shortest, self.longest)))
+
+    def _has_limit(self, family: int) -> bool:
+        return self.shortest[family] > 0.0 or self.longest[family] < _FAR
+
+
+def implicit_springs(scene: Scene, length: float, *, geometric: float = 0.0) -> EdgeLaw:
+    """Return the law of the scene's springs, taken implicitly."""
+    return edge_law(scene, length, geometric=geometric)
+
+
+def hard_edges(
+        scene: Scene, length: float, *, strain: float = 0.008,
+        families: Collection[str] = ('structural', 'shear'), geometric: float = 0.0) -> EdgeLaw:
+    """Return the law of edges that keep their rest length, without the others; see edge_law."""
+    return edge_law(
+        scene, length, hard=families, springs=(), strain=strain, geometric=geometric)
 
 
 def edge_law(
         scene: Scene, length: float, *, hard: Collection[str] = (),
-        springs: Collection[str] = FAMILIES, delta: float = DELTA,
-        hardness: float = 1.0) -> EdgeLaw:
+        springs: Collection[str] = FAMILIES, limited: Collection[str] = (), limit: float = 0.0,
+        strain: float = 0.008, geometric: float = 0.0) -> EdgeLaw:
     """
-    Return the law of a step in which families of edges are hard, springs, or left out.
+    Return the law of a step in which families of edges are hard, springs, limited, or left out.
 
-    :param hard: keep their rest length: a = 1 / (delta (w_i + w_j))
-    :param springs: have the scene's stiffness and damping, taken implicitly: a = k h^2 + k_d h
-    :param delta: regularisation; 1 / delta is about the condition of the system
-    :param hardness: below 1 hard edges are springs yet, from the scene's stiffness at 0 to hard
+    :param hard: keep their rest length
+    :param springs: have the scene's stiffness and damping
+    :param limited: have the strain ``limit``
+    :param strain: of a hard edge that carries the weight of the cloth, which E follows from
     """
-    edges = []
+    mass = scene.node_mass
+    is_spring = [family in springs and family not in hard for family in FAMILIES]
+    shortest, longest = [], []
     for family in FAMILIES:
-        if family in hard and hardness < 1.0:
-            edges.append(_hardening(scene, family, length, delta, hardness))
-        elif family in hard:
-            edges.append(_hard(length, delta))
-        elif family in springs:
-            edges.append(_spring(scene, family, length))
-        else:
-            edges.append(_NO_EDGE)
-    return EdgeLaw(length, *zip(*edges))
+        least, most = -_FAR, _FAR
+        if family in hard:
+            least = most = 1.0
+        elif family in limited:
+            # A length foreseen along a frozen direction can be below 0.
+            least, most = 1.0 - limit if limit < 1.0 else -_FAR, 1.0 + limit
+        shortest.append(least)
+        longest.append(most)
+    pull = full_pull(scene, strain)
+    limits = tuple(pull / (rest * mass) for rest in rest_lengths(scene))
+    return EdgeLaw(
+        length,
+        tuple(scene.stiffness(family) / mass * spring
+              for family, spring in zip(FAMILIES, is_spring)),
+        tuple(scene.damping(family) / mass * spring
+              for family, spring in zip(FAMILIES, is_spring)),
+        tuple(shortest), tuple(longest),
+        limits, geometric)
 
 
-def implicit_springs(scene: Scene, length: float) -> EdgeLaw:
-    """Return the law of the scene's springs, taken implicitly."""
-    return edge_law(scene, length)
+def set_law(program: Program, law: EdgeLaw) -> None:
+    """Set the uniforms of solver/edge_law.glsl in the program in use, but for rest lengths."""
+    program.set_floats('edge_stiffness', law.stiffness)
+    program.set_floats('edge_damping', law.damping)
+    program.set_floats('shortest', law.shortest)
+    program.set_floats('longest', law.longest)
+    program.set_floats('limit_stiffness', law.limit_stiffness)
 
 
-def hard_edges(
-        length: float, *, families: Collection[str] = ('structural', 'shear'),
-        delta: float = DELTA) -> EdgeLaw:
-    """Return the law of edges that keep their rest length, without the others."""
-    return EdgeLaw(length, *zip(*(
-        _hard(length, delta) if family in families else _NO_EDGE for family in FAMILIES)))
+def full_pull(scene: Scene, strain: float) -> float:
+    """
+    Return L0 / E [N]: what a hard edge would pull with at a strain of 1.
 
-
-# Weight, pull, weight of pinned ones, keep and lag, as in EdgeLaw.
-_NO_EDGE = (0.0, 0.0, 1.0, 0.0, 0.0)
-
-
-def _hard(length: float, delta: float) -> tuple[float, ...]:
-    return 0.5 / delta, 0.5 / (delta * length), 2.0, 1.0, 0.0
-
-
-def _hardening(
-        scene: Scene, family: str, length: float, delta: float,
-        hardness: float) -> tuple[float, ...]:
-    last = 0.5 / delta
-    first = max(length**2 * scene.stiffness(family) / scene.node_mass, _SOFTEST * last)
-    weight = min(first**(1.0 - hardness) * last**hardness, last)
-    return weight, weight / length, 1.0, 0.0, 0.0
-
-
-def _spring(scene: Scene, family: str, length: float) -> tuple[float, ...]:
-    k, d = (value / scene.node_mass for value in (scene.stiffness(family), scene.damping(family)))
-    return length * (length * k + d), length * k, 1.0, 0.0, d / length
+    It goes with the weight of the cloth, so that lengths are held as well whatever a cloth
+    weighs, and not with the length of the step, so that energy is a function of the state. A
+    corner pin hangs the cloth on an edge or two: one that carries it alone stretches by
+    ``strain``. All edges of a chain do so; a cloth of few lines would stretch more than one of
+    many when it hangs by a whole edge, so that its edges are harder.
+    """
+    weight = scene.node_count * scene.node_mass * STANDARD_GRAVITY
+    lines = min(scene['rows'], scene['cols'])
+    return weight / strain * max(1.0, 1.0 / (_HANGING_SHARE * lines))

@@ -24,8 +24,8 @@ import numpy as np
 COARSEST_SIDE = 8
 # As in solver/levels.glsl: enough for any cloth that buffers can hold.
 MOST_LEVELS = 16
-_CLOTH_VECTORS = 6
-_CLOTH_SYSTEM = 3
+_CLOTH_VECTORS = 8
+_CLOTH_SYSTEM, _CLOTH_SYSTEM_WITH_BEND = 7, 9
 _COARSE_VECTORS = 3
 _COARSE_SYSTEM = 10
 # Nodes along each side of an invocation, an even number, and invocations of a workgroup.
@@ -41,9 +41,10 @@ class Levels:
 
     :param state: how the state is stored, which tells what suits the device
     :param coarsen: False keeps to the cloth alone
+    :param has_bend: whether there are bend edges in the system
     """
 
-    def __init__(self, state: Layout, *, coarsen: bool) -> None:
+    def __init__(self, state: Layout, *, coarsen: bool, has_bend: bool) -> None:
         """Lay out all levels."""
         self.layouts = [_layout(state, state.rows, state.cols)]
         while coarsen and (len(self.layouts) == 1 or self._coarsest_side > COARSEST_SIDE):
@@ -51,7 +52,8 @@ class Levels:
             self.layouts.append(
                 _layout(state, -(-finer.rows // 2), -(-finer.cols // 2)))
         vectors = [_CLOTH_VECTORS] + [_COARSE_VECTORS] * (len(self.layouts) - 1)
-        system = [_CLOTH_SYSTEM] + [_COARSE_SYSTEM] * (len(self.layouts) - 1)
+        of_cloth = _CLOTH_SYSTEM_WITH_BEND if has_bend else _CLOTH_SYSTEM
+        system = [of_cloth] + [_COARSE_SYSTEM] * (len(self.layouts) - 1)
         stored = np.array([layout.stored for layout in self.layouts])
         ends = np.cumsum([stored * vectors, stored * system], axis=1)
         self._begins = (ends - [stored * vectors, stored * system]).T
@@ -70,15 +72,9 @@ class Levels:
     def set_in(self, program: Program) -> None:
         """Set the uniforms of the lattices of all levels in the program in use."""
         self.cloth.set_in(program)
-        self.set_solver_lattice(program)
         program.set_int_vectors('level_shape', np.array([
             (layout.rows, layout.cols, layout.pitch, layout.stored) for layout in self.layouts]))
         program.set_int_vectors('level_begin', self._begins)
-
-    def set_solver_lattice(self, program: Program) -> None:
-        """Set where the solver stores what belongs to the cloth in the program in use."""
-        program.set_int_vectors(
-            'solver_lattice', np.array([(self.cloth.pitch, self.cloth.stored)]))
 
     @property
     def _coarsest_side(self) -> int:

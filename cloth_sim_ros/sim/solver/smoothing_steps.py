@@ -20,7 +20,7 @@ from cloth_sim_ros.sim.solver.edge_law import EdgeLaw
 # What smoothing leaves to the coarser levels lies below this, with an eigenvalue of 2 at most.
 _LEAST = 0.25
 # On coarse levels a bend edge counts with those of four nodes.
-_EDGES_OF_A_NODE = (4.0, 4.0, 16.0)
+_EDGES_OF_A_NODE = (2.0, 2.0, 4.0, 8.0, 8.0)
 
 
 def smoothing_steps(law: EdgeLaw) -> tuple[float, float]:
@@ -31,9 +31,7 @@ def smoothing_steps(law: EdgeLaw) -> tuple[float, float]:
     weigh d around a node of mass 1 none is below 1 / (1 + d) nor, as an edge ties two nodes, above
     (1 + 2 d) / (1 + d). Without edges both steps are whole ones, and the first is exact.
     """
-    around = sum(
-        count * weight * max(factor, 1.0)
-        for count, weight, factor in zip(_EDGES_OF_A_NODE, law.weights, law.pinned_weights))
+    around = sum(count * weight for count, weight in zip(_EDGES_OF_A_NODE, law.weights))
     least = max(_LEAST, 1.0 / (1.0 + around))
     most = (1.0 + 2.0 * around) / (1.0 + around)
     middle, reach = 0.5 * (most + least), 0.5 * (most - least) * 0.5**0.5

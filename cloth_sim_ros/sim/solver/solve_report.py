@@ -39,11 +39,11 @@ def report_of(start: float, after: float, iterations: int, tolerance: float) -> 
     """
     Return the report of a solve.
 
-    :param start: (r, B r) at the start
+    :param start: the scale: the square of the change of velocity that is solved for
     :param after: (r, B r) at the end; rounding alone makes it negative
     """
     if start > 0.0:
         residual = math.sqrt(abs(after / start))
     else:
-        residual = 0.0 if start == 0.0 else math.nan
+        residual = 0.0 if start == after == 0.0 else math.nan
     return SolveReport(iterations, residual, math.isfinite(residual) and residual <= tolerance)

@@ -15,9 +15,11 @@
 """Preconditioned conjugate gradients on the device, which decides itself when to stop."""
 
 from collections.abc import Generator
+import math
 
 from cloth_sim_ros.gl.buffer import DISPATCHES_VISIBLE
 from cloth_sim_ros.gl.buffer import shader_dispatches_visible
+from cloth_sim_ros.sim.edge_kinds import EDGE_KINDS
 from cloth_sim_ros.sim.forcing import Forcing
 from cloth_sim_ros.sim.layout import Layout
 from cloth_sim_ros.sim.scene import FAMILIES
@@ -26,23 +28,28 @@ from cloth_sim_ros.sim.solver.block_jacobi import BlockJacobi
 from cloth_sim_ros.sim.solver.edge_law import EdgeLaw
 from cloth_sim_ros.sim.solver.levels import Levels
 from cloth_sim_ros.sim.solver.levels import MOST_LEVELS
+from cloth_sim_ros.sim.solver.limit_search import LimitSearch
 from cloth_sim_ros.sim.solver.multigrid import Multigrid
 from cloth_sim_ros.sim.solver.preconditioner import Preconditioner
 from cloth_sim_ros.sim.solver.right_side import RightSide
+from cloth_sim_ros.sim.solver.right_side import Start
 from cloth_sim_ros.sim.solver.solve_report import report_of
 from cloth_sim_ros.sim.solver.solve_report import SolveReport
+from cloth_sim_ros.sim.solver.solver_buffers import BEND_TENSION
+from cloth_sim_ros.sim.solver.solver_buffers import CHANGE
 from cloth_sim_ros.sim.solver.solver_buffers import PRECONDITIONED
 from cloth_sim_ros.sim.solver.solver_buffers import PRODUCT
 from cloth_sim_ros.sim.solver.solver_buffers import RESIDUAL
 from cloth_sim_ros.sim.solver.solver_buffers import SOLUTION
 from cloth_sim_ros.sim.solver.solver_buffers import SolverBuffers
+from cloth_sim_ros.sim.solver.solver_buffers import START
+from cloth_sim_ros.sim.solver.solver_buffers import TENSION
 from cloth_sim_ros.sim.solver.solver_pass import SolverPass
 from cloth_sim_ros.sim.solver.solver_programs import POINT_LOCAL
 from cloth_sim_ros.sim.solver.solver_programs import POINTS
 from cloth_sim_ros.sim.solver.solver_programs import SolverPrograms
 from cloth_sim_ros.sim.solver.tally import Tally
 from cloth_sim_ros.sim.solver.tally import TallyReport
-from cloth_sim_ros.sim.solver.tensions import Tensions
 from cloth_sim_ros.sim.state import State
 import numpy as np
 
@@ -51,45 +58,60 @@ PRECONDITIONERS: dict[str, type[Preconditioner]] = {
 
 # Of the tolerance. What the last iteration leaves is foretold, not measured.
 _AIM = 0.8
+# Of the change that what is applied would make: to rest is to change by nothing, and a residual
+# small beside that is never reached.
+_LEAST_CHANGE = 0.1
+# Of the change of velocity: less than this is missing of tensions by the rounding of lengths.
+_LEAST_MISSING = 5e-6
+# Iterations that are submitted together where asking in between is a wait.
+_BATCH = 4
 # Passes of one size can be switched off together: some for each level.
 _MOST_GROUPS_COUNTS = 3 * MOST_LEVELS
 
 
 class Solver:
     """
-    Solves (M + J^T diag(a) J) dv = b for the free nodes of a cloth.
+    Solves (M + J^T a J + beta h^2 K_geo) dv = b for the free nodes of a cloth.
+
+    Tensions stay from solve to solve: K_geo has those found last.
 
     :param state: how the state is stored
     :param families: of the edges in the system; None takes those the scene models
-    :param tolerance: sqrt((r, B r)) over that at the start, r the residual and B the
-        preconditioner
+    :param tolerance: sqrt((r, B r)), r the residual and B the preconditioner, over the change of
+        velocity in the step: about the error of dv in the norm of the matrix, which bounds it
     :param foresees_turn: let the right side allow for how much longer edges get by turning
-    :param keeps_tension: find the tension of each edge; needed for further solves of a step
-    :param has_damping: further solves have edges with damping among them
     """
 
     def __init__(
             self, scene: Scene, state: Layout, *, families: tuple[str, ...] | None = None,
             preconditioner: str = 'multigrid', tolerance: float = 1e-2,
-            max_iterations: int = 12, foresees_turn: bool = False,
-            keeps_tension: bool = False, has_damping: bool = False) -> None:
+            max_iterations: int = 12, foresees_turn: bool = False) -> None:
         """Compile the passes and allocate the buffers."""
         if families is None:
             families = tuple(family for family in FAMILIES if scene.models(family))
         kind = PRECONDITIONERS[preconditioner]
-        levels = Levels(state, coarsen=kind.is_multigrid)
+        self._node_mass = scene.node_mass
+        self._cloth = state
+        levels = Levels(state, coarsen=kind.is_multigrid, has_bend='bend' in families)
         self._programs = SolverPrograms(
             state, levels, families, is_multigrid=kind.is_multigrid)
-        self._right_side = RightSide(
-            scene, state, self._programs, levels, foresees_turn=foresees_turn,
-            keeps_tension=keeps_tension, has_lag=has_damping)
-        self._tensions = Tensions(
-            scene, self._programs, levels, has_lag=has_damping) if keeps_tension else None
+        self._right_sides, self._searches = (
+            {is_further: kind_of_pass(
+                scene, state, self._programs, levels, is_further=is_further,
+                foresees_turn=foresees_turn) for is_further in (False, True)}
+            for kind_of_pass in (RightSide, LimitSearch))
         self._tally = Tally(self._programs, tolerance)
         self._preconditioner = kind(self._programs, levels)
         self._iterations = max_iterations
         self._tolerance = tolerance
         self._law: EdgeLaw | None = None
+        self._batch = 1 if state.texture_loads else _BATCH
+        self._first_batch = self._batch
+        self._has_bend = 'bend' in families
+        # One over the length of the step whose change the next one begins with; 0 for none.
+        self._last_rate = 0.0
+        self._start = Start(CHANGE, 0.0)
+        self._is_further = False
         self._compile(levels)
 
     def set_law(self, law: EdgeLaw) -> None:
@@ -99,37 +121,37 @@ class Solver:
             self._programs.set_law(law)
             self._preconditioner.set_law(law)
 
-    def submit(self, iterations: int) -> None:
-        """Let solves from now on stop after ``iterations`` in any case."""
-        self._iterations = iterations
-
-    def assemble(self, state: State) -> None:
-        """Take up positions and pins, and prepare the preconditioner."""
-        self._buffers.bind()
-        state.bind_in()
-        for each in (self._take_up, self._assemble, *self._preconditioner.assembly):
-            each.run()
-
-    def make_right_side(
-            self, state: State, forcing: Forcing, offset_share: float = 0.0) -> None:
+    def prepare(
+            self, state: State, forcing: Forcing, *, kick: float | None = None,
+            is_further: bool = False, is_again: bool = False) -> None:
         """
-        Make b = h (M a - J^T pull C) - J^T a J v, after ``assemble``.
+        Make system and right side, and prepare the preconditioner.
 
         :param forcing: what accelerates the nodes besides the edges
-        :param offset_share: of the offsets of rest lengths, in effect at the end of the step
+        :param kick: that it acts for [s]; the length of the step when None
+        :param is_further: True after ``apply``: the solve finds what the tensions lack where
+            nodes have come to
+        :param is_again: True after ``move_start``: the same solve, with the limits in force that
+            it has led to
         """
+        length = self._law.length
+        kick = length if kick is None else kick
         self._buffers.bind()
         state.bind_in()
-        if self._tensions is not None:
-            self._tensions.bind()
-        self._right_side.run(self._law, forcing, offset_share)
-
-    def make_later_right_side(self, offset_share: float = 0.0) -> None:
-        """Make b of what is left of each edge's law, after ``apply`` and another ``assemble``."""
-        self._buffers.bind()
-        self._tensions.bind()
-        self._tensions.later_right_side.set_float('offset_share', offset_share)
-        self._tensions.later_right_side.run()
+        self._is_further = is_further
+        # What changes the velocities changes little from step to step.
+        self._start = Start(START, 1.0) if is_again else Start(
+            CHANGE, 0.0 if is_further else length * self._last_rate)
+        self._right_sides[is_further].run(
+            self._law, forcing, kick, self._start,
+            knows_tension=is_further or self._last_rate > 0.0)
+        for each in (self._assemble, *self._preconditioner.assembly):
+            each.run()
+        self._buffers.clear_scalars(keep_scale=is_further or is_again)
+        self._begin.set_int('start_field', self._start.field)
+        self._begin.set_float('guess', self._start.share)
+        self._reduce.set_int('sets_scale', int(not (is_further or is_again)))
+        self._reduce.set_float('least_scale', _least_scale(state, forcing, kick))
 
     def set_right_side(self, values: np.ndarray) -> None:
         """Take (rows, cols, 3) ``values``, zero at pinned nodes, as b over the node mass [m/s]."""
@@ -140,33 +162,64 @@ class Solver:
         return self._buffers.read(RESIDUAL)
 
     def solve(self) -> None:
-        """Find the solution; returns before the device has it."""
+        """Find the solution and the tensions; returns before the device has them."""
         for _ in self.solve_in_pieces():
             pass
+        self.find_tensions()
 
     def solve_in_pieces(self) -> Generator[None, bool | None, None]:
-        """Do the same, and yield where the device may do something else; as Mode.step does."""
+        """Find the solution, and yield where the device may do something else; as Mode.step."""
         self._buffers.bind()
-        self._buffers.clear_scalars()
         self._begin.run()
         for each in self._iteration:
             each.run()
             if (yield):
                 self._buffers.bind()
         shader_dispatches_visible()
-        # Most of these run nothing: what they cost is the calls.
-        for _ in range(self._iterations - 1):
-            for call, arguments in self._further_calls:
-                call(*arguments)
-            if (yield):
-                self._buffers.bind()
-        for each in self._further:
-            each.submitted(self._iterations - 1)
+        yield from self._iterate()
         self._update.run()
         self._tally.add()
-        if self._tensions is not None:
-            self._tensions.bind()
-            self._tensions.find.run()
+
+    def find_tensions(self) -> None:
+        """Find what edges pull with by the solution; later steps go by it."""
+        self._buffers.bind()
+        self._find.run()
+        self._last_rate = 1.0 / self._law.length
+
+    def move_start(self, state: State, *, is_last: bool = False) -> bool:
+        """
+        Return whether limits have come into force, or out of it, on the way to the solution.
+
+        Then ``prepare`` again starts from where that way goes down no more.
+
+        :param is_last: True to take that for the solution
+        """
+        if not self._law.has_limits:
+            return False
+        self._buffers.bind()
+        state.bind_in()
+        return self._searches[self._is_further].move_start(
+            self._law, self._start, self._buffers,
+            max(self._tolerance, _LEAST_MISSING)**2 * self._buffers.scale(),
+            SOLUTION if is_last else START)
+
+    def _iterate(self) -> Generator[None, bool | None, None]:
+        # To ask whether the device goes on costs little where that is this processor, and a wait
+        # elsewhere: there, as many are submitted at once as the last solve took.
+        made, batch = 1, self._first_batch
+        while made < self._iterations and self._buffers.is_going():
+            batch = min(batch, self._iterations - made)
+            for _ in range(batch):
+                for call, arguments in self._further_calls:
+                    call(*arguments)
+                if (yield):
+                    self._buffers.bind()
+            made += batch
+            batch = self._batch
+        if self._batch > 1:
+            self._first_batch = max(self._buffers.iterations() - 1, 1)
+        for each in self._further:
+            each.submitted(made - 1)
 
     def apply(
             self, state: State, *, further: bool = False,
@@ -174,7 +227,7 @@ class Solver:
         """
         Add the solution to the velocities and move the nodes for the length of the step.
 
-        :param further: True after ``make_later_right_side``: the nodes have moved before
+        :param further: True after a further ``prepare``: the nodes have moved before
         :param common_change: of all velocities, besides the solution [m/s]
         """
         self._buffers.bind()
@@ -196,17 +249,28 @@ class Solver:
         """Return dv [m/s], (rows, cols, 3) float32."""
         return self._buffers.read(SOLUTION)
 
-    @property
-    def tensions(self) -> Tensions | None:
-        """Return the tensions that the solves of the last step have found; None if not kept."""
-        return self._tensions
+    def tensions(self) -> np.ndarray:
+        """Return the tension of every edge [N], (rows, cols, 6) float32 as in Snapshot."""
+        found = np.zeros((self._cloth.rows, self._cloth.cols, len(EDGE_KINDS)), dtype=np.float32)
+        found[..., :4] = self._buffers.read_system(TENSION)
+        if self._has_bend:
+            found[..., 4:] = self._buffers.read_system(BEND_TENSION)[..., :2]
+        return np.float32(self._node_mass) * found
+
+    def compile_searches(self) -> None:
+        """Compile what ``move_start`` needs."""
+        for search in self._searches.values():
+            search.prepare()
+
+    def expect_nothing(self) -> None:
+        """Take no tension and no change of velocity over from earlier steps."""
+        self._last_rate = 0.0
 
     def forget(self) -> None:
         """Drop what earlier solves have left, also where they came to no numbers."""
         self._buffers.clear()
-        if self._tensions is not None:
-            self._tensions.clear()
         self._tally.clear()
+        self.expect_nothing()
 
     def clear_tally(self) -> None:
         """Begin to count solves anew."""
@@ -218,31 +282,32 @@ class Solver:
 
     def report(self) -> SolveReport:
         """Return how the last solve ended."""
-        _, _, _, start, after, iterations = (float(value) for value in self._buffers.scalars())
-        return report_of(start, after, int(iterations), self._tolerance)
+        _, _, _, _, after, iterations, scale = (float(value) for value in self._buffers.scalars())
+        return report_of(scale, after, int(iterations), self._tolerance)
 
     def measured_residual(self) -> float:
         """Return the residual as it was before the last iteration of the last solve."""
-        _, _, measure, start, _, _ = (float(value) for value in self._buffers.scalars())
-        return report_of(start, measure, 0, self._tolerance).residual
+        _, _, measure, _, _, _, scale = (float(value) for value in self._buffers.scalars())
+        return report_of(scale, measure, 0, self._tolerance).residual
 
     def delete(self) -> None:
-        """Give the buffers back."""
+        """Give buffers and programs back."""
         self._buffers.delete()
         self._tally.delete()
-        if self._tensions is not None:
-            self._tensions.delete()
+        self._programs.delete()
+        for part in (*self._right_sides.values(), *self._searches.values()):
+            part.delete()
 
     def _compile(self, levels: Levels) -> None:
         cloth = levels.cloth
         points = (-(-cloth.stored // (POINTS * POINT_LOCAL)), 1)
         nodes = cloth.node_groups
         programs = self._programs
-        self._take_up = SolverPass(programs.make('take_up.comp'), nodes)
         self._assemble = SolverPass(programs.make('assemble.comp'), nodes)
-        self._begin = SolverPass(programs.make('begin.comp'), points)
+        self._begin = SolverPass(programs.make('begin.comp'), cloth.groups)
         self._multiply = SolverPass(programs.make('product.comp'), cloth.groups)
         self._update = SolverPass(programs.make('update.comp'), points)
+        self._find = SolverPass(programs.make('find_tension.comp'), cloth.groups)
         self._apply = SolverPass(programs.make('apply.comp'), nodes)
         dispatches = [(1, 1)]
         self._iteration = [*self._preconditioner.cycle, self._multiply]
@@ -251,7 +316,8 @@ class Solver:
         reduce = programs.make('reduce.comp', MOST_GROUPS_COUNTS=_MOST_GROUPS_COUNTS)
         reduce.set_int('groups_count', len(dispatches))
         reduce.set_int_vectors('groups_of_each', np.array(dispatches))
-        self._iteration.append(SolverPass(reduce, (1, 1)))
+        self._reduce = SolverPass(reduce, (1, 1))
+        self._iteration.append(self._reduce)
         self._further = [self._update, *self._iteration]
         self._further_calls = [
             call for each in self._further for call in each.calls_if_going()]
@@ -259,3 +325,9 @@ class Solver:
         self._buffers = SolverBuffers(levels, len(dispatches))
         reduce.set_int('sum_count', self._buffers.sum_count)
         reduce.set_float('tolerance_square', (_AIM * self._tolerance)**2)
+
+
+def _least_scale(state: State, forcing: Forcing, kick: float) -> float:
+    """Return the square of the least change of velocity to solve for [m2/s2]."""
+    change = _LEAST_CHANGE * kick * math.hypot(*forcing.everywhere)
+    return np.count_nonzero(~state.pinned) * change**2

@@ -24,8 +24,9 @@ from cloth_sim_ros.sim.layout import HALO
 from cloth_sim_ros.sim.solver.levels import Levels
 import numpy as np
 
-RESIDUAL, PRODUCT, PRECONDITIONED, DIRECTION, IMAGE, SOLUTION = range(6)
-_SCALARS = 6
+TENSION, BEND_TENSION = 5, 8
+RESIDUAL, PRODUCT, PRECONDITIONED, DIRECTION, IMAGE, SOLUTION, CHANGE, START = range(8)
+_SCALARS = 7
 _ENTRY_BYTES = 16
 
 
@@ -48,6 +49,8 @@ class SolverBuffers:
         self._sums = _zeros(self.sum_count * _ENTRY_BYTES)
         self._scalars = Buffer(np.zeros(_SCALARS, dtype=np.float32))
         self._dispatches = Buffer(np.zeros((dispatch_count, 3), dtype=np.uint32))
+        # Workgroups of the first dispatch, along x.
+        self._going = np.zeros(1, dtype=np.uint32)
 
     def bind(self) -> None:
         """Let the passes of the solver reach everything."""
@@ -67,15 +70,35 @@ class SolverBuffers:
         for buffer in (self._vectors, self._system, self._sums, self._scalars, self._dispatches):
             buffer.write(np.zeros(buffer.bytes // 4, dtype=np.uint32))
 
-    def clear_scalars(self) -> None:
-        """Forget the last solve."""
-        self._scalars.write(np.zeros(_SCALARS, dtype=np.float32))
+    def clear_scalars(self, *, keep_scale: bool) -> None:
+        """Forget the last solve, but for its scale if that is to be kept."""
+        self._scalars.write(np.zeros(_SCALARS - int(keep_scale), dtype=np.float32))
 
     def scalars(self) -> np.ndarray:
         """Return what solver/scalars.glsl lists."""
         values = np.empty(_SCALARS, dtype=np.float32)
         self._scalars.read_into(values)
         return values
+
+    def sums(self) -> tuple[float, float, float]:
+        """Return what a pass has stored by partial_sums.glsl, added up."""
+        values = np.empty((self.sum_count, 4), dtype=np.float32)
+        self._sums.read_into(values)
+        first, second, third, _ = values.sum(axis=0, dtype=np.float64)
+        return float(first), float(second), float(third)
+
+    def scale(self) -> float:
+        """Return the square of the change of velocity that the last solve was judged beside."""
+        return float(self.scalars()[6])
+
+    def is_going(self) -> bool:
+        """Return whether the device wants another iteration."""
+        self._dispatches.read_into(self._going)
+        return bool(self._going[0])
+
+    def iterations(self) -> int:
+        """Return how many iterations the last solve has made."""
+        return int(self.scalars()[5])
 
     def read(self, field: int) -> np.ndarray:
         """Return a vector of the cloth, (rows, cols, 3)."""
@@ -89,6 +112,12 @@ class SolverBuffers:
         padded = np.pad(np.asarray(values, dtype=np.float32), ((0, 0), (0, 0), (0, 1)))
         stored = self._cloth.store(padded)
         self._vectors.write(stored, field * stored.nbytes)
+
+    def read_system(self, field: int) -> np.ndarray:
+        """Return a field of the system of the cloth, (rows, cols, 4)."""
+        values = np.empty((self._cloth.stored, 4), dtype=np.float32)
+        self._system.read_into(values, field * values.nbytes)
+        return self._cloth.load(values)
 
     def delete(self) -> None:
         """Give everything back."""

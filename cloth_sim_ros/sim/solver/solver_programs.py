@@ -24,9 +24,9 @@ from cloth_sim_ros.sim.solver.edge_law import EdgeLaw
 from cloth_sim_ros.sim.solver.levels import Levels
 from cloth_sim_ros.sim.solver.smoothing_steps import smoothing_steps
 
-POINT_LOCAL = 64
+POINT_LOCAL = 32
 # Entries of one invocation where entries stand alone.
-POINTS = 4
+POINTS = 8
 REDUCE_LOCAL = 16
 
 
@@ -56,6 +56,12 @@ class SolverPrograms:
         self.set_sizes(program)
         return program
 
+    def delete(self) -> None:
+        """Give all programs back."""
+        for program in self._compiled:
+            program.delete()
+        self._compiled.clear()
+
     def set_sizes(self, program: Program) -> None:
         """Set the sizes of the lattices in the program in use."""
         self._levels.set_in(program)
@@ -68,9 +74,6 @@ class SolverPrograms:
             program.use()
             program.set_float('first_step', steps[0])
             program.set_float('second_step', steps[1])
-            program.set_floats('edge_weights', law.weights)
-            program.set_floats('pinned_weights', law.pinned_weights)
-            program.set_floats('edge_keeps', law.keeps)
             program.set_float('substep', law.length)
 
 

@@ -22,7 +22,7 @@ from cloth_sim_ros.sim.solver.solver_pass import SolverPass
 from cloth_sim_ros.sim.solver.solver_programs import SolverPrograms
 import numpy as np
 
-_FIGURES = 3
+_FIGURES = 5
 
 
 @dataclass(frozen=True)
@@ -33,11 +33,15 @@ class TallyReport:
     :param most_iterations: of a solve
     :param worst_residual: as in SolveReport, of the worst solve
     :param unreached: solves that stopped before the residual asked for
+    :param solves: how many there were
+    :param iterations: of all of them together
     """
 
     most_iterations: int
     worst_residual: float
     unreached: int
+    solves: int
+    iterations: int
 
 
 class Tally:
@@ -63,8 +67,10 @@ class Tally:
         """Return how the solves ended."""
         figures = np.empty(_FIGURES, dtype=np.float32)
         self._buffer.read_into(figures)
-        iterations, worst_square, unreached = (float(figure) for figure in figures)
-        return TallyReport(int(iterations), worst_square**0.5, int(unreached))
+        most, worst_square, unreached, solves, iterations = (
+            float(figure) for figure in figures)
+        return TallyReport(
+            int(most), worst_square**0.5, int(unreached), int(solves), int(iterations))
 
     def delete(self) -> None:
         """Give the figures back."""

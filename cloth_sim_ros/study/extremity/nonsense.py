@@ -70,7 +70,9 @@ def tells_of(seen: Snapshot) -> tuple[str, ...]:
     """Return what a snapshot itself tells to be wrong, as ~/diagnostics does."""
     told = []
     if seen.stability_margin > 1.0:
-        told.append(f'substeps {seen.stability_margin:.2g} times the stability limit')
+        told.append(f'substeps {seen.stability_margin:.2g} times as long as they should be')
+    if not seen.lengths_are_held:
+        told.append(f'edges off by {seen.max_strain:.2g} of their length')
     if not seen.solver_reached:
         told.append('a solve that did not reach its residual')
     return tuple(told)

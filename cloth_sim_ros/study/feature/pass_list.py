@@ -25,7 +25,7 @@ from cloth_sim_ros.sim.simulation import Simulation
 
 # Choices that say what is modelled; the others say how the work is laid out.
 _MODELLED = (
-    'HAS_', 'STRAIN_LIMIT', 'MULTIGRID', 'FORESEES_TURN', 'KEEPS_TENSION', 'RECORDS_WANTED')
+    'HAS_', 'STRAIN_LIMIT', 'MULTIGRID', 'FORESEES_TURN', 'IS_FURTHER', 'RECORDS_WANTED')
 
 
 def pass_list(

@@ -21,9 +21,9 @@ import hashlib
 import json
 from typing import Any
 
-from cloth_sim_ros.recording.project_version import project_version
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.scene import Scene
+from cloth_sim_ros.study.runs.code_digest import code_digest
 
 
 @dataclass(frozen=True)
@@ -43,8 +43,8 @@ class Run:
 
     @property
     def key(self) -> str:
-        """Tell this run from all others, of other versions too."""
-        return _digest([self.function, self.scene, self.settings, project_version()])[:20]
+        """Tell this run from all others, also by other code."""
+        return _digest([self.function, self.scene, self.settings, code_digest()])[:20]
 
     @property
     def scene_sha256(self) -> str:

@@ -38,15 +38,10 @@ class Work:
     def add(self, steps: int) -> None:
         """Count ``steps`` of dt that were like the last one."""
         snapshot, scene = self._simulation.snapshot(), self._simulation.scene
-        passes = 1
-        if snapshot.mode == 'constraint':
-            passes = (
-                scene['constraint.newton_iterations'] * max(snapshot.solver_iterations, 1)
-                * _PASSES[scene['solver.preconditioner']])
-        elif snapshot.mode == 'adaptive' and snapshot.active_constraints:
-            passes += scene['adaptive.sweeps']
+        iterations = snapshot.solves * snapshot.mean_iterations
         self._substeps += steps * snapshot.substeps
-        self._passes += steps * snapshot.substeps * passes
+        self._passes += steps * (
+            snapshot.substeps + iterations * _PASSES[scene['solver.preconditioner']])
 
     def in_a_second(self, seconds: float) -> dict[str, float]:
         """Return substeps and passes in a simulated second, of ``seconds`` simulated."""

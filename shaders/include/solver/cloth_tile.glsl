@@ -1,20 +1,8 @@
-// Copyright 2026 the cloth_sim_ros authors
-//
-// Licensed under the Apache License, Version 2.0 (the "License");
-// you may not use this file except in compliance with the License.
-// You may obtain a copy of the License at
-//
-//     http://www.apache.org/licenses/LICENSE-2.0
-//
-// Unless required by applicable law or agreed to in writing, software
-// distributed under the License is distributed on an "AS IS" BASIS,
-// WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
-// See the License for the specific language governing permissions and
-// limitations under the License.
+// SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
+// SPDX-License-Identifier: Apache-2.0
 
 // The tile of cloth nodes that a block needs, and a walk over all its edges.
 
-#include "solver/edge_weight.glsl"
 #include "block_edges.glsl"
 #include "solver/block_of_invocation.glsl"
 
@@ -25,7 +13,21 @@
 #endif
 #define TILE (BLOCK + 2 * REACH)
 
+#define STRUCTURAL 0
+#define SHEAR 1
+#define BEND 2
+
 vec4 node[TILE][TILE];
+vec4 along[TILE][TILE];   // of the edges that begin at a node, as in solver/levels.glsl
+vec4 across[TILE][TILE];
+
+// What a node is stands in w: 0 for a ghost, 1 for a free node, -1 for a pinned one.
+bool is_free(vec4 node) { return node.w > 0.0; }
+
+// 1 where there is an edge with an end that can move, 0 elsewhere.
+float is_held_together(vec4 from, vec4 to) {
+    return from.w * to.w != 0.0 && max(from.w, to.w) > 0.0 ? 1.0 : 0.0;
+}
 
 ivec2 first_of_block() { return BLOCK * block_of_invocation(COLS); }
 
@@ -39,26 +41,26 @@ bool is_in_block(int row, int col) {
     return row >= REACH && row < REACH + BLOCK && col >= REACH && col < REACH + BLOCK;
 }
 
-// ADD(row, col, drow, dcol, family, rest)
+// DO(row, col, drow, dcol, edge, family, rest)
 #if HAS_STRUCTURAL
-#define FOR_STRUCTURAL(ADD) \
-    FOR_BLOCK_EDGES(0, 1, ADD(row, col, 0, 1, STRUCTURAL, 0)) \
-    FOR_BLOCK_EDGES(1, 0, ADD(row, col, 1, 0, STRUCTURAL, 1))
+#define FOR_STRUCTURAL(DO) \
+    FOR_BLOCK_EDGES(0, 1, DO(row, col, 0, 1, 0, STRUCTURAL, 0)) \
+    FOR_BLOCK_EDGES(1, 0, DO(row, col, 1, 0, 1, STRUCTURAL, 1))
 #else
-#define FOR_STRUCTURAL(ADD)
+#define FOR_STRUCTURAL(DO)
 #endif
 #if HAS_SHEAR
-#define FOR_SHEAR(ADD) \
-    FOR_BLOCK_EDGES(1, 1, ADD(row, col, 1, 1, SHEAR, 2)) \
-    FOR_BLOCK_EDGES(1, -1, ADD(row, col, 1, -1, SHEAR, 2))
+#define FOR_SHEAR(DO) \
+    FOR_BLOCK_EDGES(1, 1, DO(row, col, 1, 1, 2, SHEAR, 2)) \
+    FOR_BLOCK_EDGES(1, -1, DO(row, col, 1, -1, 3, SHEAR, 2))
 #else
-#define FOR_SHEAR(ADD)
+#define FOR_SHEAR(DO)
 #endif
 #if HAS_BEND
-#define FOR_BEND(ADD) \
-    FOR_BLOCK_EDGES(0, 2, ADD(row, col, 0, 2, BEND, 3)) \
-    FOR_BLOCK_EDGES(2, 0, ADD(row, col, 2, 0, BEND, 4))
+#define FOR_BEND(DO) \
+    FOR_BLOCK_EDGES(0, 2, DO(row, col, 0, 2, 4, BEND, 3)) \
+    FOR_BLOCK_EDGES(2, 0, DO(row, col, 2, 0, 5, BEND, 4))
 #else
-#define FOR_BEND(ADD)
+#define FOR_BEND(DO)
 #endif
-#define FOR_CLOTH_EDGES(ADD) FOR_STRUCTURAL(ADD) FOR_SHEAR(ADD) FOR_BEND(ADD)
+#define FOR_CLOTH_EDGES(DO) FOR_STRUCTURAL(DO) FOR_SHEAR(DO) FOR_BEND(DO)

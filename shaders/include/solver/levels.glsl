@@ -35,10 +35,19 @@ uniform int level;
 #define DIRECTION 3       // level 0 only, as those that follow
 #define IMAGE 4           // the matrix times DIRECTION
 #define SOLUTION 5
+#define CHANGE 6          // of the velocity in the whole step
+#define START 7           // of a solve that goes on from another
 
 // The system.
 #define INVERSE 0  // two fields: inverse of the node's diagonal block, zero where it can't move
 #define NODE 2     // level 0: position [m], and 1 where free, -1 where pinned
+#define ALONG 3    // level 0: of the edges that begin here, along a row, along a column, diagonal,
+                   // crossing: what they resist along, less that across, over the square length
+#define ACROSS 4   // level 0: what they resist across
+#define TENSION 5  // level 0: their tensions as found last [m/s2]
+#define BEGUN 6    // level 0: as a solve begins with them
+#define BEND_WEIGHT 7   // level 0, with bend edges: along, along, across, across
+#define BEND_TENSION 8  // level 0, with bend edges: found, found, begun, begun
 #define GROUND 2   // coarse levels, two fields: mass, and what ties the node to pinned ones
 #define EDGES 4    // coarse levels, six fields: the tensors of the edges that begin here
 

@@ -21,9 +21,9 @@ layout(std430, binding = SOLVER_SUMS) writeonly buffer PartialSums { vec4 partia
 #if SUMS_BY_GROUP
 #define GROUP (LOCAL_X * LOCAL_Y)
 
-shared vec2 group_sums[GROUP];
+shared vec3 group_sums[GROUP];
 
-void store_sums(vec2 sums) {
+void store_sums(vec3 sums) {
     uint at = gl_LocalInvocationIndex;
     group_sums[at] = sums;
     for (uint half_way = GROUP / 2; half_way > 0u; half_way /= 2u) {
@@ -34,13 +34,13 @@ void store_sums(vec2 sums) {
     }
     if (at == 0u) {
         uint group = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
-        partial_sums[group] = vec4(group_sums[0], 0.0, 0.0);
+        partial_sums[group] = vec4(group_sums[0], 0.0);
     }
 }
 #else
-void store_sums(vec2 sums) {
+void store_sums(vec3 sums) {
     uint across = gl_NumWorkGroups.x * LOCAL_X;
     partial_sums[gl_GlobalInvocationID.y * across + gl_GlobalInvocationID.x] =
-        vec4(sums, 0.0, 0.0);
+        vec4(sums, 0.0);
 }
 #endif

@@ -21,4 +21,5 @@ layout(std430, binding = SOLVER_SCALARS) SCALARS_ACCESS buffer Scalars {
     float measure_start;
     float measure_after;  // expected after the last iteration
     float iterations;   // made so far
+    float scale;        // square of the change of velocity that the residual is small beside
 };

@@ -16,17 +16,6 @@
 
 #include "solver/smoothing_steps.glsl"
 
-#if MULTIGRID
-#define SMOOTHED_INTO SMOOTHED
-#else
-#define SMOOTHED_INTO PRECONDITIONED
-#endif
-
-// An invocation has POINTS entries of its own.
-#define FOR_POINTS \
-    for (int index = int(gl_GlobalInvocationID.x) * POINTS, last = min(index + POINTS, STORED); \
-            index < last; ++index)
-
 void smooth_residual(int index, vec3 residual) {
     store_vector(
         cloth_entry(SMOOTHED_INTO, index), first_step * times(load_cloth_inverse(index), residual));

@@ -15,5 +15,11 @@
 // The two steps of smoothing, as shares of a whole step of block-Jacobi. On the way up they come
 // the other way round, which keeps the preconditioner symmetric.
 
+#if MULTIGRID
+#define SMOOTHED_INTO SMOOTHED
+#else
+#define SMOOTHED_INTO PRECONDITIONED
+#endif
+
 uniform float first_step;
 uniform float second_step;

@@ -166,12 +166,14 @@ def test_random_scenes(within, unlimited_mode, layout, loads, block, scenes):
 
 
 @pytest.mark.parametrize(('nodes', 'seconds', 'allowed'), [
-    (16, 0.5, 4e-6), (16, 1.0, 1e-3), (32, 0.5, 4e-5)])
+    (16, 0.5, 4e-6), (16, 1.0, 1e-3), (32, 0.45, 4e-5)])
 def test_rounding_grows_as_it_does_in_any_cloth(
         simulate, within, mode, nodes, seconds, allowed):
     """The shaders lose more digits than float32 does: trajectories part too early."""
+    # Up to the strain limit of mode adaptive, which is not reached by then.
     simulation = simulate({
-        'mode': mode, 'rows': nodes, 'cols': nodes, 'dt': 5e-4, 'auto_substeps': False})
+        'mode': mode, 'rows': nodes, 'cols': nodes, 'dt': 5e-4, 'auto_substeps': False,
+        'adaptive.threshold': 0.5})
     oracle = MassSpringReference(simulation.scene)
     simulation.advance(seconds)
     oracle.advance(seconds)

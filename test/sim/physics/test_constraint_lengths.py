@@ -18,7 +18,10 @@ from cloth_sim_ros.study.limit_scenes import paper_scene
 import pytest
 
 _METHOD_OF_THE_PAPER = {
-    'constraint.newton_iterations': 1, 'auto_substeps': False, 'solver.tolerance': 1e-4}
+    'constraint.newton_iterations': 1, 'auto_substeps': False, 'solver.tolerance': 1e-4,
+    'constraint.strain': 1e-4}
+# Edges so hard that their lengths are off by what the step loses, not by what they carry.
+_HARD = {'constraint.strain': 1e-3}
 
 
 def _violation(simulate, dt, **values):
@@ -40,8 +43,20 @@ def _violation(simulate, dt, **values):
 
 @pytest.mark.parametrize(('dt', 'allowed'), [(0.02, 0.002), (0.05, 0.02)])
 def test_violation(simulate, within, dt, allowed):
-    """The default lets edges stretch more than it may."""
-    within('violation', _violation(simulate, dt), allowed)
+    """Substeps, or the second solve, lose what edges lengthen by as they turn."""
+    within('violation', _violation(simulate, dt, **_HARD), allowed)
+
+
+def test_the_default_stretches_as_it_says(simulate, within):
+    """
+    Hard edges are softer than the strain that they are given says.
+
+    The push gives the cloth 6 times its weight. An edge stretches by constraint.strain under the
+    whole weight in a cloth of 33 lines or more, by 0.36 of that in one of 12; at a corner pin
+    two edges and a diagonal carry half of it.
+    """
+    foreseen = 6.0 * 0.008 * 0.36 / 2.0
+    within('violation', _violation(simulate, 0.02), 1.2 * foreseen)
 
 
 def test_the_method_of_the_paper(simulate):
@@ -53,4 +68,4 @@ def test_the_method_of_the_paper(simulate):
 def test_bend_springs_join_by_parameter(simulate, within):
     """Bend springs make the step unstable, or edges longer."""
     within('violation', _violation(
-        simulate, 0.02, **{'constraint.springs': ['bend']}), 0.002)
+        simulate, 0.02, **{'constraint.strain': 5e-4, 'constraint.springs': ['bend']}), 0.002)

@@ -17,8 +17,7 @@
 
 from time import process_time
 
-from cloth_sim_ros.reference.constraint import ConstraintOptions
-from cloth_sim_ros.reference.constraint import ConstraintReference
+from cloth_sim_ros.reference.implicit_cloth import ImplicitCloth
 from cloth_sim_ros.reference.mass_spring import MassSpringReference
 import numpy as np
 import pytest
@@ -26,8 +25,7 @@ import pytest
 VALUES = {'rows': 11, 'cols': 14, 'width': 1.3, 'dt': 0.003, 'start.jitter': 0.02,
           'damping.structural': 0.03}
 # For the solver of mode constraint.
-EXACT = {
-    'solver.tolerance': 1e-6, 'solver.max_iterations': 400, 'constraint.hardening_time': 0.0}
+EXACT = {'solver.tolerance': 1e-6, 'solver.max_iterations': 400}
 # Light and limp, with a limit of 1 %: a towel.
 TOWEL = {
     'mode': 'adaptive', 'adaptive.threshold': 0.01, 'stiffness.structural': 5.0,
@@ -157,11 +155,12 @@ def test_constraints_agree_with_the_oracle(simulate, within, hard):
     springs = [] if hard else ['structural', 'shear', 'bend']
     simulation = simulate({
         **EXACT, 'mode': 'constraint', 'rows': 7, 'cols': 9, 'width': 1.3, 'dt': 0.005,
-        'start.jitter': 0.1, 'pins': ['top_left', '3,8'], 'auto_substeps': False,
+        # Beyond 1 % off the device takes lengths as they come, and holds them bit by bit.
+        'start.jitter': 0.1 if springs else 0.004, 'pins': ['top_left', '3,8'],
+        'auto_substeps': False,
         'stiffness.bend': 10.0 * bool(springs), 'damping.bend': 0.01 * bool(springs),
         'constraint.hard': hard, 'constraint.springs': springs})
-    oracle = ConstraintReference(
-        simulation.scene, ConstraintOptions(substeps=1, hard=tuple(hard)))
+    oracle = ImplicitCloth(simulation.scene)
     origin = oracle.positions[0, 0].copy()
     target = origin + (0.02, -0.01, 0.03)
     simulation.move_pin(0, 0, target, 0.8)

@@ -14,6 +14,8 @@
 
 """Levels halve the cloth down to one workgroup, and fit into the buffers of a small device."""
 
+import re
+
 from cloth_sim_ros.gl.errors import DeviceError
 from cloth_sim_ros.sim.layout import Layout
 from cloth_sim_ros.sim.solver.levels import COARSEST_SIDE
@@ -25,9 +27,12 @@ import pytest
 COMMON_LIMIT = 2**27
 
 
-def levels_of(rows: int, cols: int, *, coarsen: bool = True, texture: bool = True) -> Levels:
+def levels_of(
+        rows: int, cols: int, *, coarsen: bool = True, texture: bool = True,
+        has_bend: bool = False) -> Levels:
     """Return the levels of a cloth on a software device, or on a GPU."""
-    return Levels(Layout(rows, cols, 'fused', texture, 4, (8, 4)), coarsen=coarsen)
+    layout = Layout(rows, cols, 'fused', texture, 4, (8, 4))
+    return Levels(layout, coarsen=coarsen, has_bend=has_bend)
 
 
 @pytest.mark.parametrize(('shape', 'sizes'), [
@@ -48,13 +53,40 @@ def test_without_coarsening_there_is_the_cloth_alone():
     assert len(levels_of(64, 64, coarsen=False).layouts) == 1
 
 
+def fields_bytes(levels: Levels, of_cloth: int, of_coarse: int) -> int:
+    """Return what as many fields of four float32 on each level take."""
+    cloth, *coarse = [16 * layout.stored for layout in levels.layouts]
+    return of_cloth * cloth + of_coarse * sum(coarse)
+
+
+@pytest.mark.parametrize('shape', [(40, 50), (1, 9)])
+@pytest.mark.parametrize(('has_bend', 'of_cloth'), [(False, 7), (True, 9)])
+def test_buffers_hold_all_fields_and_no_more(shape, has_bend, of_cloth):
+    """A field would lie beyond its buffer, or the largest cloth be smaller than it need be."""
+    levels = levels_of(*shape, has_bend=has_bend)
+    assert levels.vector_bytes == fields_bytes(levels, 8, 3)
+    assert levels.system_bytes == fields_bytes(levels, of_cloth, 10)
+
+
 @pytest.mark.parametrize('texture', [True, False])
-def test_a_million_nodes_fit_into_the_common_limit(texture):
-    """The largest cloth this solver is meant for would be refused."""
-    refuse_too_large(levels_of(1024, 1024, texture=texture), COMMON_LIMIT)
+@pytest.mark.parametrize(('side', 'has_bend'), [(890, False), (815, True)])
+def test_eight_hundred_thousand_nodes_fit_into_the_common_limit(side, has_bend, texture):
+    """A cloth that this solver is meant for would be refused."""
+    # A field of a level has a quarter of the nodes above: 10 fields of all coarse ones are 3 1/3.
+    fields = (9 if has_bend else 7) + 10 / 3
+    assert side**2 * fields * 16 < 0.99 * COMMON_LIMIT
+    refuse_too_large(levels_of(side, side, texture=texture, has_bend=has_bend), COMMON_LIMIT)
 
 
-def test_a_cloth_beyond_the_buffers_is_refused_with_the_limit():
+@pytest.mark.parametrize('has_bend', [False, True])
+def test_a_cloth_beyond_the_buffers_is_refused_with_the_limit(has_bend):
     """The device would cut the system off, and the cloth would fly apart."""
-    with pytest.raises(DeviceError, match='rows 2000 x cols 2000.*use up to about 10[0-9]+ x 10'):
-        refuse_too_large(levels_of(2000, 2000), COMMON_LIMIT)
+    with pytest.raises(DeviceError, match='rows 2000 x cols 2000.*use up to about') as refused:
+        refuse_too_large(levels_of(2000, 2000, has_bend=has_bend), COMMON_LIMIT)
+    rows, cols = re.search(r'up to about (\d+) x (\d+)', str(refused.value)).groups()
+    side = int(rows)
+    assert rows == cols
+    # What is advised fits, to the ghosts at the edges, and is not much too small.
+    refuse_too_large(levels_of(side - 10, side - 10, has_bend=has_bend), COMMON_LIMIT)
+    with pytest.raises(DeviceError):
+        refuse_too_large(levels_of(side + 10, side + 10, has_bend=has_bend), COMMON_LIMIT)

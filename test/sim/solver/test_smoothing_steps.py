@@ -16,6 +16,7 @@
 """The steps of smoothing suit the weights of the edges."""
 
 from cloth_sim_ros.sim.scene import Scene
+from cloth_sim_ros.sim.solver.edge_law import EdgeLaw
 from cloth_sim_ros.sim.solver.edge_law import hard_edges
 from cloth_sim_ros.sim.solver.edge_law import implicit_springs
 from cloth_sim_ros.sim.solver.smoothing_steps import smoothing_steps
@@ -28,16 +29,47 @@ def left_over(steps: tuple[float, float], eigenvalue: np.ndarray) -> np.ndarray:
     return (1.0 - steps[0] * eigenvalue) * (1.0 - steps[1] * eigenvalue)
 
 
+def around_a_node(law: EdgeLaw) -> float:
+    """Return what the edges that meet at a node weigh, bend edges those of four nodes."""
+    along_row, along_column, diagonal, two_along_row, two_along_column = law.weights
+    return (2.0 * (along_row + along_column) + 4.0 * diagonal
+            + 8.0 * (two_along_row + two_along_column))
+
+
 def test_heavy_edges_are_smoothed_from_a_quarter_to_two():
     """An error that no coarser level can mend would stay, or grow."""
-    steps = smoothing_steps(hard_edges(0.01))
+    law = hard_edges(Scene({}), 0.01)
+    assert around_a_node(law) > 100.0
+    steps = smoothing_steps(law)
     assert np.abs(left_over(steps, np.linspace(0.25, 2.0, 200))).max() < 0.45
     assert np.abs(left_over(steps, np.linspace(0.0, 2.0, 200))).max() <= 1.0
 
 
+@pytest.mark.parametrize('family', ['structural', 'shear', 'bend'])
+@pytest.mark.parametrize('stiffness', [1.0, 10.0, 100.0])
+def test_steps_are_those_of_chebyshev(family, stiffness):
+    """An error at one end of the eigenvalues would be left as large as at no other."""
+    others = {f'stiffness.{each}': 0.0 for each in ('structural', 'shear', 'bend')}
+    undamped = {f'damping.{each}': 0.0 for each in ('structural', 'shear', 'bend')}
+    # The cloth is not square, so that a weight of the wrong rest length would show.
+    scene = Scene({
+        'rows': 12, 'cols': 30, 'node_mass': 0.01, **others, **undamped,
+        f'stiffness.{family}': stiffness})
+    law = implicit_springs(scene, 0.01)
+    around = around_a_node(law)
+    count = {'structural': 4.0, 'shear': 4.0, 'bend': 16.0}[family]
+    assert around == pytest.approx(count * 1e-4 * stiffness / 0.01)
+    least, most = max(0.25, 1.0 / (1.0 + around)), (1.0 + 2.0 * around) / (1.0 + around)
+    # Of all polynomials that are 1 at 0, the one that is least there is as large at both ends as
+    # in the middle, with the opposite sign.
+    left = left_over(smoothing_steps(law), np.array([least, 0.5 * (least + most), most]))
+    assert left[0] == pytest.approx(left[2], abs=1e-12)
+    assert left[1] == pytest.approx(-left[0], abs=1e-12)
+
+
 def test_without_edges_a_step_is_exact():
     """Nodes that nothing ties would not fall freely."""
-    assert smoothing_steps(hard_edges(0.01, families=())) == (1.0, 1.0)
+    assert smoothing_steps(hard_edges(Scene({}), 0.01, families=())) == (1.0, 1.0)
 
 
 @pytest.mark.parametrize('stiffness', [1e-3, 1.0, 1e2, 1e6])

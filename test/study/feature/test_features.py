@@ -76,7 +76,7 @@ def test_no_damping_is_in_no_pass(context):
 
 
 @pytest.mark.parametrize(('mode', 'own'), [
-    ('constraint', 'solver/product.comp'), ('adaptive', 'limit_sweep.comp')])
+    ('constraint', 'solver/product.comp'), ('adaptive', 'strain_watch.comp')])
 def test_passes_and_memory_of_a_mode_go_with_it(context, mode, own):
     """A scene would pay for constraints that it has not."""
     values = {**PLAIN, 'mode': mode}
@@ -101,7 +101,7 @@ def test_all_that_is_off_leaves_a_plain_cloth(context):
     """Parameters of what is off would still cost something."""
     plain = pass_list(PLAIN, context=context)
     off = pass_list({
-        **PLAIN, 'adaptive.sweeps': 9, 'solver.tolerance': 1e-5, 'constraint.delta': 1e-2,
+        **PLAIN, 'adaptive.scheme': 'paper', 'solver.tolerance': 1e-5, 'constraint.strain': 1e-2,
         'pin_speed': 3.0, 'adaptive.threshold': 0.01}, context=context)
     assert plain['passes'] == off['passes']
     assert plain['buffer_bytes'] == off['buffer_bytes']
@@ -122,6 +122,6 @@ def test_the_report_tells_what_is_gone(context):
     others = {name: pass_list(without(FULL, name), context=context)
               for name in ('mode', 'bend springs')}
     text = passes_report(whole, others, ['damping'])
-    assert '| mode | gone: strain_watch.comp, mass_spring_step.comp, limit_sweep.comp' in text
+    assert '| mode | gone: strain_watch.comp' in text
     assert '| bend springs | without bend: mass_spring_step.comp' in text
     assert '| damping | not in this scene' in text

@@ -50,7 +50,9 @@ SMALL = {'rows': 6, 'cols': 6, 'dt': 0.01}
 @pytest.mark.parametrize('name', SCENES)
 def test_the_edge_is_within_5_percent_of_the_closed_form(name, mode):
     """The limit is not where the springs blow up."""
-    found = run_edge({**SCENES[name], 'mode': mode}, probe='rest', vary='scene', value=1.0)
+    # Springs that come near their strain limit are taken implicitly, which does not blow up.
+    found = run_edge({**SCENES[name], 'mode': mode, 'adaptive.threshold': 0.5}, probe='rest',
+                     vary='scene', value=1.0)
     print(f'measured {found["ratio"]:.4f} of the closed form, '
           f'{found["measured"] / found["lattice"]:.4f} of that of this lattice')
     assert 0.95 < found['ratio'] < 1.05

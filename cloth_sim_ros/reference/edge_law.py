@@ -1,0 +1,154 @@
+# SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
+# SPDX-License-Identifier: Apache-2.0
+
+"""
+One law for hard edges, strain limits and implicit springs.
+
+    lambda(l) = k (l - L0) + k_d dl/dt + (l - l_max) / E    above l_max
+                                       + (l - l_min) / E    below l_min
+
+lambda > 0 pulls. E is a compliance that belongs to the scene, not to the step: the energy of an
+edge is a function of its length, so a change of the step neither makes nor takes any.
+"""
+
+from dataclasses import dataclass
+
+from cloth_sim_ros.reference.edges import Edges
+from cloth_sim_ros.reference.edges import edges_of
+from cloth_sim_ros.sim.errors import ClothSimError
+from cloth_sim_ros.sim.scene import Scene
+import numpy as np
+
+# The weight is that on the ground: a scene without gravity has the same E.
+STANDARD_GRAVITY = 9.81
+# Of the strain of one edge that carries the whole cloth: what a cloth that hangs by a whole edge,
+# and so from all its lines, stretches by at most.
+WHOLE_EDGE = 0.03
+# Bend springs may bend as far as they like: it is not a strain of the cloth.
+LIMITED = ('structural', 'shear')
+# What an edge that carries the whole cloth is beyond its limit: of the limit, and as a strain.
+BEYOND_LIMIT = 0.1
+MOST_BEYOND = 0.003
+
+
+@dataclass(frozen=True)
+class EdgeLaw:
+    """
+    The tension of each edge as a function of its length; every field has one value an edge.
+
+    :param edges: with their rest lengths
+    :param shortest: l_min [m]; minus infinity where there is none: a length that is foreseen along
+        a frozen direction can be below 0
+    :param longest: l_max [m]; infinite where there is none
+    :param stiffness: k [N/m]
+    :param damping: k_d [N s/m]
+    :param compliance: E [m/N]
+    """
+
+    edges: Edges
+    shortest: np.ndarray
+    longest: np.ndarray
+    stiffness: np.ndarray
+    damping: np.ndarray
+    compliance: np.ndarray
+
+    def side(self, lengths: np.ndarray) -> np.ndarray:
+        """Return which limit is in force: 1 from l_max on, -1 below l_min, 0 for none."""
+        hard = self.shortest == self.longest
+        return np.where(hard | (lengths > self.longest), 1, -(lengths < self.shortest).astype(int))
+
+    def beyond(self, lengths: np.ndarray) -> np.ndarray:
+        """Return how far ``lengths`` are past their limits, 0 within them [m]."""
+        return lengths - np.clip(lengths, self.shortest, self.longest)
+
+    def tension(self, lengths: np.ndarray, rates: np.ndarray) -> np.ndarray:
+        """
+        Return lambda [N].
+
+        :param lengths: [m]
+        :param rates: dl/dt [m/s]
+        """
+        elastic = self.stiffness * (lengths - self.edges.rest_length) + self.damping * rates
+        return elastic + self.beyond(lengths) / self.compliance
+
+    def slope(self, side: np.ndarray) -> np.ndarray:
+        """Return d lambda / dl with the limit on ``side`` in force [N/m]."""
+        return self.stiffness + np.where(side != 0, 1.0 / self.compliance, 0.0)
+
+    def energy(self, lengths: np.ndarray) -> float:
+        """Return the energy that edges of these lengths hold [J]."""
+        extension = lengths - self.edges.rest_length
+        beyond = self.beyond(lengths)
+        return 0.5 * float(np.sum(self.stiffness * extension**2 + beyond**2 / self.compliance))
+
+    def spring_energy(self, lengths: np.ndarray) -> float:
+        """Return the part of it that springs hold, without hard edges and limits [J]."""
+        extension = lengths - self.edges.rest_length
+        return 0.5 * float(np.sum(self.stiffness * extension**2))
+
+    def excess(self, lengths: np.ndarray) -> np.ndarray:
+        """Return how far each edge is past its limits, in rest lengths, 0 within them."""
+        return np.abs(self.beyond(lengths)) / self.edges.rest_length
+
+
+def constraint_law(scene: Scene) -> EdgeLaw:
+    """
+    Return the law of mode constraint.
+
+    Families in ``constraint.hard`` keep their length, those in ``constraint.springs`` are springs
+    where the scene gives them stiffness or damping, and all others are left out.
+    """
+    families = scene['constraint.hard']
+    springs = [family for family in scene['constraint.springs'] if scene.models(family)]
+    edges = edges_of(scene, always=families).only([*families, *springs])
+    hard = edges.of(families)
+    return EdgeLaw(
+        edges, np.where(hard, edges.rest_length, -np.inf),
+        np.where(hard, edges.rest_length, np.inf), np.where(hard, 0.0, edges.stiffness),
+        np.where(hard, 0.0, edges.damping), limit_compliance(scene, edges))
+
+
+def limited_law(scene: Scene, limit: float | None = None) -> EdgeLaw:
+    """
+    Return the law of springs whose structural and shear edges have strain limits.
+
+    :param limit: of |l / L0 - 1|; None takes the scene's ``adaptive.threshold``
+    :raises ClothSimError: for a limit that is not above 0
+    """
+    limit = scene['adaptive.threshold'] if limit is None else limit
+    if not limit > 0.0:
+        raise ClothSimError(
+            f'a strain limit must be above 0, got {limit}: take constraint_law for edges that '
+            'keep their length')
+    edges = edges_of(scene)
+    limited = edges.of(LIMITED)
+    beyond = min(BEYOND_LIMIT * scene['adaptive.threshold'], MOST_BEYOND)
+    return EdgeLaw(
+        edges, np.where(limited & (limit < 1.0), edges.rest_length * (1.0 - limit), -np.inf),
+        np.where(limited, edges.rest_length * (1.0 + limit), np.inf),
+        edges.stiffness, edges.damping, limit_compliance(scene, edges, beyond))
+
+
+def spring_law(scene: Scene) -> EdgeLaw:
+    """Return the law of springs alone."""
+    edges = edges_of(scene)
+    return EdgeLaw(
+        edges, np.full(len(edges), -np.inf), np.full(len(edges), np.inf), edges.stiffness,
+        edges.damping, limit_compliance(scene, edges))
+
+
+def limit_compliance(
+        scene: Scene, edges: Edges, strain: float | None = None) -> np.ndarray:
+    """
+    Return E of each edge [m/N].
+
+    An edge that carries the whole cloth, as at a corner, stretches by ``strain`` at most, or by
+    the scene's ``constraint.strain`` when that is None. Where n lines share the weight, each
+    carries an n-th: few lines have a smaller E, so that they stretch by no more than WHOLE_EDGE of
+    that.
+    """
+    weight = scene.node_count * scene.node_mass * STANDARD_GRAVITY
+    lines = min(scene.rows, scene.cols)
+    strain = scene['constraint.strain'] if strain is None else strain
+    hardness = weight / strain * max(1.0, 1.0 / (WHOLE_EDGE * lines))
+    return edges.rest_length / hardness

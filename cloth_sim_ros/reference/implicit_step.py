@@ -1,0 +1,229 @@
+# SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
+# SPDX-License-Identifier: Apache-2.0
+
+"""
+One implicit step of a cloth whose edges follow an ``EdgeLaw``.
+
+A pass finds the change of the velocities dv that meets
+
+    (M + beta h^2 K_geo) dv + h J^T lambda(l + h J dv, ...) = h F
+    K_geo = sum over edges of (lambda+ / l) (I - n n^T)
+
+with the directions n in J and K_geo frozen. It is the minimum of a convex function, smooth but for
+kinks where limits come into force, and Newton's method with a line search finds it. First come
+``start`` passes with the directions that edges have at the start of the step, then ``end`` passes
+with those that they have come to. docs/implicit_step.md derives it.
+"""
+
+from dataclasses import dataclass
+
+from cloth_sim_ros.reference.edge_law import EdgeLaw
+from cloth_sim_ros.reference.edge_matrix import EdgeMatrix
+from cloth_sim_ros.sim.errors import ClothSimError
+from cloth_sim_ros.sim.scene import Scene
+import numpy as np
+from scipy.optimize import brentq
+
+
+@dataclass(frozen=True)
+class Passes:
+    """
+    How a step is solved.
+
+    :param start: passes along the edges as they are at the start of the step, 1 or more; they
+        find the limits that are in force
+    :param end: passes along the edges as they are at its end; they take away what lengths are off
+    :param foresees_turn: let the start passes allow for how much longer edges get by turning
+    :param beta: share of K_geo in the matrix; 0 leaves it out, and large steps then blow up
+    :param solves: the most linear solves of one pass, which ends when the limits in force stay
+    """
+
+    start: int = 1
+    end: int = 1
+    foresees_turn: bool = True
+    beta: float = 0.5
+    solves: int = 40
+
+    def __post_init__(self) -> None:
+        """Refuse what makes no step."""
+        for name, least in (('start', 1), ('end', 0), ('solves', 1), ('beta', 0.0)):
+            if not getattr(self, name) >= least:
+                raise ClothSimError(
+                    f'{name} of the passes must be {least} or more, got {getattr(self, name)}: '
+                    'raise it')
+
+
+def passes_of(scene: Scene) -> Passes:
+    """Return the passes of mode constraint: a single one is the plain step of the paper."""
+    solves = scene['constraint.newton_iterations']
+    if solves == 1:
+        return Passes(end=0, foresees_turn=False, beta=0.0)
+    return Passes(end=solves - 1)
+
+
+@dataclass(frozen=True)
+class Step:
+    """
+    What a step has come to.
+
+    :param positions: at its end (nodes, 3) [m]
+    :param velocities: (nodes, 3) [m/s]
+    :param tension: lambda of each edge [N]; 0 between two nodes that cannot move
+    :param impulse: of each edge on its second end; the first gets its opposite (edges, 3) [N s]
+    :param settled: whether the limits in force were found in each pass; momentum is kept only then
+    :param solves: linear solves that were made
+    """
+
+    positions: np.ndarray
+    velocities: np.ndarray
+    tension: np.ndarray
+    impulse: np.ndarray
+    settled: bool
+    solves: int
+
+
+@dataclass(frozen=True)
+class _Pass:
+    """
+    What is frozen in a pass: the lengths without dv, and what acts without the edges.
+
+    :param directions: n (edges, 3)
+    :param lengths: [m]
+    :param rates: [m/s]
+    :param across: beta h^2 lambda+ / l of each edge [kg]
+    :param held: the tension that is already in the velocities [N]
+    :param driven: velocities that what is applied adds (nodes, 3) [m/s]
+    :param h: length of the step [s]
+    """
+
+    directions: np.ndarray
+    lengths: np.ndarray
+    rates: np.ndarray
+    across: np.ndarray
+    held: np.ndarray
+    driven: np.ndarray
+    h: float
+
+
+class ImplicitStep:
+    """
+    The step of one cloth; it holds no state.
+
+    :param law: of the edges
+    :param free: which nodes can move, bool (nodes,); the others keep their velocity
+    :param node_mass: [kg]
+    """
+
+    def __init__(
+            self, law: EdgeLaw, free: np.ndarray, node_mass: float, passes: Passes) -> None:
+        """Lay out the matrix."""
+        self.law = law
+        self.passes = passes
+        self._mass = node_mass
+        self._free = free[:, None]
+        self._moves = free[law.edges.first] | free[law.edges.second]
+        self._matrix = EdgeMatrix(law.edges, free, node_mass)
+
+    def __call__(
+            self, positions: np.ndarray, velocities: np.ndarray, applied: np.ndarray,
+            before: np.ndarray | None, h: float) -> Step:
+        """
+        Return what a step of ``h`` [s] makes of a state.
+
+        :param positions: (nodes, 3) [m]
+        :param velocities: (nodes, 3) [m/s]
+        :param applied: accelerations by gravity and pushes (nodes, 3) [m/s2]
+        :param before: tensions at the end of the step before, for the first K_geo [N]; None where
+            there was none, so that those of the present lengths count
+        """
+        edges = self.law.edges
+        lengths, directions = edges.lengths(positions), edges.directions(positions)
+        driven = h * applied * self._free
+        rates = edges.along(velocities, directions)
+        if before is None:
+            before = self._moves * self.law.tension(lengths, np.zeros_like(lengths))
+        change, tension, solves = np.zeros_like(positions), before, 0
+        settled = True
+        ahead = velocities
+        for _ in range(self.passes.start):
+            one = _Pass(
+                directions, lengths + h * rates + self._turn(ahead, directions, lengths, h), rates,
+                self._across(tension, lengths, h), np.zeros_like(lengths), driven, h)
+            change, tension, found, count = self._settle(one, change)
+            solves += count
+            settled &= found
+            ahead = velocities + change
+        impulse = self._impulse(one, change, tension)
+        for _ in range(self.passes.end):
+            velocity = velocities + change
+            at = positions + h * velocity
+            lengths, directions = edges.lengths(at), edges.directions(at)
+            one = _Pass(
+                directions, lengths, edges.along(velocity, directions),
+                self._across(tension, lengths, h), tension, np.zeros_like(at), h)
+            added, tension, found, count = self._settle(one, np.zeros_like(at))
+            solves += count
+            settled &= found
+            change = change + added
+            impulse = impulse + self._impulse(one, added, tension)
+        velocities = velocities + change
+        return Step(
+            positions + h * velocities, velocities, tension, impulse, settled, solves)
+
+    def _turn(
+            self, ahead: np.ndarray, directions: np.ndarray, lengths: np.ndarray,
+            h: float) -> np.ndarray:
+        """Return how much longer each edge gets by turning, in second order of h [m]."""
+        if not self.passes.foresees_turn:
+            return np.zeros_like(lengths)
+        turned = h * self.law.edges.across(ahead, directions)
+        return np.sqrt(lengths**2 + np.sum(turned**2, axis=1)) - lengths
+
+    def _settle(
+            self, one: _Pass, change: np.ndarray) -> tuple[np.ndarray, np.ndarray, bool, int]:
+        """Return dv, the tensions, whether the limits in force were found, and the solves."""
+        law, h, edges = self.law, one.h, self.law.edges
+        for count in range(1, self.passes.solves + 1):
+            grown = edges.along(change, one.directions)
+            side = law.side(one.lengths + h * grown)
+            right = self._right(one, change)
+            slope = h * (h * law.slope(side) + law.damping)
+            outer = one.directions[:, :, None] * one.directions[:, None, :]
+            added = self._matrix.solve(
+                slope[:, None, None] * outer
+                + one.across[:, None, None] * (np.eye(3) - outer), right)
+            lengths = one.lengths + h * edges.along(change + added, one.directions)
+            if np.array_equal(law.side(lengths), side):
+                # No kink on the way: Newton's step goes to the minimum of a parabola.
+                change = change + added
+                return change, self._law(one, change), True, count
+            change = change + self._share(one, change, added) * added
+        return change, self._law(one, change), False, count
+
+    def _share(self, one: _Pass, change: np.ndarray, added: np.ndarray) -> float:
+        """Return which share of ``added`` to take: up to the minimum along it, 1 at most."""
+        def down(share: float) -> float:
+            return float(np.sum(self._right(one, change + share * added) * added))
+
+        return 1.0 if down(1.0) >= 0.0 else brentq(down, 0.0, 1.0, xtol=1e-3)
+
+    def _right(self, one: _Pass, change: np.ndarray) -> np.ndarray:
+        """Return what is missing of the momentum of each free node [kg m/s]."""
+        tension = self._law(one, change)
+        return self._free * (
+            self._mass * (one.driven - change)
+            - self.law.edges.scatter(self._impulse(one, change, tension), len(change)))
+
+    def _impulse(self, one: _Pass, change: np.ndarray, tension: np.ndarray) -> np.ndarray:
+        return (one.h * (tension - one.held)[:, None] * one.directions
+                + one.across[:, None] * self.law.edges.across(change, one.directions))
+
+    def _law(self, one: _Pass, change: np.ndarray) -> np.ndarray:
+        grown = self.law.edges.along(change, one.directions)
+        lengths = one.lengths + one.h * grown
+        return self._moves * self.law.tension(lengths, one.rates + grown)
+
+    def _across(self, tension: np.ndarray, lengths: np.ndarray, h: float) -> np.ndarray:
+        """Return beta h^2 lambda+ / l [kg]; 0 for an edge without length."""
+        pull = self.passes.beta * h**2 * np.maximum(tension, 0.0)
+        return np.divide(pull, lengths, out=np.zeros_like(pull), where=lengths > 0.0)

@@ -1,0 +1,211 @@
+# SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
+# SPDX-License-Identifier: Apache-2.0
+
+"""The implicit step: the tensions that edges have by their law are solved for in each substep."""
+
+from abc import ABC
+from abc import abstractmethod
+from collections.abc import Callable
+from collections.abc import Collection
+from dataclasses import replace
+from functools import partial
+import math
+from typing import Any
+
+from cloth_sim_ros.sim.forcing import Forcing
+from cloth_sim_ros.sim.layout import Layout
+from cloth_sim_ros.sim.modes.free_motion import FreeMotion
+from cloth_sim_ros.sim.modes.mode import Pieces
+from cloth_sim_ros.sim.modes.settling import Settling
+from cloth_sim_ros.sim.modes.turn_watch import TurnWatch
+from cloth_sim_ros.sim.push_field import PushField
+from cloth_sim_ros.sim.scene import FAMILIES
+from cloth_sim_ros.sim.scene import Scene
+from cloth_sim_ros.sim.solver.edge_law import EdgeLaw
+from cloth_sim_ros.sim.solver.solver import Solver
+from cloth_sim_ros.sim.state import State
+import numpy as np
+
+# What is told of substeps in which edges turn at once, a finite number.
+_LARGEST_MARGIN = 1e9
+# Of a substep: rounding that is no reason for another one.
+_NOTHING = 1e-9
+# Of a pass. Where a hundred edges come to their limits at once, a dozen or two find which do.
+_MOST_SOLVES = 32
+
+
+class ImplicitStep(ABC):
+    """
+    The step of docs/implicit_step.md, whatever the law of the edges; the base of modes.
+
+    ``substeps`` are those of the last dt, ``last_length`` is that of the last one [s], 0 where
+    none was, ``settling`` is the strain that a new cloth may have for a while.
+
+    :param families: of edges that there are
+    """
+
+    # An implicit step is stable whatever its length.
+    stability_limit = math.inf
+
+    def __init__(self, scene: Scene, layout: Layout, families: Collection[str]) -> None:
+        """Compile the solver."""
+        families = tuple(family for family in FAMILIES if family in families)
+        self._scene = scene
+        self._dt: float = scene['dt']
+        self._solves: int = scene['constraint.newton_iterations']
+        self._solver = Solver(
+            scene, layout, families=families, preconditioner=scene['solver.preconditioner'],
+            tolerance=scene['solver.tolerance'], max_iterations=scene['solver.max_iterations'],
+            foresees_turn=self._solves > 1)
+        self._watch = TurnWatch(scene, layout, families)
+        self._free_motion = FreeMotion(scene, layout)
+        self.settling = Settling()
+        self.forget()
+
+    @staticmethod
+    def check(scene: Scene, *, check_stability: bool = True) -> None:
+        """Raise nothing: there is no dt that is too long."""
+
+    @abstractmethod
+    def law(self, length: float) -> EdgeLaw:
+        """Return the law of the edges in a substep of ``length`` [s] that comes now."""
+
+    def step(self, state: State, begin: float, pushes: PushField) -> Pieces:
+        """Step ``state`` on by one dt."""
+        self.clear_tally()
+        yield from self.advance(state, begin, self._dt, pushes)
+
+    def advance(self, state: State, begin: float, seconds: float, pushes: PushField) -> Pieces:
+        """Step ``state`` on by ``seconds``, one dt or what is left of it."""
+        self._choose_substeps(state, pushes.forcing(begin, begin + seconds), seconds)
+        length = seconds / self.substeps
+        is_held = bool(state.pinned.any())
+        for substep in range(self.substeps):
+            self._solver.set_law(self.law(length))
+            start = begin + substep * length
+            # A velocity belongs to the middle of its substep, so forces act from there to the
+            # next.
+            kick = 0.5 * ((self.last_length or length) + length)
+            forcing_of = partial(pushes.forcing, start, start + length, kick)
+            if is_held:
+                yield from self._substep(state, forcing_of, kick)
+            else:
+                forcing = forcing_of()
+                self._free_motion.aim_at(state, forcing, pushes.still, kick)
+                yield from self._substep(
+                    state, lambda: _uneven(forcing_of()), kick, _common(forcing, kick))
+                self._free_motion.restore(state, pushes.still, length)
+            self.last_length = length
+            self.settling.spend(length)
+
+    def run_all_passes(self, state: State, pushes: PushField) -> Pieces:
+        """Make a substep of a ``state`` that nobody needs, held and free."""
+        still = pushes.still
+        self._watch.look(state, still, self._dt)
+        yield
+        self._solver.set_law(self.law(self._dt))
+        self._solver.compile_searches()
+        yield
+        self._free_motion.aim_at(state, still, still, self._dt)
+        yield
+        yield from self._substep(state, lambda: still, self._dt)
+        self._free_motion.restore(state, still, self._dt)
+        self.forget()
+
+    def forget(self) -> None:
+        """Take the next state as it comes, stretched or not."""
+        self.substeps = 1 if self._scene['auto_substeps'] else self._scene['substeps']
+        self.substep_margin = 0.0
+        self.last_length = 0.0
+        # Passes of the last dt that have not found the limits in force.
+        self._unsettled = 0
+        self.settling.forget()
+        self._solver.forget()
+        self._free_motion.forget()
+
+    def resume(self, last_length: float) -> None:
+        """Go on after substeps that another integrator made, the last of ``last_length`` [s]."""
+        self.last_length = last_length
+        self._solver.expect_nothing()
+        self._free_motion.forget()
+
+    def clear_tally(self) -> None:
+        """Begin to count solves anew."""
+        self._solver.clear_tally()
+        self._unsettled = 0
+
+    def report(self) -> dict[str, float]:
+        """Return how the solves of the last dt ended."""
+        tally = self._solver.tally()
+        return {
+            'solver_iterations': tally.most_iterations,
+            'solver_residual': tally.worst_residual,
+            'solver_reached': tally.unreached == 0 and self._unsettled == 0,
+            'solves': tally.solves,
+            'mean_iterations': tally.iterations / max(tally.solves, 1),
+        }
+
+    def tension(
+            self, positions: np.ndarray, velocities: np.ndarray,
+            nodes: np.ndarray | None = None) -> np.ndarray:
+        """Return what each edge pulled with in the last substep [N], as it was solved for."""
+        return self._solver.tensions()
+
+    def delete(self) -> None:
+        """Give everything back."""
+        self._solver.delete()
+        self._watch.delete()
+        self._free_motion.delete()
+
+    def _choose_substeps(self, state: State, forcing: Forcing, seconds: float) -> None:
+        longest, strain = self._watch.look(state, forcing, seconds)
+        self.settling.begin(strain)
+        if self._scene['auto_substeps']:
+            # Nodes that are pushed absurdly turn their edges at once.
+            wanted = seconds / longest - _NOTHING if longest > 0.0 else math.inf
+            most = self._scene['constraint.max_substeps']
+            # What is no number becomes the most, too.
+            self.substeps = most
+            if wanted < most:
+                self.substeps = min(self._scene['refine'] * max(1, math.ceil(wanted)), most)
+        self.substep_margin = min(
+            seconds / self.substeps / max(longest, 1e-30), _LARGEST_MARGIN)
+
+    def _substep(
+            self, state: State, forcing_of: Callable[[], Forcing], kick: float,
+            common_change: tuple[float, float, float] = (0.0, 0.0, 0.0)) -> Pieces:
+        yield from self._solve(state, forcing_of, kick=kick)
+        self._solver.apply(state, common_change=common_change)
+        yield
+        for _ in range(self._solves - 1):
+            yield from self._solve(state, forcing_of, kick=kick, is_further=True)
+            self._solver.apply(state, further=True)
+            yield
+
+    def _solve(
+            self, state: State, forcing_of: Callable[[], Forcing], **how: Any) -> Pieces:
+        for count in range(_MOST_SOLVES):
+            # Asked for each time: a look at the state, between two pieces, may change the buffer.
+            self._solver.prepare(state, forcing_of(), is_again=count > 0, **how)
+            yield
+            yield from self._solver.solve_in_pieces()
+            is_last = count == _MOST_SOLVES - 1
+            if not self._solver.move_start(state, is_last=is_last):
+                break
+            self._unsettled += is_last
+        self._solver.find_tensions()
+
+
+def _uneven(forcing: Forcing) -> Forcing:
+    """
+    Return what accelerates some nodes only.
+
+    What moves a free cloth as a whole leaves its edges as they are, so the solver, which stops at
+    a residual, need not find it.
+    """
+    return replace(forcing, everywhere=(0.0, 0.0, 0.0))
+
+
+def _common(forcing: Forcing, kick: float) -> tuple[float, float, float]:
+    """Return what the velocities of all nodes change by [m/s]."""
+    return tuple(kick * part for part in forcing.everywhere)

@@ -1,0 +1,47 @@
+# SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
+# SPDX-License-Identifier: Apache-2.0
+
+"""A limit that takes the lengths of a cloth as they are, and closes in on hard edges."""
+
+# [s]: slowly beside the time in which a cloth of a metre falls.
+_TIME = 0.3
+# A smaller strain is held at once: what hard edges hold of it as energy is lost in a few steps.
+_NOTABLE = 0.01
+
+
+class Settling:
+    """
+    The strain within which hard edges are springs yet, for a while.
+
+    A cloth can come stretched from where nothing limited it. Its energy is that of springs: held
+    at once, it would have that of hard edges from nothing, and be thrown together.
+    """
+
+    def __init__(self) -> None:
+        """Wait for a cloth."""
+        self.forget()
+
+    @property
+    def limit(self) -> float:
+        """Return the strain limit that holds now; 0 for hard edges."""
+        left = 1.0 - min(self._age / _TIME, 1.0)
+        return self._first * left * left * (3.0 - 2.0 * left)
+
+    def begin(self, strain: float) -> None:
+        """Take the largest ``strain`` of a cloth; only that of a new one counts."""
+        # What is no number is held at once, and seen.
+        if self._is_new and strain > _NOTABLE:
+            self._first = strain
+        self._is_new = False
+
+    def spend(self, length: float) -> None:
+        """Go on by ``length`` [s]."""
+        if self._first:
+            self._age += length
+            if self._age >= _TIME:
+                self._first = 0.0
+
+    def forget(self) -> None:
+        """Wait for another cloth."""
+        self._first = self._age = 0.0
+        self._is_new = True

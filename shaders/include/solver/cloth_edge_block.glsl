@@ -1,0 +1,24 @@
+// SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
+// SPDX-License-Identifier: Apache-2.0
+
+// What an edge of the cloth resists, as a tensor, from where right_side.comp has left it.
+
+vec4 load_node(ivec2 at) { return load_system(cloth_entry(NODE, node_index(at.x, at.y))); }
+
+// Of the edge from the node at (row, column) to the one by away.
+Symmetric edge_block(ivec2 at, ivec2 by, int edge) {
+    int index = node_index(at.x, at.y);
+    vec3 d = load_node(at).xyz - load_node(at + by).xyz;
+#if HAS_BEND
+    if (edge > 3) {
+        vec4 weight = load_system(cloth_entry(BEND_WEIGHT, index));
+        return weight[edge - 4] * outer_square(d) + scaled_identity(weight[edge - 2]);
+    }
+#endif
+    return load_system(cloth_entry(ALONG, index))[edge] * outer_square(d)
+        + scaled_identity(load_system(cloth_entry(ACROSS, index))[edge]);
+}
+
+// The two edges that lie along by at a node: the one that begins there and the one that ends.
+#define EDGE_BLOCKS(AT, BY, EDGE) \
+    (edge_block(AT, BY, EDGE) + edge_block((AT) - (BY), BY, EDGE))

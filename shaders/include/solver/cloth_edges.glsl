@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
+// SPDX-License-Identifier: Apache-2.0
+
+// How much the edges of a tile resist, as right_side.comp has left it.
+
+#if HAS_BEND
+vec4 bend_weight[TILE][TILE];
+#endif
+
+void load_edges(ivec2 first) {
+    FOR_TILE {
+        int entry = tile_index(first, row, col);
+        node[row][col] = load_system(cloth_entry(NODE, entry));
+        along[row][col] = load_system(cloth_entry(ALONG, entry));
+        across[row][col] = load_system(cloth_entry(ACROSS, entry));
+#if HAS_BEND
+        bend_weight[row][col] = load_system(cloth_entry(BEND_WEIGHT, entry));
+#endif
+    }
+}
+
+float weight_along(int row, int col, int edge) {
+#if HAS_BEND
+    if (edge > 3) {
+        return bend_weight[row][col][edge - 4];
+    }
+#endif
+    return along[row][col][edge];
+}
+
+float weight_across(int row, int col, int edge) {
+#if HAS_BEND
+    if (edge > 3) {
+        return bend_weight[row][col][edge - 2];
+    }
+#endif
+    return across[row][col][edge];
+}

@@ -1,0 +1,78 @@
+// SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
+// SPDX-License-Identifier: Apache-2.0
+
+#version 430 core
+// A solve takes the law of each edge for the straight line that it is at the expected length. What
+// that misses on the way from there to the solution, where edges come to limits or leave them:
+// over all nodes and edges, the curvature of the straight law's energy along the way, what the true
+// law's slope has besides at share of the way, and the square of what tensions lack there.
+
+#include "solver/levels.glsl"
+#include "solver/vectors.glsl"
+#include "solver/system.glsl"
+#include "state_in.glsl"
+#include "solver/state_index.glsl"
+#include "solver/cloth_tile.glsl"
+#include "solver/cloth_edges.glsl"
+#include "solver/edge_law.glsl"
+#include "solver/foreseen_length.glsl"
+
+layout(local_size_x = LOCAL_X, local_size_y = LOCAL_Y) in;
+
+#include "solver/partial_sums.glsl"
+
+uniform int start_field;  // where the solve began, of which
+uniform float guess;      // this share
+uniform float share;      // of the way to its solution
+
+vec3 velocity[TILE][TILE];
+vec3 start[TILE][TILE];
+vec3 way[TILE][TILE];
+vec3 sums;
+
+void look(int row, int col, int drow, int dcol, int edge, int family, int rest) {
+    vec4 from = node[row][col];
+    vec4 to = node[row + drow][col + dcol];
+    if (!is_in_block(row, col) || is_held_together(from, to) == 0.0) {
+        return;
+    }
+    vec3 d = from.xyz - to.xyz;
+    float square = max(dot(d, d), 1e-20);
+    float inverse_length = inversesqrt(square);
+    vec3 n = inverse_length * d;
+    vec3 u = velocity[row][col] - velocity[row + drow][col + dcol];
+    vec3 w = way[row][col] - way[row + drow][col + dcol];
+    float judged = foreseen_length(square * inverse_length, n, u)
+        + substep * dot(n, start[row][col] - start[row + drow][col + dcol]);
+    float opened = dot(n, w);
+    float l = judged + substep * share * opened;
+    Pull straight = pull_at(l, judged, 0.0, family, rest);
+    Pull bent = pull_at(l, l, 0.0, family, rest);
+    float missing = substep * (bent.tension - straight.tension);
+    float weight = weight_along(row, col, edge) * square;
+    sums += vec3(
+        weight * opened * opened + weight_across(row, col, edge) * dot(w, w),
+        missing * opened,
+        missing * missing / (1.0 + substep * substep * bent.slope));
+}
+
+void main() {
+    ivec2 first = first_of_block();
+    sums = vec3(0.0);
+    if (in_cloth(first)) {
+        load_edges(first);
+        FOR_TILE {
+            ivec2 at = first + ivec2(col, row) - REACH;
+            int entry = tile_index(first, row, col);
+            velocity[row][col] = load_velocity(state_index(at.y, at.x)).xyz;
+            float moves = is_free(node[row][col]) ? 1.0 : 0.0;
+            start[row][col] = moves * guess * load_vector(cloth_entry(start_field, entry));
+            way[row][col] = load_vector(cloth_entry(SOLUTION, entry)) - start[row][col];
+        }
+        FOR_CLOTH_EDGES(look)
+        FOR_BLOCK {
+            sums.x += dot(way[row][col], way[row][col]);
+        }
+    }
+    store_sums(sums);
+}

@@ -1,0 +1,151 @@
+# SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
+# SPDX-License-Identifier: Apache-2.0
+
+"""Where a solve starts, what it measures its residual by, and when it stops."""
+
+from cloth_sim_ros.sim.solver.edge_law import implicit_springs
+import numpy as np
+import pytest
+
+CLOTH = {'rows': 30, 'cols': 30}
+# What block-Jacobi makes of a residual is known exactly.
+PLAIN = {'preconditioner': 'block_jacobi'}
+
+
+@pytest.mark.parametrize('iterations', [2, 5, 12])
+def test_a_residual_is_told_over_the_change_of_velocity(make_case, kind, iterations):
+    """A tolerance would mean something else than is written of it."""
+    case = make_case(CLOTH, kind=kind, tolerance=1e-6, max_iterations=iterations, **PLAIN)
+    found = case.solve()
+    left = case.system.right_side - case.system.times(found)
+    change = float(np.linalg.norm(found))
+    assert change > case.least_change()
+    # One iteration more measures what these have left.
+    further = make_case(
+        CLOTH, kind=kind, tolerance=1e-6, max_iterations=iterations + 1, **PLAIN)
+    further.solve()
+    assert further.solver.measured_residual() == pytest.approx(
+        case.system.jacobi_norm(left) / change, rel=1e-3)
+
+
+@pytest.mark.parametrize('kick', [0.01, 0.04])
+def test_a_small_change_is_measured_by_what_gravity_would_make(make_case, kick):
+    """A cloth at rest would be solved to the last digit, for nothing."""
+    case = make_case(CLOTH, kick=kick, tolerance=1e-2, max_iterations=100, **PLAIN)
+    right = 1e-4 * case.random_vector(3)
+    found = case.solve_for(right)
+    assert np.linalg.norm(found) < 0.1 * case.least_change(kick)
+    report = case.solver.report()
+    assert (report.iterations, report.reached) == (1, True)
+    assert report.residual == pytest.approx(
+        case.system.jacobi_norm(right) / case.least_change(kick), rel=1e-3)
+
+
+def test_a_further_solve_is_measured_by_the_change_of_the_step(make_case):
+    """A second solve would find digits that the first has not, and take as long."""
+    case = make_case(CLOTH, tolerance=1e-5, max_iterations=1000, **PLAIN)
+    change = float(np.linalg.norm(case.solve()))
+    case.apply()
+    case.prepare(is_further=True)
+    right = 1e-6 * case.random_vector(3)
+    case.solver.set_right_side(right)
+    case.solve()
+    assert case.solver.report().iterations == 1
+    assert case.solver.report().residual == pytest.approx(
+        case.system.jacobi_norm(right) / change, rel=1e-3)
+
+
+def test_the_error_is_about_the_residual(make_case, kind, geometric):
+    """A cloth would move less exactly than its tolerance says."""
+    for tolerance in (3e-2, 1e-2, 1e-3):
+        case = make_case(
+            CLOTH, kind=kind, geometric=geometric, tolerance=tolerance, max_iterations=100)
+        solution, exact = case.solve(), case.system.solve()
+        told = case.solver.report().residual
+        error = case.system.norm(solution - exact) / np.linalg.norm(exact)
+        print(f'measured: {told:.1e} told, {error:.1e} in the norm of the matrix')
+        # With B the inverse of the matrix both were the same. Of what is smooth a V-cycle leaves
+        # some, and of a residual it then sees a part only.
+        assert 0.5 * told < error < 4.0 * told
+        assert np.linalg.norm(solution - exact) <= error * np.linalg.norm(exact)
+
+
+def test_the_device_stops_at_the_tolerance(make_case, preconditioner, kind):
+    """The solve would go on to the cap, or stop early and not say so."""
+    case = make_case(
+        CLOTH, kind=kind, preconditioner=preconditioner, tolerance=1e-4, max_iterations=600)
+    case.solve()
+    report = case.solver.report()
+    assert report.reached and report.residual <= 1e-4
+    loose = make_case(
+        CLOTH, kind=kind, preconditioner=preconditioner, tolerance=1e-2, max_iterations=600)
+    loose.solve()
+    assert loose.solver.report().iterations < report.iterations < 600
+    assert 1e-4 < loose.solver.report().residual <= 1e-2
+
+
+def test_a_solve_cut_short_says_so(make_case, preconditioner):
+    """A step that is less accurate than asked for would pass as good."""
+    case = make_case(
+        CLOTH, preconditioner=preconditioner, tolerance=1e-4, max_iterations=3)
+    case.solve()
+    report = case.solver.report()
+    assert report.iterations == 3
+    assert report.residual > 1e-4 and not report.reached
+
+
+@pytest.mark.parametrize('length', [0.01, 0.004])
+def test_a_step_starts_from_the_change_of_the_one_before(make_case, preconditioner, length):
+    """Steps that are all alike would be solved from nothing each."""
+    case = make_case(
+        CLOTH, preconditioner=preconditioner, tolerance=1e-3, max_iterations=600)
+    change = case.solve()
+    assert case.solver.report().iterations > 1
+    case.apply()
+    # A shorter step changes velocities by as much less.
+    case.law = implicit_springs(case.scene, length)
+    case.solver.set_law(case.law)
+    case.prepare()
+    expected = length / 0.01 * change.astype(float)
+    case.solver.set_right_side(case.system.times(expected))
+    assert np.allclose(case.solve(), expected, rtol=0.0, atol=1e-4 * np.abs(expected).max())
+    assert case.solver.report().iterations <= 1
+    assert case.solver.report().reached
+
+
+def test_the_change_of_a_step_is_that_of_all_its_solves(make_case):
+    """The next step would start from what the last solve has mended alone."""
+    case = make_case(CLOTH, tolerance=1e-4, max_iterations=600)
+    change = case.solve()
+    case.apply()
+    case.prepare(is_further=True)
+    change = change + case.solve()
+    case.apply(further=True)
+    case.prepare()
+    case.solver.set_right_side(case.system.times(change))
+    case.solve()
+    assert case.solver.report().iterations <= 1
+
+
+@pytest.mark.parametrize('is_further', [True, False])
+def test_a_further_solve_and_a_new_state_start_from_nothing(make_case, is_further):
+    """What the step before did would be done once more, or to another cloth."""
+    case = make_case(CLOTH, tolerance=1e-3, max_iterations=600)
+    case.solve()
+    case.apply()
+    if not is_further:
+        case.forget()
+    case.prepare(is_further=is_further)
+    case.solver.set_right_side(np.zeros(case.positions.shape))
+    assert np.all(case.solve() == 0.0)
+    assert case.solver.report().iterations == 0
+
+
+def test_pins_put_in_do_not_start_to_move(make_case):
+    """A node that was free in the step before would go on in the next."""
+    case = make_case(CLOTH, tolerance=1e-3, max_iterations=600)
+    case.solve()
+    case.apply()
+    case.state.set_pinned(15, 15, True)
+    case.solver.prepare(case.state, case.forcing)
+    assert np.all(case.solve()[15, 15] == 0.0)
