@@ -14,16 +14,26 @@
 
 """A buffer on the device, read by shaders as storage or through a texture."""
 
-import ctypes
-
 from cloth_sim_ros.gl.context_loss import loss_noticed
+from cloth_sim_ros.gl.context_loss import refuse_lost_context
 from cloth_sim_ros.gl.inventory import drop_buffer
 from cloth_sim_ros.gl.inventory import note_buffer
 from cloth_sim_ros.gl.libraries import GL
+from cloth_sim_ros.gl.quick_calls import activate_texture
+from cloth_sim_ros.gl.quick_calls import bind_buffer
+from cloth_sim_ros.gl.quick_calls import bind_buffer_base
+from cloth_sim_ros.gl.quick_calls import bind_texture
 from cloth_sim_ros.gl.quick_calls import Call
 from cloth_sim_ros.gl.quick_calls import memory_barrier
+from cloth_sim_ros.gl.quick_calls import read_buffer
 import numpy as np
 
+# As plain numbers: PyOpenGL's constants are slower to hand on.
+_STORAGE = int(GL.GL_SHADER_STORAGE_BUFFER)
+_DISPATCHES = int(GL.GL_DISPATCH_INDIRECT_BUFFER)
+_TEXTURE_BUFFER = int(GL.GL_TEXTURE_BUFFER)
+_FIRST_UNIT = int(GL.GL_TEXTURE0)
+_READS = int(GL.GL_BUFFER_UPDATE_BARRIER_BIT)
 _WRITES = GL.GL_SHADER_STORAGE_BARRIER_BIT | GL.GL_TEXTURE_FETCH_BARRIER_BIT
 # What shader_writes_visible and shader_dispatches_visible do.
 WRITES_VISIBLE: Call = (memory_barrier, (_WRITES,))
@@ -52,21 +62,21 @@ class Buffer:
 
     def bind_storage(self, binding: int) -> None:
         """Let shaders reach it as the storage block ``binding``."""
-        GL.glBindBufferBase(GL.GL_SHADER_STORAGE_BUFFER, binding, self._buffer)
+        bind_buffer_base(_STORAGE, binding, self._buffer)
 
     def bind_texture(self, unit: int) -> None:
         """Let shaders read it, four floats a texel, as the samplerBuffer of ``unit``."""
-        GL.glActiveTexture(GL.GL_TEXTURE0 + unit)
+        activate_texture(_FIRST_UNIT + unit)
         if self._texture is None:
             self._texture = int(GL.glGenTextures(1))
             GL.glBindTexture(GL.GL_TEXTURE_BUFFER, self._texture)
             GL.glTexBuffer(GL.GL_TEXTURE_BUFFER, GL.GL_RGBA32F, self._buffer)
         else:
-            GL.glBindTexture(GL.GL_TEXTURE_BUFFER, self._texture)
+            bind_texture(_TEXTURE_BUFFER, self._texture)
 
     def bind_dispatches(self) -> None:
         """Let indirect dispatches take their workgroups from it."""
-        GL.glBindBuffer(GL.GL_DISPATCH_INDIRECT_BUFFER, self._buffer)
+        bind_buffer(_DISPATCHES, self._buffer)
 
     def write(self, data: np.ndarray, offset: int = 0) -> None:
         """Overwrite the bytes from ``offset`` on with ``data``."""
@@ -78,12 +88,10 @@ class Buffer:
 
     def read_into(self, target: np.ndarray, offset: int = 0) -> None:
         """Fill ``target`` (contiguous) with the bytes from ``offset`` on."""
-        with loss_noticed():
-            GL.glMemoryBarrier(GL.GL_BUFFER_UPDATE_BARRIER_BIT)
-            GL.glBindBuffer(GL.GL_SHADER_STORAGE_BUFFER, self._buffer)
-            GL.glGetBufferSubData(
-                GL.GL_SHADER_STORAGE_BUFFER, offset, target.nbytes,
-                target.ctypes.data_as(ctypes.c_void_p))
+        memory_barrier(_READS)
+        bind_buffer(_STORAGE, self._buffer)
+        read_buffer(_STORAGE, offset, target.nbytes, target.ctypes.data)
+        refuse_lost_context()
 
     def delete(self) -> None:
         """Give the memory back."""

@@ -21,6 +21,7 @@ shows in the next call that is looked at.
 """
 
 from collections.abc import Callable
+from ctypes import c_size_t
 
 from cloth_sim_ros.gl.libraries import PLATFORM
 from OpenGL.raw.GL import _types as gl_type
@@ -39,3 +40,10 @@ set_uniform_float = _quick('glUniform1f', gl_type.GLint, gl_type.GLfloat)
 dispatch = _quick('glDispatchCompute', *3 * (gl_type.GLuint,))
 dispatch_indirect = _quick('glDispatchComputeIndirect', gl_type.GLintptr)
 memory_barrier = _quick('glMemoryBarrier', gl_type.GLbitfield)
+bind_buffer = _quick('glBindBuffer', gl_type.GLenum, gl_type.GLuint)
+bind_buffer_base = _quick('glBindBufferBase', gl_type.GLenum, gl_type.GLuint, gl_type.GLuint)
+# To an address, which is a number: making a pointer of it takes as long as the call.
+read_buffer = _quick(
+    'glGetBufferSubData', gl_type.GLenum, gl_type.GLintptr, gl_type.GLsizeiptr, c_size_t)
+activate_texture = _quick('glActiveTexture', gl_type.GLenum)
+bind_texture = _quick('glBindTexture', gl_type.GLenum, gl_type.GLuint)

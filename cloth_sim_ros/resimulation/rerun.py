@@ -28,10 +28,10 @@ from cloth_sim_ros.resimulation.recorded_run import RecordedRun
 from cloth_sim_ros.resimulation.recorded_run import stamp_of
 from cloth_sim_ros.resimulation.rerun_limits import RerunLimits
 from cloth_sim_ros.resimulation.run_start import RunStart
-from cloth_sim_ros.resimulation.run_start import WITHOUT_MEMORY
 from cloth_sim_ros.resimulation.step_clock import StepClock
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.errors import NonFiniteStateError
+from cloth_sim_ros.sim.modes import AVAILABLE
 from cloth_sim_ros.sim.simulation import Simulation
 
 _STOPPED = 'stopped'
@@ -192,7 +192,7 @@ class Rerun:
     def _see_state(self, entry: Entry) -> None:
         self._is_at_stop = entry.message.run_state == _STOPPED
         mode = self.simulation.mode
-        if self._is_at_stop and mode not in WITHOUT_MEMORY:
+        if self._is_at_stop and AVAILABLE[mode].has_memory:
             self._unknown_after_stop = (
                 f'with which step mode {mode} began anew as the run stopped',)
 

@@ -21,12 +21,12 @@ from cloth_sim_ros.resimulation.listener import Listener
 from cloth_sim_ros.resimulation.recorded_push import recorded_push
 from cloth_sim_ros.resimulation.recorded_run import RecordedRun
 from cloth_sim_ros.sim.errors import ClothSimError
+from cloth_sim_ros.sim.modes import AVAILABLE
 from cloth_sim_ros.sim.push import Push
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.simulation import Simulation
 import numpy as np
 
-WITHOUT_MEMORY = ('mass_spring',)
 _VELOCITY = ('vx', 'vy', 'vz')
 
 
@@ -89,7 +89,7 @@ class RunStart:
         for entry in self._opening('inputs/pin_target'):
             self._replay.take(entry.key, entry.message)
         unknown = []
-        if simulation.mode not in WITHOUT_MEMORY:
+        if AVAILABLE[simulation.mode].has_memory:
             unknown.append(f'what mode {simulation.mode} kept from earlier steps')
         if self._opening('inputs/pin_target'):
             unknown.append('where the pins under way set off')

@@ -75,7 +75,7 @@ SCENE_FIELDS = (
           'the whole cloth; less is harder and takes more solver iterations', low=1e-5, high=1.0),
     Field('constraint.max_substeps', int, 32, 'most substeps of dt that auto_substeps takes '
           'there', low=1, high=MOST_SUBSTEPS),
-    Field('solver.tolerance', float, 0.002, 'error at which the linear solver stops, over the '
+    Field('solver.tolerance', float, 0.005, 'error at which the linear solver stops, over the '
           'change of velocity that it solves for', low=1e-6, high=0.5),
     Field('solver.max_iterations', int, 60, 'iterations after which it stops in any case',
           low=1, high=10000),

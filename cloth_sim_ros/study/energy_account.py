@@ -18,6 +18,7 @@ from collections.abc import Mapping
 
 from cloth_sim_ros.reference.energy import elastic_energy
 from cloth_sim_ros.reference.springs import spring_sets
+from cloth_sim_ros.sim.modes import AVAILABLE
 from cloth_sim_ros.sim.pin_forces import pin_forces
 from cloth_sim_ros.sim.push import Push
 from cloth_sim_ros.sim.scene import FAMILIES
@@ -38,7 +39,7 @@ class EnergyAccount:
     are linear, is H = E + h sum(m v . a) / 2: that is what is accounted for in the modes that step
     so.
 
-    In mode constraint it is the energy itself, and hard edges hold none.
+    In an implicit mode it is the energy itself, and hard edges hold none.
 
     The work of pins that move is that of the forces on them at the end of each step.
 
@@ -48,7 +49,7 @@ class EnergyAccount:
     def __init__(self, run: Simulation) -> None:
         """Take down the energy at the start."""
         self._run = run
-        self._is_symplectic = run.mode != 'constraint'
+        self._is_symplectic = not AVAILABLE[run.mode].is_implicit
         self._has_pin_moves = bool(run.scene.timed_pin_moves())
         self._pushed: dict[Push, np.ndarray] = {}
         self._work = 0.0

@@ -34,6 +34,7 @@ from cloth_sim_ros.analysis.run import Run
 from cloth_sim_ros.analysis.run_outcome import RunOutcome
 from cloth_sim_ros.analysis.run_sheet import write_run_sheet
 from cloth_sim_ros.sim.errors import ClothSimError
+from cloth_sim_ros.sim.modes import AVAILABLE
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.study.paper_figures import FIGURES
 from cloth_sim_ros.study.paper_figures import paper_scene_file
@@ -98,4 +99,5 @@ def _refuse_to_overwrite(folder: Path, figure: PaperFigure) -> None:
 
 def allowed_strain(scene: Scene) -> float | None:
     """Return the strain up to which the mode of ``scene`` lets edges be; None for any."""
-    return {'constraint': 0.0, 'adaptive': scene['adaptive.threshold']}.get(scene['mode'])
+    return {'hard': 0.0, 'limited': scene['adaptive.threshold']}.get(
+        AVAILABLE[scene['mode']].edge_model(scene))

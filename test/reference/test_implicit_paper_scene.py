@@ -10,7 +10,8 @@ import numpy as np
 import pytest
 
 
-@pytest.mark.parametrize('dt', [0.005, 0.01, 0.02])
+@pytest.mark.parametrize('dt', [
+    pytest.param(0.005, marks=pytest.mark.long), 0.01, 0.02])
 def test_the_paper_method(dt):
     """
     One solve does not lose exactly what edges gain by turning.

@@ -47,6 +47,8 @@ class Adaptive:
     """
 
     name = 'adaptive'
+    is_implicit = False
+    has_memory = True
 
     def __init__(self, scene: Scene, layout: Layout, *, check_stability: bool = True) -> None:
         """Choose the substeps and compile the passes."""
@@ -68,6 +70,11 @@ class Adaptive:
         self._is_limited = self._made_limited = False
         # Length of the last substep [s]; 0 where none was.
         self._before = 0.0
+
+    @staticmethod
+    def edge_model(scene: Scene) -> str:
+        """Return that edges are springs within a limit."""
+        return 'limited'
 
     @staticmethod
     def check(scene: Scene, *, check_stability: bool = True) -> None:

@@ -29,12 +29,19 @@ class Constraint(ImplicitStep):
     """Hard edges, and springs where the scene asks for them."""
 
     name = 'constraint'
+    is_implicit = True
+    has_memory = True
 
     def __init__(self, scene: Scene, layout: Layout, *, check_stability: bool = True) -> None:
         """Compile the solver for the edges the scene asks for."""
         self.spring_families = tuple(
             family for family in scene.families if family in scene['constraint.springs'])
         super().__init__(scene, layout, {*scene['constraint.hard'], *self.spring_families})
+
+    @staticmethod
+    def edge_model(scene: Scene) -> str:
+        """Return that edges are hard, or springs where none is to be."""
+        return 'hard' if scene['constraint.hard'] else 'springs'
 
     def law(self, length: float) -> EdgeLaw:
         """Return the law of hard edges, or that of springs with a limit that closes in on them."""

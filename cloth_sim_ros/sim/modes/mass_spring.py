@@ -34,6 +34,8 @@ class MassSpring:
     """Forces and update in one pass; the paper's two passes when the scene asks for them."""
 
     name = 'mass_spring'
+    is_implicit = False
+    has_memory = False
     strain_bound = math.inf
 
     def __init__(self, scene: Scene, layout: Layout, *, check_stability: bool = True) -> None:
@@ -45,6 +47,11 @@ class MassSpring:
         self._length: float = scene['dt'] / self.substeps
         self.substep_margin = self._length / self.stability_limit
         self._passes = OnePass(scene, layout) if layout.kind == 'fused' else TwoPass(scene, layout)
+
+    @staticmethod
+    def edge_model(scene: Scene) -> str:
+        """Return that edges are springs."""
+        return 'springs'
 
     @staticmethod
     def check(scene: Scene, *, check_stability: bool = True) -> None:

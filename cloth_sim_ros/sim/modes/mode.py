@@ -44,13 +44,17 @@ class Mode(Protocol):
     ``stability_limit`` is the longest stable substep [s], ``substep_margin`` a substep over it,
     or, in an implicit step, over the longest in which edges turn by no more than they should.
     ``strain_bound`` is what no structural or shear edge should be stretched or shortened beyond,
-    0 for hard edges.
+    0 for hard edges. ``is_implicit`` says that edges pull as the end of a substep asks, so that it
+    has no stability limit; other modes step by symplectic Euler. ``has_memory`` says that a step
+    goes by more than the state and its time.
 
     :param check_stability: False takes a dt above the stability limit, to study what happens
     :raises ClothSimError: when the mode can't step the scene as it asks
     """
 
     name: str
+    is_implicit: bool
+    has_memory: bool
     substeps: int
     stability_limit: float
     substep_margin: float
@@ -63,6 +67,10 @@ class Mode(Protocol):
     @staticmethod
     def check(scene: Scene, *, check_stability: bool = True) -> None:
         """Raise ClothSimError when the mode can't step ``scene``, before anything is compiled."""
+
+    @staticmethod
+    def edge_model(scene: Scene) -> str:
+        """Return what the edges of ``scene`` are in this mode: springs, limited or hard."""
 
     def step(self, state: State, begin: float, pushes: PushField) -> Pieces:
         """

@@ -14,6 +14,7 @@
 
 """What a run must never tell: numbers that cannot be, or a message that helps nobody."""
 
+from cloth_sim_ros.sim.modes import AVAILABLE
 from cloth_sim_ros.sim.scene import FAMILIES
 from cloth_sim_ros.sim.simulation import Simulation
 from cloth_sim_ros.sim.snapshot import Snapshot
@@ -99,12 +100,13 @@ def _wrong_numbers(run: Simulation, seen: Snapshot) -> list[str]:
 
 def _wrong_lengths(run: Simulation, seen: Snapshot) -> list[str]:
     scene = run.scene
-    if run.mode == 'constraint':
+    model = AVAILABLE[run.mode].edge_model(scene)
+    if model == 'hard':
         hard = set(scene['constraint.hard']) & set(FAMILIES[:2])
         # Strain is that of both structural and shear edges.
         if len(hard) == 2 and not tells_of(seen) and seen.max_strain > _MOST_HARD_STRAIN:
             return [f'hard edges are off by {seen.max_strain:.2g}']
-    if run.mode == 'adaptive' and scene['adaptive.scheme'] != 'paper':
+    if model == 'limited' and scene['adaptive.scheme'] != 'paper':
         most = _MOST_OVER_LIMIT * scene['adaptive.threshold']
         if seen.max_strain > most and any(map(scene.models, FAMILIES[:2])):
             return [f'strain {seen.max_strain:.2g} with the limit {scene["adaptive.threshold"]:g}']

@@ -8,7 +8,11 @@ import hashlib
 from pathlib import Path
 
 import cloth_sim_ros
+from cloth_sim_ros.files.regular_file import read_regular
 from cloth_sim_ros.gl.shader_directory import shader_directory
+
+# Of a source file.
+_MOST_BYTES = 1 << 24
 
 
 @cache
@@ -20,5 +24,5 @@ def code_digest() -> str:
         for path in sorted(root.rglob(pattern)):
             if path.is_file():
                 digest.update(f'{path.relative_to(root)}\0'.encode())
-                digest.update(path.read_bytes())
+                digest.update(read_regular(path, _MOST_BYTES))
     return digest.hexdigest()

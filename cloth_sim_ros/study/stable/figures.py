@@ -19,6 +19,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
+from cloth_sim_ros.sim.modes import AVAILABLE
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.scene_fields import MODES
 from cloth_sim_ros.study.runs.result import Result
@@ -121,11 +122,12 @@ def _draw_map(axes: Axes, results: Sequence[Result]) -> None:
 def _draw_line(
         axes: Axes, scene: Mapping[str, Any], factors: Sequence[float], scale: float) -> None:
     stiffness = np.geomspace(*_borders(np.array(factors))[[0, -1]], _LINE_POINTS)
-    if scene['mode'] == 'constraint':
+    mode = scene['mode']
+    if AVAILABLE[mode].is_implicit:
         # Of hard edges: no stiffness is in it.
-        limits = np.full(_LINE_POINTS, predicted_limit(scene, 'constraint'))
+        limits = np.full(_LINE_POINTS, predicted_limit(scene, mode))
     else:
-        limits = [predicted_limit(with_stiffness(scene, factor), scene['mode'])
+        limits = [predicted_limit(with_stiffness(scene, factor), mode)
                   for factor in stiffness]
     axes.plot(scale * stiffness, limits, color='k', linewidth=1.6)
 

@@ -20,6 +20,7 @@ from typing import Any
 
 from cloth_sim_ros.gl.context import Context
 from cloth_sim_ros.sim.errors import ClothSimError
+from cloth_sim_ros.sim.modes import AVAILABLE
 from cloth_sim_ros.sim.modes.spring_substeps import spring_substeps
 from cloth_sim_ros.sim.scene import FAMILIES
 from cloth_sim_ros.sim.scene import Scene
@@ -40,7 +41,7 @@ from cloth_sim_ros.study.stable.rest_probe import rest_scene
 
 # Of a scene that moves: enough for its first fall, and for what grows to be seen.
 MOVING_SECONDS = 0.5
-_MOST_STEPS = {'mass_spring': 2000, 'adaptive': 2000, 'constraint': 300}
+_MOST_STEPS, _MOST_IMPLICIT_STEPS = 2000, 300
 _LONGEST_DT = 1.0
 
 
@@ -58,7 +59,7 @@ def run_point(
     context = process_context()
     values = with_stiffness(scene, factor)
     if forced:
-        probe = hanging_probe if values['mode'] == 'constraint' else rest_probe
+        probe = hanging_probe if _is_implicit(values) else rest_probe
         outcome = probe(values, dt, context=context)
         refused = _is_refused(values, dt)
     else:
@@ -71,7 +72,7 @@ def run_edge(scene: Mapping[str, Any], *, probe: str, vary: str, value: float) -
     """
     Return where ``scene`` ceases to be stable, found by bisection, and where it should.
 
-    :param probe: rest or moving with springs, hanging in mode constraint
+    :param probe: rest or moving with springs, hanging in an implicit mode
     :param vary: what of the scene was varied, and to what ``value``; told, not used
     """
     context = process_context()
@@ -101,7 +102,7 @@ def with_stiffness(values: Mapping[str, Any], factor: float) -> dict[str, Any]:
 
 def predicted_limit(values: Mapping[str, Any], mode: str) -> float:
     """Return the longest stable step [s] in ``mode``, from its closed form."""
-    if mode == 'constraint':
+    if AVAILABLE[mode].is_implicit:
         return hang(Scene(hanging_scene(values))).limit
     return stability_limit(Scene(rest_scene(values)))
 
@@ -117,17 +118,23 @@ def _probed(
 def _moving(
         values: Mapping[str, Any], dt: float, context: Context,
         check_stability: bool = True) -> ProbeOutcome:
-    if values['mode'] == 'constraint':
+    is_implicit = _is_implicit(values)
+    if is_implicit:
         # Hard edges that begin off their length bring energy with them.
         values = {**values, 'start.jitter': 0.0}
     return moving_probe(
-        values, dt, seconds=MOVING_SECONDS, most_steps=_MOST_STEPS[values['mode']],
+        values, dt, seconds=MOVING_SECONDS,
+        most_steps=_MOST_IMPLICIT_STEPS if is_implicit else _MOST_STEPS,
         check_stability=check_stability, context=context)
+
+
+def _is_implicit(values: Mapping[str, Any]) -> bool:
+    return AVAILABLE[values['mode']].is_implicit
 
 
 def _is_refused(values: Mapping[str, Any], dt: float) -> bool:
     """Tell whether the scene is refused with ``dt``, one step a dt, when nobody insists."""
-    if values['mode'] == 'constraint':
+    if _is_implicit(values):
         return False
     try:
         spring_substeps(Scene({**rest_scene(values), 'dt': dt}), values['mode'])

@@ -19,6 +19,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from cloth_sim_ros.sim.errors import ClothSimError
+from cloth_sim_ros.sim.modes import AVAILABLE
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.study.runs.result import Result
 from cloth_sim_ros.study.trade.errors import errors
@@ -62,9 +63,7 @@ class Measured:
 
 def own_model(scene: Scene) -> str:
     """Return what the mode of ``scene`` models."""
-    if scene['mode'] == 'constraint' and scene['constraint.hard']:
-        return 'hard'
-    return 'limited' if scene['mode'] == 'adaptive' else 'springs'
+    return AVAILABLE[scene['mode']].edge_model(scene)
 
 
 def compare(

@@ -30,9 +30,9 @@ import pytest
 
 # Scene, push, largest strain, spread of peak kinetic energy (issue 3, point 3).
 CASES = [
-    ('paper', 12, 5.0, 0.11, 0.1), ('paper', 12, 20.0, 0.125, 0.1),
-    ('unit', 12, 5.0, 0.125, 0.1), ('unit', 12, 20.0, 0.14, 0.12)]
-LARGE_CASES = [('unit', 32, 5.0, 0.12, 0.1), ('unit', 32, 20.0, 0.15, 0.12)]
+    ('paper', 12, 5.0, 0.11, 0.1), ('paper', 12, 20.0, 0.125, 0.1), ('unit', 12, 5.0, 0.125, 0.1)]
+LONG_CASES = [
+    ('unit', 12, 20.0, 0.14, 0.12), ('unit', 32, 5.0, 0.12, 0.1), ('unit', 32, 20.0, 0.15, 0.12)]
 LIMP = {'stiffness.structural': 5.0, 'stiffness.shear': 5.0, 'stiffness.bend': 0.5,
         'damping.structural': 1e-4, 'damping.shear': 1e-4, 'damping.bend': 1e-4}
 
@@ -60,18 +60,18 @@ def check_limit(kind, nodes, push, strain, energy, seconds, dts):
 @pytest.mark.parametrize(('kind', 'nodes', 'push', 'strain', 'energy'), CASES)
 def test_a_pushed_cloth_keeps_its_limit(kind, nodes, push, strain, energy):
     """Edges stretch far beyond the limit, or the frame's dt changes the motion."""
-    check_limit(kind, nodes, push, strain, energy, 2.5, (0.01, 0.02, 0.05))
+    check_limit(kind, nodes, push, strain, energy, 1.8, (0.01, 0.02, 0.05))
 
 
 @pytest.mark.long
-@pytest.mark.parametrize(('kind', 'nodes', 'push', 'strain', 'energy'), CASES + LARGE_CASES)
+@pytest.mark.parametrize(('kind', 'nodes', 'push', 'strain', 'energy'), CASES + LONG_CASES)
 def test_a_pushed_cloth_keeps_its_limit_for_long(kind, nodes, push, strain, energy):
     """The limit is lost, or energy comes up, some time after the push."""
     check_limit(kind, nodes, push, strain, energy, 10.0, (0.01, 0.015, 0.02, 0.03, 0.04, 0.05))
 
 
 @pytest.mark.parametrize('push', [5.0, 20.0])
-@pytest.mark.parametrize('dt', [0.01, 0.03, 0.05])
+@pytest.mark.parametrize('dt', [pytest.param(0.01, marks=pytest.mark.long), 0.03, 0.05])
 def test_constraints_do_not_chatter(push, dt):
     """Constraints go on and off in turn, which is noise and heats the cloth."""
     switching = limit_run(paper_scene(push, dt), 10.0).switching
@@ -90,7 +90,8 @@ def test_the_papers_scheme_fails_as_it_reports():
     assert runs[1].peak_kinetic_energy > 20.0 * runs[0].peak_kinetic_energy
 
 
-@pytest.mark.parametrize('threshold', [0.005, 0.02, 0.5])
+@pytest.mark.parametrize('threshold', [
+    pytest.param(0.005, marks=pytest.mark.long), 0.02, 0.5])
 def test_the_threshold_is_the_limit(threshold):
     """A limit other than 10 % is not held, or not reached."""
     run = limit_run(unit_scene(10, 5.0, 0.01, **{'adaptive.threshold': threshold}), 1.6)
@@ -98,7 +99,8 @@ def test_the_threshold_is_the_limit(threshold):
     assert threshold < run.max_strain < 2.0 * threshold
 
 
-def test_a_tumbling_cloth_keeps_its_momentum_at_the_limit():
+@pytest.mark.parametrize('least', [200, pytest.param(1000, marks=pytest.mark.long)])
+def test_a_tumbling_cloth_keeps_its_momentum_at_the_limit(least):
     """An edge at its limit pushes one end more than the other, or not along itself."""
     scene = Scene({
         **LIMP, 'rows': 16, 'cols': 16, 'pins': ['none'], 'gravity': [0.0, 0.0, 0.0],
@@ -110,7 +112,7 @@ def test_a_tumbling_cloth_keeps_its_momentum_at_the_limit():
         simulation.set_state(start, spin + 0.5 * random.standard_normal(start.shape))
         before = momenta(simulation.snapshot())
         substeps, active = 0, 0
-        while substeps < 1000 and simulation.time < 60.0:
+        while substeps < least and simulation.time < 60.0:
             simulation.step()
             substeps += simulation.substeps
             active += simulation.snapshot().active_constraints > 0
@@ -119,7 +121,7 @@ def test_a_tumbling_cloth_keeps_its_momentum_at_the_limit():
     print(f'measured {np.abs(after[0] - before[0]).max() / before[2]:.1e} of 1e-6 and '
           f'{np.abs(after[1] - before[1]).max() / before[3]:.1e} of 5e-6 allowed: momentum after '
           f'{substeps} substeps, edges at the limit after {active} of {steps} steps')
-    assert substeps >= 1000
+    assert substeps >= least
     assert active > 0.2 * steps
     assert np.abs(after[0] - before[0]).max() <= 1e-6 * before[2]
     assert np.abs(after[1] - before[1]).max() <= 5e-6 * before[3]
@@ -187,7 +189,7 @@ def test_edges_at_the_limit_are_shown_and_counted():
 def test_a_run_with_switches_and_pushes_is_repeatable():
     """Something of the run before, or thread timing, gets into the state."""
     hashes = []
-    with closing(Simulation(Scene(unit_scene(20, 20.0, 0.01)))) as simulation:
+    with closing(Simulation(Scene(unit_scene(10, 20.0, 0.01)))) as simulation:
         for _ in range(2):
             simulation.advance(0.7)
             simulation.set_mode('mass_spring')
