@@ -60,7 +60,8 @@ def diagnostics_message(
             'real-time factor': _pace(
                 snapshot, paused, real_time_factor, wanted_factor, automatic_substeps),
             'solver': _solver(snapshot),
-            'stability': _stability(snapshot, problem)})
+            'stability': _stability(snapshot, problem),
+            'pins': _pins(snapshot)})
     findings['recorder'] = _recorder(recording_path, recording_error, recording_is_whole)
     findings['program'] = _program(faults, latest_fault, ignored)
     return DiagnosticArray(
@@ -140,6 +141,15 @@ def _stability(snapshot: Snapshot, problem: str) -> tuple[bytes, str, dict]:
     if margin > SAFE_MARGIN + 1e-3:
         return WARN, f'{text}, above the safe {SAFE_MARGIN}: take a shorter dt', values
     return OK, text, values
+
+
+def _pins(snapshot: Snapshot) -> tuple[bytes, str, dict]:
+    values = {'stalled': int(snapshot.stalled_pins)}
+    if snapshot.stalled_pins:
+        return WARN, (
+            f'{snapshot.stalled_pins} moving pins stand still, pulled at with more than '
+            'pin.max_force: let the cloth follow, or choose nearer targets'), values
+    return OK, 'no pin stands still on its way', values
 
 
 def _turns(margin: float, values: dict) -> tuple[bytes, str, dict]:

@@ -50,6 +50,8 @@ def stats_message(
         active_constraints=int(snapshot.active_constraints),
         active_fraction=float(snapshot.active_fraction),
         constraint_switches=int(snapshot.constraint_switches),
+        lengths_are_held=bool(snapshot.lengths_are_held),
+        stalled_pins=int(snapshot.stalled_pins),
         step_wall_time=float(step_wall_time),
         real_time_factor=float(real_time_factor),
         real_time_factor_wanted=float(wanted_factor),

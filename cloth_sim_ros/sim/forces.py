@@ -12,16 +12,19 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""Add to a snapshot what the cloth feels."""
+"""What the cloth feels, for a snapshot and for pins that may not pull too hard."""
 
 from dataclasses import replace
 
 from cloth_sim_ros.sim.modes.mode import Mode
+from cloth_sim_ros.sim.pin_forces import edge_pulls
 from cloth_sim_ros.sim.pin_forces import pin_forces
+from cloth_sim_ros.sim.pin_motion import Node
 from cloth_sim_ros.sim.pin_motion import PinMotion
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.snapshot import FLAG_PINNED
 from cloth_sim_ros.sim.snapshot import Snapshot
+from cloth_sim_ros.sim.state import State
 import numpy as np
 
 
@@ -45,3 +48,17 @@ def with_forces(
             snapshot, tension=tension if every_edge else None,
             pin_forces=pin_forces(
                 scene, positions, tension, nodes, pins.velocity_changes(nodes) / snapshot.dt))
+
+
+def pulled_too_hard(scene: Scene, state: State, mode: Mode, pins: PinMotion) -> list[Node]:
+    """Return the pins under way that edges pull harder at than ``pin.max_force`` now."""
+    most, nodes = scene['pin.max_force'], pins.moving
+    if not (most and nodes):
+        return []
+    positions, velocities = state.read_positions(), state.read_velocities()
+    places = np.array(nodes)
+    with np.errstate(invalid='ignore', over='ignore'):
+        pulls = edge_pulls(
+            scene, positions, mode.tension(positions, velocities, places), places)
+        too_hard = np.linalg.norm(pulls, axis=-1) > most
+    return [node for node, is_too_hard in zip(nodes, too_hard) if is_too_hard]

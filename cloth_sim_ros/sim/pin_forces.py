@@ -49,7 +49,15 @@ def pin_forces(
     """
     own = -np.array(scene['gravity']) if accelerations is None \
         else accelerations - np.array(scene['gravity'])
-    forces = np.broadcast_to(scene.node_mass * own, (len(nodes), 3)).copy()
+    return PinForces(
+        nodes, scene.node_mass * own - edge_pulls(scene, positions, tension, nodes))
+
+
+def edge_pulls(
+        scene: Scene, positions: np.ndarray, tension: np.ndarray,
+        nodes: np.ndarray) -> np.ndarray:
+    """Return what the edges of each of ``nodes`` pull it with [N], (n, 3); as in pin_forces."""
+    pulls = np.zeros((len(nodes), 3))
     here = positions[tuple(nodes.T)].astype(float)
     for kind in EDGE_KINDS:
         offset = np.array((kind.drow, kind.dcol))
@@ -61,5 +69,5 @@ def pin_forces(
             pull = np.divide(
                 tension[(*starts[there].T, kind.number)], length,
                 out=np.zeros_like(length), where=length > 0.0)
-            forces[there] -= pull[:, None] * d
-    return PinForces(nodes, forces)
+            pulls[there] += pull[:, None] * d
+    return pulls

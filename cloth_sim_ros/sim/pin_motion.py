@@ -15,6 +15,7 @@
 
 """The pins of a run: which nodes they hold, and where they go."""
 
+from collections.abc import Collection
 from collections.abc import Sequence
 
 from cloth_sim_ros.sim.errors import ClothSimError
@@ -57,11 +58,22 @@ class PinMotion:
         self._on_device: dict[Node, np.ndarray] = {}
         self._latest: dict[Node, np.ndarray] = {}
         self._earlier: dict[Node, np.ndarray] = {}
+        self._stalled = 0
 
     @property
     def under_way(self) -> tuple[PinMove, ...]:
         """Return the moves that have begun and not ended."""
         return tuple(path.move for path in self._paths.values())
+
+    @property
+    def moving(self) -> list[Node]:
+        """Return the row and column of each pin whose move has begun and not ended."""
+        return list(self._paths)
+
+    @property
+    def stalled(self) -> int:
+        """Return how many pins stood still in the last step, as they were pulled too hard."""
+        return self._stalled
 
     def hold(self, row: int, col: int) -> None:
         """Pin the node (row, col) where it is, at rest; a pin that moves stops."""
@@ -113,12 +125,20 @@ class PinMotion:
         """Drop the timed moves that would have begun before ``now`` [s]."""
         self._waiting = [move for move in self._waiting if move.start >= now]
 
-    def begin_step(self, begin: float, end: float) -> None:
-        """Set the velocities of the step from ``begin`` to ``end`` [s]."""
+    def begin_step(self, begin: float, end: float, too_hard: Collection[Node] = ()) -> None:
+        """
+        Set the velocities of the step from ``begin`` to ``end`` [s].
+
+        :param too_hard: of ``moving``, the pins that are pulled too hard to go on: they stand
+            still, and their way is made that much later
+        """
         self._earlier = self._latest
+        self._stalled = len(too_hard)
         if not (self._paths or self._waiting):
             self._latest = {}
             return
+        for node in too_hard:
+            self._paths[node] = self._paths[node].put_off(begin, end)
         places = {node: path.position(begin) for node, path in self._paths.items()}
         while self._waiting and self._waiting[0].start < end:
             move = self._waiting.pop(0)

@@ -15,6 +15,8 @@
 
 """Where a moving pin is at each time."""
 
+from copy import copy
+
 from cloth_sim_ros.sim.pin_move import PinMove
 import numpy as np
 
@@ -39,6 +41,14 @@ class PinPath:
         self.begin = move.start
         self.arrival = move.start + length / move.speed
         self._velocity = way * (move.speed / length) if length > 0.0 else np.zeros(3)
+
+    def put_off(self, now: float, until: float) -> 'PinPath':
+        """Return the rest of the way, on which the pin stands still from ``now`` ``until`` [s]."""
+        later = copy(self)
+        later._origin = self.position(now)
+        later.begin = until
+        later.arrival += until - now
+        return later
 
     def position(self, time: float) -> np.ndarray:
         """Return where the pin is at ``time`` [s], (3,) [m]."""

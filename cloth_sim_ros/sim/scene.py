@@ -14,6 +14,7 @@
 
 """What is modelled: the static description of a cloth, read from parameters."""
 
+from collections import Counter
 from collections.abc import Iterable
 from collections.abc import Mapping
 import difflib
@@ -185,7 +186,8 @@ def refuse_unknown(given: Iterable[str], fields: tuple[Field, ...]) -> None:
 
 
 def _hint(name: str, known: list[str]) -> str:
-    groups = sorted({each.partition('.')[0] for each in known if '.' in each})
+    counts = Counter(each.partition('.')[0] for each in known if '.' in each)
+    groups = sorted(group for group, count in counts.items() if count > 1)
     # What is longer than what is shown is like nothing, which takes long to find.
     close = difflib.get_close_matches(name[:MOST_SHOWN], known + groups, n=1)
     if not close:

@@ -51,6 +51,8 @@ SCENE_FIELDS = (
           words=PIN_NAMES, is_array=True),
     Field('pin_speed', float, 1.0, 'speed of a moving pin where none is given', 'm/s',
           low=1e-6, high=1e6),
+    Field('pin.max_force', float, 0.0, 'pull of its edges at which a moving pin stands still for '
+          'the next dt; 0 for none', 'N', low=0.0, high=1e9),
     Field('start.pose', str, 'horizontal', 'horizontal: flat at start.z; hanging: upright, '
           'row 0 on top', choices=('horizontal', 'hanging')),
     Field('start.z', float, 1.0, 'height of the cloth centre at the start', 'm',

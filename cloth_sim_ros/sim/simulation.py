@@ -26,6 +26,7 @@ from cloth_sim_ros.sim import modes
 from cloth_sim_ros.sim.engine import Preparation
 from cloth_sim_ros.sim.engines import Engines
 from cloth_sim_ros.sim.errors import ClothSimError
+from cloth_sim_ros.sim.forces import pulled_too_hard
 from cloth_sim_ros.sim.forces import with_forces
 from cloth_sim_ros.sim.forcing import Forcing
 from cloth_sim_ros.sim.layout import choose_layout
@@ -339,7 +340,7 @@ class Simulation:
                 **vars(measures), **mode.report(), records=records, mode=self.mode,
                 time=self.time, steps=self.steps, dt=self.dt,
                 substeps=self.substeps, stability_margin=self.stability_margin,
-                strain_bound=mode.strain_bound)
+                strain_bound=mode.strain_bound, stalled_pins=self._pin_motion.stalled)
         if tension or pin_forces:
             self.stepping.refuse_mid_step('forces')
             return with_forces(
@@ -373,14 +374,15 @@ class Simulation:
     def _make_step(self, number: int) -> modes.Pieces:
         self.stepping.step_under_way = number
         begin, end = number * self.dt, (number + 1) * self.dt
-        self._pin_motion.begin_step(begin, end)
-        yield from self.engines.current.mode.step(self._state, begin, self._pushes)
-        self._pin_motion.end_step(begin, end)
+        mode, pins = self.engines.current.mode, self._pin_motion
+        pins.begin_step(begin, end, pulled_too_hard(self.scene, self._state, mode, pins))
+        yield from mode.step(self._state, begin, self._pushes)
+        pins.end_step(begin, end)
 
     def _finish_work(self) -> None:
         self.stepping.refuse_mid_step('advance')
         if self.stepping.is_behind:
-            modes.finish(self.work(_never))
+            modes.finish(self.work(lambda: False))
 
     @contextmanager
     def _settled_state(self) -> Iterator[None]:
@@ -393,7 +395,3 @@ class Simulation:
 
     def _forcing_now(self) -> Forcing:
         return self._pushes.acting(self.time)
-
-
-def _never() -> bool:
-    return False

@@ -84,6 +84,8 @@ class Snapshot(Measures):
     :param active_fraction: of all springs
     :param constraint_switches: activations and deactivations in the last step
         (docs/adaptive.md)
+    :param stalled_pins: pins under way that stood still in the last step, as edges pulled at them
+        with more than ``pin.max_force``
     :param tension: when asked for, of the edges that start at each node [N], (rows, cols, 6)
         float32, above 0 where it pulls: of node (r, c) to (r, c + 1), (r + 1, c), (r + 1, c + 1),
         (r + 1, c - 1), (r, c + 2) and (r + 2, c); 0 where there is no such edge
@@ -106,6 +108,7 @@ class Snapshot(Measures):
     active_constraints: int = 0
     active_fraction: float = 0.0
     constraint_switches: int = 0
+    stalled_pins: int = 0
     tension: np.ndarray | None = None
     pin_forces: PinForces | None = None
 

@@ -15,6 +15,7 @@
 """The moving state on the device: pairs of buffers, read from one and written to another."""
 
 from collections.abc import Iterator
+from collections.abc import Sequence
 from contextlib import contextmanager
 
 from cloth_sim_ros.gl.buffer import Buffer
@@ -105,9 +106,11 @@ class State:
 
     def read_positions(self) -> np.ndarray:
         """Return all positions [m], (rows, cols, 3) float32."""
-        stored = np.empty((self._layout.stored, 4), dtype=np.float32)
-        self._positions[self._now].read_into(stored)
-        return self._layout.load(stored)[..., :3].copy()
+        return self._read(self._positions)
+
+    def read_velocities(self) -> np.ndarray:
+        """Return all velocities [m/s], (rows, cols, 3) float32."""
+        return self._read(self._velocities)
 
     @contextmanager
     def at_kept(self) -> Iterator[None]:
@@ -159,6 +162,11 @@ class State:
 
     def _spare(self) -> int:
         return next(pair for pair in range(_PAIRS) if pair not in (self._now, self._kept))
+
+    def _read(self, buffers: Sequence[Buffer]) -> np.ndarray:
+        stored = np.empty((self._layout.stored, 4), dtype=np.float32)
+        buffers[self._now].read_into(stored)
+        return self._layout.load(stored)[..., :3].copy()
 
     def _write(
             self, buffers: list[Buffer], row: int, col: int, values: np.ndarray,

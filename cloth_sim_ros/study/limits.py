@@ -13,11 +13,11 @@
 # limitations under the License.
 
 r"""
-How well each scheme of the adaptive mode holds the limit, and what it costs.
+How well the adaptive mode holds its limit, and what it costs.
 
 For example:
   python -m cloth_sim_ros.study.limits
-  python -m cloth_sim_ros.study.limits --seconds 4 --schemes constraint
+  python -m cloth_sim_ros.study.limits --seconds 4
 """
 
 from argparse import ArgumentParser

@@ -43,7 +43,8 @@ def test_a_healthy_run_is_ok_in_all_parts():
     """A run would raise an alarm for nothing, or a part would be missing."""
     found = diagnose(make_snapshot(2, 2))
     assert set(found) == {
-        'GL device', 'real-time factor', 'solver', 'stability', 'recorder', 'program'}
+        'GL device', 'real-time factor', 'solver', 'stability', 'pins', 'recorder',
+        'program'}
     assert {status.level for status in found.values()} == {OK}
     assert {status.hardware_id for status in found.values()} == {'llvmpipe'}
     assert found['GL device'].message == 'llvmpipe'
@@ -66,6 +67,11 @@ def test_a_healthy_run_is_ok_in_all_parts():
     ('stability', WARN, 'above the safe', {'stability_margin': 0.95}, {}),
     ('stability', ERROR, 'auto_substeps', {'stability_margin': 1.1}, {}),
     ('stability', ERROR, 'lost at node (1, 2)', {}, {'problem': 'lost at node (1, 2)'}),
+    ('stability', WARN, 'edges are off', {'strain_bound': 0.0}, {}),
+    ('stability', OK, 'edges turn', {'solves': 2, 'stability_margin': 1.0}, {}),
+    ('stability', WARN, 'constraint.max_substeps', {'solves': 2, 'stability_margin': 1.2}, {}),
+    ('pins', OK, 'no pin', {}, {}),
+    ('pins', WARN, 'nearer targets', {'stalled_pins': 2}, {}),
     ('recorder', OK, '/bags/a', {}, {'recording_path': '/bags/a'}),
     ('recorder', ERROR, 'disk is full', {}, {'recording_error': 'the disk is full'}),
     ('program', WARN, '2 unexpected errors', {}, {'faults': 2, 'latest_fault': '~/reset: E'}),

@@ -60,8 +60,11 @@ def test_stops_before_the_state_is_not_finite_and_can_go_on(client, tmp_path):
         cloth.wait_for('state', lambda state: state.run_state == 'stopped')
 
         assert cloth.call(Trigger, 'clear_pushes').success
+        stopped_at = cloth.wait_for('stats').steps
+        cloth.clear()
         assert cloth.call(SetBool, 'pause', data=False).success
-        cloth.wait_for('stats', lambda stats: stats.steps > 20)
+        cloth.wait_for('state', lambda state: state.run_state == 'running')
+        cloth.wait_for('stats', lambda stats: stats.steps > stopped_at + 20)
         assert cloth['state'][-1].run_state == 'running'
         assert all(np.abs(cloth.points_of(cloud)['x']).max() < 1e3 for cloud in cloth['points'])
 

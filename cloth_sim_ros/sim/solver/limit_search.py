@@ -94,8 +94,9 @@ class LimitSearch:
         self._set(law, start)
         share = 1.0
         look = self._look(share, buffers)
-        # Written so that what is no number is not looked at again.
-        if not look.missing > missing:
+        # Written so that what is no number is not looked at again. Where nothing moves and nothing
+        # is applied there is no way to go.
+        if not (look.missing > missing and look.curvature > 0.0):
             return False
         low, high = 0.0, 1.0
         low_slope, high_slope = -1.0, look.slope(1.0)

@@ -1,0 +1,72 @@
+# SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
+# SPDX-License-Identifier: Apache-2.0
+
+"""
+What a looser or tighter tolerance of the solver changes of a run, beside what its steps change.
+
+The light cloth of `cloth_sim bench --modes` falls in mode constraint, and is compared with the
+same in steps a sixth as long, solved to 1e-4. Cloth is chaotic after a second: it ends before.
+
+For example:
+  python -m cloth_sim_ros.study.tolerances
+  python -m cloth_sim_ros.study.tolerances --nodes 64 --tolerances 0.002 0.005
+"""
+
+from argparse import ArgumentParser
+from collections.abc import Mapping
+from collections.abc import Sequence
+import math
+from typing import Any
+
+from cloth_sim_ros.sim.scene import Scene
+from cloth_sim_ros.sim.simulation import Simulation
+from cloth_sim_ros.study.modes.contenders import LIGHT_CLOTH
+import numpy as np
+
+TIMES = (0.2, 0.4, 0.6, 0.8)
+_FINE = {'refine': 6, 'solver.tolerance': 1e-4, 'solver.max_iterations': 200,
+         'constraint.max_substeps': 400}
+
+
+def run(nodes: int, **changes: Any) -> tuple[list[np.ndarray], float]:
+    """Return the positions [m] at ``TIMES``, each (rows, cols, 3), and iterations a second."""
+    values: Mapping[str, Any] = {
+        **LIGHT_CLOTH, 'rows': nodes, 'cols': nodes, 'mode': 'constraint',
+        'constraint.strain': 0.006, 'dt': 0.02, **changes}
+    simulation = Simulation(Scene(values))
+    positions, iterations = [], 0.0
+    for time in TIMES:
+        while simulation.time < time - 1e-9:
+            simulation.step()
+            done = simulation.snapshot()
+            iterations += done.solves * done.mean_iterations
+        positions.append(done.positions.astype(float))
+    simulation.close()
+    return positions, iterations / TIMES[-1]
+
+
+def distances(first: Sequence[np.ndarray], second: Sequence[np.ndarray]) -> list[float]:
+    """Return the RMS distance of the nodes at each of the times [m]."""
+    return [
+        math.sqrt(((one - other)**2).sum(axis=-1).mean()) for one, other in zip(first, second)]
+
+
+def main() -> None:
+    """Print a table."""
+    parser = ArgumentParser(description=__doc__)
+    parser.add_argument('--nodes', type=int, default=32)
+    parser.add_argument('--tolerances', type=float, nargs='+',
+                        default=[1e-4, 0.002, 0.005, 0.01, 0.02])
+    args = parser.parse_args()
+    exact, _ = run(args.nodes, **_FINE)
+    print('| `solver.tolerance` | RMS distance [mm] at ' + ', '.join(map(str, TIMES))
+          + ' s | iterations a second |')
+    print('|---|---|---|')
+    for tolerance in args.tolerances:
+        positions, iterations = run(args.nodes, **{'solver.tolerance': tolerance})
+        off = ', '.join(f'{1e3 * each:.1f}' for each in distances(positions, exact))
+        print(f'| {tolerance:g} | {off} | {iterations:,.0f} |', flush=True)
+
+
+if __name__ == '__main__':
+    main()

@@ -1,0 +1,25 @@
+# SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
+# SPDX-License-Identifier: Apache-2.0
+
+"""What the tolerance of the solver changes of a run."""
+
+from cloth_sim_ros.study.tolerances import distances
+from cloth_sim_ros.study.tolerances import run
+from cloth_sim_ros.study.tolerances import TIMES
+import numpy as np
+import pytest
+
+
+def test_a_loose_tolerance_moves_a_cloth_and_a_tight_one_costs_iterations():
+    """The study would compare a run with itself, or another scene with it."""
+    loose, few = run(8, **{'solver.tolerance': 0.1})
+    tight, many = run(8, **{'solver.tolerance': 1e-4})
+    assert len(loose) == len(tight) == len(TIMES)
+    assert 1e-5 < max(distances(loose, tight)) < 0.1
+    assert few < 0.7 * many
+
+
+def test_distances_are_those_of_nodes():
+    """A distance would be that of coordinates, or grow with the number of nodes."""
+    places = np.zeros((3, 4, 3))
+    assert distances([places, places], [places + 1.0, places]) == [pytest.approx(3.0**0.5), 0.0]
