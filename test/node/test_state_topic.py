@@ -53,8 +53,8 @@ def test_diagnostics_tell_device_and_pace(cloth, simulation):
 
 def test_diagnostics_carry_the_time_of_the_node(cloth):
     """An aggregator would take what comes from a paused or slow simulation for stale."""
-    path = Path(cloth.call(StartRecording, 'start_recording', name='').path)
     begin = time.time_ns()
+    path = Path(cloth.call(StartRecording, 'start_recording', name='').path)
     assert cloth.call(Step, 'step', steps=4).success
     # The topic is everybody's: another node may be there, and knows nothing of this recording.
     told = cloth.wait_for('diagnostics', lambda message: (
