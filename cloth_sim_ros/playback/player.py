@@ -73,9 +73,11 @@ class Player:
         topics = wanted_topics(bag.topics, options)
         self._topics = open_topics(node.node, topics, options, warn)
         self._names = {name for name, _ in self._topics}
+        self._published = [*self._topics.values()]
         self._simulated_clock = None
         if options.clock and '/clock' not in self._names:
             self._simulated_clock = SimulatedClock(node.node)
+            self._published.append(self._simulated_clock.topic)
         self._report = PlayReport()
         self._looked_up = 0.0
         node.offer_pause()
@@ -102,7 +104,7 @@ class Player:
         self._report.furthest_behind = self._clock.furthest_behind
         self._report.slipped = self._clock.slipped
         self._report.overruns = {
-            topic.name: topic.overruns for topic in self._topics.values() if topic.overruns}
+            topic.name: topic.overruns for topic in self._published if topic.overruns}
         return self._report
 
     def _play_once(self) -> None:
@@ -171,13 +173,12 @@ class Player:
 
     def _say_farewell(self) -> None:
         end = time.monotonic() + _FAREWELL
-        for topic in self._topics.values():
+        for topic in self._published:
             while not topic.settle(_LOOK_UP) and time.monotonic() < end and not self._stopped():
                 pass
 
     def _all_names(self) -> list[str]:
-        names = [topic.name for topic in self._topics.values()]
-        return names + ['/clock'] if self._simulated_clock is not None else names
+        return [topic.name for topic in self._published]
 
     def _is_of_the_cloth(self, topic: str) -> bool:
         return topic.startswith(f'/{self._options.node.strip("/")}/')

@@ -18,19 +18,25 @@ from builtin_interfaces.msg import Time
 from cloth_sim_ros.messages.topics import TOPICS
 from cloth_sim_ros.playback.header_stamp import has_header
 from cloth_sim_ros.playback.header_stamp import header_stamp
+from cloth_sim_ros.playback.played_topic import PlayedTopic
 from rclpy.node import Node
 from rclpy.qos import QoSProfile
+from rclpy.serialization import serialize_message
 from rosgraph_msgs.msg import Clock
 
 
 class SimulatedClock:
-    """Publish the stamp of each frame ahead of it, as a node with publish.clock does."""
+    """
+    Publish the stamp of each frame ahead of it, as a node with publish.clock does.
+
+    ``topic`` is what it is published on, which waits for its readers as the others do.
+    """
 
     def __init__(self, node: Node) -> None:
         """Make the publisher."""
         topic = TOPICS['clock']
-        self._publisher = node.create_publisher(
-            topic.message, topic.name, QoSProfile(depth=topic.depth))
+        self.topic = PlayedTopic(
+            node, topic.name, topic.message, QoSProfile(depth=topic.depth))
         self._latest: Time | None = None
 
     def read(self, message_class: type, data: bytes) -> None:
@@ -40,4 +46,4 @@ class SimulatedClock:
         stamp = header_stamp(data)
         if stamp != self._latest:
             self._latest = stamp
-            self._publisher.publish(Clock(clock=stamp))
+            self.topic.publish(serialize_message(Clock(clock=stamp)))
