@@ -18,7 +18,6 @@
 // until it has been let go and has come back some way.
 
 #include "lattice.glsl"
-#include "edges.glsl"
 #include "state_in.glsl"
 #include "spring_law.glsl"
 #include "strain_limit.glsl"

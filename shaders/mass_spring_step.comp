@@ -59,14 +59,14 @@ void add_spring(int index, int row, int col, int drow, int dcol, int family, int
 }
 
 // Every spring of one direction with an end in the block.
-#define ADD_SPRINGS(DROW, DCOL, FAMILY, REST) \
+#define ADD_SPRINGS(FIRST, EDGE, DROW, DCOL, FAMILY, REST) \
     for (int row = 0; row < TILE; ++row) { \
         for (int col = 0; col < TILE; ++col) { \
             bool starts = row >= HALO && row < HALO + BLOCK && col >= HALO && col < HALO + BLOCK; \
             bool ends = row + DROW >= HALO && row + DROW < HALO + BLOCK \
                 && col + DCOL >= HALO && col + DCOL < HALO + BLOCK; \
             if (starts || ends) { \
-                int index = node_index(first.y + row - HALO, first.x + col - HALO); \
+                int index = node_index(FIRST.y + row - HALO, FIRST.x + col - HALO); \
                 add_spring(index, row, col, DROW, DCOL, FAMILY, REST); \
             } \
         } \
@@ -87,18 +87,7 @@ void main() {
             force[row][col] = vec3(0.0);
         }
     }
-#if HAS_STRUCTURAL
-    ADD_SPRINGS(0, 1, STRUCTURAL, REST_ROW)
-    ADD_SPRINGS(1, 0, STRUCTURAL, REST_COLUMN)
-#endif
-#if HAS_SHEAR
-    ADD_SPRINGS(1, 1, SHEAR, REST_DIAGONAL)
-    ADD_SPRINGS(1, -1, SHEAR, REST_DIAGONAL)
-#endif
-#if HAS_BEND
-    ADD_SPRINGS(0, 2, BEND, REST_TWO_ROW)
-    ADD_SPRINGS(2, 0, BEND, REST_TWO_COLUMN)
-#endif
+    EACH_EDGE(ADD_SPRINGS, first)
     for (int row = HALO; row < HALO + BLOCK; ++row) {
         for (int col = HALO; col < HALO + BLOCK; ++col) {
             int index = node_index(first.y + row - HALO, first.x + col - HALO);

@@ -20,7 +20,7 @@
 
 #include "lattice.glsl"
 #include "state_in.glsl"
-#include "spring_law.glsl"
+#include "solver/edge_law.glsl"
 #include "applied_acceleration.glsl"
 #include "bounded.glsl"
 
@@ -31,7 +31,6 @@ uniform int slab_rows;
 uniform int pushed_everywhere; // 1 while a push on the whole cloth acts
 uniform int has_limit_marks;   // 1 while there are edges at their limit
 uniform vec3 gravity;          // [m/s2]
-uniform float energy_stiffness[3]; // [N/m] of families that are springs in the present mode, or 0
 
 // The body of sensor_msgs/PointCloud2: x y z vx vy vz normal_x normal_y normal_z strain flags.
 #define RECORD_WORDS 11
@@ -39,54 +38,38 @@ uniform float energy_stiffness[3]; // [N/m] of families that are springs in the 
 #define FLAG_AT_LIMIT 2u
 #define FLAG_PUSHED 4u
 #if RECORDS_WANTED
-#include "edges.glsl"
 layout(std430, binding = AT_LIMIT) readonly buffer AtLimit { uint at_limit[]; };
 layout(std430, binding = RECORDS) writeonly buffer Records { uint records[]; };
 #endif
 
-// An invocation's kinetic and gravitational energy over the node mass, elastic energy, largest
-// strain, and how many of its nodes are out of bounds. The kinetic energy is that of the free nodes.
+// An invocation's kinetic, elastic and gravitational energy over the node mass, largest strain, and
+// how many of its nodes are out of bounds. The kinetic energy is that of the free nodes.
 #define SUMS 5
 layout(std430, binding = PARTIAL_SUMS) writeonly buffer PartialSums { float partial_sums[]; };
 
-struct Springs {
-    float energy;  // [J] half of each spring's, the other half is the other end's
-    float strain;  // largest |l / L0 - 1| of structural and shear springs
+struct Edges {
+    float energy;  // [m2/s2] half of each edge's, the other half is the other end's
+    float strain;  // largest |l / L0 - 1| of structural and shear edges
 };
 
-void look_at_spring(
-        inout Springs springs, vec4 from, int row, int col, int drow, int dcol,
-        int family, int rest) {
+void look_at_edge(
+        inout Edges edges, vec4 from, int row, int col, int drow, int dcol, int family, int rest) {
     vec4 to = load_position(node_index(row + drow, col + dcol));
-    float stretch = to.w * (length_and_inverse(to.xyz - from.xyz).x - rest_length[rest]);
-    springs.energy += 0.25 * energy_stiffness[family] * stretch * stretch;
+    float l = length(to.xyz - from.xyz);
+    edges.energy += to.w * 0.5 * stored_energy(l, family, rest);
     if (family != BEND) {
-        springs.strain = max(springs.strain, abs(stretch) / rest_length[rest]);
+        edges.strain = max(edges.strain, to.w * abs(l / rest_length[rest] - 1.0));
     }
 }
 
-void look_both_ways(
-        inout Springs springs, vec4 from, int row, int col, int drow, int dcol,
-        int family, int rest) {
-    look_at_spring(springs, from, row, col, drow, dcol, family, rest);
-    look_at_spring(springs, from, row, col, -drow, -dcol, family, rest);
-}
+#define LOOK_BOTH_WAYS(EDGES, EDGE, DROW, DCOL, FAMILY, REST) \
+    look_at_edge(EDGES, from, row, col, DROW, DCOL, FAMILY, REST); \
+    look_at_edge(EDGES, from, row, col, -(DROW), -(DCOL), FAMILY, REST);
 
-Springs look_at_springs(vec4 from, int row, int col) {
-    Springs springs = Springs(0.0, 0.0);
-#if HAS_STRUCTURAL
-    look_both_ways(springs, from, row, col, 0, 1, STRUCTURAL, REST_ROW);
-    look_both_ways(springs, from, row, col, 1, 0, STRUCTURAL, REST_COLUMN);
-#endif
-#if HAS_SHEAR
-    look_both_ways(springs, from, row, col, 1, 1, SHEAR, REST_DIAGONAL);
-    look_both_ways(springs, from, row, col, 1, -1, SHEAR, REST_DIAGONAL);
-#endif
-#if HAS_BEND
-    look_both_ways(springs, from, row, col, 0, 2, BEND, REST_TWO_ROW);
-    look_both_ways(springs, from, row, col, 2, 0, BEND, REST_TWO_COLUMN);
-#endif
-    return springs;
+Edges look_at_edges(vec4 from, int row, int col) {
+    Edges edges = Edges(0.0, 0.0);
+    EACH_EDGE(LOOK_BOTH_WAYS, edges)
+    return edges;
 }
 
 // Central difference along one direction; one-sided at a border, zero where there is no neighbour.
@@ -161,14 +144,14 @@ void main() {
         int index = node_index(row, col);
         vec4 x = load_position(index);
         vec4 v = load_velocity(index);
-        Springs springs = look_at_springs(x, row, col);
+        Edges edges = look_at_edges(x, row, col);
         kinetic += 0.5 * v.w * dot(v.xyz, v.xyz);
-        elastic += springs.energy;
+        elastic += edges.energy;
         gravitational -= dot(gravity, x.xyz);
-        strain = max(strain, springs.strain);
+        strain = max(strain, edges.strain);
         out_of_bounds += is_bounded(x.xyz) && is_bounded(v.xyz) ? 0.0 : 1.0;
 #if RECORDS_WANTED
-        write_record(row, col, x, v, springs.strain);
+        write_record(row, col, x, v, edges.strain);
 #endif
     }
     int first = (strip * COLS + col) * SUMS;

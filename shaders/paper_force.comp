@@ -42,6 +42,9 @@ vec3 both_ways(int row, int col, int drow, int dcol, int family, int rest) {
         + compute_force(row, col, -drow, -dcol, family, rest);
 }
 
+#define ADD_BOTH_WAYS(FORCE, EDGE, DROW, DCOL, FAMILY, REST) \
+    FORCE += both_ways(row, col, DROW, DCOL, FAMILY, REST);
+
 void main() {
     int row = int(gl_GlobalInvocationID.y);
     int col = int(gl_GlobalInvocationID.x);
@@ -49,17 +52,6 @@ void main() {
         return;
     }
     vec3 force = vec3(0.0);
-#if HAS_STRUCTURAL
-    force += both_ways(row, col, 0, 1, STRUCTURAL, REST_ROW);
-    force += both_ways(row, col, 1, 0, STRUCTURAL, REST_COLUMN);
-#endif
-#if HAS_SHEAR
-    force += both_ways(row, col, 1, 1, SHEAR, REST_DIAGONAL);
-    force += both_ways(row, col, 1, -1, SHEAR, REST_DIAGONAL);
-#endif
-#if HAS_BEND
-    force += both_ways(row, col, 0, 2, BEND, REST_TWO_ROW);
-    force += both_ways(row, col, 2, 0, BEND, REST_TWO_COLUMN);
-#endif
+    EACH_EDGE(ADD_BOTH_WAYS, force)
     force_out[node_index(row, col)] = vec4(force, 0.0);
 }

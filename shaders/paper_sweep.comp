@@ -18,7 +18,6 @@
 // one colour share no node, so the order is fixed and velocities are changed in place.
 
 #include "lattice.glsl"
-#include "edges.glsl"
 #include "state_in.glsl"
 #include "spring_law.glsl"
 #include "strain_limit.glsl"

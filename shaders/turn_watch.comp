@@ -40,7 +40,7 @@ Node load_node(int row, int col) {
 }
 
 // Square of the angular velocity, as if the edge had its rest length [1/s2], and its strain.
-vec2 turn_and_strain(Node here, int row, int col, int drow, int dcol, int rest) {
+vec2 turn_and_strain(Node here, int row, int col, int drow, int dcol, int family, int rest) {
     Node there = load_node(row + drow, col + dcol);
     vec3 d = there.position.xyz - here.position.xyz;
     vec3 u = there.velocity - here.velocity;
@@ -48,11 +48,11 @@ vec2 turn_and_strain(Node here, int row, int col, int drow, int dcol, int rest) 
     float present = there.position.w;
     return present * vec2(
         dot(across, across) / (rest_length[rest] * rest_length[rest]),
-        rest < 3 ? abs(length(d) / rest_length[rest] - 1.0) : 0.0);
+        family != BEND ? abs(length(d) / rest_length[rest] - 1.0) : 0.0);
 }
 
-#define LOOK(DROW, DCOL, REST) \
-    most = max(most, turn_and_strain(here, row, col, DROW, DCOL, REST));
+#define LOOK(MOST, EDGE, DROW, DCOL, FAMILY, REST) \
+    MOST = max(MOST, turn_and_strain(here, row, col, DROW, DCOL, FAMILY, REST));
 
 void main() {
     int col = int(gl_GlobalInvocationID.x);
@@ -64,18 +64,7 @@ void main() {
     vec2 most = vec2(0.0);
     for (int row = first; row < min(first + STRIP, ROWS); ++row) {
         Node here = load_node(row, col);
-#if HAS_STRUCTURAL
-        LOOK(0, 1, 0)
-        LOOK(1, 0, 1)
-#endif
-#if HAS_SHEAR
-        LOOK(1, 1, 2)
-        LOOK(1, -1, 2)
-#endif
-#if HAS_BEND
-        LOOK(0, 2, 3)
-        LOOK(2, 0, 4)
-#endif
+        EACH_EDGE(LOOK, most)
     }
     int entry = 2 * (strip * COLS + col);
     partial_sums[entry] = most.x;

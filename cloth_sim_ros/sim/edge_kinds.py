@@ -12,13 +12,17 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""The six kinds of edges: which two nodes each joins, and where its numbers are stored."""
+"""
+The table of edges: which two nodes each joins, of which family and rest length.
 
+Shaders get it by ``edge_defines``: nothing else says what edges there are.
+"""
+
+from collections.abc import Collection
 from dataclasses import dataclass
 
 from cloth_sim_ros.sim.scene import FAMILIES
 from cloth_sim_ros.sim.scene import Scene
-from cloth_sim_ros.sim.stability import OFFSETS
 import numpy as np
 
 # Row and column of some nodes, as slices or as arrays of integers: what NumPy indexes by.
@@ -33,12 +37,15 @@ class EdgeKind:
     :param number: place in the last axis of arrays that have a number for every edge; the first
         two axes are the row and column of the node it starts at
     :param family: structural, shear or bend
+    :param rest: place in arrays that have a number for every rest length
     """
 
     number: int
+    name: str
     family: str
     drow: int
     dcol: int
+    rest: int
 
     def rest_length(self, scene: Scene) -> float:
         """Return the length at rest [m]."""
@@ -69,7 +76,48 @@ def _are_inside(nodes: np.ndarray, rows: int, cols: int) -> np.ndarray:
     return np.all((nodes >= 0) & (nodes < (rows, cols)), axis=1)
 
 
-# Along the row, along the column, the two diagonals, two along the row, two along the column.
-EDGE_KINDS = tuple(
-    EdgeKind(number, family, *offset) for number, (family, offset) in enumerate(
-        (family, offset) for family in FAMILIES for offset in OFFSETS[family]))
+EDGE_KINDS = (
+    EdgeKind(0, 'row', 'structural', 0, 1, rest=0),
+    EdgeKind(1, 'column', 'structural', 1, 0, rest=1),
+    EdgeKind(2, 'diagonal', 'shear', 1, 1, rest=2),
+    EdgeKind(3, 'crossing', 'shear', 1, -1, rest=2),
+    EdgeKind(4, 'two_row', 'bend', 0, 2, rest=3),
+    EdgeKind(5, 'two_column', 'bend', 2, 0, rest=4),
+)
+# An edge of each rest length, in their order.
+REST_KINDS = tuple({kind.rest: kind for kind in reversed(EDGE_KINDS)}[rest] for rest in range(5))
+# The walk over all edges, as shaders have it.
+EACH_EDGE = 'EACH_EDGE(DO, WITH)'
+
+
+def rest_lengths(scene: Scene) -> tuple[float, ...]:
+    """Return the rest lengths [m] along a row, a column, the diagonal, and two along each."""
+    return tuple(kind.rest_length(scene) for kind in REST_KINDS)
+
+
+def edge_defines(families: Collection[str]) -> dict[str, object]:
+    """
+    Return the table for shaders of a cloth that has edges of ``families``.
+
+    HAS_<FAMILY> tells whether there are any. EACH_EDGE(DO, WITH) is DO(WITH, edge, drow, dcol,
+    family, rest) for each kind of them, EACH_SHORT_EDGE for each kind that joins neighbours,
+    whatever the families; SHORT_EDGES are those as vectors (drow, dcol). EDGE_<NAME>,
+    REST_<NAME> and <FAMILY> are numbers.
+    """
+    kinds = [kind for kind in EDGE_KINDS if kind.family in families]
+    short = [kind for kind in EDGE_KINDS if kind.family != 'bend']
+    return {
+        **{f'HAS_{family.upper()}': int(family in families) for family in FAMILIES},
+        **{family.upper(): number for number, family in enumerate(FAMILIES)},
+        **{f'EDGE_{kind.name.upper()}': kind.number for kind in EDGE_KINDS},
+        **{f'REST_{kind.name.upper()}': kind.rest for kind in REST_KINDS},
+        EACH_EDGE: _walk(kinds),
+        'EACH_SHORT_EDGE(DO, WITH)': _walk(short),
+        'SHORT_EDGES': ', '.join(f'ivec2({kind.drow}, {kind.dcol})' for kind in short),
+    }
+
+
+def _walk(kinds: Collection[EdgeKind]) -> str:
+    return ' '.join(
+        f'DO(WITH, {kind.number}, {kind.drow}, {kind.dcol}, {kind.family.upper()}, {kind.rest})'
+        for kind in kinds)

@@ -42,7 +42,7 @@ class Engine:
             cls, mode: str, scene: Scene, layout: Layout, state: State, context: Context, *,
             check_stability: bool, stop_at_non_finite: bool) -> 'Engine':
         """Make the engine that advances ``state``, in ``context``, which is current."""
-        observer = Observer(scene, layout)
+        observer = Observer(scene, layout, observed_families(mode, scene))
         return cls(
             scene, layout, context, observer,
             GuardedSteps(scene, layout, observer, state, stop_at_non_finite),
@@ -65,9 +65,9 @@ class Engine:
             layout, scene.node_mass, scene['gravity'], state.read_positions, state.pinned)
         try:
             still = Forcing(scene['gravity'])
-            self.observer.measure(state, still, ())
+            self.observer.measure(state, still, None)
             yield
-            self.observer.record(state, still, ())
+            self.observer.record(state, still, None)
             yield
             self.guard.check.passes(state)
             yield
@@ -75,6 +75,11 @@ class Engine:
         finally:
             pushes.delete()
             state.delete()
+
+
+def observed_families(mode: str, scene: Scene) -> frozenset[str]:
+    """Return the families whose strain is looked at: those of the scene and those of ``mode``."""
+    return frozenset((*scene.families, *modes.AVAILABLE[mode].edge_families(scene)))
 
 
 class Preparation:

@@ -9,11 +9,13 @@ from cloth_sim_ros.files.echo import shown
 from cloth_sim_ros.gl.context import Context
 from cloth_sim_ros.sim import modes
 from cloth_sim_ros.sim.engine import Engine
+from cloth_sim_ros.sim.engine import observed_families
 from cloth_sim_ros.sim.engine import Preparation
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.layout import Layout
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.scene_fields import MODES
+from cloth_sim_ros.sim.solver.edge_law import EdgeLaw
 from cloth_sim_ros.sim.state import State
 
 
@@ -87,6 +89,10 @@ class Engines:
         """Have the engine that was prepared, if there is none of its mode yet."""
         self._by_mode.setdefault(prepared.mode, prepared.engine)
 
+    def energy_law(self) -> EdgeLaw:
+        """Return the law by which edges store energy now, in the mode that advances the state."""
+        return self.current.mode.energy_law(self._state)
+
     def forget(self) -> None:
         """Let the mode in use take the next state as it comes."""
         if self.current is not None:
@@ -96,7 +102,7 @@ class Engines:
         """Give everything on the device back but the first context, which is current then."""
         self._first_context.make_current()
         engines = self._by_mode.values()
-        # Engines of one context have observer and guard in common.
+        # Engines of one context can have observer and guard in common.
         parts = {id(part): part for engine in engines
                  for part in (engine.observer, engine.guard, engine.mode)}
         for part in parts.values():
@@ -106,8 +112,10 @@ class Engines:
         self._first_context.make_current()
 
     def _make(self, mode: str, context: Context) -> Engine:
-        if self.current is not None and context is self.current.context:
-            return replace(self.current, mode=modes.AVAILABLE[mode](
+        current = self.current
+        if (current is not None and context is current.context
+                and observed_families(mode, self._scene) == current.observer.families):
+            return replace(current, mode=modes.AVAILABLE[mode](
                 self._scene, self._layout, check_stability=self._check_stability))
         return Engine.make(
             mode, self._scene, self._layout, self._state, context,

@@ -147,7 +147,7 @@ class GuardedSteps:
             steps=end)
 
     def _look(self) -> np.ndarray:
-        return self._observer.record(self._state, Forcing(self._scene['gravity']), ())[1]
+        return self._observer.record(self._state, Forcing(self._scene['gravity']), None)[1]
 
 
 def _in_pieces(pieces: Pieces, is_due: Callable[[], bool]) -> Iterator[None]:

@@ -14,18 +14,20 @@
 
 """Look at the state: records of all nodes, or only the energies and the largest strain."""
 
-from collections.abc import Collection
+from collections.abc import Set
 
 from cloth_sim_ros.gl.buffer import Buffer
 from cloth_sim_ros.gl.buffer import shader_writes_visible
 from cloth_sim_ros.sim import bindings
+from cloth_sim_ros.sim.edge_kinds import edge_defines
 from cloth_sim_ros.sim.forcing import Forcing
 from cloth_sim_ros.sim.layout import Layout
-from cloth_sim_ros.sim.scene import FAMILIES
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.scene_program import SceneProgram
 from cloth_sim_ros.sim.snapshot import Measures
 from cloth_sim_ros.sim.snapshot import POINT_DTYPE
+from cloth_sim_ros.sim.solver.edge_law import EdgeLaw
+from cloth_sim_ros.sim.solver.edge_law import set_law
 from cloth_sim_ros.sim.state import State
 import numpy as np
 
@@ -37,14 +39,20 @@ _SLAB_BYTES = 32 * 2**20
 
 
 class Observer:
-    """Runs observe.comp; compiles and allocates for records only when they are asked for."""
+    """
+    Runs observe.comp; compiles and allocates for records only when they are asked for.
 
-    def __init__(self, scene: Scene, layout: Layout) -> None:
+    :param families: of the edges that there are
+    """
+
+    def __init__(self, scene: Scene, layout: Layout, families: Set[str]) -> None:
         """Prepare for ``scene``; nothing is compiled yet."""
+        self.families = families
         self._scene = scene
         self._slab_rows = max(
             _STRIP, min(scene.rows, _SLAB_BYTES // (POINT_DTYPE.itemsize * scene.cols)))
-        choices = {'LOCAL_X': _LOCAL[0], 'LOCAL_Y': _LOCAL[1], 'STRIP': _STRIP}
+        choices = {
+            'LOCAL_X': _LOCAL[0], 'LOCAL_Y': _LOCAL[1], 'STRIP': _STRIP, **edge_defines(families)}
         self._programs = {
             wanted: SceneProgram(
                 'observe.comp', scene, layout, {**choices, 'RECORDS_WANTED': int(wanted)})
@@ -54,29 +62,28 @@ class Observer:
         self._sums_buffer = Buffer(self._partial_sums.nbytes)
         self._records_buffer: Buffer | None = None
 
-    def measure(self, state: State, forcing: Forcing, springs: Collection[str]) -> Measures:
+    def measure(self, state: State, forcing: Forcing, law: EdgeLaw | None) -> Measures:
         """
         Return energies, largest strain and finiteness of ``state``.
 
-        :param springs: families of edges that hold elastic energy: those that are springs in the
-            mode that steps
+        :param law: of the edges, which says what they store; None where nobody asks for energies
         """
-        return self._observe(state, forcing, springs, None)
+        return self._observe(state, forcing, law, None)
 
     def record(
-            self, state: State, forcing: Forcing, springs: Collection[str],
+            self, state: State, forcing: Forcing, law: EdgeLaw | None,
             limit_marks: Buffer | None = None) -> tuple[Measures, np.ndarray]:
         """
         Return the measures and the (rows, cols) records of ``state``.
 
-        :param springs: as in ``measure``; does not matter to the records
+        :param law: as in ``measure``; does not matter to the records
         :param limit_marks: which edges are at their limit, as limit_mark.comp leaves them
         """
         if self._records_buffer is None:
             self._records_buffer = Buffer(
                 self._slab_rows * self._scene.cols * POINT_DTYPE.itemsize)
         records = np.empty((self._scene.rows, self._scene.cols), dtype=POINT_DTYPE)
-        return self._observe(state, forcing, springs, records, limit_marks), records
+        return self._observe(state, forcing, law, records, limit_marks), records
 
     def delete(self) -> None:
         """Give the buffers back."""
@@ -85,14 +92,15 @@ class Observer:
             self._records_buffer.delete()
 
     def _observe(
-            self, state: State, forcing: Forcing, springs: Collection[str],
+            self, state: State, forcing: Forcing, law: EdgeLaw | None,
             records: np.ndarray | None, limit_marks: Buffer | None = None) -> Measures:
         program = self._programs[records is not None].use()
         forcing.apply(program)
         forcing.bind()
         program.set_int('pushed_everywhere', int(forcing.pushed_everywhere))
-        program.set_floats('energy_stiffness', [
-            self._scene.stiffness(family) if family in springs else 0.0 for family in FAMILIES])
+        if law is not None:
+            # In N: over the mass of a node that weighs nothing, energies would leave float32.
+            set_law(program, law.times(self._scene.node_mass))
         state.bind_in()
         self._sums_buffer.bind_storage(bindings.PARTIAL_SUMS)
         if records is not None:

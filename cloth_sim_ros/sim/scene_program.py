@@ -16,11 +16,12 @@
 
 from cloth_sim_ros.gl.program import Program
 from cloth_sim_ros.gl.shader_source import ShaderSource
+from cloth_sim_ros.sim.edge_kinds import edge_defines
+from cloth_sim_ros.sim.edge_kinds import rest_lengths
 from cloth_sim_ros.sim.forcing import Forcing
 from cloth_sim_ros.sim.layout import Layout
 from cloth_sim_ros.sim.scene import FAMILIES
 from cloth_sim_ros.sim.scene import Scene
-import numpy as np
 
 # A position [m] or velocity [m/s] beyond it counts as not finite: with the softest and the
 # stiffest springs, energies and normals of what is below it do not leave float32.
@@ -89,14 +90,8 @@ def scene_defines(scene: Scene) -> dict[str, object]:
         'STRAIN_LIMIT': 'NO_LIMIT',
         'MOST_MAGNITUDE': f'{MOST_MAGNITUDE:e}',
         'HAS_DAMPING': int(has_damping),
-        **{f'HAS_{family.upper()}': int(scene.models(family)) for family in FAMILIES},
+        **edge_defines(scene.families),
     }
-
-
-def rest_lengths(scene: Scene) -> tuple[float, float, float, float, float]:
-    """Return the rest lengths [m] along a row, a column, the diagonal, and two along each."""
-    dx, dy = scene.spacing
-    return dx, dy, float(np.hypot(dx, dy)), 2.0 * dx, 2.0 * dy
 
 
 def _set_springs(program: Program, scene: Scene) -> None:

@@ -322,7 +322,7 @@ class Simulation:
         engine = self.engines.current
         with self._settled_state():
             return engine.observer.measure(
-                self._state, self._forcing_now(), engine.mode.spring_families)
+                self._state, self._forcing_now(), self.engines.energy_law())
 
     def snapshot(self, *, tension: bool = False, pin_forces: bool = False) -> Snapshot:
         """
@@ -335,7 +335,7 @@ class Simulation:
         mode = engine.mode
         with self._settled_state():
             measures, records = engine.observer.record(
-                self._state, self._forcing_now(), mode.spring_families, mode.limit_marks())
+                self._state, self._forcing_now(), self.engines.energy_law(), mode.limit_marks())
             snapshot = Snapshot(
                 **vars(measures), **mode.report(), records=records, mode=self.mode,
                 time=self.time, steps=self.steps, dt=self.dt,

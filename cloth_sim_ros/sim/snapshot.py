@@ -42,9 +42,9 @@ class Measures:
     The state in a few numbers.
 
     :param kinetic_energy: of the free nodes [J]
-    :param elastic_energy: of what is a spring in the present mode [J]: hard edges hold none
+    :param elastic_energy: that the edges store by the law of the present mode [J]
     :param gravitational_energy: [J], zero at the origin
-    :param max_strain: largest abs(l / L0 - 1) of structural and shear springs
+    :param max_strain: largest abs(l / L0 - 1) of structural and shear edges
     :param finite: False when a position or velocity is not a finite number
     """
 

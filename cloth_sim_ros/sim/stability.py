@@ -16,19 +16,13 @@
 
 import math
 
-from cloth_sim_ros.sim.scene import FAMILIES
+from cloth_sim_ros.sim.edge_kinds import EDGE_KINDS
 from cloth_sim_ros.sim.scene import Scene
 import numpy as np
 
 # Of the limit, kept by automatic substeps: what a stretched cloth may take away from it.
 SAFETY = 0.85
 _SAMPLES = 129
-
-OFFSETS = {
-    'structural': ((0, 1), (1, 0)),
-    'shear': ((1, 1), (1, -1)),
-    'bend': ((0, 2), (2, 0)),
-}
 
 
 def stability_limit(scene: Scene) -> float:
@@ -86,16 +80,15 @@ def _wave_matrices(scene: Scene) -> tuple[np.ndarray, np.ndarray]:
     q = np.linspace(0.0, np.pi, _SAMPLES if scene.rows > 1 else 1)[None, :]
     dx, dy = scene.spacing
     totals = [np.zeros((3, p.size, q.size)) for _ in range(2)]
-    for family in FAMILIES:
-        for drow, dcol in OFFSETS[family]:
-            if abs(drow) >= scene.rows or abs(dcol) >= scene.cols:
-                continue
-            direction = np.array([dcol * dx, drow * dy])
-            nx, ny = direction / np.linalg.norm(direction)
-            bend = 2.0 * (1.0 - np.cos(p * dcol + q * drow))
-            outer = np.array([nx * nx, nx * ny, ny * ny])[:, None, None]
-            totals[0] += scene.stiffness(family) * outer * bend
-            totals[1] += scene.damping(family) * outer * bend
+    for kind in EDGE_KINDS:
+        if abs(kind.drow) >= scene.rows or abs(kind.dcol) >= scene.cols:
+            continue
+        direction = np.array([kind.dcol * dx, kind.drow * dy])
+        nx, ny = direction / np.linalg.norm(direction)
+        bend = 2.0 * (1.0 - np.cos(p * kind.dcol + q * kind.drow))
+        outer = np.array([nx * nx, nx * ny, ny * ny])[:, None, None]
+        totals[0] += scene.stiffness(kind.family) * outer * bend
+        totals[1] += scene.damping(kind.family) * outer * bend
     return tuple(totals)
 
 

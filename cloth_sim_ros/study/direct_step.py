@@ -16,9 +16,9 @@
 
 from cloth_sim_ros.reference.edges import Edges
 from cloth_sim_ros.reference.edges import edges_of
+from cloth_sim_ros.sim.edge_kinds import rest_lengths
 from cloth_sim_ros.sim.scene import FAMILIES
 from cloth_sim_ros.sim.scene import Scene
-from cloth_sim_ros.sim.scene_program import rest_lengths
 from cloth_sim_ros.sim.solver.edge_law import EdgeLaw
 import numpy as np
 from scipy import sparse

@@ -16,14 +16,17 @@
 
 from collections.abc import Mapping
 
-from cloth_sim_ros.reference.energy import elastic_energy
-from cloth_sim_ros.reference.springs import spring_sets
+from cloth_sim_ros.sim.edge_kinds import EDGE_KINDS
+from cloth_sim_ros.sim.edge_kinds import EdgeKind
 from cloth_sim_ros.sim.modes import AVAILABLE
 from cloth_sim_ros.sim.pin_forces import pin_forces
 from cloth_sim_ros.sim.push import Push
 from cloth_sim_ros.sim.scene import FAMILIES
+from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.simulation import Simulation
 from cloth_sim_ros.sim.snapshot import Snapshot
+from cloth_sim_ros.sim.solver.edge_law import EdgeLaw
+from cloth_sim_ros.sim.solver.edge_law import FAR
 import numpy as np
 
 # What float32 rounds of a number, twice.
@@ -39,9 +42,11 @@ class EnergyAccount:
     are linear, is H = E + h sum(m v . a) / 2: that is what is accounted for in the modes that step
     so.
 
-    In an implicit mode it is the energy itself, and hard edges hold none.
+    In an implicit mode it is the energy itself.
 
-    The work of pins that move is that of the forces on them at the end of each step.
+    The work of pins that move is that of the forces on them at the end of each step; that of a
+    limit which closes in on a cloth that came stretched is found from the pulls at both ends of a
+    step.
 
     :param run: as it begins; it is stepped by ``step`` alone
     """
@@ -50,10 +55,12 @@ class EnergyAccount:
         """Take down the energy at the start."""
         self._run = run
         self._is_symplectic = not AVAILABLE[run.mode].is_implicit
+        self._is_limited = AVAILABLE[run.mode].edge_model(run.scene) == 'limited'
         self._has_pin_moves = bool(run.scene.timed_pin_moves())
         self._pushed: dict[Push, np.ndarray] = {}
         self._work = 0.0
         self._substeps = 0
+        self._law = run.engines.energy_law()
         self.seen = self._look()
         self.begin = self.seen
         self._begin_energy = self._energy(self.seen)
@@ -85,16 +92,24 @@ class EnergyAccount:
 
     def _step(self, count: int) -> None:
         before, begin = self.seen, self._run.time
-        shares = self._shares(begin, begin + count * self._run.dt, before)
+        end = begin + count * self._run.dt
+        shares = self._shares(begin, end, before)
         self._run.step(count)
         self._substeps += count * self._run.substeps
         now = self._look()
         moved = now.positions.astype(float) - before.positions
-        for nodes, force in shares:
-            self._work += float(force @ moved[nodes].mean(axis=0))
+        mean_velocities = 0.5 * (now.velocities.astype(float) + before.velocities)
+        for nodes, force, share in shares:
+            # A push that begins or ends within a step changes velocities while it acts.
+            way = moved if share == 1.0 else share * (end - begin) * mean_velocities
+            self._work += float(force @ way[nodes].mean(axis=0))
         if self._has_pin_moves and now.pin_forces is not None:
             rows, cols = now.pin_forces.nodes.T
             self._work += float(np.sum(now.pin_forces.forces * moved[rows, cols]))
+        law = self._run.engines.energy_law()
+        self._work += _closing_work(
+            self._run.scene, (self._law, before.positions), (law, now.positions))
+        self._law = law
         self.seen = now
         energy = self._energy(now) - self._begin_energy
         self._gain = max(self._gain, energy - self._work) if now.finite else np.inf
@@ -102,8 +117,8 @@ class EnergyAccount:
 
     def _shares(
             self, begin: float, end: float,
-            before: Snapshot) -> list[tuple[np.ndarray, np.ndarray]]:
-        """Return the nodes of each push that acts, and its force [N] for the share it acts in."""
+            before: Snapshot) -> list[tuple[np.ndarray, np.ndarray, float]]:
+        """Return the nodes of each push that acts, its force [N], and the share it acts in."""
         shares = []
         for push in (applied.push for applied in self._run.pushes):
             share = push.overlap(begin, end)
@@ -112,12 +127,13 @@ class EnergyAccount:
             if push not in self._pushed:
                 self._pushed[push] = push.contains(before.positions) & ~self._run.pinned_nodes()
             if self._pushed[push].any():
-                shares.append((self._pushed[push], share * np.array(push.force)))
+                shares.append((self._pushed[push], np.array(push.force), share))
         return shares
 
     def _is_worked_on(self, steps: int) -> bool:
         begin, end = self._run.time, self._run.time + steps * self._run.dt
-        return self._has_pin_moves or any(
+        can_limits_move = self._law.has_limits or self._is_limited
+        return can_limits_move or self._has_pin_moves or any(
             applied.push.overlap(begin, end) > 0.0 for applied in self._run.pushes)
 
     def _look(self) -> Snapshot:
@@ -133,10 +149,7 @@ class EnergyAccount:
     def _uncertain(self, seen: Snapshot) -> float:
         """Return the energy [J] that the state at the start may have besides what it tells."""
         if not self._is_symplectic:
-            # Edges that are off their length are springs until their limit has closed in.
-            stretched = (springs for springs in spring_sets(self._run.scene)
-                         if springs.family in self._run.scene['constraint.hard'])
-            return elastic_energy(tuple(stretched), seen.positions.astype(float))
+            return 0.0
         # What is set as the velocity now is taken as that of half a substep ago.
         free, forces = self._forces(seen)
         kick = 0.5 * self._run.dt / self._run.substeps / self._run.scene.node_mass
@@ -159,8 +172,10 @@ class EnergyAccount:
     def _rounding(self) -> float:
         scene = self._run.scene
         reach = _ROUNDING * float(np.abs(self.begin.positions).max())
-        springs = FAMILIES if self._is_symplectic else scene['constraint.springs']
-        stiffest = max((scene.stiffness(family) for family in springs), default=0.0)
+        law = self._law.times(scene.node_mass)
+        stiffest = max(law.stiffness)
+        if law.has_bounds:
+            stiffest += max(law.limit_stiffness)
         energy = 12.0 * stiffest * scene.node_count * reach**2
         if self._is_symplectic:
             # Without damping, what each substep rounds adds up like a random walk.
@@ -169,4 +184,32 @@ class EnergyAccount:
             # What float32 rounds of a length, a substep of hard edges takes back.
             speed = reach * self._run.substeps / scene['dt']
             energy += 0.5 * scene.node_mass * scene.node_count * speed**2
+        # What a node moves by in a short substep can be less than its coordinates are rounded to.
+        weight = scene.node_mass * scene.node_count * float(np.linalg.norm(scene['gravity']))
+        energy += 0.3 * reach * weight * self._substeps
         return energy + 1e-6 * abs(self.begin.gravitational_energy)
+
+
+def _closing_work(
+        scene: Scene, begin: tuple[EdgeLaw, np.ndarray], end: tuple[EdgeLaw, np.ndarray]) -> float:
+    """Return the work [J] of limits that move between two laws, each with its positions."""
+    work = 0.0
+    for kind in EDGE_KINDS:
+        family = FAMILIES.index(kind.family)
+        for side in ('shortest', 'longest'):
+            before, after = (getattr(law, side)[family] for law, _ in (begin, end))
+            if before != after and all(0.0 < bound < FAR for bound in (before, after)):
+                pull = 0.5 * sum(
+                    _pull_of_limits(scene, kind, side, *each) for each in (begin, end))
+                work += (after - before) * kind.rest_length(scene) * pull
+    return work
+
+
+def _pull_of_limits(
+        scene: Scene, kind: EdgeKind, side: str, law: EdgeLaw, positions: np.ndarray) -> float:
+    """Return what one side's limits of edges of a kind push them apart with, summed [N]."""
+    starts, ends = kind.everywhere(scene.rows, scene.cols)
+    lengths = np.linalg.norm(positions[ends].astype(float) - positions[starts], axis=-1)
+    beyond = lengths - getattr(law, side)[FAMILIES.index(kind.family)] * kind.rest_length(scene)
+    beyond = np.minimum(beyond, 0.0) if side == 'shortest' else np.maximum(beyond, 0.0)
+    return -scene.node_mass * law.limit_stiffness[kind.rest] * float(beyond.sum())

@@ -25,7 +25,7 @@ from cloth_sim_ros.sim.scene import FAMILIES
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.solver.edge_law import EdgeLaw
 from cloth_sim_ros.sim.solver.edge_law import hard_edges
-from cloth_sim_ros.sim.solver.edge_law import implicit_springs
+from cloth_sim_ros.sim.solver.edge_law import spring_law
 from cloth_sim_ros.sim.solver.solve_report import SolveReport
 from cloth_sim_ros.sim.solver.solver import Solver
 from cloth_sim_ros.sim.state import State
@@ -51,7 +51,7 @@ class Step:
         """Return the law of its edges, without the geometric mass term."""
         if self.hard:
             return hard_edges(scene, self.dt, strain=scene['constraint.strain'])
-        return implicit_springs(scene, self.dt)
+        return spring_law(scene, self.dt)
 
     def __str__(self) -> str:
         """Return it in words."""

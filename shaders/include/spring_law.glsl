@@ -13,20 +13,11 @@
 // limitations under the License.
 
 // The three spring families and Hooke's law with damping along the spring (paper, Eq. 1).
-// HAS_STRUCTURAL, HAS_SHEAR, HAS_BEND, HAS_DAMPING: what the scene uses; the rest is not compiled.
+// Families and rest lengths are numbered by sim/edge_kinds.py.
 
 uniform float stiffness[3];    // [N/m] structural, shear, bend
 uniform float damping[3];      // [N s/m]
 uniform float rest_length[5];  // [m] along a row, along a column, diagonal, two along each
-
-#define STRUCTURAL 0
-#define SHEAR 1
-#define BEND 2
-#define REST_ROW 0
-#define REST_COLUMN 1
-#define REST_DIAGONAL 2
-#define REST_TWO_ROW 3
-#define REST_TWO_COLUMN 4
 
 // Length of d and its inverse, finite for two nodes in one place.
 vec2 length_and_inverse(vec3 d) {

@@ -10,21 +10,22 @@
 
 layout(local_size_x = LOCAL_X, local_size_y = LOCAL_Y) in;
 
+// The two kinds of a family are added to each other first: a mirrored cloth rounds alike.
+#define ADD_BLOCKS(SUMS, EDGE, DROW, DCOL, FAMILY, REST) \
+    SUMS[FAMILY] += edge_blocks(at, ivec2(DROW, DCOL), EDGE);
+
 void main() {
     ivec2 at = ivec2(gl_GlobalInvocationID.yx);
     if (at.x >= ROWS || at.y >= COLS) {
         return;
     }
+    Symmetric of_family[] =
+        Symmetric[](Symmetric(0.0), Symmetric(0.0), Symmetric(0.0));
+    EACH_EDGE(ADD_BLOCKS, of_family)
     Symmetric diagonal = scaled_identity(1.0);
-#if HAS_STRUCTURAL
-    diagonal += EDGE_BLOCKS(at, ivec2(0, 1), 0) + EDGE_BLOCKS(at, ivec2(1, 0), 1);
-#endif
-#if HAS_SHEAR
-    diagonal += EDGE_BLOCKS(at, ivec2(1, 1), 2) + EDGE_BLOCKS(at, ivec2(1, -1), 3);
-#endif
-#if HAS_BEND
-    diagonal += EDGE_BLOCKS(at, ivec2(0, 2), 4) + EDGE_BLOCKS(at, ivec2(2, 0), 5);
-#endif
+    diagonal += of_family[STRUCTURAL];
+    diagonal += of_family[SHEAR];
+    diagonal += of_family[BEND];
     float moves = load_node(at).w > 0.0 ? 1.0 : 0.0;
     Symmetric inverse_block = moves * inverse_above(diagonal, 1.0);
     int index = node_index(at.x, at.y);

@@ -46,18 +46,15 @@ Symmetric ties(ivec2 at, ivec2 by, int edge) {
     return sum;
 }
 
+// The two kinds of a family are added to each other first: a mirrored cloth rounds alike.
+#define ADD_TIES(SUMS, EDGE, DROW, DCOL, FAMILY, REST) \
+    SUMS[FAMILY] += ties(at, ivec2(DROW, DCOL), EDGE);
+
 Symmetric all_ties(ivec2 at) {
-    Symmetric sum = Symmetric(0.0);
-#if HAS_STRUCTURAL
-    sum += ties(at, ivec2(0, 1), 0) + ties(at, ivec2(1, 0), 1);
-#endif
-#if HAS_SHEAR
-    sum += ties(at, ivec2(1, 1), 2) + ties(at, ivec2(1, -1), 3);
-#endif
-#if HAS_BEND
-    sum += ties(at, ivec2(0, 2), 4) + ties(at, ivec2(2, 0), 5);
-#endif
-    return sum;
+    Symmetric of_family[] =
+        Symmetric[](Symmetric(0.0), Symmetric(0.0), Symmetric(0.0));
+    EACH_EDGE(ADD_TIES, of_family)
+    return of_family[STRUCTURAL] + of_family[SHEAR] + of_family[BEND];
 }
 
 bool has_pin_around(ivec2 first) {

@@ -31,8 +31,8 @@ void find(int row, int col, int drow, int dcol, int edge, int family, int rest) 
     float added = weight * dot(d, solution[row][col] - solution[row + drow][col + dcol])
         * inversesqrt(square) / substep;
 #if HAS_BEND
-    if (edge > 3) {
-        bend_tension[row][col][edge - 4] = bend_tension[row][col][edge - 2] + added;
+    if (edge >= EDGE_TWO_ROW) {
+        bend_tension[row][col][edge - EDGE_TWO_ROW] = bend_tension[row][col][edge - EDGE_TWO_ROW + 2] + added;
         return;
     }
 #endif

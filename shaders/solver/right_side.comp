@@ -42,8 +42,8 @@ vec4 bend_weight[TILE][TILE];
 
 float found_tension(int row, int col, int edge) {
 #if HAS_BEND
-    if (edge > 3) {
-        return bend_tension[row][col][edge - 4];
+    if (edge >= EDGE_TWO_ROW) {
+        return bend_tension[row][col][edge - EDGE_TWO_ROW];
     }
 #endif
     return tension[row][col][edge];
@@ -51,10 +51,10 @@ float found_tension(int row, int col, int edge) {
 
 void keep(int row, int col, int edge, float begun_here, float along_here, float across_here) {
 #if HAS_BEND
-    if (edge > 3) {
-        bend_tension[row][col][edge - 2] = begun_here;
-        bend_weight[row][col][edge - 4] = along_here;
-        bend_weight[row][col][edge - 2] = across_here;
+    if (edge >= EDGE_TWO_ROW) {
+        bend_tension[row][col][edge - EDGE_TWO_ROW + 2] = begun_here;
+        bend_weight[row][col][edge - EDGE_TWO_ROW] = along_here;
+        bend_weight[row][col][edge - EDGE_TWO_ROW + 2] = across_here;
         return;
     }
 #endif

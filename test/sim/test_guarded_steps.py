@@ -234,7 +234,7 @@ def test_a_blow_up_by_memory_alone_is_told():
     scene, context = Scene(_SMALL), Context(single_thread=True)
     layout = choose_layout(scene, context)
     state = State(layout, scene.start_positions(), scene.pinned_nodes())
-    observer = Observer(scene, layout)
+    observer = Observer(scene, layout, set(scene.families))
     pushes = PushField(
         layout, scene.node_mass, scene['gravity'], scene.start_positions, state.pinned)
     guard, mode = GuardedSteps(scene, layout, observer, state), _Remembering(scene, layout)
@@ -245,7 +245,7 @@ def test_a_blow_up_by_memory_alone_is_told():
     with pytest.raises(NonFiniteStateError, match='without what the mode had kept') as caught:
         list(guard.make(0, 3, step, mode, pushes))
     assert caught.value.steps == 3
-    assert observer.measure(state, pushes.still, ()).finite
+    assert observer.measure(state, pushes.still, None).finite
     list(guard.make(3, 3, step, mode, pushes))
     for part in (guard, mode, pushes, observer, state):
         part.delete()

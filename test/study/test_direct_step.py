@@ -19,7 +19,7 @@ from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.solver.edge_law import edge_law
 from cloth_sim_ros.sim.solver.edge_law import EdgeLaw
 from cloth_sim_ros.sim.solver.edge_law import hard_edges
-from cloth_sim_ros.sim.solver.edge_law import implicit_springs
+from cloth_sim_ros.sim.solver.edge_law import spring_law
 from cloth_sim_ros.study.direct_step import direct_step
 from implicit_system import ImplicitSystem
 from implicit_system import relative_error
@@ -30,7 +30,7 @@ import pytest
 def laws(scene: Scene) -> dict[str, EdgeLaw]:
     """Return a law of each kind."""
     return {
-        'springs': implicit_springs(scene, 0.01),
+        'springs': spring_law(scene, 0.01),
         'hard': hard_edges(scene, 0.01),
         'limited': edge_law(scene, 0.01, limited=('structural', 'shear'), limit=0.05)}
 

@@ -14,6 +14,7 @@
 
 """Adaptive: springs within a strain limit, constraints at it (paper, section 4.3)."""
 
+from collections.abc import Collection
 import math
 
 from cloth_sim_ros.gl.buffer import Buffer
@@ -27,6 +28,8 @@ from cloth_sim_ros.sim.modes.spring_substeps import spring_substeps
 from cloth_sim_ros.sim.modes.strain_watch import StrainWatch
 from cloth_sim_ros.sim.push_field import PushField
 from cloth_sim_ros.sim.scene import Scene
+from cloth_sim_ros.sim.solver.edge_law import EdgeLaw
+from cloth_sim_ros.sim.solver.edge_law import spring_law
 from cloth_sim_ros.sim.spring_tension import spring_tension
 from cloth_sim_ros.sim.stability import stability_limit
 from cloth_sim_ros.sim.state import State
@@ -52,7 +55,6 @@ class Adaptive:
 
     def __init__(self, scene: Scene, layout: Layout, *, check_stability: bool = True) -> None:
         """Choose the substeps and compile the passes."""
-        self.spring_families = scene.families
         self._spring_limit = stability_limit(scene)
         self.substeps = spring_substeps(scene, self.name, check_stability=check_stability)
         self._scene = scene
@@ -75,6 +77,17 @@ class Adaptive:
     def edge_model(scene: Scene) -> str:
         """Return that edges are springs within a limit."""
         return 'limited'
+
+    @staticmethod
+    def edge_families(scene: Scene) -> Collection[str]:
+        """Return those that have springs."""
+        return scene.families
+
+    def energy_law(self, state: State) -> EdgeLaw:
+        """Return that of the springs, and of their limit where it holds."""
+        if self._is_limited:
+            return self._limit.energy_law(state)
+        return spring_law(self._scene, self._length)
 
     @staticmethod
     def check(scene: Scene, *, check_stability: bool = True) -> None:

@@ -14,6 +14,7 @@
 
 """Constraint enforcement: edges keep their length (paper, section 4.2)."""
 
+from collections.abc import Collection
 import math
 
 from cloth_sim_ros.gl.buffer import Buffer
@@ -34,25 +35,29 @@ class Constraint(ImplicitStep):
 
     def __init__(self, scene: Scene, layout: Layout, *, check_stability: bool = True) -> None:
         """Compile the solver for the edges the scene asks for."""
-        self.spring_families = tuple(
-            family for family in scene.families if family in scene['constraint.springs'])
-        super().__init__(scene, layout, {*scene['constraint.hard'], *self.spring_families})
+        super().__init__(scene, layout, self.edge_families(scene))
 
     @staticmethod
     def edge_model(scene: Scene) -> str:
         """Return that edges are hard, or springs where none is to be."""
         return 'hard' if scene['constraint.hard'] else 'springs'
 
-    def law(self, length: float) -> EdgeLaw:
+    @staticmethod
+    def edge_families(scene: Scene) -> Collection[str]:
+        """Return those that are hard, and those that are to be springs and have some."""
+        springs = (family for family in scene.families if family in scene['constraint.springs'])
+        return {*scene['constraint.hard'], *springs}
+
+    def law(self, length: float, settling: float) -> EdgeLaw:
         """Return the law of hard edges, or that of springs with a limit that closes in on them."""
         hard, springs = self._scene['constraint.hard'], self._scene['constraint.springs']
         common = {
             'strain': self._scene['constraint.strain'],
             # The paper's method, one solve, is without.
             'geometric': BETA if self._solves > 1 else 0.0}
-        if limit := self.settling.limit:
+        if settling:
             return edge_law(
-                self._scene, length, springs={*hard, *springs}, limited=hard, limit=limit,
+                self._scene, length, springs={*hard, *springs}, limited=hard, limit=settling,
                 **common)
         return edge_law(self._scene, length, hard=hard, springs=springs, **common)
 

@@ -16,6 +16,7 @@ from cloth_sim_ros.sim.forcing import Forcing
 from cloth_sim_ros.sim.layout import Layout
 from cloth_sim_ros.sim.modes.free_motion import FreeMotion
 from cloth_sim_ros.sim.modes.mode import Pieces
+from cloth_sim_ros.sim.modes.settling import first_limit
 from cloth_sim_ros.sim.modes.settling import Settling
 from cloth_sim_ros.sim.modes.turn_watch import TurnWatch
 from cloth_sim_ros.sim.push_field import PushField
@@ -26,6 +27,7 @@ from cloth_sim_ros.sim.solver.solver import Solver
 from cloth_sim_ros.sim.state import State
 import numpy as np
 
+_NO_FORCING = Forcing((0.0, 0.0, 0.0))
 # What is told of substeps in which edges turn at once, a finite number.
 _LARGEST_MARGIN = 1e9
 # Of a substep: rounding that is no reason for another one.
@@ -67,8 +69,19 @@ class ImplicitStep(ABC):
         """Raise nothing: there is no dt that is too long."""
 
     @abstractmethod
-    def law(self, length: float) -> EdgeLaw:
-        """Return the law of the edges in a substep of ``length`` [s] that comes now."""
+    def law(self, length: float, settling: float) -> EdgeLaw:
+        """
+        Return the law of the edges in a substep of ``length`` [s].
+
+        :param settling: strain that a cloth which came stretched may have yet; else 0
+        """
+
+    def energy_law(self, state: State) -> EdgeLaw:
+        """Return the law that holds now, or that the first step of a new ``state`` will have."""
+        settling = self.settling.limit
+        if self.settling.is_new:
+            settling = first_limit(self._watch.look(state, _NO_FORCING, self._dt)[1])
+        return self.law(self._dt, settling)
 
     def step(self, state: State, begin: float, pushes: PushField) -> Pieces:
         """Step ``state`` on by one dt."""
@@ -81,7 +94,7 @@ class ImplicitStep(ABC):
         length = seconds / self.substeps
         is_held = bool(state.pinned.any())
         for substep in range(self.substeps):
-            self._solver.set_law(self.law(length))
+            self._solver.set_law(self.law(length, self.settling.limit))
             start = begin + substep * length
             # A velocity belongs to the middle of its substep, so forces act from there to the
             # next.
@@ -103,7 +116,7 @@ class ImplicitStep(ABC):
         still = pushes.still
         self._watch.look(state, still, self._dt)
         yield
-        self._solver.set_law(self.law(self._dt))
+        self._solver.set_law(self.law(self._dt, self.settling.limit))
         self._solver.compile_searches()
         yield
         self._free_motion.aim_at(state, still, still, self._dt)

@@ -19,10 +19,11 @@ import math
 from cloth_sim_ros.gl.buffer import Buffer
 from cloth_sim_ros.gl.buffer import shader_writes_visible
 from cloth_sim_ros.sim import bindings
+from cloth_sim_ros.sim.edge_kinds import EDGE_KINDS
 from cloth_sim_ros.sim.layout import Layout
+from cloth_sim_ros.sim.modes.limited_springs import LIMITED
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.scene_program import SceneProgram
-from cloth_sim_ros.sim.stability import OFFSETS
 from cloth_sim_ros.sim.state import State
 import numpy as np
 
@@ -46,9 +47,9 @@ class LimitMarks:
             'LOCAL_X': _LOCAL[0], 'LOCAL_Y': _LOCAL[1]})
         self._groups = -(-layout.cols // _LOCAL[0]), -(-layout.rows // _LOCAL[1])
         self._edges = sum(
-            max(scene.rows - abs(drow), 0) * max(scene.cols - abs(dcol), 0)
-            for family in ('structural', 'shear') if scene.models(family)
-            for drow, dcol in OFFSETS[family])
+            max(scene.rows - abs(kind.drow), 0) * max(scene.cols - abs(kind.dcol), 0)
+            for kind in EDGE_KINDS
+            if kind.family in LIMITED and scene.models(kind.family))
         self._marks = np.zeros(layout.stored, dtype=np.uint32)
         self.buffer = Buffer(self._marks)
         # Steps until the marks are all zero again. In the last but one all edges are let go.

@@ -37,10 +37,10 @@ class LimitedSprings(ImplicitStep):
         """Return the strain limit that holds now."""
         return max(self.settling.limit, self._scene['adaptive.threshold'])
 
-    def law(self, length: float) -> EdgeLaw:
-        """Return the law of springs with the limit that holds now."""
+    def law(self, length: float, settling: float) -> EdgeLaw:
+        """Return the law of springs with their limit, or what is left of the strain they had."""
         return edge_law(
             self._scene, length, springs=self._families, limited=LIMITED,
-            limit=self.strain_bound,
+            limit=max(settling, self._scene['adaptive.threshold']),
             strain=min(_SHARE * self._scene['adaptive.threshold'], _MOST),
             geometric=BETA if self._solves > 1 else 0.0)

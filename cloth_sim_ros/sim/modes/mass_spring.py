@@ -14,6 +14,7 @@
 
 """Mass-spring: explicit springs to 12 neighbours, symplectic Euler (paper, section 4.1)."""
 
+from collections.abc import Collection
 import math
 
 from cloth_sim_ros.gl.buffer import Buffer
@@ -24,6 +25,8 @@ from cloth_sim_ros.sim.modes.spring_substeps import spring_substeps
 from cloth_sim_ros.sim.modes.two_pass import TwoPass
 from cloth_sim_ros.sim.push_field import PushField
 from cloth_sim_ros.sim.scene import Scene
+from cloth_sim_ros.sim.solver.edge_law import EdgeLaw
+from cloth_sim_ros.sim.solver.edge_law import spring_law
 from cloth_sim_ros.sim.spring_tension import spring_tension
 from cloth_sim_ros.sim.stability import stability_limit
 from cloth_sim_ros.sim.state import State
@@ -41,7 +44,6 @@ class MassSpring:
     def __init__(self, scene: Scene, layout: Layout, *, check_stability: bool = True) -> None:
         """Choose the substeps and compile the passes."""
         self._scene = scene
-        self.spring_families = scene.families
         self.stability_limit = stability_limit(scene)
         self.substeps = spring_substeps(scene, self.name, check_stability=check_stability)
         self._length: float = scene['dt'] / self.substeps
@@ -52,6 +54,15 @@ class MassSpring:
     def edge_model(scene: Scene) -> str:
         """Return that edges are springs."""
         return 'springs'
+
+    @staticmethod
+    def edge_families(scene: Scene) -> Collection[str]:
+        """Return those that have springs."""
+        return scene.families
+
+    def energy_law(self, state: State) -> EdgeLaw:
+        """Return that of the springs."""
+        return spring_law(self._scene, self._length)
 
     @staticmethod
     def check(scene: Scene, *, check_stability: bool = True) -> None:

@@ -14,6 +14,7 @@
 
 """What every mode offers."""
 
+from collections.abc import Collection
 from collections.abc import Generator
 from typing import Protocol
 
@@ -21,6 +22,7 @@ from cloth_sim_ros.gl.buffer import Buffer
 from cloth_sim_ros.sim.layout import Layout
 from cloth_sim_ros.sim.push_field import PushField
 from cloth_sim_ros.sim.scene import Scene
+from cloth_sim_ros.sim.solver.edge_law import EdgeLaw
 from cloth_sim_ros.sim.state import State
 import numpy as np
 
@@ -40,7 +42,6 @@ class Mode(Protocol):
     """
     A way to step the state of a scene.
 
-    ``spring_families`` are those whose edges are springs, so that they hold elastic energy.
     ``stability_limit`` is the longest stable substep [s], ``substep_margin`` a substep over it,
     or, in an implicit step, over the longest in which edges turn by no more than they should.
     ``strain_bound`` is what no structural or shear edge should be stretched or shortened beyond,
@@ -59,7 +60,6 @@ class Mode(Protocol):
     stability_limit: float
     substep_margin: float
     strain_bound: float
-    spring_families: tuple[str, ...]
 
     def __init__(self, scene: Scene, layout: Layout, *, check_stability: bool = True) -> None:
         """Compile and allocate what this mode needs and nothing else."""
@@ -71,6 +71,13 @@ class Mode(Protocol):
     @staticmethod
     def edge_model(scene: Scene) -> str:
         """Return what the edges of ``scene`` are in this mode: springs, limited or hard."""
+
+    @staticmethod
+    def edge_families(scene: Scene) -> Collection[str]:
+        """Return the families of which ``scene`` has edges in this mode."""
+
+    def energy_law(self, state: State) -> EdgeLaw:
+        """Return the law by which the edges of ``state`` store energy now."""
 
     def step(self, state: State, begin: float, pushes: PushField) -> Pieces:
         """

@@ -23,6 +23,8 @@ from cloth_sim_ros.sim.modes.one_pass import OnePass
 from cloth_sim_ros.sim.modes.paper_sweeps import PaperSweeps
 from cloth_sim_ros.sim.push_field import PushField
 from cloth_sim_ros.sim.scene import Scene
+from cloth_sim_ros.sim.solver.edge_law import EdgeLaw
+from cloth_sim_ros.sim.solver.edge_law import spring_law
 from cloth_sim_ros.sim.spring_tension import spring_tension
 from cloth_sim_ros.sim.stability import stability_limit
 from cloth_sim_ros.sim.state import State
@@ -56,6 +58,10 @@ class PaperLimit:
         self.substep_margin = length / self.stability_limit
         self._springs = OnePass(scene, layout, 'RIGID_LIMIT')
         self._sweeps = PaperSweeps(scene, layout)
+
+    def energy_law(self, state: State) -> EdgeLaw:
+        """Return that of the springs: what holds an edge at its limit stores nothing."""
+        return spring_law(self._scene, self._length)
 
     def advance(self, state: State, begin: float, seconds: float, pushes: PushField) -> Pieces:
         """Step ``state`` on by ``seconds``."""

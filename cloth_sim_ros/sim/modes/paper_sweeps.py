@@ -28,8 +28,8 @@ _COLOURS = 4
 _TENSION_BYTES = 16
 _LOCAL = (8, 2)
 _DEFINES = {'LOCAL_X': _LOCAL[0], 'LOCAL_Y': _LOCAL[1]}
-# As in edges.glsl, of a cell.
-_ROW, _COLUMN, _DIAGONAL, _CROSSING = range(4)
+# The edge of a cell that starts at its second corner.
+_CROSSING = next(kind.number for kind in EDGE_KINDS if kind.name == 'crossing')
 
 
 class PaperSweeps:
@@ -86,9 +86,8 @@ class PaperSweeps:
         self.tensions.read_into(stored)
         cells = self._layout.load(stored)
         held = np.zeros((rows, cols, len(EDGE_KINDS)), dtype=np.float32)
-        held[..., :3] = cells[..., (_ROW, _COLUMN, _DIAGONAL)]
-        # A cell's crossing edge starts at its second corner.
-        held[:, 1:, 3] = cells[:, :-1, _CROSSING]
+        held[..., :_CROSSING] = cells[..., :_CROSSING]
+        held[:, 1:, _CROSSING] = cells[:, :-1, _CROSSING]
         return held
 
     def clear(self) -> None:

@@ -13,6 +13,8 @@ class Settling:
     """
     The strain within which hard edges are springs yet, for a while.
 
+    ``is_new`` says that no strain has been taken yet.
+
     A cloth can come stretched from where nothing limited it. Its energy is that of springs: held
     at once, it would have that of hard edges from nothing, and be thrown together.
     """
@@ -29,10 +31,9 @@ class Settling:
 
     def begin(self, strain: float) -> None:
         """Take the largest ``strain`` of a cloth; only that of a new one counts."""
-        # What is no number is held at once, and seen.
-        if self._is_new and strain > _NOTABLE:
-            self._first = strain
-        self._is_new = False
+        if self.is_new:
+            self._first = first_limit(strain)
+        self.is_new = False
 
     def spend(self, length: float) -> None:
         """Go on by ``length`` [s]."""
@@ -44,4 +45,10 @@ class Settling:
     def forget(self) -> None:
         """Wait for another cloth."""
         self._first = self._age = 0.0
-        self._is_new = True
+        self.is_new = True
+
+
+def first_limit(strain: float) -> float:
+    """Return the limit that a cloth of the largest ``strain`` begins with; 0 for hard edges."""
+    # What is no number is held at once, and seen.
+    return strain if strain > _NOTABLE else 0.0

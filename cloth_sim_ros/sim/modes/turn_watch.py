@@ -16,9 +16,9 @@
 
 import math
 
+from cloth_sim_ros.sim.edge_kinds import edge_defines
 from cloth_sim_ros.sim.forcing import Forcing
 from cloth_sim_ros.sim.layout import Layout
-from cloth_sim_ros.sim.scene import FAMILIES
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.scene_program import SceneProgram
 from cloth_sim_ros.sim.state import State
@@ -40,7 +40,7 @@ class TurnWatch:
         self._strips = Strips(layout, 2)
         self._program = SceneProgram('turn_watch.comp', scene, layout, {
             **Strips.defines(),
-            **{f'HAS_{family.upper()}': int(family in families) for family in FAMILIES}})
+            **edge_defines(families)})
 
     def look(self, state: State, forcing: Forcing, dt: float) -> tuple[float, float]:
         """

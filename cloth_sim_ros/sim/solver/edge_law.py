@@ -12,11 +12,13 @@ lambda > 0 pulls. See docs/implicit_step.md.
 
 from collections.abc import Collection
 from dataclasses import dataclass
+from dataclasses import replace
 
 from cloth_sim_ros.gl.program import Program
+from cloth_sim_ros.sim.edge_kinds import REST_KINDS
+from cloth_sim_ros.sim.edge_kinds import rest_lengths
 from cloth_sim_ros.sim.scene import FAMILIES
 from cloth_sim_ros.sim.scene import Scene
-from cloth_sim_ros.sim.scene_program import rest_lengths
 
 # Weighs the geometric mass term. From 1/4 on, waves across tight edges are stable at any length of
 # the step; at 1/4 those that are much shorter than it change sign in each step, for ever.
@@ -27,9 +29,9 @@ STANDARD_GRAVITY = 9.81
 # stretches that carries it alone.
 _HANGING_SHARE = 0.03
 # Larger than any length in rest lengths, and a number to float32.
-_FAR = 1e30
+FAR = 1e30
 # Of each rest length, the family.
-_FAMILY_OF = (0, 0, 1, 2, 2)
+_FAMILY_OF = tuple(FAMILIES.index(kind.family) for kind in REST_KINDS)
 
 
 @dataclass(frozen=True)
@@ -63,10 +65,21 @@ class EdgeLaw:
                 + self.damping[family])
             for family, limit in zip(_FAMILY_OF, self.limit_stiffness))
 
+    def times(self, mass: float) -> 'EdgeLaw':
+        """Return the law with forces in N, of nodes of ``mass`` [kg]."""
+        return replace(self, **{
+            name: tuple(mass * value for value in getattr(self, name))
+            for name in ('stiffness', 'damping', 'limit_stiffness')})
+
     @property
     def largest_weight(self) -> float:
         """Return the weight of the heaviest edge."""
         return max(self.weights)
+
+    @property
+    def has_bounds(self) -> bool:
+        """Tell whether there are edges that are hard or come to limits."""
+        return any(map(self._has_limit, range(len(FAMILIES))))
 
     @property
     def has_limits(self) -> bool:
@@ -76,11 +89,11 @@ class EdgeLaw:
             for family, (least, most) in enumerate(zip(self.shortest, self.longest)))
 
     def _has_limit(self, family: int) -> bool:
-        return self.shortest[family] > 0.0 or self.longest[family] < _FAR
+        return self.shortest[family] > 0.0 or self.longest[family] < FAR
 
 
-def implicit_springs(scene: Scene, length: float, *, geometric: float = 0.0) -> EdgeLaw:
-    """Return the law of the scene's springs, taken implicitly."""
+def spring_law(scene: Scene, length: float, *, geometric: float = 0.0) -> EdgeLaw:
+    """Return the law of the scene's springs."""
     return edge_law(scene, length, geometric=geometric)
 
 
@@ -108,12 +121,12 @@ def edge_law(
     is_spring = [family in springs and family not in hard for family in FAMILIES]
     shortest, longest = [], []
     for family in FAMILIES:
-        least, most = -_FAR, _FAR
+        least, most = -FAR, FAR
         if family in hard:
             least = most = 1.0
         elif family in limited:
             # A length foreseen along a frozen direction can be below 0.
-            least, most = 1.0 - limit if limit < 1.0 else -_FAR, 1.0 + limit
+            least, most = 1.0 - limit if limit < 1.0 else -FAR, 1.0 + limit
         shortest.append(least)
         longest.append(most)
     pull = full_pull(scene, strain)

@@ -18,8 +18,8 @@ from collections.abc import Collection
 
 from cloth_sim_ros.gl.program import Program
 from cloth_sim_ros.gl.shader_source import ShaderSource
+from cloth_sim_ros.sim.edge_kinds import edge_defines
 from cloth_sim_ros.sim.layout import Layout
-from cloth_sim_ros.sim.scene import FAMILIES
 from cloth_sim_ros.sim.solver.edge_law import EdgeLaw
 from cloth_sim_ros.sim.solver.levels import Levels
 from cloth_sim_ros.sim.solver.smoothing_steps import smoothing_steps
@@ -83,7 +83,7 @@ def solver_defines(
     """Return what every shader of the solver compiles in."""
     return {
         **levels.cloth.defines(),
-        **{f'HAS_{family.upper()}': int(family in families) for family in FAMILIES},
+        **edge_defines(families),
         'MULTIGRID': int(is_multigrid),
         'BLOCKS_IN_LINE': int(state.texture_loads),
         'SUMS_BY_GROUP': int(not state.texture_loads),

@@ -20,6 +20,8 @@ from typing import Any
 
 from cloth_sim_ros.gl.context import Context
 from cloth_sim_ros.gl.inventory import take_inventory
+from cloth_sim_ros.sim.edge_kinds import EACH_EDGE
+from cloth_sim_ros.sim.scene import FAMILIES
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.simulation import Simulation
 
@@ -67,6 +69,8 @@ def modelled(defines: Mapping[str, str]) -> str:
     chosen = {name: value for name, value in defines.items() if name.startswith(_MODELLED)}
     there = [name[len('HAS_'):].lower() for name, value in chosen.items()
              if name.startswith('HAS_') and value == '1']
+    edges = defines.get(EACH_EDGE, '')
+    there += [family for family in FAMILIES if family not in there and family.upper() in edges]
     others = [f'{name.lower().replace("_", " ")} {value}' for name, value in chosen.items()
               if not name.startswith('HAS_') and value not in ('0', 'NO_LIMIT')]
     return ', '.join(there + others)

@@ -10,9 +10,9 @@ Symmetric edge_block(ivec2 at, ivec2 by, int edge) {
     int index = node_index(at.x, at.y);
     vec3 d = load_node(at).xyz - load_node(at + by).xyz;
 #if HAS_BEND
-    if (edge > 3) {
+    if (edge >= EDGE_TWO_ROW) {
         vec4 weight = load_system(cloth_entry(BEND_WEIGHT, index));
-        return weight[edge - 4] * outer_square(d) + scaled_identity(weight[edge - 2]);
+        return weight[edge - EDGE_TWO_ROW] * outer_square(d) + scaled_identity(weight[edge - EDGE_TWO_ROW + 2]);
     }
 #endif
     return load_system(cloth_entry(ALONG, index))[edge] * outer_square(d)
@@ -20,5 +20,6 @@ Symmetric edge_block(ivec2 at, ivec2 by, int edge) {
 }
 
 // The two edges that lie along by at a node: the one that begins there and the one that ends.
-#define EDGE_BLOCKS(AT, BY, EDGE) \
-    (edge_block(AT, BY, EDGE) + edge_block((AT) - (BY), BY, EDGE))
+Symmetric edge_blocks(ivec2 at, ivec2 by, int edge) {
+    return edge_block(at, by, edge) + edge_block(at - by, by, edge);
+}

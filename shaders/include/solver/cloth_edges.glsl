@@ -21,8 +21,8 @@ void load_edges(ivec2 first) {
 
 float weight_along(int row, int col, int edge) {
 #if HAS_BEND
-    if (edge > 3) {
-        return bend_weight[row][col][edge - 4];
+    if (edge >= EDGE_TWO_ROW) {
+        return bend_weight[row][col][edge - EDGE_TWO_ROW];
     }
 #endif
     return along[row][col][edge];
@@ -30,8 +30,8 @@ float weight_along(int row, int col, int edge) {
 
 float weight_across(int row, int col, int edge) {
 #if HAS_BEND
-    if (edge > 3) {
-        return bend_weight[row][col][edge - 2];
+    if (edge >= EDGE_TWO_ROW) {
+        return bend_weight[row][col][edge - EDGE_TWO_ROW + 2];
     }
 #endif
     return across[row][col][edge];

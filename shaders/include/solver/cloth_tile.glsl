@@ -13,10 +13,6 @@
 #endif
 #define TILE (BLOCK + 2 * REACH)
 
-#define STRUCTURAL 0
-#define SHEAR 1
-#define BEND 2
-
 vec4 node[TILE][TILE];
 vec4 along[TILE][TILE];   // of the edges that begin at a node, as in solver/levels.glsl
 vec4 across[TILE][TILE];
@@ -41,26 +37,7 @@ bool is_in_block(int row, int col) {
     return row >= REACH && row < REACH + BLOCK && col >= REACH && col < REACH + BLOCK;
 }
 
-// DO(row, col, drow, dcol, edge, family, rest)
-#if HAS_STRUCTURAL
-#define FOR_STRUCTURAL(DO) \
-    FOR_BLOCK_EDGES(0, 1, DO(row, col, 0, 1, 0, STRUCTURAL, 0)) \
-    FOR_BLOCK_EDGES(1, 0, DO(row, col, 1, 0, 1, STRUCTURAL, 1))
-#else
-#define FOR_STRUCTURAL(DO)
-#endif
-#if HAS_SHEAR
-#define FOR_SHEAR(DO) \
-    FOR_BLOCK_EDGES(1, 1, DO(row, col, 1, 1, 2, SHEAR, 2)) \
-    FOR_BLOCK_EDGES(1, -1, DO(row, col, 1, -1, 3, SHEAR, 2))
-#else
-#define FOR_SHEAR(DO)
-#endif
-#if HAS_BEND
-#define FOR_BEND(DO) \
-    FOR_BLOCK_EDGES(0, 2, DO(row, col, 0, 2, 4, BEND, 3)) \
-    FOR_BLOCK_EDGES(2, 0, DO(row, col, 2, 0, 5, BEND, 4))
-#else
-#define FOR_BEND(DO)
-#endif
-#define FOR_CLOTH_EDGES(DO) FOR_STRUCTURAL(DO) FOR_SHEAR(DO) FOR_BEND(DO)
+// DO(row, col, drow, dcol, edge, family, rest) for every edge with an end in the block.
+#define FOR_CLOTH_EDGES(DO) EACH_EDGE(FOR_EDGES_OF_KIND, DO)
+#define FOR_EDGES_OF_KIND(DO, EDGE, DROW, DCOL, FAMILY, REST) \
+    FOR_BLOCK_EDGES(DROW, DCOL, DO(row, col, DROW, DCOL, EDGE, FAMILY, REST))

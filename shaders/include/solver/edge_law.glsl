@@ -10,6 +10,15 @@ uniform float longest[3];          // [rest lengths] above which the upper one d
 uniform float limit_stiffness[5];  // [1/s2] along a row, along a column, diagonal, two along each
 uniform float rest_length[5];      // [m] the same
 
+// The energy of an edge of length l, without damping [m2/s2].
+float stored_energy(float l, int family, int rest) {
+    float rest_l = rest_length[rest];
+    float stretch = l - rest_l;
+    float beyond = l - clamp(l, shortest[family] * rest_l, longest[family] * rest_l);
+    return 0.5 * (edge_stiffness[family] * stretch * stretch
+        + limit_stiffness[rest] * beyond * beyond);
+}
+
 // The pull of an edge [m/s2], and how much more it is for each metre more of length [1/s2].
 struct Pull {
     float tension;

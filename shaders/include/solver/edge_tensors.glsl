@@ -16,7 +16,7 @@
 
 #define DIRECTIONS 4  // right, down, down right, down left
 
-const ivec2 TOWARDS[DIRECTIONS] = ivec2[](ivec2(0, 1), ivec2(1, 0), ivec2(1, 1), ivec2(1, -1));
+const ivec2 TOWARDS[DIRECTIONS] = ivec2[](SHORT_EDGES);
 
 Symmetric load_edge(int which, int index, int direction) {
     vec4 most = load_system(system_entry(which, EDGES + direction, index));

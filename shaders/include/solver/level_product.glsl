@@ -49,6 +49,9 @@ void load_values(ivec2 first, int field) {
     }
 }
 
+#define ADD_PRODUCTS(FIRST, EDGE, DROW, DCOL, FAMILY, REST) \
+    FOR_BLOCK_EDGES(DROW, DCOL, add_to_product(FIRST, row, col, DROW, DCOL, EDGE))
+
 void make_product(ivec2 first) {
     FOR_TILE {
         product[row][col] = vec3(0.0);
@@ -57,8 +60,5 @@ void make_product(ivec2 first) {
         product[row][col] = times(
             load_symmetric(level, GROUND, tile_index(first, row, col)), value[row][col]);
     }
-    FOR_BLOCK_EDGES(0, 1, add_to_product(first, row, col, 0, 1, 0))
-    FOR_BLOCK_EDGES(1, 0, add_to_product(first, row, col, 1, 0, 1))
-    FOR_BLOCK_EDGES(1, 1, add_to_product(first, row, col, 1, 1, 2))
-    FOR_BLOCK_EDGES(1, -1, add_to_product(first, row, col, 1, -1, 3))
+    EACH_SHORT_EDGE(ADD_PRODUCTS, first)
 }

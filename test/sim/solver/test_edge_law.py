@@ -7,7 +7,7 @@ from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.solver.edge_law import edge_law
 from cloth_sim_ros.sim.solver.edge_law import full_pull
 from cloth_sim_ros.sim.solver.edge_law import hard_edges
-from cloth_sim_ros.sim.solver.edge_law import implicit_springs
+from cloth_sim_ros.sim.solver.edge_law import spring_law
 import pytest
 
 CLOTH = {
@@ -67,7 +67,7 @@ def test_limits_are_those_asked_for():
 
 def test_weights_of_springs():
     """The smoothing and the coarsest level would be made for other edges."""
-    law = implicit_springs(Scene(CLOTH), 0.01)
+    law = spring_law(Scene(CLOTH), 0.01)
     structural, shear, bend = (
         (1e-4 * k + 1e-2 * d) / 0.002 for k, d in ((100.0, 0.1), (50.0, 0.2), (2.0, 0.03)))
     assert law.weights == pytest.approx((structural, structural, shear, bend, bend))
@@ -86,6 +86,6 @@ def test_weights_of_hard_edges():
 def test_a_limit_counts_in_the_weights():
     """An edge at its limit would weigh more than the smoothing is made for."""
     law = edge_law(Scene(CLOTH), 0.01, limited=['shear'], limit=0.05)
-    springs = implicit_springs(Scene(CLOTH), 0.01)
+    springs = spring_law(Scene(CLOTH), 0.01)
     assert law.weights[2] == pytest.approx(springs.weights[2] + 1e-4 * law.limit_stiffness[2])
     assert law.weights[:2] == springs.weights[:2]

@@ -18,7 +18,7 @@
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.solver.edge_law import EdgeLaw
 from cloth_sim_ros.sim.solver.edge_law import hard_edges
-from cloth_sim_ros.sim.solver.edge_law import implicit_springs
+from cloth_sim_ros.sim.solver.edge_law import spring_law
 from cloth_sim_ros.sim.solver.smoothing_steps import smoothing_steps
 import numpy as np
 import pytest
@@ -55,7 +55,7 @@ def test_steps_are_those_of_chebyshev(family, stiffness):
     scene = Scene({
         'rows': 12, 'cols': 30, 'node_mass': 0.01, **others, **undamped,
         f'stiffness.{family}': stiffness})
-    law = implicit_springs(scene, 0.01)
+    law = spring_law(scene, 0.01)
     around = around_a_node(law)
     count = {'structural': 4.0, 'shear': 4.0, 'bend': 16.0}[family]
     assert around == pytest.approx(count * 1e-4 * stiffness / 0.01)
@@ -76,6 +76,6 @@ def test_without_edges_a_step_is_exact():
 def test_no_error_grows(stiffness):
     """The preconditioner would not be positive, and the solve would break down."""
     scene = Scene({'stiffness.structural': stiffness, 'damping.structural': 0.0})
-    steps = smoothing_steps(implicit_springs(scene, 0.01))
+    steps = smoothing_steps(spring_law(scene, 0.01))
     # Both, as one after the other comes before and after the coarser levels.
     assert np.abs(left_over(steps, np.linspace(1e-6, 2.0, 500))).max() <= 1.0 + 1e-9

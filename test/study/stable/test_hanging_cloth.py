@@ -40,7 +40,7 @@ def test_a_chain(nodes):
         _chain_limit(nodes, 1.0 / (nodes - 1)), rel=1e-4)
 
 
-def test_implicit_springs_stretch_by_the_weight_below():
+def test_spring_law_stretch_by_the_weight_below():
     """The cloth would begin away from rest, and its swing be taken for a blow-up."""
     scene = Scene(hanging_scene({
         'rows': 5, 'cols': 1, 'node_mass': 0.01, 'stiffness.structural': 1000.0,
