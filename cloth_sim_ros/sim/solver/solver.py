@@ -60,7 +60,7 @@ PRECONDITIONERS: dict[str, type[Preconditioner]] = {
 _AIM = 0.8
 # Of the change that what is applied would make: to rest is to change by nothing, and a residual
 # small beside that is never reached.
-_LEAST_CHANGE = 0.1
+_LEAST_CHANGE = 0.001
 # Of the change of velocity: less than this is missing of tensions by the rounding of lengths.
 _LEAST_MISSING = 5e-6
 # Iterations that are submitted together where asking in between is a wait.

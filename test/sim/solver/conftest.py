@@ -28,7 +28,7 @@ from cloth_sim_ros.sim.solver.edge_law import BETA
 from cloth_sim_ros.sim.solver.edge_law import edge_law
 from cloth_sim_ros.sim.solver.edge_law import EdgeLaw
 from cloth_sim_ros.sim.solver.edge_law import hard_edges
-from cloth_sim_ros.sim.solver.edge_law import implicit_springs
+from cloth_sim_ros.sim.solver.edge_law import spring_law
 from cloth_sim_ros.sim.solver.solver import PRECONDITIONERS
 from cloth_sim_ros.sim.solver.solver import Solver
 from cloth_sim_ros.sim.state import State
@@ -51,7 +51,7 @@ LIMIT = 0.2
 def law_of(kind: str, scene: Scene, dt: float, geometric: float = 0.0) -> EdgeLaw:
     """Return the law of one of KINDS."""
     if kind == 'springs':
-        return implicit_springs(scene, dt, geometric=geometric)
+        return spring_law(scene, dt, geometric=geometric)
     if kind == 'hard':
         return hard_edges(scene, dt, geometric=geometric)
     options = {
@@ -138,13 +138,13 @@ class SolverCase:
         return self.solve()
 
     def least_change(self, kick: float = 0.01) -> float:
-        """Return a tenth of what gravity makes of all velocities in ``kick`` [s], as a norm."""
-        return 0.1 * kick * 9.81 * float(np.sqrt(np.count_nonzero(self.free)))
+        """Return a thousandth of what gravity makes of all velocities in ``kick`` [s], as a norm."""
+        return 1e-3 * kick * 9.81 * float(np.sqrt(np.count_nonzero(self.free)))
 
     def read_state(self) -> tuple[np.ndarray, np.ndarray]:
         """Return positions and velocities, (rows, cols, 3) each."""
-        observer = Observer(self.scene, self.layout)
-        records = observer.record(self.state, self.forcing, ())[1]
+        observer = Observer(self.scene, self.layout, set(self.scene.families))
+        records = observer.record(self.state, self.forcing, None)[1]
         observer.delete()
         return tuple(
             np.stack([records[name] for name in names], axis=-1)
