@@ -68,7 +68,7 @@ def test_two_solves_alone(dt, allowed, passes):
 
 @pytest.mark.parametrize('strain', [1e-4, 0.008])
 @pytest.mark.parametrize(('dt', 'allowed'), [(0.02, 0.002), (0.05, 0.02)])
-@pytest.mark.parametrize('springs', [[], ['bend']])
+@pytest.mark.parametrize('springs', [[], pytest.param(['bend'], marks=pytest.mark.long)], ids=str)
 def test_two_solves_and_substeps(dt, allowed, springs, strain):
     """The default lets edges stray farther from their law than it may."""
     assert _left_over(

@@ -29,10 +29,10 @@ import numpy as np
 import pytest
 
 # Scene, push, largest strain, spread of peak kinetic energy (issue 3, point 3).
-CASES = [
-    ('paper', 12, 5.0, 0.11, 0.1), ('paper', 12, 20.0, 0.125, 0.1), ('unit', 12, 5.0, 0.125, 0.1)]
+CASES = [('paper', 12, 5.0, 0.11, 0.1), ('paper', 12, 20.0, 0.125, 0.1)]
 LONG_CASES = [
-    ('unit', 12, 20.0, 0.14, 0.12), ('unit', 32, 5.0, 0.12, 0.1), ('unit', 32, 20.0, 0.15, 0.12)]
+    ('unit', 12, 5.0, 0.125, 0.1), ('unit', 12, 20.0, 0.14, 0.12), ('unit', 32, 5.0, 0.12, 0.1),
+    ('unit', 32, 20.0, 0.15, 0.12)]
 LIMP = {'stiffness.structural': 5.0, 'stiffness.shear': 5.0, 'stiffness.bend': 0.5,
         'damping.structural': 1e-4, 'damping.shear': 1e-4, 'damping.bend': 1e-4}
 
@@ -99,7 +99,7 @@ def test_the_threshold_is_the_limit(threshold):
     assert threshold < run.max_strain < 2.0 * threshold
 
 
-@pytest.mark.parametrize('least', [200, pytest.param(1000, marks=pytest.mark.long)])
+@pytest.mark.parametrize('least', [60, pytest.param(1000, marks=pytest.mark.long)])
 def test_a_tumbling_cloth_keeps_its_momentum_at_the_limit(least):
     """An edge at its limit pushes one end more than the other, or not along itself."""
     scene = Scene({
