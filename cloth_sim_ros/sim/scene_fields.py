@@ -31,10 +31,12 @@ SCENE_FIELDS = (
     Field('cols', int, 32, 'nodes along the width', low=1, high=8192),
     Field('width', float, 1.0, 'side along a row', 'm', low=1e-4, high=1e5),
     Field('height', float, 1.0, 'side along a column', 'm', low=1e-4, high=1e5),
-    Field('areal_density', float, 0.2, 'mass of the cloth per area, shared evenly by the nodes',
-          'kg/m2', low=1e-6, high=1e6),
-    Field('node_mass', float, 0.0, 'mass of each node; 0 takes it from areal_density',
-          'kg', low=0.0, high=1e6),
+    Field('areal_density', float, 0.2, 'mass of the cloth per area, shared evenly by the nodes; '
+          '0 when total_mass is given', 'kg/m2', low=0.0, high=1e6),
+    Field('total_mass', float, 0.0, 'mass of the whole cloth, shared evenly by the nodes; 0 takes '
+          'it from areal_density', 'kg', low=0.0, high=1e12),
+    Field('node_mass', float, 0.0, 'mass of each node; 0 takes it from total_mass or '
+          'areal_density', 'kg', low=0.0, high=1e6),
     Field('stiffness.structural', float, 100.0, 'of the springs to the 4 nearest nodes',
           'N/m', low=0.0, high=1e9),
     Field('stiffness.shear', float, 100.0, 'of the springs to the 4 diagonal nodes',
@@ -49,6 +51,11 @@ SCENE_FIELDS = (
           low=-1e4, high=1e4, is_array=True),
     Field('pins', str, ('top_left', 'top_right'), f'nodes held in place: {PIN_NAMES}',
           words=PIN_NAMES, is_array=True),
+    Field('pin_points.positions', float, (), 'points of the start pose, x y z one after the '
+          'other: the node nearest to each is held in place too, or instead of the default pins',
+          'm', low=-1e6, high=1e6, is_array=True),
+    Field('pin_points.max_distance', float, 0.0, 'how far that node may be from its point; 0 '
+          'takes the longer distance between neighbouring nodes', 'm', low=0.0, high=1e6),
     Field('pin_speed', float, 1.0, 'speed of a moving pin where none is given', 'm/s',
           low=1e-6, high=1e6),
     Field('pin.max_force', float, 0.0, 'pull of its edges at which a moving pin stands still for '

@@ -30,8 +30,8 @@ from cloth_sim_ros.sim.forces import pulled_too_hard
 from cloth_sim_ros.sim.forces import with_forces
 from cloth_sim_ros.sim.forcing import Forcing
 from cloth_sim_ros.sim.layout import choose_layout
+from cloth_sim_ros.sim.near_node import NearNode
 from cloth_sim_ros.sim.nearest import nearest
-from cloth_sim_ros.sim.nearest import NearNode
 from cloth_sim_ros.sim.pin_motion import PinMotion
 from cloth_sim_ros.sim.pin_move import PinMove
 from cloth_sim_ros.sim.pin_path import PinPath
