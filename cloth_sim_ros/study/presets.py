@@ -32,7 +32,7 @@ from cloth_sim_ros.sim.scene_fields import PRESETS
 from cloth_sim_ros.study.runs.arguments import add_run_arguments
 from cloth_sim_ros.study.runs.arguments import workers_of
 from cloth_sim_ros.study.runs.results_folder import ResultsFolder
-from cloth_sim_ros.study.trade.choice import Budget
+from cloth_sim_ros.study.trade.budget import ErrorBudget
 from cloth_sim_ros.study.trade.choice import write_choice
 from cloth_sim_ros.study.trade.grid import default_grid_path
 from cloth_sim_ros.study.trade.grid import load_grid
@@ -42,7 +42,7 @@ from cloth_sim_ros.study.trade.variant import Variant
 TAKES_SCENE = True
 
 # Each is the fastest setting within an error, over the side of the cloth.
-BUDGETS = {name: Budget(error=error) for name, error in zip(PRESETS, (1e-2, 1e-4, 5e-5))}
+BUDGETS = {name: ErrorBudget(error) for name, error in zip(PRESETS, (1e-2, 1e-4, 5e-5))}
 
 
 def add_arguments(parser: ArgumentParser) -> None:
@@ -64,7 +64,7 @@ def main(args: Namespace) -> int:
         measured = measure(args.scene, grid, results, workers_of(args))
     folder = Path(args.write or Path(args.out) / 'presets')
     for name, budget in BUDGETS.items():
-        row = budget.choose(measured)
+        row = budget.choose(measured.rows_of(Variant()))
         write_choice(
             folder / f'{name}.yaml', row, budget, args.scene_file, args.scene,
             only_changes=False)
