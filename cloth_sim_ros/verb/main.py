@@ -50,6 +50,7 @@ VERBS = {
     'analyze': 'analyse recordings: table, CSV, JSON and plots',
     'render': 'draw the cloth of recordings, as a sheet of pictures or a video',
     'play': 'publish a recording again',
+    'view': 'show a node, a scene or a recording in the browser',
     'resimulate': 'run a recorded simulation again, with the same or other settings',
     'paper': 'make Fig. 10 and 11 of the paper',
     'study': 'measure error against cost, and where a scene stops being stable',

@@ -16,8 +16,10 @@
 
 from argparse import ArgumentParser
 from argparse import Namespace
+from typing import TYPE_CHECKING
 
-from cloth_sim_ros.verb.node_client import NodeClient
+if TYPE_CHECKING:
+    from cloth_sim_ros.verb.node_client import NodeClient
 
 
 def add_node_arguments(parser: ArgumentParser) -> None:
@@ -32,6 +34,8 @@ def add_node_arguments(parser: ArgumentParser) -> None:
         help='wall seconds to wait for an answer (default: %(default)s)')
 
 
-def open_node(args: Namespace) -> NodeClient:
+def open_node(args: Namespace) -> 'NodeClient':
     """Return the node that the options of add_node_arguments mean."""
+    # A verb may do without a node, and then without ROS.
+    from cloth_sim_ros.verb.node_client import NodeClient
     return NodeClient(args.node, args.timeout)
