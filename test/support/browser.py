@@ -15,7 +15,8 @@ from urllib.request import urlopen
 from websockets.sync.client import connect
 
 NAMES = ('chromium', 'chromium-browser', 'google-chrome')
-PATIENCE = 60.0
+# WebGL on a busy processor is slow.
+PATIENCE = 300.0
 # WebGL on the processor, and none of the connections that a browser opens by itself.
 _OPTIONS = (
     '--headless', '--no-sandbox', '--disable-quic', '--no-first-run', '--use-angle=swiftshader',
@@ -59,8 +60,12 @@ class Browser:
         self._process.wait(PATIENCE)
 
     def text(self) -> str:
-        """Return the text of the page."""
-        return self.evaluate('document.body.innerText')
+        """Return the text of the page; empty before there is any."""
+        return self.evaluate('document.body ? document.body.innerText : ""') or ''
+
+    def wait_for(self, text: str) -> None:
+        """Wait until the page says ``text``."""
+        self._wait(lambda: True if text in self.text() else None, f'the page says no {text!r}')
 
     def evaluate(self, expression: str) -> Any:
         """Return the value of a JavaScript expression."""
@@ -109,12 +114,12 @@ class Browser:
                 assert 'error' not in answer, f'{method}: {answer["error"]}'
                 return answer['result']
 
-    def _wait(self, value: Any) -> Any:
+    def _wait(self, value: Any, problem: str = 'the browser does not start') -> Any:
         deadline = time.monotonic() + PATIENCE
         while (found := value()) is None:
-            assert time.monotonic() < deadline, 'the browser does not start'
+            assert time.monotonic() < deadline, problem
             assert self._process.poll() is None, 'the browser has ended'
-            time.sleep(0.05)
+            time.sleep(0.1)
         return found
 
     @staticmethod
