@@ -39,6 +39,14 @@ class Engines:
         self.current: Engine | None = None
 
     @property
+    def in_use(self) -> Engine:
+        """Return the engine of the mode in use; ClothSimError before there is one."""
+        if self.current is None:
+            raise ClothSimError(
+                'no mode is compiled yet: use one by set_mode, or take over one that is prepared')
+        return self.current
+
+    @property
     def context(self) -> Context:
         """Return the context of the engine in use."""
         return self.current.context if self.current else self._first_context

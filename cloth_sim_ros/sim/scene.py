@@ -163,7 +163,9 @@ class Scene:
                 PinMove.checked(row=row, col=col, target=target, speed=speed, start=start))
         return tuple(moves)
 
-    def _timed(self, name: str, width: int = 1, default: float | None = None) -> list[tuple]:
+    def _timed(
+            self, name: str, width: int = 1,
+            default: float | None = None) -> list[tuple[Any, ...]]:
         """Return the ``width`` entries that each push or move has in the parameter ``name``."""
         group, entry = name.partition('.')[0], 'push' if name.startswith('pushes') else 'move'
         count = len(self[f'{group}.start'])
