@@ -35,9 +35,10 @@ ROOMS = {
     'study': {'recording', 'messages', 'sim', 'gl', 'reference', 'files'},
     'analysis': {'recording', 'messages', 'sim', 'gl', 'files'},
     'resimulation': {'analysis', 'recording', 'sim', 'files'},
+    'api': {'node', 'resimulation', 'analysis', 'recording', 'messages', 'sim'},
     'verb': {
-        'node', 'study', 'resimulation', 'analysis', 'recording', 'messages', 'reference', 'sim',
-        'gl', 'playback', 'files'},
+        'api', 'node', 'study', 'resimulation', 'analysis', 'recording', 'messages', 'reference',
+        'sim', 'gl', 'playback', 'files'},
 }
 
 # These rooms must run where there is no ROS; they may import no more than this beside Python.

@@ -66,6 +66,14 @@ _LEAST = {
 }
 
 
+def checked_node_values(given: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the values of all fields: those ``given``, checked, and the defaults of the rest."""
+    values = {
+        field.name: field.check(given.get(field.name, field.default)) for field in NODE_FIELDS}
+    check_together(values)
+    return values
+
+
 def check_together(values: Mapping[str, Any]) -> None:
     """Raise ClothSimError for what one field's range cannot say about the node's values."""
     factor = values['real_time_factor']

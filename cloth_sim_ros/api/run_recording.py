@@ -14,7 +14,7 @@
 
 """Write a run that has no node into a recording, as the node would have recorded it."""
 
-import sys
+from collections.abc import Callable
 from typing import Any
 
 from cloth_sim_interfaces.msg import ClothState
@@ -34,7 +34,7 @@ import numpy as np
 from rclpy.serialization import serialize_message
 
 
-class BatchRecording:
+class RunRecording:
     """
     A recording of points, stats, pins and inputs.
 
@@ -42,17 +42,22 @@ class BatchRecording:
     size that was asked for.
 
     :param directory: folder that the recording's own folder is made in
+    :param lost: called with the reason when the recording has ended before it was closed; by
+        default that is said
     :param node_name: for the names of the topics, with its namespace
-    :param verb: that warnings come from
+    :param say: is given each thing that a user should know, one sentence
     :param setting: what ``directory`` was given by, for errors
     """
 
     def __init__(
             self, simulation: Simulation, node_values: dict[str, Any], directory: str, *,
-            node_name: str = 'cloth_sim', verb: str = 'run', setting: str = '--record') -> None:
+            say: Callable[[str], None], lost: Callable[[RecordingError], None] | None = None,
+            node_name: str = 'cloth_sim',
+            setting: str = '--record') -> None:
         """Open the recording and write what it begins with, the start pose too."""
         self._simulation = simulation
-        self._verb = verb
+        self._say = say
+        self._lost = lost or (lambda error: say(str(error)))
         self._frame_id = node_values['frame_id']
         self._points = PointsMessage(
             simulation.scene.rows, simulation.scene.cols, self._frame_id)
@@ -66,7 +71,7 @@ class BatchRecording:
         values = {**simulation.scene.values, **node_values}
         write_opening(self._session, simulation, values, f'/{node_name.strip("/")}')
         self._write_state(ClothState.RUNNING)
-        reason = too_many_pins(np.count_nonzero(simulation.pinned_nodes()))
+        reason = too_many_pins(int(np.count_nonzero(simulation.pinned_nodes())))
         self._has_wrenches = node_values['publish.wrenches'] and not reason
         self._has_pin_frames = node_values['publish.tf'] and not reason
         if reason and (node_values['publish.wrenches'] or node_values['publish.tf']):
@@ -96,6 +101,10 @@ class BatchRecording:
         """Write ``message`` of the topic ``key`` at ``sim_time`` [s], as a node's outlet does."""
         self._session.write(key, serialize_message(message), sim_time)
 
+    def send(self, key: str, serialise: Callable[[], bytes], sim_time: float) -> None:
+        """Write what ``serialise`` returns, of the topic ``key``, at ``sim_time`` [s]."""
+        self._session.write(key, serialise(), sim_time)
+
     def rewind(self) -> None:
         """Go on as simulated time is about to return to 0."""
         self._session.rewind(self._simulation.time)
@@ -118,9 +127,9 @@ class BatchRecording:
             self.close()
         finally:
             if is_whole and not self.problem:
-                print(
-                    f'cloth_sim {self._verb}: interrupted; the recording {self.path} is complete '
-                    f'up to {self._recorded:.6g} s', file=sys.stderr)
+                self._say(
+                    f'interrupted; the recording {self.path} is complete up to '
+                    f'{self._recorded:.6g} s')
 
     def _write_state(self, run_state: str) -> None:
         state = state_of(
@@ -131,7 +140,4 @@ class BatchRecording:
     def _on_lost(self, error: RecordingError) -> None:
         if not isinstance(error, RecordingFull):
             self.problem = str(error)
-        print(f'cloth_sim {self._verb}: {error}', file=sys.stderr)
-
-    def _say(self, reason: str) -> None:
-        print(f'cloth_sim {self._verb}: {reason}')
+        self._lost(error)
