@@ -7,18 +7,17 @@ from collections.abc import Iterable
 from collections.abc import Iterator
 from dataclasses import fields
 from dataclasses import is_dataclass
-import re
 from typing import Any
 
 from cloth_sim_ros.analysis.entry import Entry
 from cloth_sim_ros.analysis.frame import Frame
+from cloth_sim_ros.messages.pin_names import node_of_pin
 from cloth_sim_ros.sim.errors import ClothSimError
 import numpy as np
 
 _VECTORS = {
     'positions': ('x', 'y', 'z'), 'velocities': ('vx', 'vy', 'vz'),
     'normals': ('normal_x', 'normal_y', 'normal_z')}
-_PIN = re.compile(r'_pin_(\d+)_(\d+)$')
 
 
 def arrays_of(key: str, entries: Iterable[Entry]) -> dict[str, np.ndarray]:
@@ -71,9 +70,9 @@ def _values(message: Any, prefix: str = '') -> Iterator[tuple[str, Any]]:
         if name == 'stamp':
             continue
         if name == 'header':
-            pin = _PIN.search(value.frame_id)
-            if pin:
-                yield from (('row', int(pin[1])), ('col', int(pin[2])))
+            pin = node_of_pin(value.frame_id)
+            if pin is not None:
+                yield from zip(('row', 'col'), pin)
         elif isinstance(value, (bool, int, float, str)):
             yield name, value
         elif is_dataclass(value):

@@ -103,7 +103,7 @@ def _folder(args: Namespace) -> AbstractContextManager[str | None]:
 
 def _compare(run: RecordedRun, new: str, out: str | None) -> None:
     try:
-        analyze.main(Namespace(recordings=[str(run.path), new], node=run.node, out=out))
+        analyze.main(Namespace(recordings=[str(run.path), new], node=run.node, out=out, npz=False))
     except ClothSimError as error:
         print(error)
 
