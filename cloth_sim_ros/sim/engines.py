@@ -83,7 +83,7 @@ class Engines:
     def compile_all(self) -> None:
         """Compile all that the mode in use can need, not each part when it is first used."""
         self.context.make_current()
-        modes.finish(self.current.run_all_passes())
+        modes.finish(self.in_use.run_all_passes())
 
     def preparation(self, mode: str) -> Preparation:
         """Return what compiles the engine of ``mode`` on another thread."""

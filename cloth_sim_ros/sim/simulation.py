@@ -26,6 +26,7 @@ from cloth_sim_ros.sim.input_listener import RESET
 from cloth_sim_ros.sim.layout import choose_layout
 from cloth_sim_ros.sim.nearest import nearest
 from cloth_sim_ros.sim.nearest import NearNode
+from cloth_sim_ros.sim.pin_forces import PinForces
 from cloth_sim_ros.sim.pin_motion import PinMotion
 from cloth_sim_ros.sim.pin_move import PinMove
 from cloth_sim_ros.sim.pin_path import PinPath
@@ -98,6 +99,10 @@ class Simulation(RunStatus, AbstractContextManager['Simulation']):
     def pushes(self) -> tuple[AppliedPush, ...]:
         """Return the pushes that act or will act."""
         return self._pushes.applied
+
+    def warm_up(self) -> None:
+        """Compile all that the present mode can need, not each part when it is first used."""
+        self.engines.compile_all()
 
     def advance(self, seconds: float) -> int:
         """
@@ -321,6 +326,12 @@ class Simulation(RunStatus, AbstractContextManager['Simulation']):
             return with_forces(
                 snapshot, self.scene, engine.mode, self._pin_motion, every_edge=tension)
         return snapshot
+
+    def pin_forces(self) -> PinForces:
+        """Return what holds each pinned node now."""
+        forces = self.snapshot(pin_forces=True).pin_forces
+        assert forces is not None
+        return forces
 
     def finish(self) -> None:
         """Wait until the device has done everything asked of it; for timing."""

@@ -273,6 +273,14 @@ def test_velocities_are_those_of_the_snapshot(simulation: Simulation):
     np.testing.assert_allclose(velocities[0, 0], (0.0, 0.0, 0.25), atol=1e-6)
 
 
+def test_pin_forces_are_those_of_the_snapshot(simulation: Simulation):
+    """The short way would give the forces of another instant, or of other pins."""
+    simulation.step(20)
+    held, whole = simulation.pin_forces(), simulation.snapshot(pin_forces=True).pin_forces
+    assert held.nodes.tolist() == [[0, 0], [0, 6]]
+    np.testing.assert_array_equal(held.forces, whole.forces)
+
+
 class _Heard(InputListener):
     """Keeps what it hears of, and refuses a new state when it should."""
 
