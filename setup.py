@@ -45,6 +45,7 @@ setup(
     ],
     python_requires='>=3.10',
     install_requires=['setuptools'],
+    extras_require={'gym': ['gymnasium']},
     zip_safe=True,
     maintainer='cloth_sim_ros maintainers',
     maintainer_email='cloth_sim_ros@example.org',

@@ -35,6 +35,7 @@ ROOMS = {
     'study': {'recording', 'messages', 'sim', 'gl', 'reference', 'files'},
     'analysis': {'recording', 'messages', 'sim', 'gl', 'files'},
     'resimulation': {'analysis', 'recording', 'sim', 'files'},
+    'gym': {'sim'},
     'api': {'node', 'resimulation', 'analysis', 'recording', 'messages', 'sim'},
     'verb': {
         'api', 'node', 'study', 'resimulation', 'analysis', 'recording', 'messages', 'reference',
@@ -42,8 +43,8 @@ ROOMS = {
 }
 
 # These rooms must run where there is no ROS; they may import no more than this beside Python.
-WITHOUT_ROS = ('files', 'gl', 'sim', 'reference')
-NUMERIC_MODULES = {'numpy', 'scipy', 'OpenGL', 'yaml'}
+WITHOUT_ROS = ('files', 'gl', 'sim', 'reference', 'gym')
+NUMERIC_MODULES = {'numpy', 'scipy', 'OpenGL', 'yaml', 'gymnasium'}
 
 SOURCES = sorted(path for path in PACKAGE.rglob('*.py') if path.parent != PACKAGE)
 

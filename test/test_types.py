@@ -25,7 +25,8 @@ def test_the_public_modules_are_typed_throughout(tmp_path):
     """An editor or a type checker would tell users what is not so."""
     modules = {
         PACKAGE / f'{name.replace(".", "/")}.py' for name in cloth_sim_ros._MODULES.values()}
-    files = sorted({PACKAGE / '__init__.pyi', *modules, *PACKAGE.glob('api/*.py')})
+    files = sorted({PACKAGE / '__init__.pyi', *modules, *PACKAGE.glob('api/*.py'),
+                    *PACKAGE.glob('gym/*.py'), *ROOT.glob('examples/*.py')})
     said = check_types('--cache-dir', str(tmp_path), *map(str, files), cwd=ROOT)
     assert said.startswith('Success: no issues found'), said
 
