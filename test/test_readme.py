@@ -30,8 +30,9 @@ import pytest
 
 ROOT = Path(__file__).resolve().parents[1]
 README = (ROOT / 'README.md').read_text(encoding='utf-8')
-PAGES = [ROOT / 'README.md', ROOT / 'bags' / 'README.md', *sorted((ROOT / 'docs').glob('*.md'))]
+PAGES = [ROOT / 'README.md', ROOT / 'bags' / 'README.md', *sorted((ROOT / 'docs').rglob('*.md'))]
 COMMAND = re.compile(r'^ {4}(cloth_sim [^#\n]*)', re.MULTILINE)
+PICTURE = re.compile(r'!\[[^]]*\]\(([^)]+)\)')
 CONTINUED = re.compile(r'\\\n *')
 COMMANDS = sorted({
     command.strip() for page in PAGES
@@ -109,10 +110,12 @@ def test_links_lead_somewhere(page):
 def test_figures_are_shown_small_and_with_their_command(figure):
     """A figure would be in nobody's page, take long to load, or not be made again."""
     name = f'docs/figures/{figure.name}'
-    pages = ''.join(page.read_text(encoding='utf-8') for page in PAGES)
-    assert f'({name})' in pages or f'(figures/{figure.name})' in pages
+    pages = {page: page.read_text(encoding='utf-8') for page in PAGES}
+    assert any(
+        (page.parent / target).resolve() == figure
+        for page, text in pages.items() for target in PICTURE.findall(text))
     options = ('--out', '--sheet', '--figure')
-    assert any(f'{option} {name}' in pages for option in options)
+    assert any(f'{option} {name}' in text for text in pages.values() for option in options)
     assert figure.stat().st_size < 500_000
 
 

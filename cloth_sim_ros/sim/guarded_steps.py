@@ -36,7 +36,7 @@ from cloth_sim_ros.sim.state import State
 import numpy as np
 
 # Between two checks: the read-back of a check waits for the device, and what lies between is
-# stepped again when one fails (docs/performance.md).
+# stepped again when one fails (docs/notes/performance.md).
 _MOST_SUBSTEPS = 64
 
 

@@ -46,7 +46,7 @@ from cloth_sim_ros.sim.state import State
 from cloth_sim_ros.sim.stepping import Stepping
 import numpy as np
 
-# Below this many nodes llvmpipe is faster without its worker threads (docs/performance.md).
+# Below this many nodes llvmpipe is faster without its worker threads (docs/notes/performance.md).
 SINGLE_THREAD_NODES = 128 * 128
 
 

@@ -17,7 +17,7 @@ Map where a scene is stable, over dt and stiffness, and hold the edges to their 
 
 For each mode: the cloth at rest with one step a dt, whatever the limit, and the scene as it moves
 in the substeps that are chosen by themselves. Then edges found by bisection, over resolution,
-stiffness, damping, mass, pushes and solves. docs/stability.md says what counts as unstable.
+stiffness, damping, mass, pushes and solves. docs/notes/stability.md says what counts as unstable.
 
 For example:
   cloth_sim study stability config/drape.yaml --set rows=24 --set cols=24

@@ -16,7 +16,7 @@ r"""
 Make Fig. 10 and 11 of the paper: recordings, a table of their peaks, and a sheet of pictures.
 
 Each figure has its folder with a recording of each run. Some runs go beyond what is stable, as
-the paper's do; they end at their last finite state. docs/paper.md tells what is seen.
+the paper's do; they end at their last finite state. docs/notes/paper.md tells what is seen.
 
 For example:
   cloth_sim paper fig10 --sheet fig10.png

@@ -38,7 +38,7 @@ import numpy as np
 import pytest
 
 GRAVITY = (0.0, 0.0, -9.81)
-# The unit scene of docs/numerics.md, k = 1000 N/m.
+# The unit scene of docs/explanation/numerics.md, k = 1000 N/m.
 UNIT = {
     'stiffness.structural': 1000.0, 'stiffness.shear': 1000.0, 'stiffness.bend': 100.0,
     'damping.structural': 0.5, 'damping.shear': 0.5, 'damping.bend': 0.05,
