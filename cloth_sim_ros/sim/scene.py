@@ -191,7 +191,7 @@ def _hint(name: str, known: list[str]) -> str:
     # What is longer than what is shown is like nothing, which takes long to find.
     close = difflib.get_close_matches(name[:MOST_SHOWN], known + groups, n=1)
     if not close:
-        return 'see the parameter table in README.md'
+        return 'docs/reference/parameters.md lists them all'
     if close[0] in known:
         return f'did you mean {close[0]}?'
     *others, last = [each for each in known if each.startswith(f'{close[0]}.')]
