@@ -14,11 +14,11 @@
 
 
 """
-Analyse recordings: a table, and with --out CSV, JSON and plots.
+Analyse recordings: print a table and, with --out, write CSV, JSON and plots.
 
-Reads any bag of the node's topics: of this project or of ros2 bag record, mcap or sqlite3, also
-one that was cut off. With several, all others are compared with the first, at the simulated times
-at which both have a frame. Needs no node.
+Reads bags of this project and of ros2 bag record, mcap or sqlite3, even if they were truncated.
+With several bags, each is compared with the first one at the simulated times at which both have a
+frame. Needs no node.
 
 For example:
   cloth_sim analyze bags/cloth_2026_01_31-12_00_00
@@ -54,11 +54,11 @@ def add_arguments(parser: ArgumentParser) -> None:
     """Add the arguments of this verb."""
     parser.add_argument(
         'recordings', nargs='+', metavar='BAG',
-        help='folder of a recording, of this project or of ros2 bag, or its mcap or db3 file')
+        help='folder of a recording of this project or of ros2 bag, or its mcap or db3 file')
     add_node_argument(parser)
     parser.add_argument(
         '--out', metavar='DIR',
-        help='write CSV, JSON and plots into a folder for each recording in this one')
+        help='write CSV, JSON and plots into this directory, in one folder per recording')
 
 
 def main(args: Namespace) -> int:

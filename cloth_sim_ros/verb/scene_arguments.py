@@ -36,7 +36,7 @@ def add_scene_arguments(parser: ArgumentParser) -> None:
     """Add the scene file, --params and --set."""
     parser.add_argument('scene', metavar='SCENE.yaml', help='ROS parameter file of the scene')
     parser.add_argument('--params', action='append', default=[], metavar='PARAMS.yaml',
-                        help='parameters that go over those of the scene; can be given several '
+                        help='parameter file that overrides the scene; can be given several '
                              'times')
     parser.add_argument('--set', action='append', default=[], metavar='name=value', dest='changes',
                         help='change a parameter; can be given several times')
