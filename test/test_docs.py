@@ -4,6 +4,7 @@
 """The pages of docs become a web site without a warning."""
 
 from pathlib import Path
+import re
 import shutil
 import subprocess
 import sys
@@ -29,13 +30,15 @@ def copied(tmp_path) -> Path:
 
 
 def test_every_page_is_built(copied):
-    """The site would lack a page, or have a link or picture that leads nowhere."""
+    """The site would lack a page, show code as text, or have a link that leads nowhere."""
     done = build(copied)
     assert done.returncode == 0, done.stderr
     for page in (copied / 'docs').rglob('*.md'):
         name = page.relative_to(copied / 'docs').with_suffix('')
         place = name.parent if name.name == 'index' else name
-        assert (copied / 'site' / place / 'index.html').is_file()
+        html = (copied / 'site' / place / 'index.html').read_text(encoding='utf-8')
+        # A fence that Markdown did not take for one, as in a list.
+        assert not re.search('```|<p><code>(?:text|python|yaml|glsl)\n', html), page
 
 
 @pytest.mark.parametrize('mistake', [

@@ -13,10 +13,10 @@
 # limitations under the License.
 
 """
-Make the values of the parameter `preset` from a study of the trade on a scene.
+Derive the values of the parameter `preset` from a tradeoff study of a scene.
 
-Settings that step the springs as they are compete; a preset does not make another cloth of it.
-What each preset is chosen by stands in its file, with error and real-time factor.
+Only settings that keep the springs of the scene compete: a preset does not change the cloth. The
+file of each preset gives its criterion, error and real-time factor.
 
 For example:
   cloth_sim study presets config/drape.yaml
@@ -48,10 +48,10 @@ BUDGETS = {name: Budget(error=error) for name, error in zip(PRESETS, (1e-2, 1e-4
 def add_arguments(parser: ArgumentParser) -> None:
     """Add the arguments of this study."""
     parser.add_argument('--grid', metavar='GRID.yaml',
-                        help='settings that compete (default: those of config/studies/'
+                        help='settings to compare (default: those of config/studies/'
                              'tradeoff.yaml)')
     parser.add_argument('--write', metavar='DIR',
-                        help='where the presets are written (default: presets in --out)')
+                        help='folder for the presets (default: presets in --out)')
     add_run_arguments(parser, 'studies/tradeoff')
 
 

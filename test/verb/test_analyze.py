@@ -321,7 +321,7 @@ def test_bags_are_compared_with_the_first(tmp_path, capsys):
     assert main(['analyze', str(first), str(other), str(first), '--out', str(out)]) == 0
     shown = capsys.readouterr().out
     assert 'first_2 with first' in shown
-    assert 'every node is at the same place, bit for bit' in shown
+    assert 'all positions are equal, bit for bit' in shown
     far, same = json.loads((out / 'comparison.json').read_text())
     assert same['identical'] and same['matched_frames'] == 21
     assert far['rms_distance_at_most'] > 1e-3 and not far['identical']
