@@ -37,6 +37,7 @@ setup(
     name=PACKAGE,
     version='0.1.0',
     packages=find_packages(include=[PACKAGE, f'{PACKAGE}.*']),
+    package_data={PACKAGE: ['py.typed', '*.pyi']},
     data_files=[
         ('share/ament_index/resource_index/packages', [f'resource/{PACKAGE}']),
         (f'share/{PACKAGE}', ['package.xml']),
@@ -44,6 +45,7 @@ setup(
     ],
     python_requires='>=3.10',
     install_requires=['setuptools'],
+    extras_require={'gym': ['gymnasium']},
     zip_safe=True,
     maintainer='cloth_sim_ros maintainers',
     maintainer_email='cloth_sim_ros@example.org',

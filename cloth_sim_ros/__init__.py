@@ -1,15 +1,57 @@
-# Copyright 2026 the cloth_sim_ros authors
-#
-# Licensed under the Apache License, Version 2.0 (the "License");
-# you may not use this file except in compliance with the License.
-# You may obtain a copy of the License at
-#
-#     http://www.apache.org/licenses/LICENSE-2.0
-#
-# Unless required by applicable law or agreed to in writing, software
-# distributed under the License is distributed on an "AS IS" BASIS,
-# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
-# See the License for the specific language governing permissions and
-# limitations under the License.
+# SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
+# SPDX-License-Identifier: Apache-2.0
 
-"""Simulate a cloth on GLSL compute shaders and show it in ROS 2."""
+"""
+Simulate a cloth on GLSL compute shaders and show it in ROS 2.
+
+The names in ``__all__`` are the Python API, which docs/how_to/python_api.md shows in use. Each is
+imported when it is first used: without ROS, all but SimulationRecorder work.
+"""
+
+from importlib import import_module
+
+# The types of these names are in __init__.pyi.
+_MODULES = {
+    'AppliedPush': 'sim.push_field',
+    'ClothSimError': 'sim.errors',
+    'DeviceError': 'gl.errors',
+    'Difference': 'resimulation.frame_check',
+    'Entry': 'analysis.entry',
+    'FrameCheck': 'resimulation.frame_check',
+    'Measures': 'sim.snapshot',
+    'NearNode': 'sim.near_node',
+    'NonFiniteStateError': 'sim.errors',
+    'PinForces': 'sim.pin_forces',
+    'PinMove': 'sim.pin_move',
+    'PinPath': 'sim.pin_path',
+    'Push': 'sim.push',
+    'Recording': 'analysis.recording',
+    'RecordingError': 'recording.recording_error',
+    'Scene': 'sim.scene',
+    'Simulation': 'sim.simulation',
+    'SimulationRecorder': 'api.simulation_recorder',
+    'Snapshot': 'sim.snapshot',
+    'Verdict': 'resimulation.verdict',
+    'load_scene': 'api.scene_file',
+    'resimulate': 'api.resimulate',
+}
+
+__all__ = tuple(_MODULES)
+
+
+def __getattr__(name: str) -> object:
+    """Import a name of the API when it is first used (PEP 562)."""
+    if name not in _MODULES:
+        raise AttributeError(f'module {__name__!r} has no attribute {name!r}')
+    try:
+        value = getattr(import_module(f'{__name__}.{_MODULES[name]}'), name)
+    except ImportError as error:
+        from cloth_sim_ros.node.missing_module import way_out
+        raise ImportError(f'{name} cannot be used: {way_out(error)}', name=error.name) from error
+    globals()[name] = value
+    return value
+
+
+def __dir__() -> list[str]:
+    """Return the names of the API with those that are here already."""
+    return sorted({*globals(), *__all__})

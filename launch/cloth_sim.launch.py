@@ -103,13 +103,13 @@ def generate_launch_description() -> LaunchDescription:
     return LaunchDescription([
         DeclareLaunchArgument(
             'params_file', default_value=shipped('drape.yaml'),
-            description='parameters of the scene and the node, as ROS parameter YAML'),
+            description='ROS parameter file of the scene and the node'),
         DeclareLaunchArgument(
             'mode', default_value=AS_IN_FILE,
-            description='how the cloth is advanced; without it, as params_file says'),
+            description='simulation mode (default: as in params_file)'),
         DeclareLaunchArgument(
             'recording', default_value=AS_IN_FILE, choices=[AS_IN_FILE, 'true', 'false'],
-            description='record from the start; without it, as params_file says'),
+            description='record from the start (default: as in params_file)'),
         DeclareLaunchArgument(
             'rviz', default_value='false', choices=['true', 'false'],
             description='show the cloth in RViz'),
@@ -118,10 +118,10 @@ def generate_launch_description() -> LaunchDescription:
         # The actions below take these two by their names.
         DeclareLaunchArgument(
             'sigterm_timeout', default_value='30',
-            description='time [s] for the node to close its recording, from SIGINT to SIGTERM'),
+            description='seconds from SIGINT, at which the node closes its recording, to SIGTERM'),
         DeclareLaunchArgument(
             'sigkill_timeout', default_value='60',
-            description='time [s] from SIGTERM to SIGKILL, which cuts a recording off'),
+            description='seconds from SIGTERM to SIGKILL, which truncates a recording'),
         # First, so that nothing has been started when it is missing.
         OpaqueFunction(function=rviz),
         OpaqueFunction(function=simulator),

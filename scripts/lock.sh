@@ -43,6 +43,8 @@ lock() {
 }
 
 lock run.txt ros.in build.in runtime.in "$@"
-# The same versions, and those of the tests.
-lock test.txt ros.in build.in runtime.in test.in --constraints run.txt "$@"
+# The same versions, and those of the live view and of the tests.
+lock view.txt view.in --constraints run.txt "$@"
+lock test.txt ros.in build.in runtime.in view.in test.in --constraints run.txt \
+  --constraints view.txt "$@"
 lock sourced_ros.txt sourced_ros.in --constraints ubuntu-24.04.txt "$@"

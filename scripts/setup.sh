@@ -17,7 +17,9 @@
 # Running it again does only what has changed; without a change it needs no network.
 #
 #   scripts/setup.sh           what the node, the commands and the demo need
-#   scripts/setup.sh --tests   what the tests need as well
+#   scripts/setup.sh --view    what `cloth_sim view` needs as well
+#   scripts/setup.sh --tests   what the tests need as well, the view too
+#   scripts/setup.sh --long    what the long tests need as well: Chromium
 
 set -euo pipefail
 
@@ -32,11 +34,13 @@ for part in progress counts one_at_a_time other_ros find_python system_packages 
   . "$root/scripts/setup/$part.sh"
 done
 
-with_tests=no
+with_view=no with_tests=no with_browser=no
 case "$*" in
   '') ;;
+  --view) with_view=yes ;;
   --tests) with_tests=yes ;;
-  *) stop "unknown argument: $*: give --tests or nothing" ;;
+  --long) with_tests=yes with_browser=yes ;;
+  *) stop "unknown argument: $*: give --view, --tests, --long or nothing" ;;
 esac
 
 one_at_a_time
@@ -45,6 +49,7 @@ leave_other_ros "$ros_source"
 install_system_packages
 make_venv
 install_python_packages
+install_view_packages
 build_interfaces
 install_project
 compile_shaders

@@ -22,7 +22,10 @@
 set -euo pipefail
 
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
-scripts/setup.sh --tests
+case " $* " in
+  *' --long '*) scripts/setup.sh --long ;;
+  *) scripts/setup.sh --tests ;;
+esac
 . scripts/env.sh
 # Files stay together: their tests share nodes and simulations.
 [ $# -gt 0 ] || set -- --numprocesses=auto --maxprocesses=4 --dist=loadfile

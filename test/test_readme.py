@@ -13,9 +13,10 @@
 # limitations under the License.
 
 
-"""What README.md says is so."""
+"""What README.md and the pages of docs say is so."""
 
 from argparse import ArgumentParser
+import ast
 from importlib import import_module
 from pathlib import Path
 import re
@@ -23,68 +24,104 @@ import shlex
 import subprocess
 import sys
 
+from cloth_sim_ros.messages.requests import SERVICES
+from cloth_sim_ros.messages.requests import SUBSCRIPTIONS
 from cloth_sim_ros.messages.topics import TOPICS
 from cloth_sim_ros.node.missing_module import BUILD_COMMAND
 from cloth_sim_ros.verb.main import VERBS
 import pytest
 
 ROOT = Path(__file__).resolve().parents[1]
-README = (ROOT / 'README.md').read_text(encoding='utf-8')
-PAGES = [ROOT / 'README.md', ROOT / 'bags' / 'README.md', *sorted((ROOT / 'docs').glob('*.md'))]
+DOCS = ROOT / 'docs'
+PAGES = [ROOT / 'README.md', ROOT / 'bags' / 'README.md', *sorted(DOCS.rglob('*.md'))]
+MOST_LINES = 120
 COMMAND = re.compile(r'^ {4}(cloth_sim [^#\n]*)', re.MULTILINE)
+PICTURE = re.compile(r'!\[[^]]*\]\(([^)]+)\)')
 CONTINUED = re.compile(r'\\\n *')
 COMMANDS = sorted({
     command.strip() for page in PAGES
     for command in COMMAND.findall(CONTINUED.sub(' ', page.read_text(encoding='utf-8')))})
+# A program and what it prints.
+PROGRAM = re.compile(
+    r'```python\n((?:(?!```).)*)```\n\nprints\n\n```text\n(.*?)```', re.DOTALL)
+PROGRAMS = [
+    pytest.param(*found, id=f'{page.relative_to(ROOT)}-{number}')
+    for page in PAGES if page != ROOT / 'bags' / 'README.md'
+    for number, found in enumerate(PROGRAM.findall(page.read_text(encoding='utf-8')))]
+NUMBER = re.compile(r'-?\d+(?:\.\d+)?')
+CODE = re.compile(r'```python\n(.*?)```', re.DOTALL)
 
 
-def rows(heading):
-    """Return the cells of the table below a heading, without the header."""
-    lines = README.partition(f'\n## {heading}\n')[2].partition('\n## ')[0].splitlines()
+def reference(name):
+    """Return the text of a generated page."""
+    return (DOCS / 'reference' / f'{name}.md').read_text(encoding='utf-8')
+
+
+def rows(text, heading):
+    """Return the cells of the first table below a heading, without the header."""
+    lines = text.partition(f'{heading}\n')[2].partition('\n#')[0].splitlines()
     table = [line.strip('| ').split(' | ') for line in lines if line.startswith('| `')]
     return [[cell.strip('`') for cell in row] for row in table]
 
 
-def test_parameters_are_those_of_the_code():
-    """The tables would lack a parameter, or tell an old default."""
+def test_the_readme_is_short():
+    """A newcomer would have to search for the first steps."""
+    assert len((ROOT / 'README.md').read_text(encoding='utf-8').splitlines()) <= MOST_LINES
+
+
+def test_reference_pages_are_those_of_the_code():
+    """The pages would lack a parameter, topic, service or verb, or have an old default."""
     done = subprocess.run(
-        [sys.executable, ROOT / 'scripts' / 'readme_tables.py', '--check'],
+        [sys.executable, ROOT / 'scripts' / 'reference_pages.py', '--check'],
         capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
 
 
 def test_topics_are_those_of_the_code():
-    """The table would lack a topic, or give another type."""
-    assert {row[0]: row[1] for row in rows('Topics')} == {
+    """The page would lack a topic, or give another type."""
+    assert {row[0]: row[1] for row in rows(reference('topics'), '## Published')} == {
         topic.name: topic.type_name for topic in TOPICS.values()}
 
 
 def test_services_are_those_of_the_code():
-    """The table would lack a service, or give another type."""
+    """The page would lack a service, or give another type."""
     made = re.compile(r"(?:create_service\(|serve_later\(\w+, )(\w+), '(~/\w+)'")
-    served = {
+    listed = rows(reference('services'), '# Services')
+    assert {row[0]: row[1].rpartition('/')[2] for row in listed} == created(made)
+    assert {service.name for service in SERVICES} == set(created(made))
+
+
+def test_subscriptions_are_those_of_the_code():
+    """The page would lack a topic that the node listens to, or give another type."""
+    made = re.compile(r"create_subscription\((\w+), '([~/\w]+)'")
+    listed = rows(reference('topics'), '## Subscribed')
+    assert {row[0]: row[1].rpartition('/')[2] for row in listed} == created(made)
+    assert {topic.name for topic in SUBSCRIPTIONS} == set(created(made))
+
+
+def created(made):
+    """Return types by name of what the sources of the node make, found by an expression."""
+    return {
         name: kind for path in (ROOT / 'cloth_sim_ros' / 'node').glob('*.py')
         for kind, name in made.findall(path.read_text(encoding='utf-8'))}
-    assert {row[0]: row[1].rpartition('/')[2] for row in rows('Services')} == served
 
 
-def test_every_verb_is_told():
+def test_every_verb_has_a_section():
     """A user would not learn of a verb."""
-    told = {word for row in rows("With the project's own environment")
-            for word in re.findall(r'cloth_sim (\w+)', row[0])}
-    assert told == set(VERBS)
+    assert re.findall(r'^## cloth_sim (\w+)$', reference('verbs'), re.MULTILINE) == list(VERBS)
 
 
 def test_launch_arguments_are_those_of_the_launch_file():
     """An argument would be missing, or not work."""
     text = (ROOT / 'launch' / 'cloth_sim.launch.py').read_text(encoding='utf-8')
     declared = re.findall(r"DeclareLaunchArgument\(\s*'(\w+)'", text)
-    assert [row[0] for row in rows('In a ROS 2 workspace')] == declared
+    assert [row[0] for row in rows(reference('launch'), '# Launch file')] == declared
 
 
-def test_the_workspace_command_is_the_one_the_node_tells():
-    """Two commands would be told for one thing, and one of them never tried."""
-    assert f'\n    {BUILD_COMMAND}\n' in README
+def test_the_workspace_command_is_the_one_the_node_gives():
+    """There would be two commands for one thing, and one of them never tried."""
+    page = (DOCS / 'tutorial' / 'install.md').read_text(encoding='utf-8')
+    assert f'\n    {BUILD_COMMAND}\n' in page
 
 
 @pytest.mark.parametrize('command', COMMANDS)
@@ -94,7 +131,37 @@ def test_commands_can_be_typed_as_they_stand(command):
     verb = import_module(f'cloth_sim_ros.verb.{name}')
     parser = ArgumentParser()
     verb.add_arguments(parser)
-    parser.parse_args(arguments)
+    if '--help' in arguments:
+        with pytest.raises(SystemExit, match='^0$'):
+            parser.parse_args(arguments)
+    else:
+        parser.parse_args(arguments)
+
+
+@pytest.mark.parametrize(('program', 'printed'), PROGRAMS)
+def test_programs_print_what_the_page_shows(program, printed):
+    """A program of the pages would fail, or print something else."""
+    done = subprocess.run(
+        [sys.executable, '-c', program], cwd=ROOT, capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    for shown, real in zip(NUMBER.findall(printed), NUMBER.findall(done.stdout), strict=True):
+        assert float(real) == pytest.approx(float(shown), rel=0.02, abs=0.02)
+    assert words(done.stdout) == words(printed)
+
+
+def words(text):
+    """Return what is not a number: devices round differently."""
+    return NUMBER.sub('', text).split()
+
+
+def test_programs_import_what_exists():
+    """A program that is only shown would begin with an import that fails."""
+    for page in PAGES:
+        for program in CODE.findall(page.read_text(encoding='utf-8')):
+            for node in ast.walk(ast.parse(program)):
+                if isinstance(node, ast.ImportFrom):
+                    module = import_module(node.module)
+                    assert all(hasattr(module, name.name) for name in node.names), node.module
 
 
 @pytest.mark.parametrize('page', PAGES, ids=lambda page: str(page.relative_to(ROOT)))
@@ -109,16 +176,19 @@ def test_links_lead_somewhere(page):
 def test_figures_are_shown_small_and_with_their_command(figure):
     """A figure would be in nobody's page, take long to load, or not be made again."""
     name = f'docs/figures/{figure.name}'
-    pages = ''.join(page.read_text(encoding='utf-8') for page in PAGES)
-    assert f'({name})' in pages or f'(figures/{figure.name})' in pages
+    pages = {page: page.read_text(encoding='utf-8') for page in PAGES}
+    assert any(
+        (page.parent / target).resolve() == figure
+        for page, text in pages.items() for target in PICTURE.findall(text))
     options = ('--out', '--sheet', '--figure')
-    assert any(f'{option} {name}' in pages for option in options)
+    assert any(f'{option} {name}' in text for text in pages.values() for option in options)
     assert figure.stat().st_size < 500_000
 
 
 @pytest.mark.parametrize(
     'scene', sorted([*(ROOT / 'config').glob('*.yaml'), *(ROOT / 'config' / 'paper').glob('*')]),
     ids=lambda p: p.name)
-def test_every_scene_is_told(scene):
+def test_every_scene_has_an_entry(scene):
     """A user would not learn of a scene."""
-    assert f'`{scene.relative_to(ROOT)}`' in README
+    assert [row for row in rows(reference('scenes'), '# Scenes')
+            if row[0] == str(scene.relative_to(ROOT))]

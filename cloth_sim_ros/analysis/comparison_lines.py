@@ -21,15 +21,15 @@ import numpy as np
 
 
 def comparison_lines(comparison: Comparison) -> dict[str, str]:
-    """Return what to tell of a comparison, by the name of each part."""
+    """Return the lines of a comparison by their names."""
     lines = {
-        'compared': f'{comparison.second} with {comparison.first}, at the times both have',
+        'compared': f'{comparison.second} with {comparison.first}, at their common times',
         'matched': f'{len(comparison.times)} frames from {comparison.times[0]:.6g} to '
                    f'{comparison.times[-1]:.6g} s; {comparison.unmatched[0]} and '
-                   f'{comparison.unmatched[1]} more are in one of them alone',
+                   f'{comparison.unmatched[1]} are in one of them only',
     }
     if comparison.identical:
-        lines['node distance'] = 'none: every node is at the same place, bit for bit'
+        lines['node distance'] = 'none: all positions are equal, bit for bit'
     else:
         lines['node distance'] = _line(comparison.rms_distance, ' m', 'RMS')
     lines['max strain'] = _line(comparison.strain_difference, '', 'difference')
@@ -40,6 +40,6 @@ def comparison_lines(comparison: Comparison) -> dict[str, str]:
 def _line(series: np.ndarray, unit: str, what: str) -> str:
     told = series[np.isfinite(series)]
     if not len(told):
-        return 'unknown: one of them has not recorded it'
+        return 'unknown: not in both recordings'
     most = told[np.argmax(np.abs(told))]
-    return f'{what} {figure(told[-1])}{unit} at the end, {figure(most)}{unit} at the most'
+    return f'{what} {figure(told[-1])}{unit} at the end, peak {figure(most)}{unit}'

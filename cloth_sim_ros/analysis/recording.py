@@ -17,12 +17,13 @@
 
 from collections.abc import Iterable
 from collections.abc import Iterator
-from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 from typing import Any
 
+from cloth_sim_ros.analysis.entry import Entry
 from cloth_sim_ros.analysis.message_check import check_message
+from cloth_sim_ros.analysis.recorded_arrays import arrays_of
 from cloth_sim_ros.analysis.recorded_node import find_node
 from cloth_sim_ros.analysis.recorded_node import TYPES
 from cloth_sim_ros.analysis.steady_time import SteadyTime
@@ -32,23 +33,7 @@ from cloth_sim_ros.recording.bag_topic import BagTopic
 from cloth_sim_ros.recording.bag_topic import RawMessage
 from cloth_sim_ros.recording.cut_off import nothing_flushed
 from cloth_sim_ros.sim.errors import ClothSimError
-
-
-@dataclass(frozen=True)
-class Entry:
-    """
-    One message of a recording.
-
-    :param key: the topic behind the name of the node, such as points or inputs/push
-    :param time: [s] simulated, going on where a reset put the clock back
-    :param message: decoded
-    :param resets: of the run, seen before it
-    """
-
-    key: str
-    time: float
-    message: Any
-    resets: int = 0
+import numpy as np
 
 
 class Recording:
@@ -124,6 +109,25 @@ class Recording:
                 time.read(message.header.stamp, raw.topic)
             if key in keys:
                 yield Entry(key, time.now, message, time.resets)
+
+    def arrays(self, key: str) -> dict[str, np.ndarray]:
+        """
+        Return all messages of the topic ``key`` as arrays, the first axis of which is the message.
+
+        All have ``time`` [s], simulated and going on where a reset put the clock back, and
+        ``resets`` before the message. ``points`` has positions [m], velocities [m/s] and normals,
+        (frames, rows, cols, 3), strain and flags, (frames, rows, cols), of the type recorded.
+        ``stats`` has a column for each figure of ClothStats. ``pins/wrenches`` has row, col and
+        ``wrench.force`` [N], (messages, 3). Others have a column for each number, text or vector
+        of their messages.
+
+        :raises ClothSimError: when the recording has no such topic, or a message makes no sense
+        """
+        if key not in self.keys():
+            raise ClothSimError(
+                f'{cut(self.path)} holds no topic {cut(key)} of the node {self.node}: choose one '
+                f'of {", ".join(sorted(self.keys()))}')
+        return arrays_of(key, self.entries(key))
 
     def raw_messages(self) -> Iterator[RawMessage]:
         """Yield all messages of all topics as they were recorded, of other nodes too."""

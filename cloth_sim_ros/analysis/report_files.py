@@ -27,7 +27,7 @@ from pathlib import Path
 from typing import Any
 
 from cloth_sim_ros.analysis.comparison import Comparison
-from cloth_sim_ros.analysis.frame_table import COLUMNS
+from cloth_sim_ros.analysis.recording import Recording
 from cloth_sim_ros.analysis.run import Run
 from cloth_sim_ros.analysis.strain_plot import strain_histogram
 from cloth_sim_ros.analysis.summary import Summary
@@ -59,7 +59,7 @@ def make_folder(path: str | os.PathLike[str]) -> Path:
 
 def write_frames(run: Run, path: Path) -> None:
     """Write a row for each frame; a cell is empty where the recording says nothing."""
-    names = [name for name in COLUMNS if run.has(name)]
+    names = [name for name in run.columns if run.has(name)]
     cells = [_cells(name, run.columns[name]) for name in names]
     modes = (run.modes.at(time) for time in run.columns['time'])
     write_csv(path, [*names, 'mode'], zip(*cells, modes))
@@ -98,6 +98,16 @@ def comparison_values(comparison: Comparison) -> dict[str, Any]:
         values[f'{name}_at_most'] = (
             told[np.argmax(np.abs(told))] if len(told) else math.nan)
     return values
+
+
+def write_points(recording: Recording, path: Path) -> None:
+    """Write the arrays of ~/points, all frames, as an npz file; ClothSimError without points."""
+    arrays = recording.arrays('points')
+    try:
+        with open(path, 'wb') as file:
+            np.savez(file, **arrays)
+    except OSError as error:
+        raise _no_file(path, error) from error
 
 
 def write_json(values: Any, path: Path) -> None:

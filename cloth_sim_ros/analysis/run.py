@@ -25,6 +25,8 @@ from cloth_sim_ros.analysis.frame_table import FrameTable
 from cloth_sim_ros.analysis.frame_table import STATS
 from cloth_sim_ros.analysis.mode_history import KEYS as MODE_KEYS
 from cloth_sim_ros.analysis.mode_history import ModeHistory
+from cloth_sim_ros.analysis.pin_columns import KEY as WRENCHES
+from cloth_sim_ros.analysis.pin_columns import PinColumns
 from cloth_sim_ros.analysis.push_history import KEYS as PUSH_KEYS
 from cloth_sim_ros.analysis.push_history import PushHistory
 from cloth_sim_ros.analysis.recording import Entry
@@ -36,7 +38,7 @@ import numpy as np
 # ClothState.STOPPED: a recording is read without the interfaces.
 _STOPPED = 'stopped'
 _FIGURES = ('points', 'stats')
-KEYS = (*_FIGURES, 'state', 'inputs/mode', 'inputs/pin', *PUSH_KEYS)
+KEYS = (*_FIGURES, WRENCHES, 'state', 'inputs/mode', 'inputs/pin', *PUSH_KEYS)
 
 # Without a message on another topic nothing was done to the cloth.
 _TELLING = (*_FIGURES, 'state', 'inputs/mode')
@@ -75,11 +77,13 @@ class Run:
         self._pushes = PushHistory()
         self._modes = ModeHistory()
         self._table = FrameTable()
+        self._pins = PinColumns()
         for entry in watch(recording.entries(*KEYS), recording.count(*KEYS)):
             self._read(entry)
         if not len(self._table):
             raise ClothSimError(self._unusable) if self._unusable else recording.no_frame()
         self.columns = self._table.columns()
+        self.columns.update(self._pins.columns(self.columns))
         self.is_whole = not recording.problems
         self.problems = [*recording.problems, *self._said()]
 
@@ -103,6 +107,8 @@ class Run:
             self._read_points(entry)
         elif key == 'stats':
             self._read_stats(entry)
+        elif key == WRENCHES:
+            self._pins.read(entry)
         elif key in PUSH_KEYS:
             self.counts['pushes'] += key == 'inputs/push'
             self.counts['resets'] += getattr(message, 'command', '') == 'reset'

@@ -17,6 +17,8 @@
 
 from collections.abc import Iterator
 
+from cloth_sim_ros.analysis.pin_columns import LARGEST
+from cloth_sim_ros.analysis.pin_columns import SUM
 from cloth_sim_ros.analysis.run import Run
 from cloth_sim_ros.analysis.strain_plot import strain_histogram_plot
 from cloth_sim_ros.analysis.time_plot import Line
@@ -34,6 +36,10 @@ _PLOTS = {
         Panel('strain [%]', (
             Line('max_strain', 'largest of all springs', 100.0),
             Line('mean_strain', 'mean of the nodes', 100.0))),)),
+    'pin_forces': ('Forces of the cloth on what holds it', (
+        Panel('sum of all pins [N]', tuple(
+            Line(name, axis) for name, axis in zip(SUM, 'xyz'))),
+        Panel('largest of a pin [N]', (Line(LARGEST, 'largest'),)))),
     'constraints': ('Edges at their strain limit', (
         Panel('active constraints', (Line('active_constraints', 'active'),)),
         Panel('switches in the last step', (Line('constraint_switches', 'switches'),)))),

@@ -24,31 +24,31 @@ _MOST_SHOWN = 4
 
 
 def summary_lines(summary: Summary) -> dict[str, str]:
-    """Return what to tell of a recording, by the name of each part."""
+    """Return the lines of a recording by their names."""
     lines = {
         'cloth': f'{summary.rows} x {summary.cols} nodes' if summary.rows else 'not recorded',
         'mode': ', '.join(summary.modes) or 'not recorded',
         'device': summary.device or 'not recorded',
         'time': f'{summary.begin:.6g} to {summary.end:.6g} s, {summary.frames} frames',
         'dt': f'{figure(summary.dt, ".6g")} s in {figure(summary.substeps, ".6g")} substeps',
-        'real-time factor': f'{summary.real_time_factor:.3g}, median of the frames that ran',
-        'step time': f'{figure(1e3 * summary.step_wall_time)} ms for a step of dt, median',
-        'done to the cloth': f'{summary.pushes} pushes, {summary.releases} nodes released, '
-                             f'{summary.pins} pinned, {summary.resets} resets',
+        'real-time factor': f'{summary.real_time_factor:.3g}, median while running',
+        'step time': f'{figure(1e3 * summary.step_wall_time)} ms per time step, median',
+        'inputs': f'pushes: {summary.pushes}, nodes released: {summary.releases}, '
+                  f'pinned: {summary.pins}, resets: {summary.resets}',
         'max strain': f'{figure(summary.last_strain)} at the end, '
-                      f'{figure(summary.largest_strain)} at the most',
-        'mean strain': f'{figure(summary.mean_strain)}, of all nodes and frames',
+                      f'peak {figure(summary.largest_strain)}',
+        'mean strain': f'{figure(summary.mean_strain)}, over all nodes and frames',
         'kinetic energy': f'{figure(summary.last_kinetic_energy)} J at the end, '
-                          f'{figure(summary.largest_kinetic_energy)} J at the most',
-        'total energy': f'{figure(summary.first_energy, ".4g")} J at first, '
+                          f'peak {figure(summary.largest_kinetic_energy)} J',
+        'total energy': f'{figure(summary.first_energy, ".4g")} J at the start, '
                         f'{figure(summary.last_energy, ".4g")} J at the end',
     }
     if summary.solver_iterations > 0:
         lines['solver'] = (
-            f'{summary.solver_iterations:.0f} iterations at the most, worst residual '
-            f'{summary.solver_residual:.3g}, {summary.solver_missed} frames above the one asked')
+            f'at most {summary.solver_iterations:.0f} iterations, worst residual '
+            f'{summary.solver_residual:.3g}, {summary.solver_missed} frames above the tolerance')
     if summary.most_active > 0:
-        lines['constraints'] = f'{summary.most_active:.0f} active at the most'
+        lines['constraints'] = f'at most {summary.most_active:.0f} active'
     if summary.switches:
         lines['mode switches'] = _listed([
             f'{mode} at {time:.6g} s' for time, _, mode in summary.switches])
@@ -56,7 +56,7 @@ def summary_lines(summary: Summary) -> dict[str, str]:
         lines['gaps'] = _listed([f'{begin:.6g} to {end:.6g} s' for begin, end in summary.gaps])
     if summary.missing:
         lines['not recorded'] = ', '.join(summary.missing)
-    lines['state'] = 'finite' if summary.finite else 'broke off: no longer finite'
+    lines['state'] = 'finite' if summary.finite else 'became non-finite'
     if summary.problems:
         lines['problems'] = '; '.join(summary.problems)
     return lines

@@ -105,7 +105,7 @@ def _draw(axes: Axes, run: Run, panel: Panel) -> None:
         if line.above_zero or panel.scale == 'log':
             values = np.where(values > 0.0, values, np.nan)
         shown.append(values)
-        times, values = _with_breaks(run, values)
+        times, values = with_breaks(run, values)
         # A single line is named by its axis.
         label = line.label if len(panel.lines) > 1 else None
         axes.plot(times, values, color=COLORS[number], linewidth=1.3, label=label)
@@ -140,7 +140,7 @@ def _log10(value: float) -> float:
     return math.log10(value) if value > 0.0 else 0.0
 
 
-def _with_breaks(run: Run, values: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def with_breaks(run: Run, values: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Return times and values to draw: nothing is drawn across gaps and resets."""
     times, resets = run.columns['time'], run.columns['resets']
     # Moments that say nothing of this value are no gaps in it.

@@ -77,7 +77,9 @@ class Context:
         self.max_texture_texels = _integer(GL.GL_MAX_TEXTURE_BUFFER_SIZE)
 
     def make_current(self) -> None:
-        """Direct the GL calls of this thread to this context."""
+        """Direct the GL calls of this thread to this context; DeviceError once it is closed."""
+        if self._context is None:
+            raise DeviceError('the GL context is closed: make a new one, with a new Simulation')
         if not EGL.eglMakeCurrent(
                 self._display, EGL.EGL_NO_SURFACE, EGL.EGL_NO_SURFACE, self._context):
             raise DeviceError('the GL context cannot be used on this thread: use it where it '

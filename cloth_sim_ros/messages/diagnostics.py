@@ -101,7 +101,7 @@ def _solver(snapshot: Snapshot) -> tuple[bytes, str, dict]:
         'mode': snapshot.mode,
         'iterations': int(snapshot.solver_iterations),
         'residual': float(snapshot.solver_residual),
-        'reached what was asked for': bool(snapshot.solver_reached),
+        'tolerance reached': bool(snapshot.solver_reached),
         'active constraints': int(snapshot.active_constraints),
     }
     if snapshot.solver_iterations == 0:
@@ -109,11 +109,11 @@ def _solver(snapshot: Snapshot) -> tuple[bytes, str, dict]:
     text = f'residual {snapshot.solver_residual:.2g} in {snapshot.solver_iterations} iterations'
     if not snapshot.solver_reached:
         return WARN, (
-            f'{text} is not what was asked for: raise solver.max_iterations, or take a shorter '
+            f'{text}, above solver.tolerance: raise solver.max_iterations, or use a shorter '
             'dt'), values
     # Written so that a residual that is not a number warns.
     if not snapshot.solver_residual <= LOOSE_RESIDUAL:
-        return WARN, f'{text} is above {LOOSE_RESIDUAL:g}: take a shorter dt', values
+        return WARN, f'{text} is above {LOOSE_RESIDUAL:g}: use a shorter dt', values
     return OK, text, values
 
 
@@ -139,7 +139,7 @@ def _stability(snapshot: Snapshot, problem: str) -> tuple[bytes, str, dict]:
     if margin > 1.0:
         return ERROR, f'{text}: take a shorter dt, or auto_substeps: true', values
     if margin > SAFE_MARGIN + 1e-3:
-        return WARN, f'{text}, above the safe {SAFE_MARGIN}: take a shorter dt', values
+        return WARN, f'{text}, above the safe {SAFE_MARGIN}: use a shorter dt', values
     return OK, text, values
 
 
@@ -155,7 +155,7 @@ def _pins(snapshot: Snapshot) -> tuple[bytes, str, dict]:
 def _turns(margin: float, values: dict) -> tuple[bytes, str, dict]:
     text = f'edges turn by {margin**2:.3g} of what is exact in a substep'
     if margin > 1.0 + 1e-3:
-        return WARN, f'{text}: raise constraint.max_substeps, or take a shorter dt', values
+        return WARN, f'{text}: raise constraint.max_substeps, or use a shorter dt', values
     return OK, text, values
 
 

@@ -17,6 +17,7 @@
 
 import struct
 
+from cloth_sim_ros.messages.pin_names import pin_frame
 from cloth_sim_ros.messages.stamp import stamp
 from cloth_sim_ros.sim.snapshot import FLAG_PINNED
 from cloth_sim_ros.sim.snapshot import Snapshot
@@ -33,11 +34,6 @@ _FIRST_STAMP_AT = 8  # behind the encapsulation and the length of the list
 _PLACE = struct.Struct('<3d')
 _ROTATION = struct.calcsize('<4d')
 _MARK = (1.25, -2.5, 5e300)  # stands for the place when looking for its bytes
-
-
-def pin_frame(node_name: str, row: int, col: int) -> str:
-    """Return the name of a pin's frame; names of frames have no slashes, unlike those of nodes."""
-    return f'{node_name.strip("/").replace("/", "_")}_pin_{row}_{col}'
 
 
 class PinFrames:

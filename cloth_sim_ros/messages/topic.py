@@ -29,6 +29,7 @@ class Topic:
     :param transient_local: True to keep the last ``depth`` for late subscribers
     :param is_global: True for a name that does not depend on the node
     :param recorded: False for what a recording leaves out
+    :param text: one line for people
     """
 
     key: str
@@ -38,6 +39,7 @@ class Topic:
     transient_local: bool = False
     is_global: bool = False
     recorded: bool = True
+    text: str = ''
 
     @property
     def name(self) -> str:

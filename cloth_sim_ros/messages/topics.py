@@ -35,21 +35,31 @@ from visualization_msgs.msg import MarkerArray
 # Markers are drawn from the points, at many times their size: a recording keeps the points.
 TOPICS = {
     topic.key: topic for topic in (
-        Topic('points', PointCloud2, depth=10),
-        Topic('markers', MarkerArray, depth=1, recorded=False),
-        Topic('topology', Mesh, depth=1, transient_local=True),
-        Topic('stats', ClothStats, depth=10),
+        Topic('points', PointCloud2, depth=10, text='one point per node, organised as rows and '
+              'columns: position, velocity, normal, strain, flags'),
+        Topic('markers', MarkerArray, depth=1, recorded=False, text='the surface coloured by '
+              'strain, pins, nodes at their strain limit, pushes'),
+        Topic('topology', Mesh, depth=1, transient_local=True, text='the cloth at rest as a '
+              'triangle mesh'),
+        Topic('stats', ClothStats, depth=10, text='energies, largest strain, solver, constraints '
+              'and pace as plain numbers to plot'),
         # A message a pin: a whole frame of them must have room.
-        Topic('pins/wrenches', WrenchStamped, depth=MOST_PINS),
-        Topic('state', ClothState, depth=1, transient_local=True),
+        Topic('pins/wrenches', WrenchStamped, depth=MOST_PINS, text='force of the cloth on the '
+              'holder of each pin, one message per pin'),
+        Topic('state', ClothState, depth=1, transient_local=True, text='mode, run state, device '
+              'and recording'),
         # As tf2's own broadcasters have it.
-        Topic('tf', TFMessage, depth=100, is_global=True),
-        Topic('clock', Clock, depth=10, is_global=True),
-        Topic('diagnostics', DiagnosticArray, depth=10, is_global=True),
-        Topic('inputs/push', Push, depth=100),
-        Topic('inputs/pin', PinChange, depth=100),
-        Topic('inputs/pin_target', PinTarget, depth=100),
-        Topic('inputs/mode', ModeChange, depth=100),
-        Topic('inputs/command', Command, depth=100),
-        Topic('inputs/parameters', ParameterEvent, depth=100),
+        Topic('tf', TFMessage, depth=100, is_global=True, text='a frame for each pin, such as '
+              '`cloth_sim_pin_0_31`'),
+        Topic('clock', Clock, depth=10, is_global=True, text='simulated time, when '
+              '`publish.clock` is true'),
+        Topic('diagnostics', DiagnosticArray, depth=10, is_global=True, text='health of the '
+              'device, pace, solver, stability and recorder, once per second of wall time'),
+        Topic('inputs/push', Push, depth=100, text='each accepted push'),
+        Topic('inputs/pin', PinChange, depth=100, text='each node that was pinned or released'),
+        Topic('inputs/pin_target', PinTarget, depth=100, text='each accepted target of a pin'),
+        Topic('inputs/mode', ModeChange, depth=100, text='each mode switch'),
+        Topic('inputs/command', Command, depth=100, text='each reset, and each removal of all '
+              'pushes'),
+        Topic('inputs/parameters', ParameterEvent, depth=100, text='each change of parameters'),
     )}

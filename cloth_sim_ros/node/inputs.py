@@ -14,7 +14,10 @@
 
 """Tell topics and the recording everything that is done to the cloth."""
 
+from collections.abc import Callable
 from collections.abc import Sequence
+from typing import Any
+from typing import Protocol
 
 from cloth_sim_ros.messages.inputs import command_message
 from cloth_sim_ros.messages.inputs import mode_message
@@ -23,13 +26,22 @@ from cloth_sim_ros.messages.inputs import pin_message
 from cloth_sim_ros.messages.inputs import pin_target_message
 from cloth_sim_ros.messages.inputs import push_message
 from cloth_sim_ros.messages.parameter_event import serialise_parameter_event
-from cloth_sim_ros.node.outlet import Outlet
 from cloth_sim_ros.node.parameters import FIELDS
 from cloth_sim_ros.node.parameters import plain_value
 from cloth_sim_ros.sim.pin_move import PinMove
 from cloth_sim_ros.sim.push import Push
 from cloth_sim_ros.sim.simulation import Simulation
 from rclpy.parameter import Parameter
+
+
+class MessageSink(Protocol):
+    """What takes messages to topics, a recording, or both."""
+
+    def send(self, key: str, serialise: Callable[[], bytes], sim_time: float) -> None:
+        """Take what ``serialise`` returns, of the topic ``key``, at ``sim_time`` [s]."""
+
+    def send_message(self, key: str, message: Any, sim_time: float) -> None:
+        """Take ``message`` of the topic ``key`` at ``sim_time`` [s]."""
 
 
 class Inputs:
@@ -40,7 +52,8 @@ class Inputs:
     """
 
     def __init__(
-            self, outlet: Outlet, simulation: Simulation, frame_id: str, node_name: str) -> None:
+            self, outlet: MessageSink, simulation: Simulation, frame_id: str,
+            node_name: str) -> None:
         """Keep the parts the messages are made of."""
         self._outlet = outlet
         self._simulation = simulation

@@ -38,4 +38,8 @@ def way_out(error: ImportError) -> str:
         return (
             f'{package}, which reads and writes recordings, is not here: run `pip install mcap '
             'rosbags`, with --break-system-packages where pip asks for it')
+    if package == 'viser':
+        return (
+            'viser, which shows the cloth in a browser, is not here: run `./scripts/setup.sh '
+            '--view`, or `pip install viser`')
     raise error

@@ -24,36 +24,35 @@ from cloth_sim_ros.sim.field import Field
 SLOWEST = 1e-6
 
 NODE_FIELDS = (
-    Field('frame_id', str, 'world', 'frame of every message'),
-    Field('real_time_factor', float, 1.0, 'simulated time per wall time to keep to; 0 runs as '
-          f'fast as possible, otherwise {SLOWEST:g} or more', low=0.0, high=1e6, live=True),
-    Field('start_paused', bool, False, 'wait for ~/pause or ~/step before the first step'),
-    Field('publish.rate', float, 50.0, 'frames per simulated second', 'Hz', low=1e-3, high=1e6),
-    Field('publish.points', bool, True, 'make ~/points', live=True),
-    Field('publish.markers', bool, True, 'make ~/markers', live=True),
-    Field('publish.stats', bool, True, 'make ~/stats', live=True),
-    Field('publish.wrenches', bool, True, 'make ~/pins/wrenches', live=True),
-    Field('publish.tf', bool, True, 'make a frame for each pin on /tf', live=True),
-    Field('publish.clock', bool, False, 'publish the simulated time on /clock while nobody else '
+    Field('frame_id', str, 'world', 'frame_id of all messages'),
+    Field('real_time_factor', float, 1.0, 'desired ratio of simulated time to wall time, at least '
+          f'{SLOWEST:g}; 0 runs as fast as possible', low=0.0, high=1e6, live=True),
+    Field('start_paused', bool, False, 'start paused; ~/pause or ~/step starts the simulation'),
+    Field('publish.rate', float, 50.0, 'frames per second of simulated time', 'Hz',
+          low=1e-3, high=1e6),
+    Field('publish.points', bool, True, 'publish ~/points', live=True),
+    Field('publish.markers', bool, True, 'publish ~/markers', live=True),
+    Field('publish.stats', bool, True, 'publish ~/stats', live=True),
+    Field('publish.wrenches', bool, True, 'publish ~/pins/wrenches', live=True),
+    Field('publish.tf', bool, True, 'publish a transform for each pin on /tf', live=True),
+    Field('publish.clock', bool, False, 'publish simulated time on /clock unless another node '
           'does'),
-    Field('recording.directory', str, 'bags', 'folder that every recording goes into'),
+    Field('recording.directory', str, 'bags', 'directory of all recordings'),
     Field('recording.enabled', bool, False, 'record from the start'),
-    Field('recording.name', str, '', 'folder of that recording inside recording.directory; '
-          'empty takes a fresh name'),
-    Field('recording.max_bagfile_size', int, 0, 'size of a file before the next one of the '
-          'recording is begun; 0 splits by no size, others must be 1 MiB or more', 'bytes',
-          low=0, high=10**15),
-    Field('recording.max_bagfile_duration', float, 0.0, 'recorded time of a file before the next '
-          'one is begun; 0 splits by no time, others must be 1 s or more', 's',
-          low=0.0, high=1e9),
-    Field('recording.max_size', int, 0, 'size of all files of a recording, which is completed '
-          'there; 0 for no limit, others must be 1 MiB or more', 'bytes', low=0, high=10**15),
-    Field('recording.fsync', bool, False, 'wait for the disk at each flush of a recording, twice '
-          'a second; at its end it always does'),
+    Field('recording.name', str, '', 'name of the recording that begins at the start; empty '
+          'generates one'),
+    Field('recording.max_bagfile_size', int, 0, 'size at which a recording continues in a new '
+          'file, at least 1 MiB; 0 for no limit', 'bytes', low=0, high=10**15),
+    Field('recording.max_bagfile_duration', float, 0.0, 'recorded time after which a recording '
+          'continues in a new file, at least 1 s; 0 for no limit', 's', low=0.0, high=1e9),
+    Field('recording.max_size', int, 0, 'total size at which a recording ends, at least 1 MiB; '
+          '0 for no limit', 'bytes', low=0, high=10**15),
+    Field('recording.fsync', bool, False, 'wait for the disk each time a recording is flushed, '
+          'twice a second, and not only at its end'),
     Field('clicked_point.force', float, (0.0, 0.0, 1.0), 'total force of the push that a message '
-          'on /clicked_point makes, x y z', 'N', low=-1e9, high=1e9, is_array=True, live=True),
-    Field('clicked_point.radius', float, 0.1, 'radius of that push', 'm', low=1e-6, high=1e6,
-          live=True),
+          'on /clicked_point triggers, x y z', 'N', low=-1e9, high=1e9, is_array=True, live=True),
+    Field('clicked_point.radius', float, 0.1, 'radius of that push around the clicked point', 'm',
+          low=1e-6, high=1e6, live=True),
     Field('clicked_point.duration', float, 0.1, 'duration of that push', 's', low=1e-6, high=1e6,
           live=True),
 )
@@ -64,6 +63,14 @@ _LEAST = {
     'recording.max_bagfile_duration': 1.0,
     'recording.max_size': 2**20,
 }
+
+
+def checked_node_values(given: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the values of all fields: those ``given``, checked, and the defaults of the rest."""
+    values = {
+        field.name: field.check(given.get(field.name, field.default)) for field in NODE_FIELDS}
+    check_together(values)
+    return values
 
 
 def check_together(values: Mapping[str, Any]) -> None:

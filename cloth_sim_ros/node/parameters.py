@@ -21,7 +21,7 @@ from cloth_sim_ros.messages.parameter_value import parameter_value
 from cloth_sim_ros.node.node_fields import check_together
 from cloth_sim_ros.node.node_fields import NODE_FIELDS
 from cloth_sim_ros.sim.field import Field
-from cloth_sim_ros.sim.presets import with_preset
+from cloth_sim_ros.sim.given_values import completed
 from cloth_sim_ros.sim.scene import refuse_unknown
 from cloth_sim_ros.sim.scene_fields import SCENE_FIELDS
 from rcl_interfaces.msg import FloatingPointRange
@@ -51,7 +51,7 @@ def declare_fields(node: Node, overrides: Mapping[str, Parameter]) -> dict[str, 
         name: plain_value(parameter) for name, parameter in overrides.items()
         if name not in _RCLPY_OWN and not name.startswith(_RCLPY_OWN_PREFIX)}
     refuse_unknown(given, FIELDS)
-    given = with_preset(given)
+    given = completed(given)
     values = {}
     for field in FIELDS:
         value = given.get(field.name, field.default)

@@ -12,7 +12,7 @@ A pass finds the change of the velocities dv that meets
 with the directions n in J and K_geo frozen. It is the minimum of a convex function, smooth but for
 kinks where limits come into force, and Newton's method with a line search finds it. First come
 ``start`` passes with the directions that edges have at the start of the step, then ``end`` passes
-with those that they have come to. docs/implicit_step.md derives it.
+with those that they have come to. docs/explanation/implicit_step.md derives it.
 """
 
 from dataclasses import dataclass

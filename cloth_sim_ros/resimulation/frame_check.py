@@ -19,6 +19,8 @@ from dataclasses import dataclass
 from cloth_sim_ros.sim.snapshot import POINT_DTYPE
 import numpy as np
 
+_FIELDS = POINT_DTYPE.names or ()
+
 
 @dataclass(frozen=True)
 class Difference:
@@ -70,8 +72,8 @@ class FrameCheck:
         :param made: the same of this run, of POINT_DTYPE
         """
         self.frames += 1
-        names = tuple(name for name in POINT_DTYPE.names if name in recorded.dtype.names)
-        self.missing_fields = tuple(name for name in POINT_DTYPE.names if name not in names)
+        names = tuple(name for name in _FIELDS if name in (recorded.dtype.names or ()))
+        self.missing_fields = tuple(name for name in _FIELDS if name not in names)
         unequal = {name: _bits(recorded, name) != _bits(made, name) for name in names}
         fields = tuple(name for name in names if unequal[name].any())
         if not fields:
@@ -94,5 +96,5 @@ class FrameCheck:
 
 
 def _bits(records: np.ndarray, name: str) -> np.ndarray:
-    kind = POINT_DTYPE.fields[name][0]
+    kind = POINT_DTYPE[name]
     return np.ascontiguousarray(records[name]).astype(kind, copy=False).view(np.uint32)

@@ -21,10 +21,11 @@ from cloth_sim_ros.resimulation.listener import Listener
 from cloth_sim_ros.resimulation.recorded_push import parts
 from cloth_sim_ros.resimulation.recorded_push import recorded_push
 from cloth_sim_ros.sim.errors import ClothSimError
+from cloth_sim_ros.sim.input_listener import CLEAR_PUSHES
+from cloth_sim_ros.sim.input_listener import RESET
 from cloth_sim_ros.sim.simulation import Simulation
 
 # As cloth_sim_interfaces/msg/Command has them, which is not needed to read a recording.
-RESET, CLEAR_PUSHES = 'reset', 'clear_pushes'
 
 
 class InputReplay:

@@ -14,11 +14,10 @@
 
 """Who is told of a run that is made again."""
 
-from cloth_sim_ros.sim.pin_move import PinMove
-from cloth_sim_ros.sim.push import Push
+from cloth_sim_ros.sim.input_listener import InputListener
 
 
-class Listener:
+class Listener(InputListener):
     """
     Hears inputs as they are given, and frames, in the order of the recording.
 
@@ -31,21 +30,6 @@ class Listener:
 
     def begin(self) -> None:
         """Hear that all is set that holds at the beginning."""
-
-    def push(self, push: Push) -> None:
-        """Hear of an accepted push."""
-
-    def pin(self, row: int, col: int, pinned: bool) -> None:
-        """Hear of a node that was pinned or released."""
-
-    def pin_target(self, move: PinMove) -> None:
-        """Hear of a pin that sets off."""
-
-    def mode(self, mode: str, previous: str) -> None:
-        """Hear of a switch of the mode."""
-
-    def command(self, command: str) -> None:
-        """Hear of a reset or a removal of all pushes that is about to be carried out."""
 
     def frame(self, step_wall_time: float, real_time_factor: float) -> None:
         """

@@ -49,6 +49,11 @@ class Verdict:
             self.reasons.append('some recorded inputs are left out')
 
     @property
+    def frames(self) -> FrameCheck:
+        """Get the comparison of the frames."""
+        return self._check
+
+    @property
     def is_failure(self) -> bool:
         """Tell whether the run should have the same bits and has not, or was not made at all."""
         if self._rerun.problem and not self._rerun.has_recorded_stop:
@@ -70,7 +75,7 @@ class Verdict:
         if not check.frames:
             return ['no frame was recorded, so there is nothing to compare with']
         lines = [f'{check.equal} of {check.frames} frames equal to the bit']
-        if check.first is not None:
+        if check.first is not None and check.largest is not None:
             lines += [
                 f'first difference: {_in_words(check.first)}',
                 f'largest difference: {_in_words(check.largest)}',

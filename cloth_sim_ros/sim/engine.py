@@ -18,6 +18,8 @@ from cloth_sim_ros.sim.modes.mode import Pieces
 from cloth_sim_ros.sim.observer import Observer
 from cloth_sim_ros.sim.push_field import PushField
 from cloth_sim_ros.sim.scene import Scene
+from cloth_sim_ros.sim.snapshot import Measures
+from cloth_sim_ros.sim.snapshot import Snapshot
 from cloth_sim_ros.sim.state import State
 
 
@@ -47,6 +49,22 @@ class Engine:
             scene, layout, context, observer,
             GuardedSteps(scene, layout, observer, state, stop_at_non_finite),
             modes.AVAILABLE[mode](scene, layout, check_stability=check_stability))
+
+    def measure(self, state: State, forcing: Forcing) -> Measures:
+        """Return energies and largest strain of ``state``."""
+        return self.observer.measure(state, forcing, self.mode.energy_law(state))
+
+    def snapshot(
+            self, state: State, forcing: Forcing, *, time: float, steps: int, dt: float,
+            stalled_pins: int) -> Snapshot:
+        """Return what there is to know of ``state``, which is that at ``time`` [s]."""
+        mode = self.mode
+        measures, records = self.observer.record(
+            state, forcing, mode.energy_law(state), mode.limit_marks())
+        return Snapshot(
+            **vars(measures), **mode.report(), records=records, mode=mode.name, time=time,
+            steps=steps, dt=dt, substeps=mode.substeps, stability_margin=mode.substep_margin,
+            strain_bound=mode.strain_bound, stalled_pins=stalled_pins)
 
     def delete(self) -> None:
         """Give back what it allocated; its context, or one beside it, has to be current."""

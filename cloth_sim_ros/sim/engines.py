@@ -41,6 +41,14 @@ class Engines:
         self.current: Engine | None = None
 
     @property
+    def in_use(self) -> Engine:
+        """Return the engine of the mode in use; ClothSimError before there is one."""
+        if self.current is None:
+            raise ClothSimError(
+                'no mode is compiled yet: use one by set_mode, or take over one that is prepared')
+        return self.current
+
+    @property
     def context(self) -> Context:
         """Return the context of the engine in use."""
         return self.current.context if self.current else self._first_context
@@ -77,7 +85,7 @@ class Engines:
     def compile_all(self) -> None:
         """Compile all that the mode in use can need, not each part when it is first used."""
         self.context.make_current()
-        modes.finish(self.current.run_all_passes())
+        modes.finish(self.in_use.run_all_passes())
 
     def preparation(self, mode: str) -> Preparation:
         """Return what compiles the engine of ``mode`` on another thread."""

@@ -15,7 +15,7 @@
 """Make steps, and stop at the last finite state when one leads out of all bounds."""
 
 from collections.abc import Callable
-from collections.abc import Iterator
+from collections.abc import Generator
 from collections.abc import Sequence
 from typing import Any
 from typing import NoReturn
@@ -36,7 +36,7 @@ from cloth_sim_ros.sim.state import State
 import numpy as np
 
 # Between two checks: the read-back of a check waits for the device, and what lies between is
-# stepped again when one fails (docs/performance.md).
+# stepped again when one fails (docs/notes/performance.md).
 _MOST_SUBSTEPS = 64
 
 
@@ -84,7 +84,7 @@ class GuardedSteps:
             self, first: int, count: int, step: Callable[[int], Pieces], mode: Mode,
             pushes: PushField, others: Sequence[Restorable] = (), *,
             is_due: Callable[[], bool] = _never,
-            settle: Callable[[int], None] = _nothing) -> Iterator[None]:
+            settle: Callable[[int], None] = _nothing) -> Generator[None, None, None]:
         """
         Make up to ``count`` steps from a state that is finite.
 
@@ -150,7 +150,7 @@ class GuardedSteps:
         return self._observer.record(self._state, Forcing(self._scene['gravity']), None)[1]
 
 
-def _in_pieces(pieces: Pieces, is_due: Callable[[], bool]) -> Iterator[None]:
+def _in_pieces(pieces: Pieces, is_due: Callable[[], bool]) -> Generator[None, None, None]:
     """Do the work, and yield between pieces when that is due."""
     waited = None
     while True:

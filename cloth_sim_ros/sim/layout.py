@@ -25,7 +25,7 @@ from cloth_sim_ros.sim.scene import Scene
 import numpy as np
 
 HALO = 2
-# Measured on llvmpipe, docs/performance.md; a GPU hides latency with many small invocations.
+# Measured on llvmpipe, docs/notes/performance.md; a GPU hides latency with many small invocations.
 _SOFTWARE_BLOCK = 4
 _GPU_BLOCK = 1
 _BYTES_PER_NODE = 16

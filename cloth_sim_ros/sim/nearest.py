@@ -13,73 +13,29 @@
 # limitations under the License.
 
 
-"""Find the node at a point."""
+"""Find the node of a running cloth at a point."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
-import math
 
-from cloth_sim_ros.sim.errors import ClothSimError
-from cloth_sim_ros.sim.pin_move import FARTHEST
+from cloth_sim_ros.sim.near_node import near_node
+from cloth_sim_ros.sim.near_node import NearNode
 from cloth_sim_ros.sim.scene import Scene
 import numpy as np
 
 USUAL_REACH = 0.1  # [m], as far as a click pushes
 
 
-@dataclass(frozen=True)
-class NearNode:
-    """
-    A node and how far it is from the point it was looked for at.
-
-    :param distance: [m]
-    """
-
-    row: int
-    col: int
-    distance: float
-
-
 def nearest(
         scene: Scene, positions: np.ndarray, point: Sequence[float],
         max_distance: float | None = None, pinned: np.ndarray | None = None) -> NearNode:
     """
-    Return the node nearest to ``point`` [m].
+    Return the node nearest to ``point`` [m]; see near_node.
 
-    :param positions: (rows, cols, 3) [m]
-    :param max_distance: how far the node may be from the point [m], by default usual_reach;
-        infinite for any node
-    :param pinned: (rows, cols) bool, to look among these nodes alone
-    :raises ClothSimError: when the point is none, no node is pinned, or the node is too far away
+    :param max_distance: [m], by default usual_reach
     """
-    if len(point) != 3 or not all(math.isfinite(part) for part in point):
-        raise ClothSimError(
-            f'a point needs 3 finite numbers [m], got {tuple(point)}: give x, y and z')
-    if max(map(abs, point)) > FARTHEST:
-        raise ClothSimError(
-            f'a point is at most {FARTHEST:g} m from the origin along each axis, got '
-            f'{tuple(point)}: give it in metres')
     if max_distance is None:
         max_distance = usual_reach(scene)
-    if not max_distance > 0.0:
-        raise ClothSimError(
-            f'max_distance must be above 0, got {max_distance:g}: give the distance in metres, '
-            'or leave it out')
-    away = positions - np.array(point, dtype=np.float32)
-    squares = np.einsum('rci,rci->rc', away, away)
-    if pinned is not None:
-        if not pinned.any():
-            raise ClothSimError('the cloth has no pin that is near to the point: pin a node first')
-        squares = np.where(pinned, squares, np.inf)
-    row, col = np.unravel_index(int(np.argmin(squares)), squares.shape)
-    found = NearNode(int(row), int(col), math.dist(positions[row, col], point))
-    if found.distance > max_distance:
-        x, y, z = point
-        raise ClothSimError(
-            f'no {"node" if pinned is None else "pin"} is within {max_distance:g} m of the point '
-            f'({x:g}, {y:g}, {z:g}): the nearest, ({row}, {col}), is {found.distance:.3g} m away; '
-            'give a point nearer to it, or a larger max_distance')
-    return found
+    return near_node(positions, point, max_distance, pinned)
 
 
 def usual_reach(scene: Scene) -> float:

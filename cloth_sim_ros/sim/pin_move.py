@@ -61,7 +61,8 @@ class PinMove:
             raise ClothSimError(
                 f'the speed of a pin is from {_SLOWEST:g} to {_FASTEST:g} m/s, '
                 f'got {speed} m/s: give it in simulated time')
-        return cls(row, col, tuple(float(part) for part in target), float(speed), float(start))
+        x, y, z = map(float, target)
+        return cls(row, col, (x, y, z), float(speed), float(start))
 
     @property
     def node(self) -> tuple[int, int]:

@@ -89,9 +89,9 @@ class Push:
             raise ClothSimError(
                 'a push on a sphere needs a radius above 0, got 0 m: '
                 'give one, or the region all')
+        (fx, fy, fz), (cx, cy, cz) = map(float, force), map(float, center)
         return cls(
-            tuple(float(part) for part in force), float(start), float(duration), region,
-            tuple(float(part) for part in center), float(radius))
+            (fx, fy, fz), float(start), float(duration), region, (cx, cy, cz), float(radius))
 
     @property
     def end(self) -> float:
@@ -101,7 +101,8 @@ class Push:
     @property
     def impulse(self) -> tuple[float, float, float]:
         """Return the total impulse [N s]."""
-        return tuple(part * self.duration for part in self.force)
+        x, y, z = self.force
+        return x * self.duration, y * self.duration, z * self.duration
 
     def contains(self, positions: np.ndarray) -> np.ndarray:
         """

@@ -26,10 +26,11 @@ from cloth_sim_ros.files.echo import shown
 from cloth_sim_ros.sim import grid
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.field import Field
+from cloth_sim_ros.sim.given_values import completed
+from cloth_sim_ros.sim.near_node import near_node
 from cloth_sim_ros.sim.pin_move import PinMove
 from cloth_sim_ros.sim.pins import only_node
 from cloth_sim_ros.sim.pins import pinned_nodes
-from cloth_sim_ros.sim.presets import with_preset
 from cloth_sim_ros.sim.push import Push
 from cloth_sim_ros.sim.scene_fields import FAMILIES
 from cloth_sim_ros.sim.scene_fields import SCENE_FIELDS
@@ -47,7 +48,7 @@ class Scene:
     def __init__(self, values: Mapping[str, Any] | None = None) -> None:
         """Check ``values`` against the field table."""
         refuse_unknown(values or {}, SCENE_FIELDS)
-        given = with_preset(values or {})
+        given = completed(values or {})
         self.values = {
             field.name: field.check(given.get(field.name, field.default))
             for field in SCENE_FIELDS}
@@ -63,7 +64,8 @@ class Scene:
                 raise ClothSimError(
                     f'{family} edges are in constraint.hard and in constraint.springs: '
                     'take them out of one')
-        pinned_nodes(self['pins'], self.rows, self.cols)
+        self._check_mass()
+        self.pinned_nodes()
         self.timed_pushes()
         self.timed_pin_moves()
 
@@ -96,7 +98,8 @@ class Scene:
         """Mass of each node [kg]; a chain's areal mass counts the whole width x height."""
         if self['node_mass'] > 0.0:
             return self['node_mass']
-        return self['areal_density'] * self['width'] * self['height'] / self.node_count
+        total = self['total_mass'] or self['areal_density'] * self['width'] * self['height']
+        return total / self.node_count
 
     def stiffness(self, family: str) -> float:
         """Stiffness of ``family`` [N/m]: structural, shear or bend."""
@@ -132,7 +135,10 @@ class Scene:
 
     def pinned_nodes(self) -> np.ndarray:
         """Return which nodes are held at the start, (rows, cols) bool."""
-        return pinned_nodes(self['pins'], self.rows, self.cols)
+        pinned = pinned_nodes(self['pins'], self.rows, self.cols)
+        for node in self._nodes_at_points():
+            pinned[node] = True
+        return pinned
 
     def timed_pushes(self) -> tuple[Push, ...]:
         """Return the pushes that are part of the scene, in the order given."""
@@ -163,7 +169,37 @@ class Scene:
                 PinMove.checked(row=row, col=col, target=target, speed=speed, start=start))
         return tuple(moves)
 
-    def _timed(self, name: str, width: int = 1, default: float | None = None) -> list[tuple]:
+    def _check_mass(self) -> None:
+        given = [name for name in ('total_mass', 'node_mass') if self[name] > 0.0]
+        if self['areal_density'] > 0.0 and self['total_mass'] > 0.0:
+            given.append('areal_density')
+        if len(given) > 1:
+            values = ' and '.join(f'{name} {self[name]:g}' for name in given)
+            raise ClothSimError(
+                f'{values} each say what the cloth weighs: give one of them, and set the others '
+                'to 0')
+        if not given and self['areal_density'] == 0.0:
+            raise ClothSimError(
+                'the cloth has no mass, as areal_density is 0: give total_mass [kg], or an '
+                'areal_density above 0')
+
+    def _nodes_at_points(self) -> list[tuple[int, int]]:
+        flat = self['pin_points.positions']
+        if len(flat) % 3:
+            raise ClothSimError(
+                f'pin_points.positions needs 3 numbers per point, got {len(flat)} in all: give '
+                'x, y and z of each point one after the other')
+        reach = self['pin_points.max_distance'] or max(
+            distance for distance, nodes in zip(self.spacing, (self.cols, self.rows)) if nodes > 1)
+        rest = self.rest_positions()
+        found = (
+            near_node(rest, flat[i:i + 3], reach, parameter='pin_points.max_distance')
+            for i in range(0, len(flat), 3))
+        return [(node.row, node.col) for node in found]
+
+    def _timed(
+            self, name: str, width: int = 1,
+            default: float | None = None) -> list[tuple[Any, ...]]:
         """Return the ``width`` entries that each push or move has in the parameter ``name``."""
         group, entry = name.partition('.')[0], 'push' if name.startswith('pushes') else 'move'
         count = len(self[f'{group}.start'])
@@ -191,7 +227,7 @@ def _hint(name: str, known: list[str]) -> str:
     # What is longer than what is shown is like nothing, which takes long to find.
     close = difflib.get_close_matches(name[:MOST_SHOWN], known + groups, n=1)
     if not close:
-        return 'see the parameter table in README.md'
+        return 'docs/reference/parameters.md lists them all'
     if close[0] in known:
         return f'did you mean {close[0]}?'
     *others, last = [each for each in known if each.startswith(f'{close[0]}.')]

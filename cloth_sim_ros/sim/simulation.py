@@ -1,22 +1,13 @@
-# Copyright 2026 the cloth_sim_ros authors
-#
-# Licensed under the Apache License, Version 2.0 (the "License");
-# you may not use this file except in compliance with the License.
-# You may obtain a copy of the License at
-#
-#     http://www.apache.org/licenses/LICENSE-2.0
-#
-# Unless required by applicable law or agreed to in writing, software
-# distributed under the License is distributed on an "AS IS" BASIS,
-# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
-# See the License for the specific language governing permissions and
-# limitations under the License.
+# SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
+# SPDX-License-Identifier: Apache-2.0
 
 """A running cloth: owns the state on the device and steps it."""
 
 from collections.abc import Callable
+from collections.abc import Generator
 from collections.abc import Iterator
 from collections.abc import Sequence
+from contextlib import AbstractContextManager
 from contextlib import closing
 from contextlib import contextmanager
 import math
@@ -29,9 +20,13 @@ from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.forces import pulled_too_hard
 from cloth_sim_ros.sim.forces import with_forces
 from cloth_sim_ros.sim.forcing import Forcing
+from cloth_sim_ros.sim.input_listener import CLEAR_PUSHES
+from cloth_sim_ros.sim.input_listener import InputListener
+from cloth_sim_ros.sim.input_listener import RESET
 from cloth_sim_ros.sim.layout import choose_layout
+from cloth_sim_ros.sim.near_node import NearNode
 from cloth_sim_ros.sim.nearest import nearest
-from cloth_sim_ros.sim.nearest import NearNode
+from cloth_sim_ros.sim.pin_forces import PinForces
 from cloth_sim_ros.sim.pin_motion import PinMotion
 from cloth_sim_ros.sim.pin_move import PinMove
 from cloth_sim_ros.sim.pin_path import PinPath
@@ -39,6 +34,7 @@ from cloth_sim_ros.sim.pin_requests import PinRequests
 from cloth_sim_ros.sim.push import Push
 from cloth_sim_ros.sim.push_field import AppliedPush
 from cloth_sim_ros.sim.push_field import PushField
+from cloth_sim_ros.sim.run_status import RunStatus
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.snapshot import Measures
 from cloth_sim_ros.sim.snapshot import Snapshot
@@ -46,13 +42,15 @@ from cloth_sim_ros.sim.state import State
 from cloth_sim_ros.sim.stepping import Stepping
 import numpy as np
 
-# Below this many nodes llvmpipe is faster without its worker threads (docs/performance.md).
+# Below this many nodes llvmpipe is faster without its worker threads (docs/notes/performance.md).
 SINGLE_THREAD_NODES = 128 * 128
 
 
-class Simulation:
+class Simulation(RunStatus, AbstractContextManager['Simulation']):
     """
     A cloth that moves. To be used on one thread, the one it was made on.
+
+    As a context manager it is closed at the end of the block.
 
     ``advance`` and ``step`` return when all is done. A caller who must not wait so long gives
     ``stepping`` an aim, and does the ``work`` in pieces. Between pieces a step can be under way:
@@ -89,53 +87,22 @@ class Simulation:
         self.engines.check(scene['mode'])
         if compiles:
             self.engines.use(scene['mode'])
-        self._pushes: PushField | None = None
+        self.listener = InputListener()
+        self._is_closed = False
         self._begin_run()
 
-    @property
-    def is_ready(self) -> bool:
-        """Tell whether there is a mode to advance with."""
-        return self.engines.current is not None
-
-    @property
-    def mode(self) -> str:
-        """Return the name of the mode that steps now, or will be the first to."""
-        return self.engines.mode
-
-    @property
-    def available_modes(self) -> tuple[str, ...]:
-        """Return the modes ``set_mode`` takes."""
-        return tuple(modes.AVAILABLE)
-
-    @property
-    def steps(self) -> int:
-        """Return the steps of dt made since the start or the last reset."""
-        return self.stepping.steps
-
-    @property
-    def time(self) -> float:
-        """Return the simulated time since the start or the last reset [s]."""
-        return self.stepping.time
-
-    @property
-    def substeps(self) -> int:
-        """Return the substeps in a step of dt; 0 before there is a mode."""
-        return self.engines.current.mode.substeps if self.is_ready else 0
-
-    @property
-    def stability_limit(self) -> float:
-        """Return the longest stable substep of the mode [s]; infinite before there is one."""
-        return self.engines.current.mode.stability_limit if self.is_ready else math.inf
-
-    @property
-    def stability_margin(self) -> float:
-        """Return the substep over what it should be at most, see Snapshot."""
-        return self.engines.current.mode.substep_margin if self.is_ready else 0.0
+    def __exit__(self, *_: object) -> None:
+        """Close, however the block has ended."""
+        self.close()
 
     @property
     def pushes(self) -> tuple[AppliedPush, ...]:
         """Return the pushes that act or will act."""
         return self._pushes.applied
+
+    def warm_up(self) -> None:
+        """Compile all that the present mode can need, not each part when it is first used."""
+        self.engines.compile_all()
 
     def advance(self, seconds: float) -> int:
         """
@@ -154,7 +121,7 @@ class Simulation:
         self.stepping.aim_steps(count)
         self._finish_work()
 
-    def work(self, is_due: Callable[[], bool]) -> Iterator[None]:
+    def work(self, is_due: Callable[[], bool]) -> modes.Pieces:
         """
         Make steps towards the aim; whenever ``is_due`` asks for it, end them, or yield within one.
 
@@ -162,10 +129,10 @@ class Simulation:
 
         :raises NonFiniteStateError: when the state is lost; the last finite one is kept
         """
-        engine, stepping = self.engines.current, self.stepping
+        engine, stepping = self.engines.in_use, self.stepping
         engine.context.make_current()
 
-        def make_steps(first: int, count: int) -> Iterator[None]:
+        def make_steps(first: int, count: int) -> Generator[None, None, None]:
             return engine.guard.make(
                 first, count, self._make_step, engine.mode, self._pushes, [self._pin_motion],
                 is_due=lambda: stepping.has_edits or is_due(), settle=stepping.settle)
@@ -199,11 +166,14 @@ class Simulation:
             if self.stepping.is_mid_step and begin <= self.stepping.edit_time:
                 applied = self._pushes.foresee(push, self.pinned_nodes())
                 self.stepping.at_rest(lambda: self._pushes.begin(push))
-                return applied
-            return self._pushes.add(push, self.time)
+            else:
+                applied = self._pushes.add(push, self.time)
+        self.listener.push(push)
+        return applied
 
     def clear_pushes(self) -> int:
         """End all pushes and drop those to come; return how many."""
+        self.listener.command(CLEAR_PUSHES)
         pushes = [applied.push for applied in self._pushes.applied]
         self.stepping.at_rest(lambda: self._pushes.drop(pushes))
         return len(pushes)
@@ -212,11 +182,13 @@ class Simulation:
         """Hold the node (row, col) where it is; a pin that moves stops."""
         self.engines.context.make_current()
         self._pins.hold(row, col)
+        self.listener.pin(row, col, True)
 
     def release(self, row: int, col: int) -> None:
         """Let the node (row, col) go, with the velocity its pin has."""
         self.engines.context.make_current()
         self._pins.release(row, col)
+        self.listener.pin(row, col, False)
 
     def move_pin(
             self, row: int, col: int, target: Sequence[float],
@@ -231,7 +203,9 @@ class Simulation:
         :raises ClothSimError: when the node is not pinned or a value is wrong
         """
         self.engines.context.make_current()
-        return self._pins.move(row, col, target, speed)
+        path = self._pins.move(row, col, target, speed)
+        self.listener.pin_target(path.move)
+        return path
 
     @property
     def pin_moves(self) -> tuple[PinMove, ...]:
@@ -257,11 +231,18 @@ class Simulation:
         with self._settled_state():
             return self._state.read_positions()
 
+    def velocities(self) -> np.ndarray:
+        """Return all velocities [m/s], (rows, cols, 3) float32; a pinned node has its pin's."""
+        with self._settled_state():
+            return self._state.read_velocities()
+
     def set_mode(self, name: str) -> str:
         """Step with the mode ``name`` from now on, keeping the state; return the one before."""
         self.stepping.refuse_mid_step('set_mode')
         previous = self.mode
         self.engines.use(name)
+        if name != previous:
+            self.listener.mode(name, previous)
         return previous
 
     def take_over(self, prepared: Preparation) -> str:
@@ -277,6 +258,7 @@ class Simulation:
         """
         self.stepping.refuse_mid_step('set_state')
         self._state.check(positions, velocities)
+        self.listener.new_state()
         self.engines.context.make_current()
         self._state.write(np.asarray(positions), np.asarray(velocities))
         self._pin_motion.drop()
@@ -299,10 +281,12 @@ class Simulation:
         """
         self.stepping.refuse_mid_step('go_on_from')
         self._state.check(positions, velocities)
+        self.listener.new_state()
         self.engines.context.make_current()
         self._state.pinned[:] = pinned
         self._state.write(np.asarray(positions), np.asarray(velocities))
         self.engines.forget()
+        self._pushes.delete()
         self._begin_run(steps)
         self._pushes.take_up(pushes, self.time)
         self._pin_motion.leave_out_before(self.time)
@@ -310,19 +294,20 @@ class Simulation:
     def reset(self) -> None:
         """Go back to the start: pose, pins, time, the scene's pushes and moves of pins."""
         self.stepping.refuse_mid_step('reset')
+        self.listener.command(RESET)
         self.engines.context.make_current()
         self._state.pinned[:] = self.scene.pinned_nodes()
         start = self.scene.start_positions()
         self._state.write(start, np.zeros_like(start))
         self.engines.forget()
+        self._pushes.delete()
         self._begin_run()
 
     def measure(self) -> Measures:
         """Return energies and largest strain, which is cheaper than a snapshot."""
-        engine = self.engines.current
+        engine = self.engines.in_use
         with self._settled_state():
-            return engine.observer.measure(
-                self._state, self._forcing_now(), self.engines.energy_law())
+            return engine.measure(self._state, self._forcing_now())
 
     def snapshot(self, *, tension: bool = False, pin_forces: bool = False) -> Snapshot:
         """
@@ -331,38 +316,40 @@ class Simulation:
         :param tension: True to have the tension of every edge in it, and the forces at the pins
         :param pin_forces: True to have these forces alone, which costs less on a large cloth
         """
-        engine = self.engines.current
-        mode = engine.mode
+        engine = self.engines.in_use
         with self._settled_state():
-            measures, records = engine.observer.record(
-                self._state, self._forcing_now(), self.engines.energy_law(), mode.limit_marks())
-            snapshot = Snapshot(
-                **vars(measures), **mode.report(), records=records, mode=self.mode,
-                time=self.time, steps=self.steps, dt=self.dt,
-                substeps=self.substeps, stability_margin=self.stability_margin,
-                strain_bound=mode.strain_bound, stalled_pins=self._pin_motion.stalled)
+            snapshot = engine.snapshot(
+                self._state, self._forcing_now(), time=self.time, steps=self.steps, dt=self.dt,
+                stalled_pins=self._pin_motion.stalled)
         if tension or pin_forces:
             self.stepping.refuse_mid_step('forces')
             return with_forces(
-                snapshot, self.scene, mode, self._pin_motion, every_edge=tension)
+                snapshot, self.scene, engine.mode, self._pin_motion, every_edge=tension)
         return snapshot
+
+    def pin_forces(self) -> PinForces:
+        """Return what holds each pinned node now."""
+        forces = self.snapshot(pin_forces=True).pin_forces
+        assert forces is not None
+        return forces
 
     def finish(self) -> None:
         """Wait until the device has done everything asked of it; for timing."""
         self.engines.context.finish()
 
     def close(self) -> None:
-        """Give everything on the device back."""
+        """Give everything on the device back; does nothing when that is done."""
+        if self._is_closed:
+            return
+        self._is_closed = True
         self.engines.delete()
-        for part in (self._state, self._pushes):
-            part.delete()
+        self._state.delete()
+        self._pushes.delete()
         if self._owns_context:
             self._first_context.close()
 
     def _begin_run(self, steps: int = 0) -> None:
         self.stepping = Stepping(self.dt, steps)
-        if self._pushes is not None:
-            self._pushes.delete()
         self._pushes = PushField(
             self.layout, self.scene.node_mass, self.scene['gravity'],
             self._state.read_positions, self._state.pinned)
@@ -374,7 +361,7 @@ class Simulation:
     def _make_step(self, number: int) -> modes.Pieces:
         self.stepping.step_under_way = number
         begin, end = number * self.dt, (number + 1) * self.dt
-        mode, pins = self.engines.current.mode, self._pin_motion
+        mode, pins = self.engines.in_use.mode, self._pin_motion
         pins.begin_step(begin, end, pulled_too_hard(self.scene, self._state, mode, pins))
         yield from mode.step(self._state, begin, self._pushes)
         pins.end_step(begin, end)

@@ -83,7 +83,7 @@ class Snapshot(Measures):
     :param active_constraints: springs at their limit
     :param active_fraction: of all springs
     :param constraint_switches: activations and deactivations in the last step
-        (docs/adaptive.md)
+        (docs/explanation/adaptive.md)
     :param stalled_pins: pins under way that stood still in the last step, as edges pulled at them
         with more than ``pin.max_force``
     :param tension: when asked for, of the edges that start at each node [N], (rows, cols, 6)

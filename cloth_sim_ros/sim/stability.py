@@ -33,7 +33,7 @@ def stability_limit(scene: Scene) -> float:
     K(p, q) = sum over springs of 2 k n n^T (1 - cos(p dcol + q drow)), n the spring's
     direction, and a damping C of the same form. One wave with eigenvalues kappa and gamma of
     these is stable while h^2 kappa + 2 h gamma < 4 m. The limit is the least such h over all
-    waves. For a square lattice this is the closed form of docs/numerics.md.
+    waves. For a square lattice this is the closed form of docs/explanation/numerics.md.
     """
     return _least_limit(scene, *(_largest_eigenvalue(k) for k in _wave_matrices(scene)))
 

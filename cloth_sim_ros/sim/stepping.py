@@ -4,14 +4,14 @@
 """How far a run has come, how far it is to go, and what waits for the end of a step."""
 
 from collections.abc import Callable
-from collections.abc import Iterator
+from collections.abc import Generator
 import math
 
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.errors import NonFiniteStateError
 
 # Makes up to a number of steps, from the step of another number on, in pieces.
-MakeSteps = Callable[[int, int], Iterator[None]]
+MakeSteps = Callable[[int, int], Generator[None, None, None]]
 
 
 # Seconds are an int32 in a stamp of ROS, and changes are stamped with the end of a step [s].
@@ -79,7 +79,7 @@ class Stepping:
         """Let the aim be where the run is."""
         self._goal, self._carried = self.steps, 0.0
 
-    def run(self, make_steps: MakeSteps) -> Iterator[None]:
+    def run(self, make_steps: MakeSteps) -> Generator[None, None, None]:
         """Make steps towards the aim; yield where ``make_steps`` does, within a step."""
         pieces = make_steps(self.steps, self._goal - self.steps)
         try:

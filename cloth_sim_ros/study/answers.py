@@ -2,12 +2,12 @@
 # SPDX-License-Identifier: Apache-2.0
 
 r"""
-Measure how soon a running node answers, and for how long it shows nothing new.
+Measure the response times of a running node, and the gaps between its frames.
 
 First with an empty shader cache: the largest gap between frames and between answers while a node
-switches for the first time to each of the other modes, then a node of another size. Then, in each
-mode, how long services take while the cloth is advanced. Each figure comes as wall time and as
-processor time of the node within it: on a busy machine the second says more.
+switches to each of the other modes for the first time, then for a node of another size. Then, in
+each mode, the response times of services while the cloth is advanced. Each figure is given as wall
+time and as processor time of the node; on a busy machine the latter is more meaningful.
 
 For example:
   cloth_sim study answers
@@ -45,14 +45,14 @@ _GET_EVERY = 0.05
 def add_arguments(parser: ArgumentParser) -> None:
     """Add the arguments of this study."""
     parser.add_argument('--sizes', type=int, nargs='+', default=[64], metavar='N',
-                        help='nodes along each side, for the answers (default: %(default)s)')
+                        help='nodes along each side, for response times (default: %(default)s)')
     parser.add_argument('--calls', type=int, default=200, metavar='N',
                         help='calls of each service in each mode (default: %(default)s)')
     parser.add_argument('--switches', action=BooleanOptionalAction, default=True,
-                        help='measure first switches with an empty shader cache')
+                        help='measure first mode switches with an empty shader cache')
     parser.add_argument('--modes', nargs='+', default=list(MODES), choices=MODES,
-                        help='modes to measure answers in (default: all)')
-    parser.add_argument('--json', action='store_true', help='print a line of JSON for each figure')
+                        help='modes in which response times are measured (default: all)')
+    parser.add_argument('--json', action='store_true', help='print one line of JSON per figure')
 
 
 def main(args: Namespace) -> int:

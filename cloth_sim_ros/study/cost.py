@@ -13,11 +13,11 @@
 # limitations under the License.
 
 r"""
-Show what each feature of a scene costs, by leaving it out, and what the result loses without it.
+Measure the cost of each feature of a scene by leaving it out, and the error without it.
 
-Variants are timed in turn in one process, so that their ratio holds on a machine whose speed
-drifts: below 1, leaving the feature out saves time. The list of compiled passes shows that a
-feature that is not there costs nothing. Messages and recordings need the ROS packages.
+Variants are timed in turn in one process, so that their ratio is valid on a machine whose speed
+drifts: below 1, leaving the feature out saves time. The list of compiled passes shows that unused
+features cost nothing. Messages and recordings need the ROS packages.
 
 For example:
   cloth_sim study cost config/drape.yaml
@@ -56,16 +56,16 @@ _RUNS = 'cloth_sim_ros.study.feature.costs'
 def add_arguments(parser: ArgumentParser) -> None:
     """Add the arguments of this study."""
     parser.add_argument('--rounds', type=int, default=9, metavar='N',
-                        help='turns of each variant (default: %(default)s)')
+                        help='rounds of each variant (default: %(default)s)')
     parser.add_argument('--seconds', type=float, default=0.5, metavar='T',
-                        help='simulated in a turn, and until results are compared '
+                        help='simulated time of a round, and until results are compared [s] '
                              '(default: %(default)s)')
     parser.add_argument('--rate', type=float, default=50.0, metavar='HZ',
-                        help='frames per simulated second (default: %(default)s)')
+                        help='frames per second of simulated time (default: %(default)s)')
     parser.add_argument('--without-messages', action='store_true',
                         help='time the simulation alone')
     parser.add_argument('--passes', action='store_true',
-                        help='only list the compiled passes of the scene, after one step')
+                        help='only list the passes that the scene compiles')
     add_run_arguments(parser, 'studies/cost')
 
 

@@ -13,7 +13,7 @@
 # limitations under the License.
 
 
-"""The unit scene of docs/numerics.md in mid-drape, for what is measured on its states."""
+"""The unit scene of docs/explanation/numerics.md in mid-drape, to measure on its states."""
 
 from collections.abc import Sequence
 

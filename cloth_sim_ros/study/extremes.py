@@ -13,11 +13,11 @@
 # limitations under the License.
 
 r"""
-Run extreme scenes in every mode: each runs finite, is refused, or stops and says why.
+Run extreme scenes in every mode: each stays finite, is refused, or stops with a reason.
 
-A row is nonsense when numbers are not finite and nobody says so, energy comes from nothing, hard
-edges are off, a free cloth does not fall as it should, or a message names no way out. The exit
-code is 1 where a row is nonsense or comes out otherwise than it should, known limits apart.
+A row is nonsense if numbers are not finite without a report, energy comes from nothing, hard edges
+have wrong lengths, a free cloth does not fall as it should, or a message suggests no way out. The
+exit code is 1 if a row is nonsense or has an unexpected outcome, apart from known limits.
 
 For example:
   cloth_sim study extremes
@@ -43,7 +43,7 @@ _FUNCTION = 'cloth_sim_ros.study.extremity.run:run_by_name'
 def add_arguments(parser: ArgumentParser) -> None:
     """Add the arguments of this study."""
     parser.add_argument('--long', action='store_true',
-                        help='also those that take minutes: a grid of stiffness, mass and dt, '
+                        help='also run those that take minutes: a grid of stiffness, mass and dt, '
                              'random scenes, a million nodes')
     add_run_arguments(parser, 'studies/extremes')
 

@@ -69,7 +69,7 @@ def tremor(values: Mapping[str, Any], seconds: float) -> tuple[float, float, flo
 
 
 def main() -> None:
-    """Print the table of docs/adaptive.md."""
+    """Print the table of docs/explanation/adaptive.md."""
     parser = ArgumentParser(description=__doc__)
     parser.add_argument('--seconds', type=float, default=10.0, help='simulated before the look')
     args = parser.parse_args()

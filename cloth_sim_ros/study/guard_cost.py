@@ -86,7 +86,7 @@ def _time_calls(run: Simulation, calls: int, batch: int) -> float:
 
 
 def main() -> None:
-    """Print the table of docs/performance.md."""
+    """Print the table of docs/notes/performance.md."""
     print('| nodes | substeps in a batch | with the check / without | rounds |')
     print('|---|---|---|---|')
     for cost in guard_costs((32, 128, 512), (1, 16, 64), 15, 1.5e7):

@@ -94,7 +94,7 @@ def inactive_costs(
 
 
 def main() -> None:
-    """Print the table of docs/adaptive.md."""
+    """Print the table of docs/explanation/adaptive.md."""
     print('| nodes | substeps a step | adaptive / mass-spring | rounds | strain | same bits |')
     print('|---|---|---|---|---|---|')
     one_substep = {**SWINGING, 'auto_substeps': False, 'dt': 1e-4}

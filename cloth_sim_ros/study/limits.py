@@ -89,7 +89,7 @@ def _row(name: str, runs: Sequence[LimitRun]) -> str:
 
 
 def main() -> None:
-    """Print the table of docs/adaptive.md."""
+    """Print the table of docs/explanation/adaptive.md."""
     parser = ArgumentParser(description=__doc__)
     parser.add_argument('--seconds', type=float, default=10.0, help='simulated, of each run')
     args = parser.parse_args()

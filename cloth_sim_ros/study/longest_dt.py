@@ -102,7 +102,7 @@ def _row(
 
 
 def main() -> None:
-    """Print the table of docs/paper.md."""
+    """Print the table of docs/notes/paper.md."""
     parser = ArgumentParser(description=__doc__)
     parser.add_argument('--nodes', type=int, default=12, help='along each side')
     parser.add_argument('--push', type=float, default=5.0, help='times the weight')

@@ -17,7 +17,8 @@
 The paper's own solver, as a baseline: J J^T formed pair by pair, then plain conjugate gradients.
 
 Va et al. 2021, Tab. 3 to 6. Different from the print: unit rows, the inverse mass inside, and the
-same compliance as ``hard_edges``, without which the matrix is singular (docs/numerics.md).
+same compliance as ``hard_edges``, without which the matrix is singular
+(docs/explanation/numerics.md).
 """
 
 from cloth_sim_ros.gl.buffer import Buffer

@@ -13,10 +13,10 @@
 # limitations under the License.
 
 """
-Make the values of the parameter `preset` from a study of the trade on a scene.
+Derive the values of the parameter `preset` from a tradeoff study of a scene.
 
-Settings that step the springs as they are compete; a preset does not make another cloth of it.
-What each preset is chosen by stands in its file, with error and real-time factor.
+Only settings that keep the springs of the scene compete: a preset does not change the cloth. The
+file of each preset gives its criterion, error and real-time factor.
 
 For example:
   cloth_sim study presets config/drape.yaml
@@ -32,7 +32,7 @@ from cloth_sim_ros.sim.scene_fields import PRESETS
 from cloth_sim_ros.study.runs.arguments import add_run_arguments
 from cloth_sim_ros.study.runs.arguments import workers_of
 from cloth_sim_ros.study.runs.results_folder import ResultsFolder
-from cloth_sim_ros.study.trade.choice import Budget
+from cloth_sim_ros.study.trade.budget import ErrorBudget
 from cloth_sim_ros.study.trade.choice import write_choice
 from cloth_sim_ros.study.trade.grid import default_grid_path
 from cloth_sim_ros.study.trade.grid import load_grid
@@ -42,16 +42,16 @@ from cloth_sim_ros.study.trade.variant import Variant
 TAKES_SCENE = True
 
 # Each is the fastest setting within an error, over the side of the cloth.
-BUDGETS = {name: Budget(error=error) for name, error in zip(PRESETS, (1e-2, 1e-4, 5e-5))}
+BUDGETS = {name: ErrorBudget(error) for name, error in zip(PRESETS, (1e-2, 1e-4, 5e-5))}
 
 
 def add_arguments(parser: ArgumentParser) -> None:
     """Add the arguments of this study."""
     parser.add_argument('--grid', metavar='GRID.yaml',
-                        help='settings that compete (default: those of config/studies/'
+                        help='settings to compare (default: those of config/studies/'
                              'tradeoff.yaml)')
     parser.add_argument('--write', metavar='DIR',
-                        help='where the presets are written (default: presets in --out)')
+                        help='folder for the presets (default: presets in --out)')
     add_run_arguments(parser, 'studies/tradeoff')
 
 
@@ -64,7 +64,7 @@ def main(args: Namespace) -> int:
         measured = measure(args.scene, grid, results, workers_of(args))
     folder = Path(args.write or Path(args.out) / 'presets')
     for name, budget in BUDGETS.items():
-        row = budget.choose(measured)
+        row = budget.choose(measured.rows_of(Variant()))
         write_choice(
             folder / f'{name}.yaml', row, budget, args.scene_file, args.scene,
             only_changes=False)

@@ -13,11 +13,11 @@
 # limitations under the License.
 
 r"""
-Map where a scene is stable, over dt and stiffness, and hold the edges to their closed forms.
+Map the stable region of a scene over dt and stiffness, and compare its limits with closed forms.
 
-For each mode: the cloth at rest with one step a dt, whatever the limit, and the scene as it moves
-in the substeps that are chosen by themselves. Then edges found by bisection, over resolution,
-stiffness, damping, mass, pushes and solves. docs/stability.md says what counts as unstable.
+For each mode: the cloth at rest with one substep per dt, whatever the limit, and the moving scene
+with automatic substeps. Then limits found by bisection, over resolution, stiffness, damping, mass,
+pushes and solves. docs/notes/stability.md defines what counts as unstable.
 
 For example:
   cloth_sim study stability config/drape.yaml --set rows=24 --set cols=24
@@ -45,11 +45,11 @@ TAKES_SCENE = True
 def add_arguments(parser: ArgumentParser) -> None:
     """Add the arguments of this study."""
     parser.add_argument('--cells', type=int, default=9, metavar='N',
-                        help='points along each axis of a map, 0 for no maps '
+                        help='points along each axis of a map; 0 for no maps '
                              '(default: %(default)s)')
     parser.add_argument('--figure', action='append', default=[], metavar='FILE.png', type=Path,
-                        dest='figures', help='where the figure of the maps goes, and given once '
-                        'more that of the edges (default: maps.png and edges.png in --out)')
+                        dest='figures', help='file of the figure of the maps and, given a '
+                        'second time, of the limits (default: maps.png and edges.png in --out)')
     add_run_arguments(parser, 'studies/stability')
 
 

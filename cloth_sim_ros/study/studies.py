@@ -21,10 +21,10 @@ and --set, and `args.scene` is the Scene when main is called.
 """
 
 STUDIES = {
-    'tradeoff': 'error against cost of modes and settings on a scene',
-    'presets': 'the values of the parameter preset, from a tradeoff',
-    'stability': 'where each mode ceases to be stable, measured and predicted',
-    'extremes': 'scenes at the end of what can be asked for, in every mode',
-    'answers': 'how soon a running node answers, also while modes are compiled',
-    'cost': 'what each feature of a scene costs, and what a result loses without it',
+    'tradeoff': 'error against cost of modes and settings for a scene',
+    'presets': 'derive the values of the parameter preset from a tradeoff study',
+    'stability': 'measured and predicted stability limits of each mode',
+    'extremes': 'extreme scenes in every mode',
+    'answers': 'response times of a running node, also while a mode is compiled',
+    'cost': 'cost of each feature of a scene, and the error without it',
 }

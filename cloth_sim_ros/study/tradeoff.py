@@ -26,24 +26,32 @@ For example:
   cloth_sim study tradeoff config/drape.yaml
   cloth_sim study tradeoff config/drape.yaml --budget-rtf 1
   cloth_sim study tradeoff config/drape.yaml --budget-error 1e-3 --write fast.yaml
+  cloth_sim study tradeoff config/drape.yaml --budget-strain 0.02
   cloth_sim study tradeoff config/drape.yaml --check fast.yaml
 """
 
 from argparse import ArgumentParser
 from argparse import Namespace
+from collections.abc import Callable
+from collections.abc import Sequence
 from pathlib import Path
 
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.study.runs.arguments import add_run_arguments
 from cloth_sim_ros.study.runs.arguments import workers_of
 from cloth_sim_ros.study.runs.results_folder import ResultsFolder
-from cloth_sim_ros.study.trade.choice import Budget
+from cloth_sim_ros.study.trade.budget import Budget
+from cloth_sim_ros.study.trade.budget import BUDGETS
+from cloth_sim_ros.study.trade.budget import StrainBudget
 from cloth_sim_ros.study.trade.choice import write_choice
 from cloth_sim_ros.study.trade.compared import Measured
+from cloth_sim_ros.study.trade.front import within_strain
 from cloth_sim_ros.study.trade.grid import default_grid_path
 from cloth_sim_ros.study.trade.grid import load_grid
 from cloth_sim_ros.study.trade.measured import measure
+from cloth_sim_ros.study.trade.row import Row
 from cloth_sim_ros.study.trade.table import write_table
+from cloth_sim_ros.study.trade.variant import Variant
 
 TAKES_SCENE = True
 
@@ -60,6 +68,9 @@ def add_arguments(parser: ArgumentParser) -> None:
                         help='choose the fastest setting with this error or less')
     budget.add_argument('--budget-rtf', type=float, metavar='R',
                         help='choose the most exact setting with this real-time factor or more')
+    budget.add_argument('--budget-strain', type=float, metavar='S',
+                        help='choose the cheapest setting, of any mode, in which no structural or '
+                             'shear edge is longer or shorter by more than this share')
     budget.add_argument('--check', metavar='PARAMS.yaml',
                         help='measure a choice again, and tell whether it keeps to its budget')
     parser.add_argument('--write', metavar='PARAMS.yaml',
@@ -74,13 +85,16 @@ def main(args: Namespace) -> int:
         if args.check:
             from cloth_sim_ros.study.trade.check import check
             return check(Path(args.check), args.scene, grid, results, workers_of(args))
-        measured = measure(args.scene, grid, results, workers_of(args))
+        measured = measure(
+            args.scene, grid, results, workers_of(args), _wanted(budget))
         _write(Path(args.out), measured, args)
     if budget is not None:
         path = Path(args.write or Path(args.out) / 'params.yaml')
-        row = budget.choose(measured)
+        row = budget.choose(measured.rows_of(Variant()))
         write_choice(path, row, budget, args.scene_file, args.scene)
-        print(f'{budget.in_words()}: {row.setting.method}, {row.setting.label}; written to {path}')
+        print(
+            f'{budget.in_words()}: {row.setting.method}, {row.setting.label}: largest strain '
+            f'{row.peak_strain:.3g}, real-time factor {1.0 / row.cost:.3g}; written to {path}')
     return 0
 
 
@@ -100,11 +114,17 @@ def _write(folder: Path, measured: Measured, args: Namespace) -> None:
 
 
 def _budget(args: Namespace) -> Budget | None:
-    for name in ('budget_error', 'budget_rtf'):
-        value = getattr(args, name)
+    for budget in BUDGETS:
+        value = getattr(args, budget.option.replace('-', '_'))
         if value is not None and not value > 0.0:
-            raise ClothSimError(
-                f'--{name.replace("_", "-")} must be above 0, got {value:g}')
-    if args.budget_error is not None:
-        return Budget(error=args.budget_error)
-    return Budget(real_time_factor=args.budget_rtf) if args.budget_rtf is not None else None
+            raise ClothSimError(f'--{budget.option} must be above 0, got {value:g}')
+        if value is not None:
+            return budget(value)
+    return None
+
+
+def _wanted(budget: Budget | None) -> Callable[[Sequence[Row]], Sequence[Row]]:
+    # What is cheap within a strain may be far from the exact settings, which are timed anyway.
+    if isinstance(budget, StrainBudget):
+        return lambda rows: within_strain(rows, budget.limit)
+    return lambda rows: ()

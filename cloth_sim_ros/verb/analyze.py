@@ -14,15 +14,16 @@
 
 
 """
-Analyse recordings: a table, and with --out CSV, JSON and plots.
+Analyse recordings: print a table and, with --out, write CSV, JSON and plots.
 
-Reads any bag of the node's topics: of this project or of ros2 bag record, mcap or sqlite3, also
-one that was cut off. With several, all others are compared with the first, at the simulated times
-at which both have a frame. Needs no node.
+Reads bags of this project and of ros2 bag record, mcap or sqlite3, even if they were truncated.
+With several bags, each is compared with the first one at the simulated times at which both have a
+frame, and --out has the curves of all in one plot. Needs no node.
 
 For example:
   cloth_sim analyze bags/cloth_2026_01_31-12_00_00
   cloth_sim analyze bags/drop_springs bags/drop_constraint --out drop
+  cloth_sim analyze bags/drop_springs --out drop --npz
 """
 
 from argparse import ArgumentParser
@@ -42,10 +43,12 @@ from cloth_sim_ros.analysis.report_files import write_comparison
 from cloth_sim_ros.analysis.report_files import write_frames
 from cloth_sim_ros.analysis.report_files import write_json
 from cloth_sim_ros.analysis.report_files import write_plot
+from cloth_sim_ros.analysis.report_files import write_points
 from cloth_sim_ros.analysis.run import Run
 from cloth_sim_ros.analysis.summary import Summary
 from cloth_sim_ros.analysis.summary_lines import summary_lines
 from cloth_sim_ros.analysis.summary_lines import text_table
+from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.verb.reading_progress import ReadingProgress
 from cloth_sim_ros.verb.recording_arguments import add_node_argument
 
@@ -54,25 +57,35 @@ def add_arguments(parser: ArgumentParser) -> None:
     """Add the arguments of this verb."""
     parser.add_argument(
         'recordings', nargs='+', metavar='BAG',
-        help='folder of a recording, of this project or of ros2 bag, or its mcap or db3 file')
+        help='folder of a recording of this project or of ros2 bag, or its mcap or db3 file')
     add_node_argument(parser)
     parser.add_argument(
         '--out', metavar='DIR',
-        help='write CSV, JSON and plots into a folder for each recording in this one')
+        help='write CSV, JSON and plots into this directory, in one folder per recording')
+    parser.add_argument(
+        '--npz', action='store_true',
+        help='with --out, write time, positions, velocities, normals, strain and flags of all '
+             'frames as points.npz as well')
 
 
 def main(args: Namespace) -> int:
     """Analyse one by one, then compare."""
+    if args.npz and not args.out:
+        raise ClothSimError('--npz needs a folder for its files: give --out')
     recordings = [Recording(path, args.node) for path in args.recordings]
     names = _names(recordings)
     # Told before minutes of reading, not after.
     folder = make_folder(args.out) if args.out else None
+    runs = []
     for recording, name in zip(recordings, names):
         run = Run(recording, ReadingProgress(name))
         summary = Summary.of(run)
         print(f'{recording.path}\n{text_table(summary_lines(summary))}\n')
         if folder:
             _write_run(run, summary, make_folder(folder / name))
+            if args.npz:
+                write_points(recording, folder / name / 'points.npz')
+        runs.append(run)
     comparisons = [
         replace(
             compare(recordings[0], other, ReadingProgress(f'{name} against {names[0]}')),
@@ -83,6 +96,7 @@ def main(args: Namespace) -> int:
     if folder:
         if comparisons:
             _write_comparisons(comparisons, names, folder)
+            _write_curves(runs, names, folder)
         print(folder)
     return 0
 
@@ -103,6 +117,11 @@ def _write_comparisons(
         write_comparison(comparison, folder / f'{name}_against_{names[0]}.csv')
     write_json([comparison_values(each) for each in comparisons], folder / 'comparison.json')
     write_plot(comparison_plot(comparisons), folder / 'comparison.png')
+
+
+def _write_curves(runs: Sequence[Run], names: Sequence[str], folder: Path) -> None:
+    from cloth_sim_ros.analysis.overlay_plot import overlay_plot
+    write_plot(overlay_plot(runs, names), folder / 'curves.png')
 
 
 def _names(recordings: Sequence[Recording]) -> list[str]:

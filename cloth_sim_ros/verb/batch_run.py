@@ -22,6 +22,7 @@ from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.errors import NonFiniteStateError
 from cloth_sim_ros.sim.simulation import Simulation
 from cloth_sim_ros.verb.compile_notice import compile_notice
+from cloth_sim_ros.verb.sayer import sayer
 from tqdm import tqdm
 
 # Of a step: what a sum of frame times may fall short of it, as in Simulation.advance.
@@ -103,10 +104,10 @@ class BatchRun:
     def _open_recording(self) -> None:
         if self._record_directory is not None:
             # The ROS packages are needed for a recording alone.
-            from cloth_sim_ros.verb.batch_recording import BatchRecording
-            self._recording = BatchRecording(
+            from cloth_sim_ros.api.run_recording import RunRecording
+            self._recording = RunRecording(
                 self._simulation, self._node_values, self._record_directory,
-                setting=self._setting)
+                say=sayer('run'), setting=self._setting)
 
     def _make_frames(self, seconds: float, steps: int) -> None:
         dt = self._simulation.dt

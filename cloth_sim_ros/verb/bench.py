@@ -23,7 +23,7 @@ threads of llvmpipe.
 to a residual of 1e-2 and the error against a direct float64 solve beside them.
 
 --modes compares whole modes on a light cloth that falls from two corners: real-time factor beside
-stretch, work and rise of energy. Each makes 20 ms in turn; docs/performance.md defines the
+stretch, work and rise of energy. Each makes 20 ms in turn; docs/notes/performance.md defines the
 figures.
 
 For example:

@@ -14,7 +14,7 @@
 
 
 """
-Tell what a recording holds: the cloth, what was done to it, strain, energies and pace.
+Summarise a recording: the cloth, its inputs, strain, energies and pace.
 
 Needs no node.
 

@@ -34,25 +34,26 @@ from cloth_sim_ros.verb.termination import raise_on_sigterm
 from cloth_sim_ros.verb.termination import Terminated
 
 VERBS = {
-    'run': 'simulate a scene file, without ROS',
-    'bench': 'measure the speed of this device, without ROS',
+    'run': 'simulate a scene file without ROS',
+    'bench': 'measure the speed of this device without ROS',
     'mode': 'switch the simulation mode of a running node',
-    'push': 'push the cloth of a running node',
-    'pin': 'hold a node of the cloth in place, or let it go',
-    'pause': 'stop the simulated time of a running node',
-    'resume': 'let a paused node run on',
-    'step': 'make a paused node do some steps',
-    'reset': 'put the cloth of a running node back to its start',
+    'push': 'push the cloth of a running node, or end all pushes',
+    'pin': 'pin, move or release a node of the cloth',
+    'pause': 'pause a running node',
+    'resume': 'resume a paused node',
+    'step': 'advance a paused node by a number of time steps',
+    'reset': 'restore the initial state of a running node',
     'record': 'start or stop a recording of a running node',
-    'status': 'show what a running node is doing',
-    'info': 'tell what a recording holds',
-    'recover': 'make a recording that was cut off whole for other tools',
-    'analyze': 'analyse recordings: table, CSV, JSON and plots',
-    'render': 'draw the cloth of recordings, as a sheet of pictures or a video',
+    'status': 'show the state of a running node',
+    'info': 'summarise a recording',
+    'recover': 'repair a truncated or damaged recording for other tools',
+    'analyze': 'analyse and compare recordings: table, CSV, JSON and plots',
+    'render': 'draw recordings as a sheet of pictures or as a video',
     'play': 'publish a recording again',
-    'resimulate': 'run a recorded simulation again, with the same or other settings',
-    'paper': 'make Fig. 10 and 11 of the paper',
-    'study': 'measure error against cost, and where a scene stops being stable',
+    'view': 'show a node, a scene or a recording in the browser',
+    'resimulate': 'repeat a recorded simulation, with the same or other settings',
+    'paper': 'reproduce Fig. 10 and 11 of the paper',
+    'study': 'measure error, cost and stability of a scene and choose settings',
 }
 _MOST_TOLD = 500
 # 128 and the number of the signal, as shells have it.
@@ -103,7 +104,7 @@ def _no_verb(arguments: list[str]) -> int:
     parser = _Parser(
         prog='cloth_sim', usage='cloth_sim VERB ...', formatter_class=RawDescriptionHelpFormatter,
         description=f'Simulate cloth, and talk to a running cloth_sim_node.\n\nverbs:\n{verbs}',
-        epilog='cloth_sim VERB --help tells more about a verb.')
+        epilog='cloth_sim VERB --help describes a verb.')
     parser.add_argument('verb', choices=VERBS, metavar='VERB', help='what to do')
     parser.parse_args(arguments[:1])
     return 0

@@ -13,7 +13,7 @@
 # limitations under the License.
 
 """
-Switch the simulation mode of a running node, keeping the state of the cloth.
+Switch the simulation mode of a running node. Positions and velocities are kept.
 
 For example:
   cloth_sim mode mass_spring

@@ -13,10 +13,10 @@
 # limitations under the License.
 
 r"""
-Make Fig. 10 and 11 of the paper: recordings, a table of their peaks, and a sheet of pictures.
+Reproduce Fig. 10 or 11 of the paper: recordings, a table of peaks, and a sheet of pictures.
 
-Each figure has its folder with a recording of each run. Some runs go beyond what is stable, as
-the paper's do; they end at their last finite state. docs/paper.md tells what is seen.
+Each run of a figure is recorded in the folder of that figure. Some runs are unstable, as they are
+in the paper; they end at their last finite state. docs/notes/paper.md discusses the results.
 
 For example:
   cloth_sim paper fig10 --sheet fig10.png
@@ -33,6 +33,7 @@ from cloth_sim_ros.analysis.recording import Recording
 from cloth_sim_ros.analysis.run import Run
 from cloth_sim_ros.analysis.run_outcome import RunOutcome
 from cloth_sim_ros.analysis.run_sheet import write_run_sheet
+from cloth_sim_ros.api.scene_file import scene_from
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.modes import AVAILABLE
 from cloth_sim_ros.sim.scene import Scene
@@ -42,14 +43,13 @@ from cloth_sim_ros.study.paper_figures import PaperFigure
 from cloth_sim_ros.verb.recorded_run import record_run
 from cloth_sim_ros.verb.recording_arguments import list_of_times
 from cloth_sim_ros.verb.scene_arguments import parse_change
-from cloth_sim_ros.verb.scene_arguments import scene_from
 
 _SECONDS = 3.0
 
 
 def add_arguments(parser: ArgumentParser) -> None:
     """Add the arguments of this verb."""
-    parser.add_argument('figure', choices=FIGURES, help='which figure')
+    parser.add_argument('figure', choices=FIGURES, help='figure to reproduce')
     parser.add_argument('--out', metavar='DIR',
                         help='folder of the recordings (default: bags/paper_FIGURE)')
     parser.add_argument('--sheet', metavar='FILE.png',

@@ -13,7 +13,7 @@
 # limitations under the License.
 
 """
-Stop the simulated time of a running node; services still answer.
+Pause a running node: simulated time stops, services still answer.
 
 For example:
   cloth_sim pause

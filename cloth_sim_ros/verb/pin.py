@@ -13,10 +13,10 @@
 # limitations under the License.
 
 """
-Hold a node of the cloth where it is, move it, or let it go.
+Pin a node of the cloth where it is, move a pin, or release it.
 
-A pin moves in a straight line, and in simulated time. A new target takes the place of the one
-before.
+A pin moves in a straight line, at a speed in simulated time. A new target replaces the previous
+one.
 
 For example:
   cloth_sim pin 0 15
@@ -44,20 +44,21 @@ _AXES = ('X', 'Y', 'Z')
 def add_arguments(parser: ArgumentParser) -> None:
     """Add the arguments of this verb."""
     parser.add_argument(
-        'place', nargs='*', type=int, metavar='ROW COL', help='the node, row 0 is the top one')
+        'place', nargs='*', type=int, metavar='ROW COL',
+        help='row and column of the node; row 0 is the top row')
     parser.add_argument(
         '--near', nargs=3, type=float, metavar=_AXES,
-        help='take the node nearest to this point [m], with --to the pin nearest to it')
+        help='choose the node nearest to this point or, with --to, the nearest pin [m]')
     parser.add_argument(
         '--max-distance', type=float, metavar='M',
-        help='that node may be so far from the point of --near [m] (default: 0.1, or the node '
-             'spacing where that is longer)')
+        help='largest distance of that node from the point [m] (default: 0.1, or the node '
+             'spacing if that is larger)')
     what = parser.add_mutually_exclusive_group()
-    what.add_argument('--release', action='store_true', help='let the node go')
+    what.add_argument('--release', action='store_true', help='release the node')
     what.add_argument('--to', nargs=3, type=float, metavar=_AXES, help='move the pin there [m]')
     parser.add_argument(
         '--speed', type=float, metavar='M/S',
-        help='of the move [m/s] (default: the parameter pin_speed of the node)')
+        help='speed of the move [m/s] (default: the parameter pin_speed of the node)')
     add_node_arguments(parser)
 
 

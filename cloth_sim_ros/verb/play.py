@@ -13,12 +13,12 @@
 # limitations under the License.
 
 """
-Publish a recording again: the same messages on the same topics, at the pace they were recorded.
+Publish a recording again: the same messages on the same topics, at the recorded pace.
 
-Plays recordings of this project and of `ros2 bag record`. The pace is that of simulated time, or
-of the wall clock in a bag of `ros2 bag record`. The player is the node /cloth_sim_player;
-`cloth_sim pause --node cloth_sim_player` and `cloth_sim resume --node cloth_sim_player` stop it
-and let it go on. Ctrl-C ends it.
+Plays recordings of this project and of `ros2 bag record`. The pace follows simulated time, or the
+wall clock in a bag of `ros2 bag record`. The player is the node /cloth_sim_player: pause and
+resume it with `cloth_sim pause --node cloth_sim_player` and
+`cloth_sim resume --node cloth_sim_player`. Ctrl-C ends it.
 
 For example:
   cloth_sim play bags/drop_test
@@ -47,27 +47,28 @@ def add_arguments(parser: ArgumentParser) -> None:
     add_recording_arguments(parser)
     parser.add_argument(
         '--rate', type=float, default=1.0, metavar='R',
-        help='recorded seconds in a second of wall time (default: %(default)s)')
-    parser.add_argument('--loop', action='store_true', help='begin again at the end')
+        help='recorded seconds per second of wall time (default: %(default)s)')
+    parser.add_argument('--loop', action='store_true', help='start again at the end')
     parser.add_argument(
         '--start', type=float, default=0.0, metavar='S',
-        help='begin so long after the begin of the recording [s]; topology, state and parameters '
-             'from before are sent first')
+        help='time from the beginning of the recording at which to start [s]; the topology, state '
+             'and parameters of that time are sent first')
     parser.add_argument(
         '--duration', type=float, default=float('inf'), metavar='S',
-        help='play so much of it [s] (default: all)')
+        help='recorded time to play [s] (default: all)')
     parser.add_argument(
-        '--topics', nargs='+', default=(), metavar='TOPIC', help='play these (default: all)')
+        '--topics', nargs='+', default=(), metavar='TOPIC', help='topics to play (default: all)')
     parser.add_argument(
         '--as', metavar='NAME', dest='played_node', default='',
-        help='publish the topics of the recorded node as those of this one')
+        help='publish the topics of the recorded node under this node name')
     parser.add_argument(
         '--clock', action='store_true',
-        help='publish simulated time on /clock; a recorded /clock is played in any case')
-    parser.add_argument('--paused', action='store_true', help='wait for cloth_sim resume')
+        help='publish simulated time on /clock; a recorded /clock is always played')
+    parser.add_argument(
+        '--paused', action='store_true', help='start paused, until cloth_sim resume')
     parser.add_argument(
         '--delay', type=float, default=1.0, metavar='S',
-        help='wait so long first, as readers need time to find the player [s] '
+        help='time before the first message, for subscribers to find the player [s] '
              '(default: %(default)s)')
 
 

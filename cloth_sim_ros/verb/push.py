@@ -15,8 +15,8 @@
 """
 Push the cloth of a running node with a total force, or end all pushes.
 
-Without --center the force is spread over the whole cloth, with it over the free nodes within
---radius. The duration is simulated time.
+The force acts on all free nodes or, with --center, on those within --radius of that point. The
+duration is in simulated time.
 
 For example:
   cloth_sim push --force 0 0 2.5 --duration 0.2
@@ -44,13 +44,13 @@ def add_arguments(parser: ArgumentParser) -> None:
     what.add_argument('--force', nargs=3, type=float, metavar=_AXES, help='total force [N]')
     what.add_argument('--clear', action='store_true', help='end all pushes instead')
     parser.add_argument(
-        '--center', nargs=3, type=float, metavar=_AXES, help='push only around this point [m]')
+        '--center', nargs=3, type=float, metavar=_AXES, help='centre of the pushed sphere [m]')
     parser.add_argument(
         '--radius', type=float, default=0.1, metavar='M',
-        help='how far around --center [m] (default: %(default)s)')
+        help='radius of the pushed sphere [m] (default: %(default)s)')
     parser.add_argument(
         '--duration', type=float, default=0.1, metavar='S',
-        help='of the push [s] (default: %(default)s)')
+        help='duration of the push [s] (default: %(default)s)')
     add_node_arguments(parser)
 
 

@@ -15,8 +15,8 @@
 """
 Start or stop a recording of a running node.
 
-The node writes into a fresh folder inside its parameter recording.directory; start prints the
-path of the folder.
+The node writes into a new folder inside its recording.directory; start prints the path of that
+folder.
 
 For example:
   cloth_sim record start
@@ -36,10 +36,10 @@ from std_srvs.srv import Trigger
 def add_arguments(parser: ArgumentParser) -> None:
     """Add the arguments of this verb."""
     actions = parser.add_subparsers(dest='action', required=True, metavar='start|stop')
-    start = actions.add_parser('start', help='begin a recording')
+    start = actions.add_parser('start', help='start a recording')
     start.add_argument(
-        'name', nargs='?', default='', help='name of the folder; a fresh one by default')
-    stop = actions.add_parser('stop', help='close the recording')
+        'name', nargs='?', default='', help='name of the folder (default: date and time)')
+    stop = actions.add_parser('stop', help='stop the recording')
     for action in (start, stop):
         add_node_arguments(action)
 

@@ -28,7 +28,7 @@ def add_recording_arguments(parser: ArgumentParser) -> None:
     """Add the recording and the name of its node."""
     parser.add_argument(
         'recording', metavar='BAG',
-        help='folder of the recording, of this project or of ros2 bag, or its mcap or db3 file')
+        help='folder of a recording of this project or of ros2 bag, or its mcap or db3 file')
     add_node_argument(parser)
 
 
@@ -36,7 +36,7 @@ def add_node_argument(parser: ArgumentParser) -> None:
     """Add the name of the recorded node."""
     parser.add_argument(
         '--node', metavar='NAME',
-        help='name of the recorded node, with its namespace; needed where there are several')
+        help='name of the recorded node, including its namespace; needed if there are several')
 
 
 def open_recording(args: Namespace) -> Recording:

@@ -2,10 +2,10 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-Make a recording that was cut off or damaged whole for other tools.
+Repair a truncated or damaged recording for other tools.
 
-Writes all whole messages into a new folder, with the index and the metadata.yaml that rosbag2,
-rosbags and Foxglove need. The recording itself stays as it is. Needs no node.
+Writes all intact messages into a new folder, with the index and the metadata.yaml that rosbag2,
+rosbags and Foxglove need. The recording itself is not changed. Needs no node.
 
 For example:
   cloth_sim recover bags/killed_run
@@ -26,7 +26,8 @@ def add_arguments(parser: ArgumentParser) -> None:
     parser.add_argument(
         'recording', metavar='BAG', help='folder of the recording, or its mcap file')
     parser.add_argument(
-        '--out', metavar='FOLDER', help='new folder for what is kept (default: BAG_recovered)')
+        '--out', metavar='FOLDER',
+        help='new folder for the repaired recording (default: BAG_recovered)')
 
 
 def main(args: Namespace) -> int:

@@ -13,12 +13,12 @@
 # limitations under the License.
 
 """
-Draw the cloth of recordings: a sheet of pictures, or a video. Needs no node and no window.
+Draw recordings as a sheet of pictures or as a video. Needs no node and no window.
 
-The colour of the cloth is its strain. Balls are pins, arrows are pushes that act, dots are nodes
-at their strain limit. Without --at, moments are chosen so that the pushes are seen. Several
-recordings have a row each, seen alike. The state that `cloth_sim run --out` writes can be drawn
-in place of a recording.
+The colour of the cloth shows its strain. Balls are pins, arrows are active pushes, dots are nodes
+at their strain limit. Without --at, the times are chosen so that the pushes are visible. With
+several recordings, each has a row of its own, with the same camera. A state that
+`cloth_sim run --out` wrote can take the place of a recording.
 
 For example:
   cloth_sim render bags/drop_test --out drop.png --at 0.5,1,2 --azimuth 30 --elevation 10
@@ -49,16 +49,17 @@ def add_arguments(parser: ArgumentParser) -> None:
     sheet.add_argument('--at', type=list_of_times, metavar='T,T,...', help='times to show [s]')
     sheet.add_argument(
         '--columns', type=int, default=3, metavar='N',
-        help='panels side by side, of one recording (default: %(default)s)')
+        help='panels per row, with one recording (default: %(default)s)')
     video = parser.add_argument_group('video')
     video.add_argument('--video', metavar='FILE.mp4', help='video to write')
     video.add_argument(
-        '--fps', type=float, default=30.0, help='images a second (default: %(default)s)')
+        '--fps', type=float, default=30.0,
+        help='frames per second of the video (default: %(default)s)')
     video.add_argument(
         '--speed', type=float, default=1.0,
-        help='simulated seconds in a second of the video (default: %(default)s)')
-    video.add_argument('--from', type=float, dest='begin', metavar='T', help='begin there [s]')
-    video.add_argument('--to', type=float, dest='end', metavar='T', help='end there [s]')
+        help='simulated seconds per second of video (default: %(default)s)')
+    video.add_argument('--from', type=float, dest='begin', metavar='T', help='start time [s]')
+    video.add_argument('--to', type=float, dest='end', metavar='T', help='end time [s]')
     add_camera_arguments(parser)
     add_style_arguments(parser)
 

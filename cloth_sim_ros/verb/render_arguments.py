@@ -35,7 +35,8 @@ _LEAST_SIDE, _MOST_SIDE = 32, 8192  # [pixel]
 def add_source_arguments(parser: ArgumentParser) -> None:
     """Add the recordings and the name of their node."""
     parser.add_argument(
-        'sources', nargs='+', metavar='BAG|STATE.npz', help='folder of a recording, or a state')
+        'sources', nargs='+', metavar='BAG|STATE.npz',
+        help='folder of a recording, or a state file')
     add_node_argument(parser)
 
 
@@ -44,30 +45,31 @@ def add_camera_arguments(parser: ArgumentParser) -> None:
     group = parser.add_argument_group('camera')
     group.add_argument(
         '--azimuth', type=float, default=Camera.azimuth, metavar='DEG',
-        help='where it stands, counted from x towards y (default: %(default)s)')
+        help='direction of the camera, from x towards y (default: %(default)s)')
     group.add_argument(
         '--elevation', type=float, default=Camera.elevation, metavar='DEG',
-        help='how far above the horizon (default: %(default)s)')
+        help='angle above the horizon (default: %(default)s)')
     group.add_argument(
         '--fov', type=float, default=Camera.field_of_view, metavar='DEG',
-        help='field of view; 0 is without perspective (default: %(default)s)')
+        help='vertical field of view; 0 for no perspective (default: %(default)s)')
     group.add_argument(
-        '--zoom', type=float, default=1.0, help='1 shows everything (default: %(default)s)')
+        '--zoom', type=float, default=1.0,
+        help='magnification; 1 shows everything (default: %(default)s)')
     group.add_argument(
         '--target', nargs=3, type=float, metavar=('X', 'Y', 'Z'),
-        help='the point in the middle of the picture [m]')
+        help='point at the centre of the picture [m]')
 
 
 def add_style_arguments(parser: ArgumentParser) -> None:
     """Add how the picture looks."""
     group = parser.add_argument_group('looks')
     group.add_argument(
-        '--size', type=pixels, metavar='WIDTHxHEIGHT', help='of each panel [pixel]')
+        '--size', type=pixels, metavar='WIDTHxHEIGHT', help='size of each panel [pixel]')
     group.add_argument(
         '--strain-max', type=float, metavar='S',
-        help='strain of the last colour, 0.05 for 5 %%; fits what is shown by default')
+        help='strain at the end of the colour scale, 0.05 for 5 %% (default: fits the data)')
     group.add_argument('--labels', nargs='+', metavar='NAME', help='names of the recordings')
-    group.add_argument('--title', help='heading; says what is shown by default')
+    group.add_argument('--title', help='heading (default: describes the contents)')
 
 
 def sources_of(args: Namespace) -> list[Source]:

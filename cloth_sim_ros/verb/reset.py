@@ -13,7 +13,7 @@
 # limitations under the License.
 
 """
-Put the cloth of a running node back to its start: pose, pins, time and the scene's pushes.
+Restore the initial state of a running node: pose, pins, time, and the inputs of the scene.
 
 For example:
   cloth_sim reset

@@ -13,12 +13,12 @@
 # limitations under the License.
 
 r"""
-Run a recorded simulation again, from the recording alone.
+Repeat a recorded simulation from its recording alone.
 
-Scene and inputs (pushes, pins, their targets, switches of the mode, resets) are those that were
-recorded, at their simulated times. As recorded, on the same device, the run has the same bits, and
-the exit code is 1 when it has not. With --set another scene gets the same inputs; a mode given so
-holds for the whole run. Without --out and --compare no ROS is needed.
+Scene and inputs (pushes, pins, pin targets, mode switches, resets) are taken from the recording,
+at their simulated times. With the same settings on the same device the result is identical bit
+for bit, and the exit code is 1 if it is not. With --set, another scene gets the same inputs; a
+mode that is set this way applies to the whole run. Needs no ROS without --out and --compare.
 
 For example:
   cloth_sim resimulate bags/my_run
@@ -57,11 +57,11 @@ def add_arguments(parser: ArgumentParser) -> None:
     """Add the arguments of this verb."""
     add_recording_arguments(parser)
     parser.add_argument('--set', action='append', default=[], metavar='name=value', dest='changes',
-                        help='change a parameter of the scene; can be given several times')
+                        help='change a scene parameter; can be given several times')
     parser.add_argument('--out', metavar='DIR', help='record the new run into this folder')
     parser.add_argument('--compare', action='store_true',
-                        help='compare both runs as `cloth_sim analyze` does; with --out, its '
-                             'files go there, too')
+                        help='compare both runs as `cloth_sim analyze` does; with --out, write '
+                             'its files there')
 
 
 def main(args: Namespace) -> int:
@@ -103,7 +103,7 @@ def _folder(args: Namespace) -> AbstractContextManager[str | None]:
 
 def _compare(run: RecordedRun, new: str, out: str | None) -> None:
     try:
-        analyze.main(Namespace(recordings=[str(run.path), new], node=run.node, out=out))
+        analyze.main(Namespace(recordings=[str(run.path), new], node=run.node, out=out, npz=False))
     except ClothSimError as error:
         print(error)
 

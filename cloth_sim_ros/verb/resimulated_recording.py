@@ -17,12 +17,13 @@
 from typing import Any
 
 from cloth_sim_interfaces.msg import Command
+from cloth_sim_ros.api.run_recording import RunRecording
 from cloth_sim_ros.node.inputs import Inputs
 from cloth_sim_ros.resimulation.listener import Listener
 from cloth_sim_ros.sim.pin_move import PinMove
 from cloth_sim_ros.sim.push import Push
 from cloth_sim_ros.sim.simulation import Simulation
-from cloth_sim_ros.verb.batch_recording import BatchRecording
+from cloth_sim_ros.verb.sayer import sayer
 
 
 class ResimulatedRecording(Listener):
@@ -44,14 +45,15 @@ class ResimulatedRecording(Listener):
         self._arguments = (simulation, node_values, directory)
         self._node_name = node_name
         self._frame_id = node_values['frame_id']
-        self.recording: BatchRecording | None = None
+        self.recording: RunRecording | None = None
         self._is_written = False
         self.path = ''
 
     def begin(self) -> None:
         """Open the recording and write what it begins with, and its first frame."""
-        self.recording = BatchRecording(
-            *self._arguments, node_name=self._node_name, verb='resimulate', setting='--out')
+        self.recording = RunRecording(
+            *self._arguments, node_name=self._node_name, say=sayer('resimulate'),
+            setting='--out')
         self._is_written = True
         self.path = self.recording.path
         self._inputs = Inputs(

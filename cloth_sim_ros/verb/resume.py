@@ -13,7 +13,7 @@
 # limitations under the License.
 
 """
-Let the simulated time of a paused node go on.
+Resume a paused node.
 
 For example:
   cloth_sim resume

@@ -13,10 +13,10 @@
 # limitations under the License.
 
 r"""
-Simulate a scene file, without a node and without ROS.
+Simulate a scene file without a node and without ROS.
 
-A scene file is a ROS parameter file; what only the node needs is passed over. With --record the
-run is written as a recording, which needs the ROS packages.
+A scene file is a ROS parameter file; what only a node needs is ignored. With --record, the run
+is written as a recording, which needs the ROS packages.
 
 For example:
   cloth_sim run config/drape.yaml --seconds 2
@@ -44,13 +44,13 @@ def add_arguments(parser: ArgumentParser) -> None:
     """Add the arguments of this verb."""
     add_scene_arguments(parser)
     parser.add_argument('--seconds', type=float, default=1.0, metavar='T',
-                        help='simulated time (default: %(default)s)')
-    parser.add_argument('--record', metavar='DIR', help='write a recording into this folder')
+                        help='simulated time [s] (default: %(default)s)')
+    parser.add_argument('--record', metavar='DIR', help='write a recording into this directory')
     add_recording_options(parser)
     parser.add_argument('--out', metavar='STATE.npz',
-                        help='write the last positions, velocities, strains, flags and the time')
+                        help='write the final positions, velocities, strains, flags and time')
     parser.add_argument('--json', action='store_true',
-                        help='end with one line that holds the result as JSON')
+                        help='print the result as one line of JSON')
 
 
 def main(args: Namespace) -> int:

@@ -16,19 +16,14 @@
 
 from argparse import ArgumentParser
 from argparse import Namespace
-from collections.abc import Mapping
-from pathlib import Path
 from typing import Any
 
+from cloth_sim_ros.api.scene_file import scene_from
 from cloth_sim_ros.files.checked_yaml import parse_yaml
 from cloth_sim_ros.files.echo import cut
 from cloth_sim_ros.files.echo import shown
-from cloth_sim_ros.node.node_fields import check_together
-from cloth_sim_ros.node.node_fields import NODE_FIELDS
 from cloth_sim_ros.sim.errors import ClothSimError
-from cloth_sim_ros.sim.scene import refuse_unknown
 from cloth_sim_ros.sim.scene import Scene
-from cloth_sim_ros.sim.scene_fields import SCENE_FIELDS
 from cloth_sim_ros.sim.scene_file import load_parameters
 
 
@@ -36,7 +31,7 @@ def add_scene_arguments(parser: ArgumentParser) -> None:
     """Add the scene file, --params and --set."""
     parser.add_argument('scene', metavar='SCENE.yaml', help='ROS parameter file of the scene')
     parser.add_argument('--params', action='append', default=[], metavar='PARAMS.yaml',
-                        help='parameters that go over those of the scene; can be given several '
+                        help='parameter file that overrides the scene; can be given several '
                              'times')
     parser.add_argument('--set', action='append', default=[], metavar='name=value', dest='changes',
                         help='change a parameter; can be given several times')
@@ -53,21 +48,6 @@ def read_scene(args: Namespace) -> tuple[Scene, dict[str, Any]]:
         given.update(load_parameters(path))
     given.update(map(parse_change, args.changes))
     return scene_from(args.scene, given)
-
-
-def scene_from(
-        path: str | Path, changes: Mapping[str, Any]) -> tuple[Scene, dict[str, Any]]:
-    """
-    Return the scene and the node's parameters of a file with ``changes`` by name.
-
-    :raises ClothSimError: when the file or a change is not right
-    """
-    given = {**load_parameters(path), **changes}
-    refuse_unknown(given, SCENE_FIELDS + NODE_FIELDS)
-    node_values = {
-        field.name: field.check(given.pop(field.name, field.default)) for field in NODE_FIELDS}
-    check_together(node_values)
-    return Scene(given), node_values
 
 
 def parse_change(change: str) -> tuple[str, Any]:

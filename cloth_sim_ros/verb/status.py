@@ -13,7 +13,7 @@
 # limitations under the License.
 
 """
-Show what a running node is doing: its state, and the plain numbers of the newest frame.
+Show the state of a running node and the figures of its latest frame.
 
 For example:
   cloth_sim status
@@ -44,7 +44,7 @@ def add_arguments(parser: ArgumentParser) -> None:
     parser.add_argument('--json', action='store_true', help='print one JSON object')
     parser.add_argument(
         '--until', type=float, metavar='T',
-        help='wait until this simulated time [s] of a node that runs')
+        help='wait until the running node reaches this simulated time [s]')
     add_node_arguments(parser)
 
 

@@ -13,9 +13,9 @@
 # limitations under the License.
 
 """
-Make a paused node do some steps of dt, and wait until they are done.
+Advance a paused node by a number of time steps and wait until they are done.
 
-The node shows and records the cloth at the end; with --every, on the way as well.
+The node publishes and records a frame at the end and, with --every, in between.
 
 For example:
   cloth_sim step
@@ -37,10 +37,11 @@ _LARGEST = 2**32 - 1
 def add_arguments(parser: ArgumentParser) -> None:
     """Add the arguments of this verb."""
     parser.add_argument(
-        'steps', nargs='?', type=_count, default=1, help='how many (default: %(default)s)')
+        'steps', nargs='?', type=_count, default=1,
+        help='number of time steps (default: %(default)s)')
     parser.add_argument(
         '--every', type=_count, metavar='N',
-        help='show and record the cloth after each N steps, not at the end alone')
+        help='also publish and record a frame after every N steps')
     add_node_arguments(parser)
 
 

@@ -13,7 +13,7 @@
 # limitations under the License.
 
 """
-Study a scene: how exact and how fast settings are, and where they end.
+Measure the error, the cost and the stability limits of a scene, and choose settings.
 
 For example:
   cloth_sim study tradeoff config/drape.yaml

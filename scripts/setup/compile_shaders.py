@@ -21,11 +21,11 @@ Compile the shaders of a scene in each mode, so that the driver has them in its 
 
 import sys
 
+from cloth_sim_ros.api.scene_file import scene_from
 from cloth_sim_ros.gl.errors import DeviceError
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.simulation import Simulation
-from cloth_sim_ros.verb.scene_arguments import scene_from
 
 
 def compile_shaders(scene: Scene) -> None:

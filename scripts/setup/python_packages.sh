@@ -87,3 +87,17 @@ install_python_packages() {
   set_stamp packages "$current"
   rm -f "$stamps/installing"
 }
+
+# A sourced ROS has its own NumPy, which view.txt would replace: its lock brings the view.
+install_view_packages() {
+  local current
+  [ "$with_view" = yes ] && [ "$ros_source" != jazzy ] || return 0
+  current=$(digest requirements/view.txt < "$stamps/packages")
+  ! is_current view "$current" || return 0
+  clear_stamp view
+  packages_total=$(requirements_here requirements/view.txt)
+  packages_before=$(installed_packages)
+  long_step 'Installing the live view' pip_words \
+    pip_install --require-hashes --requirement requirements/view.txt
+  set_stamp view "$current"
+}

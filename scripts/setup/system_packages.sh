@@ -22,6 +22,11 @@ has_file() {
   compgen -G "$1" > /dev/null
 }
 
+# The names that test/support/browser.py looks for.
+has_browser() {
+  command -v chromium || command -v chromium-browser || command -v google-chrome
+} > /dev/null
+
 # Print the packages whose content is not here, one a line.
 missing_packages() {
   local known_libraries
@@ -38,6 +43,9 @@ missing_packages() {
   command -v c++ > /dev/null || echo g++
   if [ "$with_tests" = yes ]; then
     command -v glslangValidator > /dev/null || echo glslang-tools
+  fi
+  if [ "$with_browser" = yes ]; then
+    has_browser || echo chromium
   fi
 }
 

@@ -91,7 +91,7 @@ def test_differences_are_second_minus_first(recorded):
     assert result.times.tolist() == [0.5]
     assert result.energy_difference[0] == 0.0
     assert comparison_lines(result)['matched'] == (
-        '1 frames from 0.5 to 0.5 s; 1 and 1 more are in one of them alone')
+        '1 frames from 0.5 to 0.5 s; 1 and 1 are in one of them only')
 
 
 @pytest.mark.parametrize('keys', [('points',), ('stats',)])

@@ -107,11 +107,11 @@ def names_in(part):
     return [part] if isinstance(part, str) and part.startswith('/') else []
 
 
-def test_the_command_of_the_readme_moves_it_into_a_namespace(layout):
+def test_the_command_of_the_docs_moves_it_into_a_namespace(layout):
     """Foxglove would show another node than the one in the namespace, or push it."""
     command = re.search(
         r'^ {4}(sed .* config/foxglove_layout.json) > left_layout.json$',
-        (ROOT / 'README.md').read_text(encoding='utf-8'), re.MULTILINE)[1]
+        (ROOT / 'docs' / 'how_to' / 'viewers.md').read_text(encoding='utf-8'), re.MULTILINE)[1]
     moved = subprocess.run(
         command, shell=True, cwd=ROOT, capture_output=True, text=True, check=True).stdout
     names = names_in(layout)

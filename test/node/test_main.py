@@ -32,6 +32,9 @@ BAD_PARAMETERS = {
     'unknown mode': ({'mode': 'fluid'}, "one of mass_spring, constraint, adaptive, got 'fluid'"),
     'unstable': ({'dt': 0.5, 'auto_substeps': False}, 'or auto_substeps: true'),
     'too large for the device': ({'rows': 8192, 'cols': 8192}, 'use up to about'),
+    'two weights': ({'total_mass': 0.3, 'areal_density': 0.2}, 'total_mass 0.3 and areal_density '
+                    '0.2 each say what the cloth weighs: give one of them'),
+    'pin off the cloth': ({'pin_points.positions': [0.0, 0.0, 1.4]}, 'no node is within'),
     'mixed list': ({'gravity': [0, 0, -9.81]}, 'write lists of numbers alike'),
 }
 

@@ -63,8 +63,8 @@ def test_a_slow_run_is_warned_of_once(run):
     (time, level, text), = run((600.0, 0.5))
     assert level == 'warning' and time < 2.0
     assert text == (
-        '0.5 x real time is below the 1 asked for: take fewer nodes, softer springs, another mode '
-        'or a lower real_time_factor')
+        '0.5 x real time, below the desired 1: use fewer nodes, softer springs, another mode or a '
+        'lower real_time_factor')
 
 
 def test_a_run_that_keeps_up_again_says_so(run):

@@ -29,6 +29,74 @@ def test_mass_is_shared_evenly():
     assert Scene({'node_mass': 0.7}).node_mass == 0.7
 
 
+def test_the_cloth_weighs_its_total_mass():
+    """A towel of 0.3 kg would weigh what the default areal density makes of its size."""
+    scene = Scene({'rows': 7, 'cols': 9, 'width': 0.5, 'height': 0.9, 'total_mass': 0.3})
+    assert scene.node_mass * scene.node_count == pytest.approx(0.3)
+    # A finer lattice of the same cloth weighs as much.
+    finer = Scene({**scene.values, 'rows': 13, 'cols': 17})
+    assert finer.node_mass * finer.node_count == pytest.approx(0.3)
+
+
+@pytest.mark.parametrize(('others', 'named'), [
+    ({'areal_density': 0.25}, 'total_mass 0.3 and areal_density 0.25'),
+    ({'node_mass': 0.01}, 'total_mass 0.3 and node_mass 0.01'),
+    ({'node_mass': 0.01, 'areal_density': 0.25},
+     'total_mass 0.3 and node_mass 0.01 and areal_density 0.25')])
+def test_one_parameter_alone_says_what_the_cloth_weighs(others: dict, named: str):
+    """One of two weights would be passed over without a word."""
+    with pytest.raises(ClothSimError) as caught:
+        Scene({'total_mass': 0.3, **others})
+    assert str(caught.value) == (
+        f'{named} each say what the cloth weighs: give one of them, and set the others to 0')
+    assert Scene({'total_mass': 0.3, **dict.fromkeys(others, 0.0)})['total_mass'] == 0.3
+
+
+def test_a_cloth_without_mass_is_refused():
+    """Forces would be divided by 0."""
+    with pytest.raises(ClothSimError, match=r'no mass, as areal_density is 0: give total_mass'):
+        Scene({'areal_density': 0.0})
+
+
+@pytest.mark.parametrize('pose', ['horizontal', 'hanging'])
+def test_pins_stand_at_their_points(pose: str):
+    """A pin that is given in metres would hold another node than the one at that place."""
+    values = {'rows': 5, 'cols': 9, 'width': 0.8, 'height': 0.4, 'start.pose': pose,
+              'start.z': 0.7}
+    rest = Scene(values).rest_positions()
+    points = [*(rest[1, 2] + 0.02), *(rest[4, 8] - 0.03)]
+    pinned = Scene({**values, 'pin_points.positions': points}).pinned_nodes()
+    assert np.argwhere(pinned).tolist() == [[1, 2], [4, 8]]
+    both = Scene({**values, 'pins': ['top_left'], 'pin_points.positions': points})
+    assert np.argwhere(both.pinned_nodes()).tolist() == [[0, 0], [1, 2], [4, 8]]
+
+
+@pytest.mark.parametrize(('values', 'message'), [
+    ({'pin_points.positions': [0.0, 0.5]}, 'pin_points.positions needs 3 numbers per point, got 2 '
+     'in all'),
+    ({'pin_points.positions': [0.0, 0.5, 1.3]},
+     'no node is within 0.25 m of the point (0, 0.5, 1.3): the nearest, (0, 2), is 0.3 m away; '
+     'give a point nearer to it, or a larger pin_points.max_distance'),
+    ({'pin_points.positions': [0.0, 0.5, 1.02], 'pin_points.max_distance': 0.01},
+     'no node is within 0.01 m of the point (0, 0.5, 1.02)'),
+])
+def test_a_point_off_the_cloth_pins_nothing(values: dict, message: str):
+    """A point in other units, or of another pose, would pin some node far from it."""
+    with pytest.raises(ClothSimError) as caught:
+        Scene({'rows': 5, 'cols': 5, **values})
+    assert message in str(caught.value)
+
+
+def test_a_scene_is_the_same_made_from_its_own_values():
+    """A recording or a study would run another cloth than the scene that it was given."""
+    scene = Scene({'rows': 5, 'cols': 5, 'total_mass': 0.3,
+                   'pin_points.positions': [0.0, 0.5, 1.0]})
+    again = Scene(scene.values)
+    assert again.values == scene.values
+    assert again.node_mass == scene.node_mass
+    assert np.array_equal(again.pinned_nodes(), scene.pinned_nodes())
+
+
 def test_the_lattice_has_the_size_asked_for():
     """Rest lengths would not fit width and height."""
     scene = Scene({'rows': 4, 'cols': 5, 'width': 2.0, 'height': 3.0, 'start.z': 1.5})
@@ -69,7 +137,7 @@ def test_an_unknown_name_is_refused_with_the_nearest():
     ('dampng', 'did you mean damping.structural, damping.shear or damping.bend?'),
     ('stiffness.structual', 'did you mean stiffness.structural?'),
     ('pin', 'did you mean pins?'), ('start_pose', 'did you mean start.pose?'),
-    ('viscosity', 'see the parameter table in README.md')])
+    ('viscosity', 'docs/reference/parameters.md lists them all')])
 def test_the_name_of_a_group_gets_its_members(name: str, hint: str):
     """A user who sets one stiffness for all would be led to that of the bend springs."""
     with pytest.raises(ClothSimError) as caught:

@@ -16,7 +16,9 @@
 
 from collections.abc import Iterator
 
+from cloth_sim_ros.gl.errors import DeviceError
 from cloth_sim_ros.sim.errors import ClothSimError
+from cloth_sim_ros.sim.input_listener import InputListener
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.simulation import Simulation
 import numpy as np
@@ -240,3 +242,98 @@ def test_a_cloth_of_2048_x_2048_runs():
     assert snapshot.kinetic_energy == pytest.approx(
         0.5 * scene.node_mass * np.sum(speeds**2), rel=1e-5)
     simulation.close()
+
+
+def test_a_block_closes_it():
+    """Programs that make many cloths would run out of device memory."""
+    with Simulation(Scene(_SMALL)) as simulation:
+        simulation.step()
+    simulation.close()
+    for use in (simulation.step, simulation.positions, simulation.snapshot):
+        with pytest.raises(DeviceError, match='is closed: make a new one'):
+            use()
+
+
+def test_several_run_side_by_side():
+    """Two cloths on one thread would write into each other's state."""
+    with Simulation(Scene(_SMALL)) as first, Simulation(Scene(_SMALL)) as second:
+        first.step(10)
+        assert np.all(second.velocities() == 0.0)
+        second.step(5)
+        second.step(5)
+        np.testing.assert_array_equal(second.positions(), first.positions())
+
+
+def test_velocities_are_those_of_the_snapshot(simulation: Simulation):
+    """The state that is read could not be given back by set_state."""
+    simulation.move_pin(0, 0, (-0.5, 0.5, 1.5), speed=0.25)
+    simulation.step(7)
+    velocities = simulation.velocities()
+    np.testing.assert_array_equal(velocities, simulation.snapshot().velocities)
+    np.testing.assert_allclose(velocities[0, 0], (0.0, 0.0, 0.25), atol=1e-6)
+
+
+def test_pin_forces_are_those_of_the_snapshot(simulation: Simulation):
+    """The short way would give the forces of another instant, or of other pins."""
+    simulation.step(20)
+    held, whole = simulation.pin_forces(), simulation.snapshot(pin_forces=True).pin_forces
+    assert held.nodes.tolist() == [[0, 0], [0, 6]]
+    np.testing.assert_array_equal(held.forces, whole.forces)
+
+
+class _Heard(InputListener):
+    """Keeps what it hears of, and refuses a new state when it should."""
+
+    def __init__(self) -> None:
+        self.inputs: list[tuple] = []
+        self.refuses = False
+
+    def push(self, push):
+        self.inputs.append(('push', push.start))
+
+    def pin(self, row, col, pinned):
+        self.inputs.append(('pin', row, col, pinned))
+
+    def pin_target(self, move):
+        self.inputs.append(('target', move.target))
+
+    def mode(self, mode, previous):
+        self.inputs.append(('mode', mode, previous))
+
+    def command(self, command):
+        self.inputs.append(('command', command))
+
+    def new_state(self):
+        if self.refuses:
+            raise ClothSimError('no')
+        self.inputs.append(('state',))
+
+
+def test_a_listener_hears_of_each_accepted_input_once(simulation: Simulation):
+    """A recording of the run would lack an input, or hold one that was refused."""
+    heard = simulation.listener = _Heard()
+    simulation.step(5)
+    simulation.push((0.0, 0.0, 1.0), duration=0.1)
+    simulation.pin(4, 3)
+    simulation.move_pin(4, 3, (0.0, 0.0, 1.0))
+    simulation.release(4, 3)
+    simulation.set_mode('constraint')
+    simulation.set_mode('constraint')
+    simulation.clear_pushes()
+    for refused in (
+            lambda: simulation.push((0.0, 0.0, 1.0), duration=-1.0),
+            lambda: simulation.pin(9, 9), lambda: simulation.move_pin(2, 2, (0.0, 0.0, 1.0)),
+            lambda: simulation.set_mode('none')):
+        with pytest.raises(ClothSimError):
+            refused()
+    positions, velocities = simulation.positions(), simulation.velocities()
+    simulation.set_state(positions, velocities)
+    simulation.reset()
+    assert heard.inputs == [
+        ('push', 0.02), ('pin', 4, 3, True), ('target', (0.0, 0.0, 1.0)), ('pin', 4, 3, False),
+        ('mode', 'constraint', 'mass_spring'), ('command', 'clear_pushes'), ('state',),
+        ('command', 'reset')]
+    heard.refuses = True
+    with pytest.raises(ClothSimError):
+        simulation.set_state(positions + 1.0, velocities)
+    assert not np.array_equal(simulation.positions(), positions + 1.0)

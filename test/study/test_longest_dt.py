@@ -12,7 +12,7 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""Up to which dt methods hold: what docs/paper.md says of the paper's limits."""
+"""Up to which dt methods hold: what docs/notes/paper.md says of the paper's limits."""
 
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.scene_file import load_parameters
@@ -62,7 +62,7 @@ def test_springs_without_substeps_blow_up_above_their_limit_and_not_below(stiffn
 
 
 def test_the_project_holds_where_the_papers_schemes_do_not():
-    """docs/paper.md says that the limits of 0.01 and 0.02 s have moved."""
+    """docs/notes/paper.md says that the limits of 0.01 and 0.02 s have moved."""
     for mode, allowed, theirs in (
             ('constraint', 0.0, PAPER_CONSTRAINT), ('adaptive', 0.1, PAPER_ADAPTIVE)):
         short = run_at(CLOTH, {'mode': mode}, 0.01, SECONDS)
@@ -71,7 +71,7 @@ def test_the_project_holds_where_the_papers_schemes_do_not():
 
 
 def test_the_papers_adaptive_scheme_fails_at_short_steps_too():
-    """docs/paper.md says that a shorter step makes it worse, since edges come back faster."""
+    """docs/notes/paper.md: a shorter step makes it worse, since edges come back faster."""
     long, short = (
         run_at(CLOTH, PAPER_ADAPTIVE, dt, SECONDS).peak_kinetic_energy for dt in (0.01, 0.005))
     print(f'measured: {short:.3g} J at dt 0.005 s, {long:.3g} J at 0.01 s')

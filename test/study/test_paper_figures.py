@@ -34,7 +34,7 @@ def scene_of(changes):
 
 
 def test_the_scene_is_the_one_the_limits_were_measured_in():
-    """The pictures would show another cloth than the tables of docs/adaptive.md."""
+    """The pictures would show another cloth than the tables of docs/explanation/adaptive.md."""
     ours = scene_of({'mode': 'adaptive', 'dt': 0.01, 'start.z': 1.0}).values
     theirs = Scene(paper_scene(5.0, 0.01)).values
     assert ours.pop('pushes.force') == pytest.approx(theirs.pop('pushes.force'))

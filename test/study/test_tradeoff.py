@@ -16,7 +16,9 @@
 
 import json
 
+from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.scene_file import load_parameters
+from cloth_sim_ros.sim.simulation import Simulation
 from cloth_sim_ros.verb.main import main
 from made_study import GRID
 from made_study import SOFT
@@ -61,7 +63,39 @@ def test_it_writes_its_results_and_a_choice_that_holds(folder, capsys):
     assert json.loads(capsys.readouterr().out)['dt'] == 0.02
 
 
+def test_a_strain_budget_names_the_cheapest_setting_that_keeps_to_it(folder, capsys):
+    """A user who bounds the stretch would get a setting that stretches more, or a dear one."""
+    hard = {'model': 'hard', 'over': {'dt': [0.02, 0.01]},
+            'set': {'mode': 'constraint', 'auto_substeps': True}}
+    (folder / 'modes.yaml').write_text(yaml.safe_dump(
+        {**GRID, 'methods': {**GRID['methods'], 'hard': hard}}))
+    arguments = ['--grid', str(folder / 'modes.yaml'), '--out', str(folder / 'strain')]
+    assert study(folder, *arguments, '--budget-strain', '0.05') == 0
+    assert 'the cheapest setting with a largest strain of 0.05 or less: hard, dt 0.0' in (
+        capsys.readouterr().out)
+    chosen = folder / 'strain' / 'params.yaml'
+    assert load_parameters(chosen)['mode'] == 'constraint'
+    # The springs of this soft cloth stretch by far more than the budget.
+    rows = map(json.loads, (folder / 'strain' / 'table.jsonl').read_text().splitlines())
+    rows = {row['setting']: row for row in rows}
+    assert rows['refine 4']['peak_strain'] > 0.05
+    timed = [row for row in rows.values() if row['method'] == 'hard' and row['wall_seconds']]
+    assert load_parameters(chosen)['dt'] == float(min(
+        timed, key=lambda row: row['wall_seconds'])['setting'].split()[1])
+    scene = Scene({**SOFT, **load_parameters(chosen)})
+    simulation = Simulation(scene)
+    strains = []
+    for _ in range(10):
+        simulation.advance(0.02)
+        strains.append(simulation.measure().max_strain)
+    simulation.close()
+    assert max(strains) <= 0.05
+    assert study(folder, *arguments, '--check', str(chosen)) == 0
+    assert 'holds (budget-strain: 0.05)' in capsys.readouterr().out
+
+
 @pytest.mark.parametrize('arguments, told', [
+    (['--budget-strain', '1e-9'], 'give a larger --budget-strain'),
     (['--budget-error', '-1'], '--budget-error must be above 0'),
     (['--jobs', '0'], '--jobs must be 1 or more'),
     (['--budget-error', '1e-9'], 'give a larger --budget-error'),

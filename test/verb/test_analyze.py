@@ -129,6 +129,11 @@ def test_a_hanging_strip_has_the_strain_of_its_weight(tmp_path, analyze):
     assert columns['mean_strain'][-1] == pytest.approx(of_nodes.mean(), rel=1e-4)
     assert columns['elastic_energy'][-1] == pytest.approx(
         np.sum(tension**2) / (2 * stiffness), rel=1e-3)
+    # The pin carries all: its own node as well.
+    weight = nodes * mass * G
+    for name in ('pin_force_z', 'pin_0_0_force_z'):
+        assert columns[name][-1] == pytest.approx(-weight, rel=1e-4)
+    assert columns['largest_pin_force'][-1] == pytest.approx(weight, rel=1e-4)
     heights = -np.concatenate([[0.0], np.cumsum(rest * (1.0 + strain))])
     assert columns['mean_height'][-1] == pytest.approx(heights.mean(), rel=1e-4)
     assert columns['kinetic_energy'][-1] == pytest.approx(0.0, abs=1e-9)
@@ -150,7 +155,7 @@ def test_what_was_done_to_the_cloth_is_told(swinging, analyze, tmp_path, capsys)
     for told in ('32 x 32 nodes', '1 pushes', 'state              finite'):
         assert told in shown
     plots = {path.stem: imread(path) for path in tmp_path.rglob('*.png')}
-    assert set(plots) == {'energies', 'strain', 'pace', 'strain_histogram'}
+    assert set(plots) == {'energies', 'strain', 'pin_forces', 'pace', 'strain_histogram'}
     assert all(plot.shape[1] > 800 for plot in plots.values())
 
 
@@ -321,15 +326,29 @@ def test_bags_are_compared_with_the_first(tmp_path, capsys):
     assert main(['analyze', str(first), str(other), str(first), '--out', str(out)]) == 0
     shown = capsys.readouterr().out
     assert 'first_2 with first' in shown
-    assert 'every node is at the same place, bit for bit' in shown
+    assert 'all positions are equal, bit for bit' in shown
     far, same = json.loads((out / 'comparison.json').read_text())
     assert same['identical'] and same['matched_frames'] == 21
     assert far['rms_distance_at_most'] > 1e-3 and not far['identical']
-    assert imread(out / 'comparison.png').shape[1] > 800
+    for name in ('comparison', 'curves'):
+        assert imread(out / f'{name}.png').shape[1] > 800
     with open(out / 'other_against_first.csv', newline='', encoding='utf-8') as file:
         rows = list(csv.DictReader(file))
     assert len(rows) == 21 and float(rows[-1]['rms_distance']) == pytest.approx(
         far['rms_distance_at_end'])
+
+
+def test_all_frames_are_exported(swinging, tmp_path, capsys):
+    """Positions over time would have to be taken out of the recording by hand."""
+    out = tmp_path / 'out'
+    assert main(['analyze', str(swinging), '--out', str(out), '--npz']) == 0
+    exported = np.load(out / swinging.name / 'points.npz')
+    points = Recording(swinging).arrays('points')
+    assert set(exported) == set(points) and exported['positions'].shape == (51, 32, 32, 3)
+    for name in points:
+        np.testing.assert_array_equal(exported[name], points[name])
+    assert main(['analyze', str(swinging), '--npz']) == 1
+    assert '--npz needs a folder for its files: give --out' in capsys.readouterr().err
 
 
 def test_cloths_of_other_sizes_are_not_compared(tmp_path, capsys):

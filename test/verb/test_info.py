@@ -35,7 +35,7 @@ def test_tells_what_was_recorded(tmp_path, capsys):
     assert lines['cloth'] == '6 x 46 nodes'
     assert lines['mode'] == 'mass_spring'
     assert lines['time'] == '0 to 0.7 s, 36 frames'
-    assert lines['done'].startswith('to the cloth  2 pushes, 0 nodes released')
+    assert lines['inputs'].startswith('pushes: 2, nodes released: 0')
     assert lines['state'] == 'finite'
 
 

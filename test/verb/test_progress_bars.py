@@ -33,10 +33,26 @@ _COMMANDS = {
 }
 
 
+_STUDY = """
+from cloth_sim_ros.study.runs.make_runs import make_runs
+from cloth_sim_ros.study.runs.results_folder import ResultsFolder
+from cloth_sim_ros.study.runs.run import Run
+from cloth_sim_ros.study.runs.workers import Workers
+if __name__ == '__main__':
+    runs = [Run('study_runs:sleep', {}, {'seconds': 0.1 * n}) for n in range(3)]
+    with ResultsFolder('study') as results:
+        make_runs(runs, results, Workers(1), title='test')
+"""
+
+
 def shown(arguments: tuple, folder: Path, *, on_terminal: bool) -> str:
     """Return what the command writes besides its result."""
-    command = [sys.executable, '-m', 'cloth_sim_ros.verb'] + [
-        str(argument).format(out=folder) for argument in arguments]
+    return written([sys.executable, '-m', 'cloth_sim_ros.verb'] + [
+        str(argument).format(out=folder) for argument in arguments], on_terminal=on_terminal)
+
+
+def written(command: list[str], *, on_terminal: bool, **options: object) -> str:
+    """Return what ``command`` writes to stderr."""
     if not on_terminal:
         done = subprocess.run(command, capture_output=True, text=True)
         assert done.returncode == 0, done.stderr
@@ -44,16 +60,16 @@ def shown(arguments: tuple, folder: Path, *, on_terminal: bool) -> str:
         return '\n'.join(
             line for line in done.stderr.splitlines() if not line.startswith('compiling shaders'))
     ours, its = pty.openpty()
-    subprocess.run(command, stdout=subprocess.DEVNULL, stderr=its, check=True)
+    subprocess.run(command, stdout=subprocess.DEVNULL, stderr=its, check=True, **options)
     os.close(its)
-    written = b''
+    text = b''
     try:
         while part := os.read(ours, 65536):
-            written += part
+            text += part
     except OSError:
         pass  # Linux tells so that the other end is closed
     os.close(ours)
-    return written.decode()
+    return text.decode()
 
 
 @pytest.mark.parametrize('arguments', _COMMANDS.values(), ids=_COMMANDS)
@@ -65,6 +81,17 @@ def test_a_pipe_gets_no_bar(arguments: tuple, tmp_path: Path):
 def test_a_terminal_gets_a_bar(tmp_path: Path):
     """Somebody who waits would not know for how long."""
     assert '100%' in shown(_COMMANDS['run'], tmp_path, on_terminal=True)
+
+
+def test_a_study_tells_how_long_the_rest_takes(tmp_path: Path):
+    """Somebody who starts a study of hours would not learn that before it ends."""
+    script = tmp_path / 'study.py'
+    script.write_text(_STUDY)
+    text = written(
+        [sys.executable, str(script)], on_terminal=True, cwd=tmp_path,
+        env={**os.environ, 'PYTHONPATH': os.pathsep.join(sys.path)})
+    assert '3/3' in text
+    assert 'about 10 s left' in text
 
 
 def test_every_bar_is_for_terminals_alone():

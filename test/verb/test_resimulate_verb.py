@@ -24,9 +24,11 @@ from cloth_sim_ros.analysis.recording import Recording
 from cloth_sim_ros.messages.parameter_event import serialise_parameter_event
 from cloth_sim_ros.recording.project_version import project_version
 from cloth_sim_ros.recording.recorder import Recorder
+from cloth_sim_ros.sim.snapshot import FLAG_PINNED
 from cloth_sim_ros.verb.main import main
 from command import cloth_sim
 from made_again import Director
+import numpy as np
 import pytest
 from rcl_interfaces.msg import Parameter
 from rcl_interfaces.msg import ParameterEvent
@@ -57,6 +59,19 @@ def again(capsys) -> Callable[..., tuple[int, list[str], str]]:
         return code, out.splitlines(), errors
 
     return run
+
+
+def test_a_cloth_by_weight_and_points_is_made_again(tmp_path, again):
+    """The run again would have the default weight or pins, or add them to those given."""
+    scene = Path(__file__).parents[2] / 'config' / 'towel.yaml'
+    assert main([
+        'run', str(scene), '--set', 'rows=10', '--set', 'cols=6', '--set', 'total_mass=0.25',
+        '--set', 'pin_points.positions=[-0.22, 0.45, 1, 0.22, 0.05, 1]', '--seconds', '0.1',
+        '--record', str(tmp_path), '--set', 'recording.name=towel', '--out',
+        str(tmp_path / 'state.npz')]) == 0
+    with np.load(tmp_path / 'state.npz') as state:
+        assert np.argwhere(state['flags'] & FLAG_PINNED).tolist() == [[0, 0], [4, 5]]
+    assert again(tmp_path / 'towel')[:2] == (0, ['6 of 6 frames equal to the bit'])
 
 
 def test_a_batch_run_is_made_again(tmp_path, again):

@@ -38,7 +38,7 @@ _MOST_SOLVES = 32
 
 class ImplicitStep(ABC):
     """
-    The step of docs/implicit_step.md, whatever the law of the edges; the base of modes.
+    The implicit step of docs/explanation/implicit_step.md, for any edge law; a base class.
 
     ``substeps`` are those of the last dt, ``last_length`` is that of the last one [s], 0 where
     none was, ``settling`` is the strain that a new cloth may have for a while.

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-"""Springs with a strain limit, by the law of the implicit step (docs/implicit_step.md)."""
+"""Springs with a strain limit, by the edge law of docs/explanation/implicit_step.md."""
 
 from collections.abc import Collection
 

@@ -40,7 +40,7 @@ class PaperLimit:
     """
     Explicit springs within the limit, constraints to rest length beyond it.
 
-    Kept for comparison: it fails at steps that the other schemes take (docs/adaptive.md).
+    Kept for comparison: it fails at steps that other schemes take (docs/explanation/adaptive.md).
 
     :param length: of each substep [s]
     """

@@ -30,7 +30,7 @@ _TURN = 0.0025
 
 class TurnWatch:
     """
-    Measures how fast edges turn, and how far they are stretched; docs/implicit_step.md.
+    Measures how fast edges turn and how far they stretch (docs/explanation/implicit_step.md).
 
     :param families: of the edges that are looked at
     """

@@ -7,7 +7,7 @@ How hard edges pull in the implicit step: hard edges, strain limits and springs 
     lambda(l) = k (l - L0) + k_d dl/dt + (l - l_max) / E    above l_max
                                        + (l - l_min) / E    below l_min
 
-lambda > 0 pulls. See docs/implicit_step.md.
+lambda > 0 pulls. See docs/explanation/implicit_step.md.
 """
 
 from collections.abc import Collection

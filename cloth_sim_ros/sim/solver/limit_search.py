@@ -7,7 +7,7 @@ Whether a solve has found the limits in force, and where the next one starts if 
 A solve takes the law of each edge for a straight line. Where edges come to limits or leave them,
 its solution may be worse than its start. What the step minimises is convex, so its slope along
 the way from start to solution changes sign once: there the next solve starts, which so comes
-nearer in any case (Newton's method with a line search; docs/implicit_step.md).
+nearer in any case (Newton's method with a line search; docs/explanation/implicit_step.md).
 """
 
 from dataclasses import dataclass

@@ -24,7 +24,7 @@ import numpy as np
 
 # Of the most kinetic and elastic energy: gained from nothing.
 MOST_GAIN = 0.1
-# Of hard edges, and of edges at a limit, over the limit (docs/adaptive.md).
+# Of hard edges, and of edges at a limit, over the limit (docs/explanation/adaptive.md).
 _MOST_HARD_STRAIN = 0.05
 _MOST_OVER_LIMIT = 1.5
 _NORMAL_ERROR = 1e-4

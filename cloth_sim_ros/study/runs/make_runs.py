@@ -26,6 +26,8 @@ from contextlib import closing
 from itertools import islice
 
 from cloth_sim_ros.sim.errors import ClothSimError
+from cloth_sim_ros.study.runs.forecast import Forecast
+from cloth_sim_ros.study.runs.forecast import in_minutes
 from cloth_sim_ros.study.runs.perform import perform
 from cloth_sim_ros.study.runs.result import FAILED
 from cloth_sim_ros.study.runs.result import Result
@@ -58,12 +60,16 @@ def make_runs(
         with tqdm(
                 total=len(distinct), initial=len(distinct) - len(todo), bar_format=_BAR,
                 desc=title, disable=None) as bar:
+            forecast = Forecast(todo)
             # Closed at once, so that an interrupt ends the processes.
             with closing(_make_alone(todo) if alone else _make(todo, workers)) as made:
                 for result in made:
                     results.add(result)
+                    forecast.end(result)
                     if result.outcome == FAILED:
                         bar.write(f'failed: {result.reason}')
+                    left = forecast.seconds_left(bar.format_dict['elapsed'])
+                    bar.set_postfix_str(f'{in_minutes(left)} left' if left else '', refresh=False)
                     bar.update()
     return [results.find(run.key) for run in runs]
 

@@ -63,7 +63,7 @@ def hang(scene: Scene) -> HangingCloth:
 
     Edges pull across their direction with T / l for each metre. In a linearised step that pull is
     explicit, so it is stable while h < 2 / sqrt(largest eigenvalue of M^-1 K_geo)
-    (docs/implicit_step.md), here of the motion out of the plane.
+    (docs/explanation/implicit_step.md), here of the motion out of the plane.
     """
     edges = edges_of(scene, always=scene['constraint.hard'])
     used = edges.of((*scene['constraint.hard'], *scene['constraint.springs']))

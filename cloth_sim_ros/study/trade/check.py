@@ -36,7 +36,7 @@ from cloth_sim_ros.study.trade.variant import Variant
 def check(
         path: Path, scene: Scene, grid: Grid, results: ResultsFolder, workers: Workers) -> int:
     """
-    Print error and real-time factor of a choice, measured now, and return the exit code.
+    Print error, real-time factor and strain of a choice, measured now, and return the exit code.
 
     :param path: file that a budget of this study wrote
     :param results: where the reference of the scene may be already
@@ -44,12 +44,11 @@ def check(
     """
     values, budget, told = read_choice(path)
     row = measure_again(values, scene, grid, results, workers)
-    factor = 1.0 / row.cost
-    holds = budget.holds(row.scene.position, factor)
+    holds = budget.holds(row)
     print(
         f'{path} tells: {told}\nmeasured again: error {row.scene.position:.2e} of the side, '
-        f'real-time factor {factor:.2f}: '
-        f'{"holds" if holds else "does not hold"} ({budget.line()})')
+        f'real-time factor {1.0 / row.cost:.2f}, largest strain {row.peak_strain:.3f}: '
+        f'{"holds" if holds else "does not hold"} ({budget.option}: {budget.limit:g})')
     return 0 if holds else 1
 
 

@@ -14,7 +14,6 @@
 
 """A chosen setting as a parameter file that node and `cloth_sim run` take."""
 
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -24,54 +23,12 @@ from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.scene_file import load_parameters
 from cloth_sim_ros.study.runs.run import Run
-from cloth_sim_ros.study.trade.compared import Measured
-from cloth_sim_ros.study.trade.front import fastest_within
-from cloth_sim_ros.study.trade.front import most_accurate_at
+from cloth_sim_ros.study.trade.budget import Budget
+from cloth_sim_ros.study.trade.budget import BUDGETS
 from cloth_sim_ros.study.trade.row import Row
-from cloth_sim_ros.study.trade.variant import Variant
 import yaml
 
-_ERROR, _SPEED = 'budget-error', 'budget-rtf'
-_OWN_ERROR, _OWN_SPEED = 'error', 'real-time factor'
-
-
-@dataclass(frozen=True)
-class Budget:
-    """
-    What a setting is chosen by; one of the two is None.
-
-    :param error: the largest one allowed, over the side of the cloth
-    :param real_time_factor: the least one allowed
-    """
-
-    error: float | None = None
-    real_time_factor: float | None = None
-
-    def choose(self, measured: Measured) -> Row:
-        """Return the fastest setting within the error, or the most exact fast enough."""
-        rows = measured.rows_of(Variant())
-        if self.error is not None:
-            return fastest_within(rows, self.error)
-        return most_accurate_at(rows, self.real_time_factor)
-
-    def holds(self, error: float, real_time_factor: float) -> bool:
-        """Tell whether what was measured keeps to it."""
-        if self.error is not None:
-            return error <= self.error
-        return real_time_factor >= self.real_time_factor
-
-    def in_words(self) -> str:
-        """Return what was chosen by."""
-        if self.error is not None:
-            return f'the fastest setting with an error of {self.error:g} of the side or less'
-        return (
-            f'the most exact setting with a real-time factor of {self.real_time_factor:g} or more')
-
-    def line(self) -> str:
-        """Return the line that ``read_budget`` finds."""
-        if self.error is not None:
-            return f'{_ERROR}: {self.error:g}'
-        return f'{_SPEED}: {self.real_time_factor:g}'
+_OWN_ERROR, _OWN_SPEED, _OWN_STRAIN = 'error', 'real-time factor', 'largest strain'
 
 
 def write_choice(
@@ -94,10 +51,10 @@ def write_choice(
         f'version: {row.run.version}',
         f'scene sha256: {Run("", dict(scene.values)).scene_sha256}',
         f'nodes: {scene.rows} x {scene.cols}',
-        budget.line(),
-        f'{_OWN_ERROR}: {row.scene.position:.2e} of the side',
+        f'{budget.option}: {budget.limit:g}',
+        *([f'{_OWN_ERROR}: {row.scene.position:.2e} of the side'] if row.scene else []),
         f'{_OWN_SPEED}: {1.0 / row.cost:.2f}',
-        f'largest strain: {row.scene.peak_strain:.3f}']
+        f'{_OWN_STRAIN}: {row.peak_strain:.3f}']
     body = yaml.safe_dump({'/**': {'ros__parameters': values}}, sort_keys=False)
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
@@ -113,14 +70,14 @@ def read_choice(path: Path) -> tuple[dict[str, Any], Budget, str]:
         line.removeprefix('# ').split(': ', 1)
         for line in read_regular(path, MOST_BYTES).decode().splitlines()
         if line.startswith('# ') and ': ' in line)
-    summary = f'error {told.get(_OWN_ERROR)}, real-time factor {told.get(_OWN_SPEED)}'
-    try:
-        if _ERROR in told:
-            return values, Budget(error=float(told[_ERROR])), summary
-        if _SPEED in told:
-            return values, Budget(real_time_factor=float(told[_SPEED])), summary
-    except ValueError:
-        pass  # a word where a number should be tells no more than nothing
+    summary = ', '.join(
+        f'{name} {told[name]}' for name in (_OWN_ERROR, _OWN_SPEED, _OWN_STRAIN) if name in told)
+    for budget in BUDGETS:
+        if budget.option in told:
+            try:
+                return values, budget(float(told[budget.option])), summary
+            except ValueError:
+                break  # a word where a number should be tells no more than nothing
     raise ClothSimError(
-        f'{path} does not tell what it was chosen by: give a file that --budget-error or '
-        '--budget-rtf wrote')
+        f'{path} does not tell what it was chosen by: give a file that '
+        f'{" or ".join(f"--{budget.option}" for budget in BUDGETS)} wrote')

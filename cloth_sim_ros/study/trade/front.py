@@ -63,5 +63,25 @@ def most_accurate_at(rows: Iterable[Row], real_time_factor: float) -> Row:
     return min(fitting, key=lambda row: row.error(True))
 
 
+def within_strain(rows: Iterable[Row], strain: float) -> list[Row]:
+    """Return the rows whose largest strain is ``strain`` or less, cheapest first."""
+    return sorted(
+        (row for row in rows if row.shows_its_model and row.peak_strain <= strain),
+        key=lambda row: row.cost)
+
+
+def cheapest_within_strain(rows: Iterable[Row], strain: float) -> Row:
+    """Return the cheapest timed row of which the largest strain is ``strain`` or less."""
+    rows = list(rows)
+    fitting = [row for row in within_strain(rows, strain) if row.rounds]
+    if not fitting:
+        least = min(
+            (row.peak_strain for row in rows if row.shows_its_model), default=float('nan'))
+        raise ClothSimError(
+            f'no setting keeps to a strain of {strain:g}, the least is {least:.2g}: give a larger '
+            '--budget-strain, or settings with hard edges or a smaller limit in a --grid')
+    return fitting[0]
+
+
 def _timed(rows: Iterable[Row]) -> list[Row]:
     return [row for row in rows if row.is_choice(True)]

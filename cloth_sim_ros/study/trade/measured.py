@@ -14,6 +14,8 @@
 
 """Make the runs of a study of the trade."""
 
+from collections.abc import Callable
+from collections.abc import Sequence
 from dataclasses import replace
 import statistics
 
@@ -32,10 +34,13 @@ from cloth_sim_ros.study.trade.row import Row
 from cloth_sim_ros.study.trade.variant import Variant
 
 
-def measure(scene: Scene, grid: Grid, results: ResultsFolder, workers: Workers) -> Measured:
+def measure(
+        scene: Scene, grid: Grid, results: ResultsFolder, workers: Workers,
+        wanted: Callable[[Sequence[Row]], Sequence[Row]] = lambda rows: ()) -> Measured:
     """
     Make what is not there yet, and return everything.
 
+    :param wanted: which rows of the scene itself to time as well
     :raises ClothSimError: when there is no reference for the scene itself
     """
     plan = Plan(scene, grid)
@@ -50,10 +55,12 @@ def measure(scene: Scene, grid: Grid, results: ResultsFolder, workers: Workers) 
     ran = [(*task, made[plan.trajectory(*task).key]) for task in tasks]
     measured = compare(scene, grid, ran, {
         variant: [made[run.key] for run in runs] for variant, runs in rungs.items()})
-    return replace(measured, rows=_timed(plan, measured, results))
+    return replace(measured, rows=_timed(plan, measured, results, wanted))
 
 
-def _timed(plan: Plan, measured: Measured, results: ResultsFolder) -> list[Row]:
+def _timed(
+        plan: Plan, measured: Measured, results: ResultsFolder,
+        wanted: Callable[[Sequence[Row]], Sequence[Row]]) -> list[Row]:
     """Return the rows with the wall time of those that may matter."""
     chosen = {}
     for variant in measured.grid.variants:
@@ -64,6 +71,9 @@ def _timed(plan: Plan, measured: Measured, results: ResultsFolder) -> list[Row]:
         chosen[variant] = [row for row in rows if row.is_useful(of_scene)]
         if known:
             chosen[variant] = near_front(rows, measured.grid.margin, of_scene=of_scene)
+        if of_scene:
+            known_rows = {_name(row) for row in chosen[variant]}
+            chosen[variant] += [row for row in wanted(rows) if _name(row) not in known_rows]
     runs: dict[Variant, Run] = {
         variant: plan.cost(variant, [row.setting for row in rows])
         for variant, rows in chosen.items() if rows}

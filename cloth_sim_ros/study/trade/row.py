@@ -56,6 +56,16 @@ class Row:
         """Return the wall time, or what the processor time lets expect of it."""
         return self.wall_seconds or self.wall_share * self.run.values['processor_seconds']
 
+    @property
+    def peak_strain(self) -> float:
+        """Return the largest strain of a structural or shear edge at any frame of the run."""
+        return float(self.run.arrays['strains'].max())
+
+    @property
+    def shows_its_model(self) -> bool:
+        """Tell whether the run was made and is near to the finest of its own model, or is that."""
+        return self.run.is_done and (self.own is None or self.own.position <= WORST_ERROR)
+
     def error(self, of_scene: bool) -> float | None:
         """Return the error in position; None where there is none."""
         errors = self.scene if of_scene else self.own

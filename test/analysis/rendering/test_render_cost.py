@@ -12,7 +12,7 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""The measurement behind docs/performance.md."""
+"""The measurement behind docs/notes/performance.md."""
 
 from cloth_sim_ros.analysis.rendering.render_cost import main
 from cloth_sim_ros.analysis.rendering.render_cost import wavy_cloth

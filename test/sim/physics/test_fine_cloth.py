@@ -30,7 +30,7 @@ def root_mean_square(vectors: np.ndarray) -> float:
 
 @pytest.mark.parametrize(('nodes', 'allowed'), [(32, 2e-3), (64, 4e-3), (128, 8e-3)])
 def test_rounding_makes_the_velocities_of_fine_cloth_noisy(nodes: int, allowed: float):
-    """The noise would be more than docs/numerics.md tells, or reach the positions."""
+    """The noise would be more than docs/explanation/numerics.md tells, or reach the positions."""
     scene = Scene({
         'rows': nodes, 'cols': nodes, 'stiffness.structural': 1000.0, 'stiffness.shear': 200.0,
         **{f'damping.{family}': 1.3e-3 / nodes for family in ('structural', 'shear', 'bend')}})

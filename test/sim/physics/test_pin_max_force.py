@@ -17,8 +17,8 @@ CHAIN = {
     'pin_moves.start': [0.0, 0.0], 'pin_moves.speed': [SPEED, SPEED],
     'pin_moves.target': [-0.6, 0.0, 1.0, 0.6, 0.0, 1.0]}
 EDGE = LENGTH / LINKS
-# docs/implicit_step.md: one line, so that the weight of all nodes stretches by 0.03 of the strain
-# of hard edges, or of the limit.
+# docs/explanation/implicit_step.md: one line, so that the weight of all nodes stretches by 0.03
+# of the strain of hard edges, or of the limit.
 WEIGHT = (LINKS + 1) * MASS * 9.81
 STIFFEST = {
     'mass_spring': STIFFNESS,

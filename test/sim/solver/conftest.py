@@ -38,7 +38,7 @@ import numpy as np
 import pytest
 
 GRAVITY = (0.0, 0.0, -9.81)
-# The unit scene of docs/numerics.md, k = 1000 N/m.
+# The unit scene of docs/explanation/numerics.md, k = 1000 N/m.
 UNIT = {
     'stiffness.structural': 1000.0, 'stiffness.shear': 1000.0, 'stiffness.bend': 100.0,
     'damping.structural': 0.5, 'damping.shear': 0.5, 'damping.bend': 0.05,
@@ -138,7 +138,7 @@ class SolverCase:
         return self.solve()
 
     def least_change(self, kick: float = 0.01) -> float:
-        """Return a thousandth of what gravity makes of all velocities in ``kick`` [s], as a norm."""
+        """Return 0.001 of what gravity makes of all velocities in ``kick`` [s], as a norm."""
         return 1e-3 * kick * 9.81 * float(np.sqrt(np.count_nonzero(self.free)))
 
     def read_state(self) -> tuple[np.ndarray, np.ndarray]:

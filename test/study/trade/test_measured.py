@@ -18,7 +18,8 @@ import json
 
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.study.runs.results_folder import LINES
-from cloth_sim_ros.study.trade.choice import Budget
+from cloth_sim_ros.study.trade.budget import ErrorBudget
+from cloth_sim_ros.study.trade.budget import SpeedBudget
 from cloth_sim_ros.study.trade.page import page
 from cloth_sim_ros.study.trade.table import write_table
 from cloth_sim_ros.study.trade.variant import Variant
@@ -99,12 +100,13 @@ def test_what_may_matter_is_timed(study):
 def test_a_budget_chooses_by_error(study):
     """The setting that is written would not keep to what was asked."""
     errors = sorted(row.scene.position for row in rows_of(study[0], 'mass_spring'))
-    chosen = Budget(error=1.01 * errors[0]).choose(study[0])
+    rows = study[0].rows_of(Variant())
+    chosen = ErrorBudget(1.01 * errors[0]).choose(rows)
     assert chosen.scene.position == errors[0]
     with pytest.raises(ClothSimError, match='give a larger --budget-error'):
-        Budget(error=0.5 * errors[0]).choose(study[0])
+        ErrorBudget(0.5 * errors[0]).choose(rows)
     with pytest.raises(ClothSimError, match='give a smaller --budget-rtf'):
-        Budget(real_time_factor=1e9).choose(study[0])
+        SpeedBudget(1e9).choose(rows)
 
 
 def test_nothing_is_made_twice(study):

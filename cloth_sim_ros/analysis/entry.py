@@ -1,0 +1,24 @@
+# SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
+# SPDX-License-Identifier: Apache-2.0
+
+"""One message of a recording."""
+
+from dataclasses import dataclass
+from typing import Any
+
+
+@dataclass(frozen=True)
+class Entry:
+    """
+    One message of a recording.
+
+    :param key: the topic behind the name of the node, such as points or inputs/push
+    :param time: [s] simulated, going on where a reset put the clock back
+    :param message: decoded
+    :param resets: of the run, seen before it
+    """
+
+    key: str
+    time: float
+    message: Any
+    resets: int = 0

@@ -1,0 +1,40 @@
+# SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
+# SPDX-License-Identifier: Apache-2.0
+
+"""Scenes of parameter files, which hold parameters of the node as well."""
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from cloth_sim_ros.node.node_fields import checked_node_values
+from cloth_sim_ros.node.node_fields import NODE_FIELDS
+from cloth_sim_ros.sim.scene import refuse_unknown
+from cloth_sim_ros.sim.scene import Scene
+from cloth_sim_ros.sim.scene_fields import SCENE_FIELDS
+from cloth_sim_ros.sim.scene_file import load_parameters
+
+
+def load_scene(path: str | Path, changes: Mapping[str, Any] | None = None) -> Scene:
+    """
+    Return the scene of a ROS parameter file; what only the node needs is passed over.
+
+    :param changes: parameters that go over those of the file, by dotted name
+    :raises ClothSimError: when the file can't be read, or a parameter in it or in ``changes`` is
+        not right
+    """
+    return scene_from(path, changes or {})[0]
+
+
+def scene_from(
+        path: str | Path, changes: Mapping[str, Any]) -> tuple[Scene, dict[str, Any]]:
+    """
+    Return the scene and the node's parameters of a file with ``changes`` by name.
+
+    :raises ClothSimError: when the file or a change is not right
+    """
+    given = {**load_parameters(path), **changes}
+    refuse_unknown(given, SCENE_FIELDS + NODE_FIELDS)
+    node_values = checked_node_values(given)
+    names = {field.name for field in SCENE_FIELDS}
+    return Scene({name: value for name, value in given.items() if name in names}), node_values

@@ -1,0 +1,158 @@
+# SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
+# SPDX-License-Identifier: Apache-2.0
+
+"""Carry a cloth by its pins to a goal."""
+
+from collections.abc import Mapping
+from collections.abc import Sequence
+import math
+from typing import Any
+
+from cloth_sim_ros.sim.errors import ClothSimError
+from cloth_sim_ros.sim.errors import NonFiniteStateError
+from cloth_sim_ros.sim.pin_move import FARTHEST
+from cloth_sim_ros.sim.scene import Scene
+from cloth_sim_ros.sim.simulation import Simulation
+import gymnasium
+from gymnasium import spaces
+import numpy as np
+
+OBSERVATIONS = {'positions': 3, 'state': 6}
+_DEFAULT = {'rows': 16, 'cols': 16, 'width': 0.4, 'height': 0.4, 'start.pose': 'hanging'}
+_NOTHING = 1e-9  # [m]
+
+
+class CarryCloth(gymnasium.Env[np.ndarray, np.ndarray]):
+    """
+    An action moves every pin; the reward is higher the nearer the cloth is to its goal.
+
+    An action is (pins, 3) from -1 to 1: along each axis, how fast a pin moves for a ``frame``,
+    over ``speed``. Pins are in the order of ``pins``, row by row. An observation is positions [m],
+    (rows, cols, 3) float32, or with ``observation='state'`` velocities [m/s] too, (rows, cols, 6).
+    The reward is minus the mean distance of the nodes from where they would be if the start pose
+    had been moved by ``goal`` [m]. The episode terminates once that is within ``tolerance``, and
+    is truncated where the state is lost; ``info`` has ``distance`` [m], ``time`` [s],
+    ``max_strain`` and ``problem``, which is empty or says why the state was lost.
+
+    ``reset(seed=...)`` puts free nodes off their places by up to ``jitter`` of the node spacing;
+    the same seed gives the same bits on one device.
+
+    :param scene: what is carried, a Scene or parameters by name; its pins are the hands
+    :param goal: x y z [m], from the start
+    :param frame: simulated time of an action [s], rounded to whole steps of dt
+    :param speed: of a pin along each axis at an action of 1 [m/s]
+    :param observation: positions or state
+    :param jitter: 0 to 0.5
+    :param tolerance: mean distance that counts as there [m]
+    :raises ClothSimError: when the scene has no pin or a value is wrong
+    """
+
+    metadata: dict[str, Any] = {'render_modes': []}
+
+    def __init__(
+            self, scene: Scene | Mapping[str, Any] | None = None, *,
+            goal: Sequence[float] = (0.2, 0.0, 0.1), frame: float = 0.05, speed: float = 0.5,
+            observation: str = 'positions', jitter: float = 0.01,
+            tolerance: float = 0.02) -> None:
+        """Make the simulation and the spaces."""
+        if not isinstance(scene, Scene):
+            scene = Scene(_DEFAULT if scene is None else scene)
+        self.pins = np.argwhere(scene.pinned_nodes())
+        if not len(self.pins):
+            raise ClothSimError('a cloth is carried by its pins, and this has none: set pins')
+        if observation not in OBSERVATIONS:
+            raise ClothSimError(
+                f'an observation is {" or ".join(OBSERVATIONS)}, got {observation!r}: choose one')
+        _check('frame', frame, 's')
+        _check('speed', speed, 'm/s')
+        if not 0.0 <= jitter <= 0.5:
+            raise ClothSimError(
+                f'the jitter is from 0 to 0.5 of the node spacing, got {jitter}: give less')
+        offset = np.array(goal, dtype=float)
+        if offset.shape != (3,) or not np.all(np.abs(offset) <= FARTHEST):
+            raise ClothSimError(
+                f'the goal needs 3 numbers up to {FARTHEST:g} m, got {goal}: give x, y and z')
+        self._simulation = Simulation(scene)
+        self._steps = max(round(frame / scene['dt']), 1)
+        self._reach = speed * self._steps * scene['dt']
+        self._observation = observation
+        self._jitter = jitter * min(length for length in scene.spacing if length > 0.0)
+        self._tolerance = tolerance
+        self._goal = scene.rest_positions() + offset
+        self._free = ~scene.pinned_nodes()
+        self.action_space = spaces.Box(-1.0, 1.0, (len(self.pins), 3), np.float32)
+        self.observation_space = spaces.Box(
+            -FARTHEST, FARTHEST, (scene.rows, scene.cols, OBSERVATIONS[observation]), np.float32)
+
+    def reset(
+            self, *, seed: int | None = None,
+            options: dict[str, Any] | None = None) -> tuple[np.ndarray, dict[str, Any]]:
+        """
+        Put the cloth back to its start.
+
+        :param seed: of the offsets; None goes on with the random numbers of the last one
+        :param options: none are known
+        :return: observation and info
+        """
+        super().reset(seed=seed)
+        simulation = self._simulation
+        simulation.reset()
+        positions = simulation.scene.rest_positions()
+        offsets = self.np_random.uniform(-self._jitter, self._jitter, positions.shape)
+        positions += np.where(self._free[..., None], offsets, 0.0)
+        simulation.set_state(positions, np.zeros_like(positions))
+        return self._look(), self._info()
+
+    def step(
+            self, action: np.ndarray) -> tuple[np.ndarray, float, bool, bool, dict[str, Any]]:
+        """
+        Move the pins for a frame.
+
+        :param action: (pins, 3) from -1 to 1
+        :return: observation, reward, terminated, truncated and info
+        :raises ClothSimError: when the action has another shape or a value outside its range
+        """
+        if not self.action_space.contains(np.asarray(action, dtype=np.float32)):
+            raise ClothSimError(
+                f'an action is {self.action_space.shape} numbers from -1 to 1, got '
+                f'{np.shape(action)}: clip it')
+        simulation = self._simulation
+        places = simulation.positions()
+        seconds = self._steps * simulation.dt
+        for (row, col), way in zip(self.pins.tolist(), self._reach * np.asarray(action, float)):
+            length = float(np.linalg.norm(way))
+            if length > _NOTHING:
+                simulation.move_pin(row, col, places[row, col] + way, speed=length / seconds)
+        problem = ''
+        try:
+            simulation.step(self._steps)
+        except NonFiniteStateError as error:
+            problem = str(error)
+        info = self._info(problem)
+        return (
+            self._look(), -info['distance'], info['distance'] <= self._tolerance, bool(problem),
+            info)
+
+    def close(self) -> None:
+        """Give the device back."""
+        self._simulation.close()
+
+    def _look(self) -> np.ndarray:
+        positions = self._simulation.positions()
+        if self._observation == 'positions':
+            return positions
+        return np.concatenate([positions, self._simulation.velocities()], axis=-1)
+
+    def _info(self, problem: str = '') -> dict[str, Any]:
+        away = self._simulation.positions() - self._goal
+        return {
+            'distance': float(np.linalg.norm(away, axis=-1).mean()),
+            'time': self._simulation.time,
+            'max_strain': self._simulation.measure().max_strain,
+            'problem': problem,
+        }
+
+
+def _check(name: str, value: float, unit: str) -> None:
+    if not (math.isfinite(value) and value > 0.0):
+        raise ClothSimError(f'the {name} must be above 0 {unit}, got {value}: give more')

@@ -1,0 +1,65 @@
+# SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
+# SPDX-License-Identifier: Apache-2.0
+
+"""What can be asked of the node: its services, and the topics that it subscribes to."""
+
+from dataclasses import dataclass
+
+from cloth_sim_interfaces.msg import PinTarget
+from cloth_sim_interfaces.msg import Push
+from cloth_sim_interfaces.srv import ApplyPush
+from cloth_sim_interfaces.srv import MovePin
+from cloth_sim_interfaces.srv import SetMode
+from cloth_sim_interfaces.srv import SetPin
+from cloth_sim_interfaces.srv import StartRecording
+from cloth_sim_interfaces.srv import Step
+from geometry_msgs.msg import PointStamped
+from std_srvs.srv import SetBool
+from std_srvs.srv import Trigger
+
+
+@dataclass(frozen=True)
+class Request:
+    """
+    A service, or a topic that the node subscribes to.
+
+    :param name: ~ stands for the name of the node
+    :param kind: class of the service, or of the message
+    :param text: one line for people
+    """
+
+    name: str
+    kind: type
+    text: str
+
+    @property
+    def type_name(self) -> str:
+        """Name of the type, such as std_srvs/srv/Trigger."""
+        package, part = self.kind.__module__.split('.')[:2]
+        return f'{package}/{part}/{self.kind.__name__}'
+
+
+SERVICES = (
+    Request('~/set_mode', SetMode, 'switch the mode; positions and velocities are kept'),
+    Request('~/apply_push', ApplyPush, 'push the whole cloth or the nodes in a sphere with a '
+            'total force for a duration; returns the number of nodes and the impulse'),
+    Request('~/clear_pushes', Trigger, 'end all pushes'),
+    Request('~/set_pin', SetPin, 'pin or release a node, given by row and column or as the one '
+            'nearest to a point'),
+    Request('~/move_pin', MovePin, 'move a pin to a point in a straight line; returns the time '
+            'of arrival'),
+    Request('~/reset', Trigger, 'restore the initial pose, pins and time, and the pushes and pin '
+            'moves of the scene'),
+    Request('~/pause', SetBool, 'pause or resume simulated time'),
+    Request('~/step', Step, 'make a number of time steps while paused; answers when they are '
+            'done'),
+    Request('~/start_recording', StartRecording, 'start a recording in `recording.directory`'),
+    Request('~/stop_recording', Trigger, 'complete and close the recording'),
+)
+
+SUBSCRIPTIONS = (
+    Request('~/push', Push, 'push the cloth, now or at a later simulated time'),
+    Request('~/pins/target', PinTarget, 'stream targets to a pin'),
+    Request('/clicked_point', PointStamped, 'push around a point that was clicked in RViz or '
+            'Foxglove, as the parameters `clicked_point.*` say'),
+)

@@ -1,0 +1,28 @@
+# SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
+# SPDX-License-Identifier: Apache-2.0
+
+"""What the values given for a scene mean for those that are left out."""
+
+from collections.abc import Mapping
+from collections.abc import Sequence
+from typing import Any
+
+from cloth_sim_ros.sim.presets import with_preset
+
+NO_PINS = ('none',)
+
+
+def completed(given: Mapping[str, Any]) -> dict[str, Any]:
+    """
+    Return ``given`` with the values that follow from it for what it leaves out.
+
+    A preset brings its values. A total mass takes the place of the default areal density, and
+    pins given by points that of the default pins. Nothing is checked here.
+    """
+    values = with_preset(given)
+    if values.get('total_mass'):
+        values.setdefault('areal_density', 0.0)
+    points = values.get('pin_points.positions')
+    if isinstance(points, Sequence) and points:
+        values.setdefault('pins', NO_PINS)
+    return values

@@ -1,0 +1,187 @@
+# SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
+# SPDX-License-Identifier: Apache-2.0
+
+"""A running node: what it publishes is shown, and what is asked for goes to its services."""
+
+from collections.abc import Sequence
+import os
+from threading import Event
+from threading import Thread
+from typing import Any
+
+from cloth_sim_interfaces.msg import ClothState
+from cloth_sim_interfaces.srv import ApplyPush
+from cloth_sim_interfaces.srv import MovePin
+from cloth_sim_interfaces.srv import SetMode
+from cloth_sim_interfaces.srv import SetPin
+from cloth_sim_interfaces.srv import Step
+from cloth_sim_ros.analysis.frame import Frame
+from cloth_sim_ros.node.interfaces import check_interfaces
+from cloth_sim_ros.node.ros_refusal import no_node
+from cloth_sim_ros.sim.errors import ClothSimError
+from cloth_sim_ros.view.source import Moment
+from cloth_sim_ros.view.source import Source
+from geometry_msgs.msg import Point
+from geometry_msgs.msg import Vector3
+import rclpy
+from rclpy._rclpy_pybind11 import RCLError
+from rclpy.client import Client
+from rclpy.context import Context
+from rclpy.exceptions import InvalidTopicNameException
+from rclpy.executors import SingleThreadedExecutor
+from rclpy.node import Node
+from rclpy.qos import DurabilityPolicy
+from rclpy.qos import QoSProfile
+from rclpy.validate_full_topic_name import validate_full_topic_name
+from sensor_msgs.msg import PointCloud2
+from std_srvs.srv import SetBool
+from std_srvs.srv import Trigger
+
+_SERVICES = {
+    'set_mode': SetMode, 'pause': SetBool, 'step': Step, 'reset': Trigger,
+    'apply_push': ApplyPush, 'set_pin': SetPin, 'move_pin': MovePin}
+
+
+class NodeSource(Source):
+    """
+    Shows ~/points and ~/state of a node, and calls its services.
+
+    :param node: name of the node, with its namespace
+    :param timeout: wall seconds to wait for its first message, and for an answer
+    :raises ClothSimError: when the node is not there
+    """
+
+    can_act = True
+
+    def __init__(self, node: str, timeout: float) -> None:
+        """Join the graph, and return when the node has told its state."""
+        self.name = f'/{node.strip("/")}'
+        try:
+            validate_full_topic_name(self.name)
+        except InvalidTopicNameException as error:
+            raise ClothSimError(
+                f'{self.name} is no name of a node: give its name with its namespace by --node, '
+                'as in left/cloth_sim') from error
+        self._timeout = timeout
+        self._cloud: PointCloud2 | None = None
+        self._state: ClothState | None = None
+        self._moment: Moment | None = None
+        self._shown_cloud = self._shown_state = None
+        self._told = Event()
+        check_interfaces()
+        # In a context of its own, rclpy leaves the signals alone: Ctrl-C works as in any command.
+        self._context = Context()
+        try:
+            rclpy.init(args=[], context=self._context)
+            self._node = Node(
+                f'cloth_sim_view_{os.getpid()}', context=self._context,
+                start_parameter_services=False, enable_rosout=False)
+        except RCLError as error:
+            raise no_node(error) from error
+        self._subscribe()
+        self._clients: dict[str, Client] = {
+            name: self._node.create_client(kind, f'{self.name}/{name}')
+            for name, kind in _SERVICES.items()}
+        self._executor = SingleThreadedExecutor(context=self._context)
+        self._executor.add_node(self._node)
+        self._thread = Thread(target=self._executor.spin, daemon=True)
+        self._thread.start()
+        if not self._told.wait(timeout):
+            self.close()
+            raise ClothSimError(
+                f'nothing comes on {self.name}/state within {timeout:g} s: start a node with '
+                '`cloth_sim_node`, or name it with --node')
+        self.modes = tuple(self._state.available_modes)
+
+    def latest(self) -> Moment | None:
+        """Return the latest moment; None before the first points."""
+        cloud, state = self._cloud, self._state
+        if cloud is None:
+            return None
+        known = self._moment
+        if known is None or cloud is not self._shown_cloud or state is not self._shown_state:
+            self._shown_cloud, self._shown_state = cloud, state
+            stamp = cloud.header.stamp
+            frame = Frame.from_points(stamp.sec + 1e-9 * stamp.nanosec, cloud)
+            note = f'compiling mode {state.preparing}' if state.preparing else ''
+            self._moment = Moment(frame, state.mode, state.run_state, note)
+        return self._moment
+
+    def set_paused(self, is_paused: bool) -> None:
+        """Stop the time, or let it go on."""
+        self._call('pause', SetBool.Request(data=is_paused))
+
+    def set_mode(self, mode: str) -> None:
+        """Step with ``mode`` as soon as it is compiled."""
+        if mode != self._state.mode:
+            self._call('set_mode', SetMode.Request(mode=mode, wait=False))
+
+    def step(self, count: int) -> None:
+        """Make ``count`` steps of dt while paused."""
+        self._call('step', Step.Request(steps=count))
+
+    def reset(self) -> None:
+        """Go back to the start."""
+        self._call('reset', Trigger.Request())
+
+    def push(
+            self, force: Sequence[float], center: Sequence[float], radius: float,
+            duration: float) -> None:
+        """Push the nodes within ``radius`` of ``center`` [m] with ``force`` [N] in all."""
+        self._call('apply_push', ApplyPush.Request(
+            force=Vector3(**dict(zip('xyz', force))), region='sphere', center=_point(center),
+            radius=radius, duration=duration))
+
+    def hold(self, row: int, col: int) -> None:
+        """Pin the node (row, col) where it is."""
+        self._call('set_pin', SetPin.Request(row=row, col=col))
+
+    def release(self, row: int, col: int) -> None:
+        """Let the node (row, col) go."""
+        self._call('set_pin', SetPin.Request(row=row, col=col, release=True))
+
+    def move_pin(self, row: int, col: int, target: Sequence[float]) -> None:
+        """Let the pin (row, col) move to ``target`` [m]."""
+        self._call('move_pin', MovePin.Request(row=row, col=col, target=_point(target)))
+
+    def close(self) -> None:
+        """Leave the graph."""
+        self._executor.shutdown()
+        self._thread.join()
+        self._node.destroy_node()
+        rclpy.try_shutdown(context=self._context)
+
+    def _subscribe(self) -> None:
+        # The newest alone is shown: a slow browser must not be behind.
+        self._node.create_subscription(
+            PointCloud2, f'{self.name}/points', self._take_cloud, QoSProfile(depth=1))
+        self._node.create_subscription(
+            ClothState, f'{self.name}/state', self._take_state,
+            QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL))
+
+    def _take_cloud(self, cloud: PointCloud2) -> None:
+        self._cloud = cloud
+
+    def _take_state(self, state: ClothState) -> None:
+        self._state = state
+        self._told.set()
+
+    def _call(self, name: str, request: Any) -> None:
+        client = self._clients[name]
+        answered = Event()
+        if not client.wait_for_service(self._timeout):
+            raise ClothSimError(f'no node offers {self.name}/{name}: is it still running?')
+        future = client.call_async(request)
+        future.add_done_callback(lambda _: answered.set())
+        if not answered.wait(self._timeout):
+            client.remove_pending_request(future)
+            raise ClothSimError(
+                f'{self.name}/{name} does not answer within {self._timeout:g} s: it may be busy, '
+                'so give more time with --timeout')
+        response = future.result()
+        if not response.success:
+            raise ClothSimError(response.message)
+
+
+def _point(parts: Sequence[float]) -> Point:
+    return Point(**dict(zip('xyz', map(float, parts))))

@@ -1,0 +1,183 @@
+# SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
+# SPDX-License-Identifier: Apache-2.0
+
+"""A scene that is simulated for the view, on a thread of its own."""
+
+from collections.abc import Callable
+from collections.abc import Sequence
+from concurrent.futures import Future
+from dataclasses import replace
+from queue import Empty
+from queue import SimpleQueue
+from threading import Thread
+import time
+from typing import Any
+
+from cloth_sim_ros.analysis.frame import Frame
+from cloth_sim_ros.sim.errors import ClothSimError
+from cloth_sim_ros.sim.errors import NonFiniteStateError
+from cloth_sim_ros.sim.modes import AVAILABLE
+from cloth_sim_ros.sim.scene import Scene
+from cloth_sim_ros.sim.simulation import Simulation
+from cloth_sim_ros.view.source import Moment
+from cloth_sim_ros.view.source import PAUSED
+from cloth_sim_ros.view.source import RUNNING
+from cloth_sim_ros.view.source import Source
+from cloth_sim_ros.view.source import STOPPED
+
+_Request = tuple[Callable[[Simulation], Any], Future]
+# Of wall time that was lost, what is caught up with [s]; the rest makes the view slower.
+_MOST_BEHIND = 0.1
+
+
+class SceneSource(Source):
+    """
+    Simulates ``scene`` in real time, or slower where the device is.
+
+    :param frame_seconds: simulated time between moments [s]
+    :raises ClothSimError: when the scene cannot be run
+    :raises DeviceError: when there is no device for it
+    """
+
+    can_act = True
+
+    def __init__(
+            self, scene: Scene, name: str, *, frame_seconds: float,
+            is_paused: bool = False) -> None:
+        """Start the simulation, and return when its first moment is there."""
+        self.name = name
+        self.modes = tuple(AVAILABLE)
+        self._scene = scene
+        self._frame_seconds = max(frame_seconds, scene['dt'])
+        self._run_state = PAUSED if is_paused else RUNNING
+        self._note = ''
+        self._latest: Moment | None = None
+        # None asks the thread to end.
+        self._requests: SimpleQueue[_Request | None] = SimpleQueue()
+        started: Future[None] = Future()
+        # The GL context lives on the thread that made it.
+        self._thread = Thread(target=self._work, args=(started,), daemon=True)
+        self._thread.start()
+        started.result()
+
+    def latest(self) -> Moment | None:
+        """Return the latest moment."""
+        return self._latest
+
+    def set_paused(self, is_paused: bool) -> None:
+        """Stop the time, or let it go on."""
+        def change(_: Simulation) -> None:
+            if self._run_state == STOPPED:
+                raise ClothSimError(f'{self._note}: reset first')
+            self._run_state = PAUSED if is_paused else RUNNING
+        self._ask(change)
+
+    def set_mode(self, mode: str) -> None:
+        """Step with ``mode`` from now on."""
+        self._ask(lambda simulation: simulation.set_mode(mode))
+
+    def step(self, count: int) -> None:
+        """Make ``count`` steps of dt while paused."""
+        def make(simulation: Simulation) -> None:
+            if self._run_state != PAUSED:
+                raise ClothSimError('steps are made while the time stands still: pause first')
+            self._advance(lambda: simulation.step(count))
+        self._ask(make)
+
+    def reset(self) -> None:
+        """Go back to the start."""
+        def go_back(simulation: Simulation) -> None:
+            simulation.reset()
+            self._note = ''
+            if self._run_state == STOPPED:
+                self._run_state = PAUSED
+        self._ask(go_back)
+
+    def push(
+            self, force: Sequence[float], center: Sequence[float], radius: float,
+            duration: float) -> None:
+        """Push the nodes within ``radius`` of ``center`` [m] with ``force`` [N] in all."""
+        self._ask(lambda simulation: simulation.push(
+            force, duration=duration, region='sphere', center=center, radius=radius))
+
+    def hold(self, row: int, col: int) -> None:
+        """Pin the node (row, col) where it is."""
+        self._ask(lambda simulation: simulation.pin(row, col))
+
+    def release(self, row: int, col: int) -> None:
+        """Let the node (row, col) go."""
+        self._ask(lambda simulation: simulation.release(row, col))
+
+    def move_pin(self, row: int, col: int, target: Sequence[float]) -> None:
+        """Let the pin (row, col) move to ``target`` [m]."""
+        self._ask(lambda simulation: simulation.move_pin(row, col, target))
+
+    def close(self) -> None:
+        """End the simulation."""
+        self._requests.put(None)
+        self._thread.join()
+
+    def _ask(self, change: Callable[[Simulation], Any]) -> None:
+        if not self._thread.is_alive():
+            raise ClothSimError('the simulation of this view has ended: start another view')
+        answer: Future[None] = Future()
+        self._requests.put((change, answer))
+        answer.result()
+
+    def _work(self, started: Future) -> None:
+        try:
+            simulation = Simulation(self._scene)
+            self._show(simulation)
+        except BaseException as error:
+            started.set_exception(error)
+            return
+        started.set_result(None)
+        try:
+            self._run(simulation)
+        # Such as a device that is gone: what is asked for from now on is answered with it.
+        except Exception as error:
+            self._latest = replace(self._latest, run_state=STOPPED, note=str(error))
+            while (request := self._requests.get()) is not None:
+                request[1].set_exception(error)
+        else:
+            simulation.close()
+
+    def _run(self, simulation: Simulation) -> None:
+        due = time.monotonic()
+        while self._answer_requests(simulation, due):
+            now = time.monotonic()
+            if self._run_state == RUNNING and now >= due:
+                self._advance(lambda: simulation.advance(self._frame_seconds))
+                self._show(simulation)
+                due = max(due + self._frame_seconds, now - _MOST_BEHIND)
+
+    def _answer_requests(self, simulation: Simulation, due: float) -> bool:
+        """Do what is asked for until the next frame is due; False when the end is."""
+        while True:
+            is_running = self._run_state == RUNNING
+            wait = max(due - time.monotonic(), 0.0) if is_running else None
+            try:
+                request = self._requests.get(timeout=wait)
+            except Empty:
+                return True
+            if request is None:
+                return False
+            change, answer = request
+            try:
+                change(simulation)
+            except BaseException as error:
+                answer.set_exception(error)
+            else:
+                self._show(simulation)
+                answer.set_result(None)
+
+    def _advance(self, advance: Callable[[], Any]) -> None:
+        try:
+            advance()
+        except NonFiniteStateError as error:
+            self._run_state, self._note = STOPPED, str(error)
+
+    def _show(self, simulation: Simulation) -> None:
+        snapshot = simulation.snapshot()
+        self._latest = Moment(
+            Frame(snapshot.time, snapshot.records), snapshot.mode, self._run_state, self._note)

@@ -1,0 +1,95 @@
+# SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
+# SPDX-License-Identifier: Apache-2.0
+
+"""What a view shows, and what it can ask for."""
+
+from abc import ABC
+from abc import abstractmethod
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from cloth_sim_ros.analysis.frame import Frame
+
+RUNNING = 'running'
+PAUSED = 'paused'
+STOPPED = 'stopped'
+
+
+@dataclass(frozen=True)
+class Moment:
+    """
+    The cloth as a view shows it.
+
+    :param mode: of the simulation; empty where it is not known
+    :param run_state: running, paused, or stopped when the run cannot go on
+    :param note: what there is to say of it, such as why it has stopped
+    """
+
+    frame: Frame
+    mode: str
+    run_state: str
+    note: str = ''
+
+
+class Source(ABC):
+    """
+    A cloth that moves, of which the latest moment can be had from any thread.
+
+    What is asked for raises ClothSimError when it cannot be done.
+
+    :param name: of the scene, the recording or the node
+    :param modes: that ``set_mode`` takes; none where the mode is settled
+    :param can_act: whether the cloth can be stepped, pushed, pinned and reset
+    :param span: first and last time [s] where the view can go to any; None where it cannot
+    """
+
+    name: str
+    modes: tuple[str, ...] = ()
+    can_act: bool = False
+    span: tuple[float, float] | None = None
+
+    @abstractmethod
+    def latest(self) -> Moment | None:
+        """Return the latest moment; None before the first."""
+
+    @abstractmethod
+    def set_paused(self, is_paused: bool) -> None:
+        """Stop the time, or let it go on."""
+
+    @abstractmethod
+    def close(self) -> None:
+        """Give everything back."""
+
+    def go_to(self, time: float) -> None:
+        """Show the moment at ``time`` [s], and stay there."""
+        raise NotImplementedError
+
+    def set_mode(self, mode: str) -> None:
+        """Step with ``mode`` from now on."""
+        raise NotImplementedError
+
+    def step(self, count: int) -> None:
+        """Make ``count`` steps of dt while paused."""
+        raise NotImplementedError
+
+    def reset(self) -> None:
+        """Go back to the start."""
+        raise NotImplementedError
+
+    def push(
+            self, force: Sequence[float], center: Sequence[float], radius: float,
+            duration: float) -> None:
+        """Push the nodes within ``radius`` of ``center`` [m] with ``force`` [N] in all."""
+        raise NotImplementedError
+
+    def hold(self, row: int, col: int) -> None:
+        """Pin the node (row, col) where it is."""
+        raise NotImplementedError
+
+    def release(self, row: int, col: int) -> None:
+        """Let the node (row, col) go."""
+        raise NotImplementedError
+
+    def move_pin(self, row: int, col: int, target: Sequence[float]) -> None:
+        """Let the pin (row, col) move to ``target`` [m]."""
+        raise NotImplementedError

@@ -1,0 +1,76 @@
+# SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
+# SPDX-License-Identifier: Apache-2.0
+
+"""The cloth as triangles in a few colours of strain, thinned to what a browser draws at once."""
+
+from cloth_sim_ros.analysis.frame import Frame
+from cloth_sim_ros.messages.strain_colors import FULL_STRAIN
+from cloth_sim_ros.messages.strain_colors import strain_colors
+from cloth_sim_ros.messages.triangles import triangles
+import numpy as np
+
+BANDS = 12
+MOST_NODES = 128  # along a side
+
+# Vertices (n, 3) float32 [m] and faces (m, 3) uint32.
+Mesh = tuple[np.ndarray, np.ndarray]
+
+
+class Surface:
+    """
+    The shown nodes of a lattice.
+
+    :param rows: of the cloth
+    :param cols: of the cloth
+    """
+
+    def __init__(self, rows: int, cols: int) -> None:
+        """Choose the nodes to show: all, or some of each row and column, with the last."""
+        self.rows = _thinned(rows)
+        self.cols = _thinned(cols)
+        self.faces = triangles(len(self.rows), len(self.cols))
+
+    def points(self, frame: Frame) -> np.ndarray:
+        """Return the shown nodes [m], (nodes, 3) float32."""
+        return self._shown(frame.positions).reshape(-1, 3).astype(np.float32)
+
+    def strain(self, frame: Frame) -> np.ndarray:
+        """Return the strain at the shown nodes, (nodes,)."""
+        return self._shown(frame.strain).ravel()
+
+    def node(self, number: int) -> tuple[int, int]:
+        """Return row and column in the cloth of a shown node."""
+        row, col = divmod(number, len(self.cols))
+        return int(self.rows[row]), int(self.cols[col])
+
+    def bands(self, frame: Frame, full_strain: float) -> list[Mesh | None]:
+        """
+        Return the triangles of each band of strain; None for a band without any.
+
+        :param full_strain: at which the last band begins to stand for all that is above
+        """
+        points = self.points(frame)
+        strain = self.strain(frame)[self.faces].mean(axis=1)
+        # What is not a number is drawn in the last colour.
+        band = np.fmin(np.nan_to_num(strain / full_strain, nan=1.0) * BANDS, BANDS - 1)
+        band = band.astype(int)
+        meshes: list[Mesh | None] = []
+        for number in range(BANDS):
+            used, faces = np.unique(self.faces[band == number], return_inverse=True)
+            meshes.append(
+                (points[used], faces.reshape(-1, 3).astype(np.uint32)) if len(used) else None)
+        return meshes
+
+    def _shown(self, values: np.ndarray) -> np.ndarray:
+        return values[np.ix_(self.rows, self.cols)]
+
+
+def band_colors() -> list[tuple[int, int, int]]:
+    """Return red, green and blue from 0 to 255 of each band, as markers have them."""
+    middles = (np.arange(BANDS) + 0.5) / BANDS * FULL_STRAIN
+    return [tuple(color) for color in (255 * strain_colors(middles)[:, :3]).astype(int).tolist()]
+
+
+def _thinned(count: int) -> np.ndarray:
+    shown = min(count, MOST_NODES)
+    return np.linspace(0.0, count - 1, shown).round().astype(int)

@@ -1,0 +1,119 @@
+# SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
+# SPDX-License-Identifier: Apache-2.0
+
+"""The examples, each run as its docstring says, on less time."""
+
+import ast
+from pathlib import Path
+import re
+import subprocess
+import sys
+
+from cloth_sim_ros import Recording
+from matplotlib.image import imread
+from node_process import NodeProcess
+import numpy as np
+import pytest
+
+ROOT = Path(__file__).resolve().parents[1]
+EXAMPLES = sorted((ROOT / 'examples').glob('*.py'))
+
+
+def run_example(name, folder, *arguments):
+    """Return what examples/NAME.py prints, run in ``folder``."""
+    done = subprocess.run(
+        [sys.executable, str(ROOT / 'examples' / f'{name}.py'), *map(str, arguments)],
+        cwd=folder, capture_output=True, text=True, timeout=300)
+    assert done.returncode == 0, done.stderr
+    return done.stdout
+
+
+def test_each_is_short_says_how_to_run_it_and_is_run_here():
+    """An example would be too long to read, or rot."""
+    assert len(EXAMPLES) == 8
+    tests = Path(__file__).read_text(encoding='utf-8')
+    for path in EXAMPLES:
+        text = path.read_text(encoding='utf-8')
+        assert len(text.splitlines()) < 60, path
+        assert f'python examples/{path.name}' in ast.get_docstring(ast.parse(text)), path
+        assert f"'{path.stem}'" in tests or f"'{path.name}'" in tests, path
+
+
+def test_the_first_cloth_falls(tmp_path):
+    """The first thing that a user tries would show nothing."""
+    shown = run_example('first_cloth', tmp_path, '--seconds', 0.3)
+    heights = [float(line.split()[1]) for line in shown.splitlines()[1:]]
+    assert len(heights) == 3 and heights == sorted(heights, reverse=True)
+
+
+def test_a_towel_has_its_own_size_and_weight(tmp_path):
+    """A user's own cloth would be another one."""
+    shown = run_example(
+        'own_towel', tmp_path, '--width', 0.4, '--height', 0.5, '--weight', 0.2, '--seconds', 0.1)
+    assert '21 x 17 nodes, 0.200 kg' in shown
+    towel = np.load(tmp_path / 'towel.npz')['positions']
+    assert towel.shape == (21, 17, 3)
+    assert np.ptp(towel[..., 0]) == pytest.approx(0.4, rel=0.05)
+
+
+def test_the_mode_within_the_budget_is_chosen(tmp_path):
+    """A user would be advised a mode that stretches too far."""
+    shown = run_example('choose_mode', tmp_path, '--seconds', 0.2, '--budget', 0.02)
+    strains = {
+        mode: float(strain) for mode, strain in re.findall(r'(\w+) +largest strain +(.+)%', shown)}
+    assert len(strains) == 3
+    assert strains[re.search('choose (.*)', shown)[1]] <= 2.0
+
+
+def test_the_force_at_a_dragged_corner_is_bounded(tmp_path):
+    """A gripper would tear at the cloth, or read no force."""
+    shown = run_example('drag_a_corner', tmp_path, '--speed', 2.0, '--max-force', 0.2)
+    rows = [line.split() for line in shown.splitlines()[1:]]
+    assert any('stands' in row for row in rows)
+    assert any(np.linalg.norm([float(part) for part in row[2:5]]) > 0.01 for row in rows)
+
+
+def test_a_run_is_recorded_and_made_again(tmp_path):
+    """The promise of the same bits would not hold for the program that shows it."""
+    shown = run_example('record_and_rerun', tmp_path, '--seconds', 0.2)
+    assert '11 of 11 frames equal to the bit' in shown
+    assert 'bits may differ: stiffness.structural set to other values' in shown
+    assert list((tmp_path / 'bags' / 'pushed').glob('*.mcap'))
+
+
+@pytest.mark.parametrize('has_pandas', [True, False])
+def test_a_recording_becomes_a_table(tmp_path, has_pandas):
+    """A user's table would lack frames, or need pandas."""
+    if not has_pandas:
+        # As on a machine without it.
+        (tmp_path / 'pandas.py').write_text('raise ImportError("no pandas here")\n')
+    done = subprocess.run(
+        [sys.executable, str(ROOT / 'examples' / 'analyse_recording.py'),
+         str(ROOT / 'bags' / 'example'), '--csv', 'table.csv'],
+        cwd=tmp_path, capture_output=True, text=True, timeout=300, check=True,
+        env={'PYTHONPATH': str(tmp_path), 'PATH': '/usr/bin:/bin'})
+    assert ('count' in done.stdout) == has_pandas
+    assert ('largest of each column' in done.stdout) != has_pandas
+    table = np.genfromtxt(tmp_path / 'table.csv', delimiter=',', names=True)
+    frames = Recording(ROOT / 'bags' / 'example').arrays('stats')
+    assert len(table) == len(frames['time']) and np.all(np.diff(table['time']) > 0.0)
+
+
+def test_a_client_carries_a_towel(tmp_path):
+    """The first robot program of a user would not get along with the node."""
+    # Names of its own: other tests have nodes on the same graph.
+    parameters = {'rows': 8, 'cols': 8, 'real_time_factor': 0.0, 'publish.rate': 20.0}
+    with NodeProcess(tmp_path, parameters, '-r', '__ns:=/carried'):
+        shown = run_example(
+            'carry_towel', tmp_path, '--node', '/carried/cloth_sim', '--by', 0.2, 0.0, 0.1,
+            '--speed', 1.0)
+    moved = ast.literal_eval(re.search(r'moved by (.*) m', shown)[1])
+    np.testing.assert_allclose(moved, [[0.2, 0.0, 0.1]] * 2, atol=2e-3)
+
+
+def test_two_stiffnesses_share_a_plot(tmp_path):
+    """A comparison would show one of them, or none."""
+    shown = run_example('compare_stiffness', tmp_path, 100, 1000, '--seconds', 0.3)
+    soft, stiff = (float(strain) for strain in re.findall(r'strain (.*) %', shown))
+    assert soft > stiff
+    assert imread(tmp_path / 'stiffness.png').shape[:2] == (660, 880)

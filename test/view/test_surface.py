@@ -1,0 +1,66 @@
+# SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
+# SPDX-License-Identifier: Apache-2.0
+
+"""The triangles that a page draws are those of the cloth, each in the colour of its strain."""
+
+from cloth_sim_ros.analysis.frame import Frame
+from cloth_sim_ros.messages.triangles import triangles
+from cloth_sim_ros.sim.scene import Scene
+from cloth_sim_ros.sim.snapshot import POINT_DTYPE
+from cloth_sim_ros.view.surface import band_colors
+from cloth_sim_ros.view.surface import BANDS
+from cloth_sim_ros.view.surface import MOST_NODES
+from cloth_sim_ros.view.surface import Surface
+import numpy as np
+
+
+def frame_of(rows: int, cols: int, strain: np.ndarray | float) -> Frame:
+    """Return a level cloth with these strains."""
+    records = np.zeros((rows, cols), POINT_DTYPE)
+    positions = Scene({'rows': rows, 'cols': cols}).rest_positions()
+    for axis, name in enumerate('xyz'):
+        records[name] = positions[..., axis]
+    records['strain'] = strain
+    return Frame(0.0, records)
+
+
+def test_every_triangle_is_drawn_once_in_the_band_of_its_strain():
+    """The cloth would have holes, or a colour that stands for another strain."""
+    strain = np.random.default_rng(3).uniform(0.0, 0.3, (7, 6)).astype(np.float32)
+    frame = frame_of(7, 6, strain)
+    surface = Surface(7, 6)
+    drawn = {}
+    for band, mesh in enumerate(surface.bands(frame, 0.2)):
+        if mesh is not None:
+            points, faces = mesh
+            drawn.update({points[face].tobytes(): band for face in faces})
+    points = frame.positions.reshape(-1, 3).astype(np.float32)
+    of_triangles = strain.ravel()[triangles(7, 6)].mean(axis=1)
+    assert drawn == {
+        points[face].tobytes(): min(int(own / 0.2 * BANDS), BANDS - 1)
+        for face, own in zip(triangles(7, 6), of_triangles)}
+
+
+def test_a_strain_that_is_no_number_has_the_last_colour():
+    """A state that is lost would look like a cloth at rest, or end the view."""
+    strain = np.zeros((2, 3), np.float32)
+    strain[:, 2] = np.nan
+    bands = Surface(2, 3).bands(frame_of(2, 3, strain), 0.1)
+    assert [len(mesh[1]) if mesh else 0 for mesh in (bands[0], bands[-1])] == [2, 2]
+
+
+def test_a_large_cloth_is_thinned_and_keeps_its_edges():
+    """A browser would stand still, or the cloth be drawn smaller than it is."""
+    rows, cols = 3 * MOST_NODES, 10
+    surface, frame = Surface(rows, cols), frame_of(rows, cols, 0.0)
+    points = surface.points(frame)
+    assert len(points) == MOST_NODES * cols
+    np.testing.assert_array_equal(np.ptp(points, axis=0), np.float32((1.0, 1.0, 0.0)))
+    for number in (0, 17, len(points) - 1):
+        np.testing.assert_array_equal(
+            frame.positions[surface.node(number)].astype(np.float32), points[number])
+
+
+def test_each_band_has_a_colour_of_its_own():
+    """Two strains could not be told apart."""
+    assert len(set(band_colors())) == BANDS
