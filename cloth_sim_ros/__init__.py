@@ -42,7 +42,7 @@ __all__ = tuple(_MODULES)
 def __getattr__(name: str) -> object:
     """Import a name of the API when it is first used (PEP 562)."""
     if name not in _MODULES:
-        raise AttributeError(f'module {__name__!r} has no attribute {name!r}')
+        raise AttributeError(f"module '{__name__}' has no attribute '{name}'")
     try:
         value = getattr(import_module(f'{__name__}.{_MODULES[name]}'), name)
     except ImportError as error:

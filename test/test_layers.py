@@ -37,7 +37,7 @@ ROOMS = {
     'view': {'analysis', 'messages', 'sim', 'files'},
     'view/ros': {'view', 'node', 'analysis', 'messages', 'sim', 'files'},
     'resimulation': {'analysis', 'recording', 'sim', 'files'},
-    'gym': {'sim'},
+    'gym': {'sim', 'files'},
     'api': {'node', 'resimulation', 'analysis', 'recording', 'messages', 'sim'},
     'verb': {
         'view', 'view/ros', 'api', 'node', 'study', 'resimulation', 'analysis', 'recording',

@@ -8,6 +8,7 @@ from collections.abc import Sequence
 import math
 from typing import Any
 
+from cloth_sim_ros.files.echo import shown
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.errors import NonFiniteStateError
 from cloth_sim_ros.sim.pin_move import FARTHEST
@@ -62,7 +63,7 @@ class CarryCloth(gymnasium.Env[np.ndarray, np.ndarray]):
             raise ClothSimError('a cloth is carried by its pins, and this has none: set pins')
         if observation not in OBSERVATIONS:
             raise ClothSimError(
-                f'an observation is {" or ".join(OBSERVATIONS)}, got {observation!r}: choose one')
+                f'an observation is {" or ".join(OBSERVATIONS)}, got {shown(observation)}: choose one')
         _check('frame', frame, 's')
         _check('speed', speed, 'm/s')
         if not 0.0 <= jitter <= 0.5:
