@@ -36,8 +36,8 @@ LOCKS = ('run', 'view', 'test', 'sourced_ros')
 PIN = re.compile(r'([A-Za-z0-9._-]+)(?:\[[a-z,]+\])?==(\S+)(?: ; (.*?))?(?: \\)?$')
 HASH = re.compile(r'    --hash=sha256:[0-9a-f]{64}(?: \\)?$')
 PARTS_OF_VENV = 'progress stamps find_python python_packages'
-# Studies on several machines, and the live view; what needs them says so.
-OPTIONAL = {'distributed', 'viser'}
+# Studies on several machines, the environment for training, the live view; each says so.
+OPTIONAL = {'distributed', 'gymnasium', 'viser'}
 
 
 def pins(name):
