@@ -7,8 +7,13 @@ Cloth as an environment of gymnasium, which has to be installed: `pip install gy
 Importing this registers ``cloth_sim_ros/CarryCloth-v0`` for `gymnasium.make`.
 """
 
-from cloth_sim_ros.gym.carry_cloth import CarryCloth
-import gymnasium
+try:
+    from cloth_sim_ros.gym.carry_cloth import CarryCloth
+    import gymnasium
+except ModuleNotFoundError as error:
+    raise ModuleNotFoundError(
+        f'cloth_sim_ros.gym cannot be used without {error.name}: install it by `pip install '
+        'gymnasium`', name=error.name) from error
 
 __all__ = ('CarryCloth',)
 

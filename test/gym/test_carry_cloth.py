@@ -5,6 +5,8 @@
 
 from pathlib import Path
 import re
+import subprocess
+import sys
 import warnings
 
 from cloth_sim_ros import ClothSimError
@@ -142,3 +144,11 @@ def test_wrong_actions_move_nothing(make):
         with pytest.raises(ClothSimError, match='clip it'):
             environment.step(action)
     np.testing.assert_array_equal(environment._look(), start)
+
+
+def test_without_gymnasium_it_says_what_is_missing():
+    """A user would be left with the name of a module and no way out."""
+    start = 'import sys; sys.modules["gymnasium"] = None; import cloth_sim_ros.gym'
+    done = subprocess.run([sys.executable, '-c', start], capture_output=True, text=True)
+    assert done.returncode == 1
+    assert 'pip install gymnasium' in done.stderr.splitlines()[-1]
