@@ -63,7 +63,8 @@ class CarryCloth(gymnasium.Env[np.ndarray, np.ndarray]):
             raise ClothSimError('a cloth is carried by its pins, and this has none: set pins')
         if observation not in OBSERVATIONS:
             raise ClothSimError(
-                f'an observation is {" or ".join(OBSERVATIONS)}, got {shown(observation)}: choose one')
+                f'an observation is {" or ".join(OBSERVATIONS)}, got {shown(observation)}: '
+                'choose one')
         _check('frame', frame, 's')
         _check('speed', speed, 'm/s')
         if not 0.0 <= jitter <= 0.5:

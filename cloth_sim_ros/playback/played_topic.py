@@ -14,12 +14,16 @@
 
 """One topic of a recording on its way out."""
 
+import time
+
 from rclpy.duration import Duration
 from rclpy.node import Node
 from rclpy.qos import QoSProfile
 from rclpy.qos import ReliabilityPolicy
 
-_PATIENCE = 0.2
+# A reader on a busy machine is away for tenths of a second; a hung one costs this once.
+PATIENCE = 1.0
+_SLICE = 0.01
 
 
 class PlayedTopic:
@@ -38,7 +42,7 @@ class PlayedTopic:
 
     def __init__(
             self, node: Node, name: str, message_class: type, quality: QoSProfile,
-            kept: int = 0, patience: float = _PATIENCE) -> None:
+            kept: int = 0, patience: float = PATIENCE) -> None:
         """Make the publisher."""
         self.name = name
         self.message_class = message_class
@@ -65,8 +69,15 @@ class PlayedTopic:
 
     def settle(self, patience: float) -> bool:
         """Wait up to ``patience`` [s] until all readers have all of it; tell whether they have."""
-        done = self._publisher.get_subscription_count() == 0 or (
-            self._publisher.wait_for_all_acked(Duration(seconds=patience)))
+        deadline = time.monotonic() + patience
+        done = self._is_taken(0.0)
+        while not done and time.monotonic() < deadline:
+            done = self._is_taken(_SLICE)
         if done:
             self._waiting = 0
         return done
+
+    def _is_taken(self, patience: float) -> bool:
+        """Wait up to ``patience`` [s], which no other thread of Python runs in."""
+        return self._publisher.get_subscription_count() == 0 or (
+            self._publisher.wait_for_all_acked(Duration(seconds=patience)))

@@ -18,6 +18,7 @@ from builtin_interfaces.msg import Time
 from cloth_sim_ros.messages.topics import TOPICS
 from cloth_sim_ros.playback.header_stamp import has_header
 from cloth_sim_ros.playback.header_stamp import header_stamp
+from cloth_sim_ros.playback.played_topic import PATIENCE
 from cloth_sim_ros.playback.played_topic import PlayedTopic
 from rclpy.node import Node
 from rclpy.qos import QoSProfile
@@ -30,13 +31,16 @@ class SimulatedClock:
     Publish the stamp of each frame ahead of it, as a node with publish.clock does.
 
     ``topic`` is what it is published on, which waits for its readers as the others do.
+
+    :param patience: for a reader to take what it has been sent [s]
     """
 
-    def __init__(self, node: Node) -> None:
+    def __init__(self, node: Node, patience: float = PATIENCE) -> None:
         """Make the publisher."""
         topic = TOPICS['clock']
         self.topic = PlayedTopic(
-            node, topic.name, topic.message, QoSProfile(depth=topic.depth))
+            node, topic.name, topic.message, QoSProfile(depth=topic.depth),
+            patience=patience)
         self._latest: Time | None = None
 
     def read(self, message_class: type, data: bytes) -> None:

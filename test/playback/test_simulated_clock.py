@@ -37,7 +37,7 @@ def test_a_reader_that_is_held_up_for_a_while_gets_every_stamp(client):
             [sys.executable, '-c', READER], stdout=subprocess.PIPE, text=True) as reader:
         try:
             reader.stdout.readline()
-            clock = SimulatedClock(client.node)
+            clock = SimulatedClock(client.node, patience=60.0)
             client.spin_until(
                 lambda: client.node.count_subscribers('/clock'), 'the reader is found')
             client.spin_for(0.3)
@@ -47,7 +47,7 @@ def test_a_reader_that_is_held_up_for_a_while_gets_every_stamp(client):
                 stats = ClothStats()
                 stats.header.stamp = Time(sec=number)
                 clock.read(ClothStats, serialize_message(stats))
-            seconds, _ = reader.communicate(timeout=30.0)
+            seconds, _ = reader.communicate(timeout=60.0)
         finally:
             reader.kill()
     assert [int(each) for each in seconds.split()] == list(range(1, STAMPS + 1))

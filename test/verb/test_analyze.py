@@ -300,7 +300,9 @@ def test_stats_of_another_version_are_read_as_far_as_they_go(tmp_path, capsys):
         header={'stamp': {'sec': 3, 'nanosec': 500000000}, 'frame_id': 'world'},
         total_energy=2.5, max_strain=0.125)
     shown = outcome(write_bag(tmp_path / 'bag', [('/cloth_sim/stats', stats)]), capsys)
-    assert '3.5 to 3.5 s' in shown and '2.5 J at the start' in shown and '0.125 at the end' in shown
+    assert '3.5 to 3.5 s' in shown
+    assert '2.5 J at the start' in shown
+    assert '0.125 at the end' in shown
     assert 'stats of another version: without active_constraints' in shown
 
 
