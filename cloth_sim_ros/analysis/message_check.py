@@ -38,6 +38,7 @@ _NEEDED: dict[str, dict[str, Any]] = {
     'inputs/pin_target': {
         **_STAMP, 'row': int, 'col': int, 'speed': _NUMBER,
         **{f'target.{axis}': _NUMBER for axis in _POINT}},
+    'inputs/wind': {**_STAMP, **{f'vector.{axis}': _NUMBER for axis in _POINT}},
     'inputs/mode': {**_STAMP, 'mode': str},
     'inputs/command': {**_STAMP, 'command': str},
     'inputs/parameters': {'stamp.sec': int, 'stamp.nanosec': int},

@@ -34,6 +34,7 @@ TYPES = {
     'inputs/push': f'{_OWN}Push',
     'inputs/pin': f'{_OWN}PinChange',
     'inputs/pin_target': f'{_OWN}PinTarget',
+    'inputs/wind': 'geometry_msgs/msg/Vector3Stamped',
     'inputs/mode': f'{_OWN}ModeChange',
     'inputs/command': f'{_OWN}Command',
     'inputs/parameters': 'rcl_interfaces/msg/ParameterEvent',

@@ -16,6 +16,7 @@
 
 from collections.abc import Iterable
 from collections.abc import Mapping
+from collections.abc import Sequence
 from typing import Any
 
 from cloth_sim_interfaces.msg import Command
@@ -30,6 +31,7 @@ from cloth_sim_ros.sim.pin_move import PinMove
 from cloth_sim_ros.sim.push import Push
 from geometry_msgs.msg import Point
 from geometry_msgs.msg import Vector3
+from geometry_msgs.msg import Vector3Stamped
 from rcl_interfaces.msg import Parameter
 from rcl_interfaces.msg import ParameterEvent
 from std_msgs.msg import Header
@@ -59,6 +61,14 @@ def pin_target_message(move: PinMove, sim_time: float, frame_id: str) -> PinTarg
     return PinTarget(
         header=Header(stamp=stamp(sim_time), frame_id=frame_id), row=move.row, col=move.col,
         target=Point(x=x, y=y, z=z), speed=move.speed)
+
+
+def wind_message(
+        velocity: Sequence[float], sim_time: float, frame_id: str) -> Vector3Stamped:
+    """Return the steady wind from ``sim_time`` [s] on, ``velocity`` [m/s]."""
+    x, y, z = velocity
+    return Vector3Stamped(
+        header=Header(stamp=stamp(sim_time), frame_id=frame_id), vector=Vector3(x=x, y=y, z=z))
 
 
 def mode_message(mode: str, previous_mode: str, sim_time: float, frame_id: str) -> ModeChange:

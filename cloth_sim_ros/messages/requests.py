@@ -14,6 +14,7 @@ from cloth_sim_interfaces.srv import SetPin
 from cloth_sim_interfaces.srv import StartRecording
 from cloth_sim_interfaces.srv import Step
 from geometry_msgs.msg import PointStamped
+from geometry_msgs.msg import Vector3Stamped
 from std_srvs.srv import SetBool
 from std_srvs.srv import Trigger
 
@@ -60,6 +61,7 @@ SERVICES = (
 SUBSCRIPTIONS = (
     Request('~/push', Push, 'push the cloth, now or at a later simulated time'),
     Request('~/pins/target', PinTarget, 'stream targets to a pin'),
+    Request('~/wind', Vector3Stamped, 'set the steady wind, where the scene has air'),
     Request('/clicked_point', PointStamped, 'push around a point that was clicked in RViz or '
             'Foxglove, as the parameters `clicked_point.*` say'),
 )

@@ -24,6 +24,7 @@ from cloth_sim_interfaces.msg import Push
 from cloth_sim_ros.messages.topic import Topic
 from cloth_sim_ros.messages.wrenches import MOST_PINS
 from diagnostic_msgs.msg import DiagnosticArray
+from geometry_msgs.msg import Vector3Stamped
 from geometry_msgs.msg import WrenchStamped
 from rcl_interfaces.msg import ParameterEvent
 from rosgraph_msgs.msg import Clock
@@ -58,6 +59,7 @@ TOPICS = {
         Topic('inputs/push', Push, depth=100, text='each accepted push'),
         Topic('inputs/pin', PinChange, depth=100, text='each node that was pinned or released'),
         Topic('inputs/pin_target', PinTarget, depth=100, text='each accepted target of a pin'),
+        Topic('inputs/wind', Vector3Stamped, depth=100, text='each steady wind that was set'),
         Topic('inputs/mode', ModeChange, depth=100, text='each mode switch'),
         Topic('inputs/command', Command, depth=100, text='each reset, and each removal of all '
               'pushes'),

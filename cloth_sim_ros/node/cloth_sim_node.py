@@ -46,6 +46,7 @@ from cloth_sim_ros.node.recording_session import RecordingSession
 from cloth_sim_ros.node.run_loop import RunLoop
 from cloth_sim_ros.node.run_services import RunServices
 from cloth_sim_ros.node.state_topic import StateTopic
+from cloth_sim_ros.node.wind_topic import WindTopic
 from cloth_sim_ros.recording.recording_error import RecordingError
 from cloth_sim_ros.recording.recording_error import RecordingFull
 from cloth_sim_ros.recording.recording_options import RecordingOptions
@@ -68,10 +69,11 @@ class ClothSimNode(GuardedNode):
     (ClothStats), ~/pins/wrenches (WrenchStamped), /tf (TFMessage, a frame for each pin), ~/state
     (ClothState), /diagnostics (DiagnosticArray), /clock (Clock, when publish.clock is true), and
     what was done to the cloth: ~/inputs/push (Push), ~/inputs/pin (PinChange),
-    ~/inputs/pin_target (PinTarget), ~/inputs/mode (ModeChange), ~/inputs/command (Command),
-    ~/inputs/parameters (ParameterEvent).
+    ~/inputs/pin_target (PinTarget), ~/inputs/wind (Vector3Stamped), ~/inputs/mode (ModeChange),
+    ~/inputs/command (Command), ~/inputs/parameters (ParameterEvent).
 
-    Listens to: ~/push (Push), ~/pins/target (PinTarget), /clicked_point (PointStamped).
+    Listens to: ~/push (Push), ~/pins/target (PinTarget), ~/wind (Vector3Stamped), /clicked_point
+    (PointStamped).
 
     Serves: ~/set_mode (SetMode), ~/apply_push (ApplyPush), ~/clear_pushes (Trigger), ~/set_pin
     (SetPin), ~/move_pin (MovePin), ~/reset (Trigger), ~/pause (SetBool), ~/step (Step),
@@ -162,8 +164,8 @@ class ClothSimNode(GuardedNode):
         ModeService(self, self._simulation, self._switch)
         PushRequests(self, self._simulation, self._inputs, self._values, self._ignored)
         PinService(self, self._simulation, self._inputs)
-        PinTargets(
-            self, self._simulation, self._inputs, self._values['frame_id'], self._ignored)
+        for topic in (PinTargets, WindTopic):
+            topic(self, self._simulation, self._inputs, self._values['frame_id'], self._ignored)
         RunServices(
             self, self._simulation, self._run_loop, reset=self._reset, changed=self._state.send)
         RecordingServices(

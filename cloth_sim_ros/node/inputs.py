@@ -25,6 +25,7 @@ from cloth_sim_ros.messages.inputs import parameters_message
 from cloth_sim_ros.messages.inputs import pin_message
 from cloth_sim_ros.messages.inputs import pin_target_message
 from cloth_sim_ros.messages.inputs import push_message
+from cloth_sim_ros.messages.inputs import wind_message
 from cloth_sim_ros.messages.parameter_event import serialise_parameter_event
 from cloth_sim_ros.node.parameters import FIELDS
 from cloth_sim_ros.node.parameters import plain_value
@@ -76,6 +77,12 @@ class Inputs:
         now = self._simulation.stepping.edit_time
         self._outlet.send_message(
             'inputs/pin_target', pin_target_message(move, now, self._frame_id), now)
+
+    def wind(self, velocity: Sequence[float]) -> None:
+        """Tell that another steady wind blows [m/s]."""
+        now = self._simulation.stepping.edit_time
+        self._outlet.send_message(
+            'inputs/wind', wind_message(velocity, now, self._frame_id), now)
 
     def mode(self, mode: str, previous: str) -> None:
         """Tell that the mode was switched."""

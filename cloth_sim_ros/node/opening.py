@@ -22,6 +22,7 @@ from cloth_sim_ros.messages.inputs import parameters_message
 from cloth_sim_ros.messages.inputs import pin_message
 from cloth_sim_ros.messages.inputs import pin_target_message
 from cloth_sim_ros.messages.inputs import push_message
+from cloth_sim_ros.messages.inputs import wind_message
 from cloth_sim_ros.messages.parameter_event import serialise_parameter_event
 from cloth_sim_ros.messages.topology import serialise_topology
 from cloth_sim_ros.node.parameters import FIELDS
@@ -38,7 +39,7 @@ def write_opening(
     Record the rest shape, and as inputs all that holds now.
 
     Pins are written where they differ from the parameter, and their targets where they are under
-    way; pushes where they act or will act.
+    way; pushes where they act or will act; the wind where it is not that of the parameter.
 
     :param values: parameter values by name
     :param node_name: with its namespace
@@ -57,5 +58,7 @@ def write_opening(
         inputs.append(('inputs/pin_target', pin_target_message(move, now, frame_id)))
     for applied in simulation.pushes:
         inputs.append(('inputs/push', push_message(applied.push, now, frame_id)))
+    if simulation.loads.wind not in (None, simulation.scene['air.wind']):
+        inputs.append(('inputs/wind', wind_message(simulation.loads.wind, now, frame_id)))
     for key, message in inputs:
         recording.write(key, serialize_message(message), now)

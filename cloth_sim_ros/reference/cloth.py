@@ -17,6 +17,8 @@
 from abc import ABC
 from abc import abstractmethod
 
+from cloth_sim_ros.reference.air_force import air_forces
+from cloth_sim_ros.reference.air_force import wind_at
 from cloth_sim_ros.reference.energy import elastic_energy
 from cloth_sim_ros.reference.energy import Energies
 from cloth_sim_ros.reference.energy import gravitational_energy
@@ -98,6 +100,16 @@ class ReferenceCloth(ABC):
     def _step_of_dt(self) -> None:
         """Step the state on by one dt."""
 
+    def _load_accelerations(self, begin: float, end: float) -> np.ndarray:
+        """Return what pushes and air add in the time given [s], 0 at pinned nodes [m/s2]."""
+        return self._push_accelerations(begin, end) + self._air_accelerations(begin, end)
+
+    def _air_accelerations(self, begin: float, end: float) -> np.ndarray:
+        """Return what the air gives by the present motion, 0 at pinned nodes [m/s2]."""
+        wind = wind_at(self.scene, begin, end)
+        forces = air_forces(self.scene, self.positions, self.velocities, wind)
+        return self.free[..., None] * forces / self.scene.node_mass
+
     def _push_accelerations(self, begin: float, end: float) -> np.ndarray:
         """Return what the pushes add from ``begin`` to ``end`` [s], 0 at pinned nodes [m/s2]."""
         # The nodes of a push are settled once, by where they are when it begins.
@@ -108,18 +120,18 @@ class ReferenceCloth(ABC):
         return self._sum_of_pushes(self._acting, begin, end)
 
     def _applied_accelerations(self, begin: float, end: float) -> np.ndarray:
-        """Return gravity and pushes at free nodes, 0 at pinned ones [m/s2]."""
-        return self.gravity * self.free[..., None] + self._push_accelerations(begin, end)
+        """Return gravity, pushes and air at free nodes, 0 at pinned ones [m/s2]."""
+        return self.gravity * self.free[..., None] + self._load_accelerations(begin, end)
 
     def _foreseen_velocities(self) -> np.ndarray:
-        """Return the velocities after dt of gravity and pushes alone [m/s]."""
+        """Return the velocities after dt of gravity, pushes and air alone [m/s]."""
         # The pushes that begin within dt may still find other nodes: none is settled here.
         end = self.time + self.dt
         pushes = self._acting + [
             (push, push_nodes(push, self.positions, self.free))
             for push in self._waiting if push.start < end]
         applied = self.gravity * self.free[..., None] + self._sum_of_pushes(
-            pushes, self.time, end)
+            pushes, self.time, end) + self._air_accelerations(self.time, end)
         return self.velocities + self.dt * applied
 
     def _sum_of_pushes(

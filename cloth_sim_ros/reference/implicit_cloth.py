@@ -127,8 +127,8 @@ class ImplicitCloth(ReferenceCloth):
         # A velocity belongs to the middle of its substep: gravity acts from the middle of the one
         # before. A push keeps its impulse.
         share = 0.5 * ((self._before or h) + h) / h
-        applied = share * self.gravity * self.free[..., None] + self._push_accelerations(
-            now, now + h)
+        applied = share * (self.gravity * self.free[..., None] + self._air_accelerations(
+            now, now + h)) + self._push_accelerations(now, now + h)
         held, solves = np.zeros_like(self.free), 0
         while True:
             step = self._make(

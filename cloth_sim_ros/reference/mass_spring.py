@@ -14,6 +14,7 @@
 
 """Mass-spring cloth, symplectic Euler, float64: the same scheme as the shaders."""
 
+from cloth_sim_ros.reference.air_force import air_forces
 from cloth_sim_ros.reference.cloth import ReferenceCloth
 from cloth_sim_ros.reference.springs import total_forces
 from cloth_sim_ros.sim.scene import Scene
@@ -37,7 +38,7 @@ class MassSpringReference(ReferenceCloth):
         self.substeps = substeps or self._substeps_of_scene()
 
     def accelerations(self, positions: np.ndarray, velocities: np.ndarray) -> np.ndarray:
-        """Return g + F / m at free nodes and 0 at pinned ones [m/s2], without the pushes."""
+        """Return g + F / m of the springs, 0 at pinned nodes [m/s2]; no pushes and no air."""
         forces = total_forces(self.springs, positions, velocities)
         return (self.gravity + forces / self.scene.node_mass) * self.free[..., None]
 
@@ -45,13 +46,15 @@ class MassSpringReference(ReferenceCloth):
         """
         Return d(state)/dt of the same cloth in continuous time, for scipy's solve_ivp.
 
-        :param t: not used: pushes are steps in time, which such a solver cannot cross
+        :param t: not used: pushes and gusts are steps in time, which such a solver cannot cross
         :param state: positions then velocities, flat
         """
         positions, velocities = state.reshape(2, *self.positions.shape)
         moving = velocities * self.free[..., None]
-        return np.concatenate(
-            (moving.ravel(), self.accelerations(positions, moving).ravel()))
+        wind = np.array(self.scene['air.wind'])
+        air = air_forces(self.scene, positions, moving, wind) / self.scene.node_mass
+        accelerations = self.accelerations(positions, moving) + air * self.free[..., None]
+        return np.concatenate((moving.ravel(), accelerations.ravel()))
 
     def _substeps_of_scene(self) -> int:
         return choose_substeps(self.scene) if self.scene['auto_substeps'] else (
@@ -65,6 +68,6 @@ class MassSpringReference(ReferenceCloth):
 
     def _substep(self, begin: float, end: float) -> None:
         acceleration = self.accelerations(self.positions, self.velocities)
-        acceleration += self._push_accelerations(begin, end)
+        acceleration += self._load_accelerations(begin, end)
         self.velocities += (end - begin) * acceleration
         self.positions += (end - begin) * self.velocities

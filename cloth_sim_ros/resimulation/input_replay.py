@@ -48,7 +48,8 @@ class InputReplay:
         self._takers = {
             'inputs/push': self._push, 'inputs/pin': self._pin,
             'inputs/pin_target': self._pin_target, 'inputs/mode': self._mode,
-            'inputs/command': self._command, 'inputs/parameters': self._parameters}
+            'inputs/wind': self._wind, 'inputs/command': self._command,
+            'inputs/parameters': self._parameters}
         self.refused: list[str] = []
         self.inputs = 0
         self.resets = 0
@@ -84,6 +85,12 @@ class InputReplay:
             int(message.row), int(message.col), parts(message.target), message.speed)
         self.inputs += 1
         self._listener.pin_target(path.move)
+
+    def _wind(self, message: Any) -> None:
+        velocity = parts(message.vector)
+        self._simulation.set_wind(velocity)
+        self.inputs += 1
+        self._listener.wind(velocity)
 
     def _mode(self, message: Any) -> None:
         if self._keep_mode:

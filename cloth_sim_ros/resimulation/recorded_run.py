@@ -28,7 +28,7 @@ from cloth_sim_ros.sim.errors import ClothSimError
 _PARAMETERS = 'inputs/parameters'
 _INPUTS = (
     _PARAMETERS, 'inputs/mode', 'inputs/pin', 'inputs/pin_target', 'inputs/push',
-    'inputs/command')
+    'inputs/wind', 'inputs/command')
 _SHOWN = ('points', 'stats', 'state')
 
 

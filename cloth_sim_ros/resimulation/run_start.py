@@ -69,8 +69,8 @@ class RunStart:
             self._begin()
 
     def _begin(self) -> None:
-        for entry in (*self._opening('inputs/pin'), *self._opening('inputs/pin_target')):
-            self._replay.take(entry.key, entry.message)
+        for key in ('inputs/pin', 'inputs/pin_target', 'inputs/wind'):
+            self._take(key)
         # The simulation has those of its scene, which are first unless all were removed.
         own = len(self._recorded_own)
         if self._pushes[:own] != self._recorded_own:
@@ -86,8 +86,8 @@ class RunStart:
         simulation.go_on_from(
             steps, _vectors(records, 'xyz'), _vectors(records, _VELOCITY),
             pinned=self._pinned(), pushes=self._pushes_at(now))
-        for entry in self._opening('inputs/pin_target'):
-            self._replay.take(entry.key, entry.message)
+        for key in ('inputs/pin_target', 'inputs/wind'):
+            self._take(key)
         unknown = []
         if AVAILABLE[simulation.mode].has_memory:
             unknown.append(f'what mode {simulation.mode} kept from earlier steps')
@@ -134,6 +134,10 @@ class RunStart:
             return list(self._pushes)
         others = [push for push in self._pushes if push not in self._recorded_own]
         return [push for push in own if push.end > now] + others
+
+    def _take(self, key: str) -> None:
+        for entry in self._opening(key):
+            self._replay.take(key, entry.message)
 
     def _opening(self, key: str) -> list[Entry]:
         return [entry for entry in self._run.opening if entry.key == key]

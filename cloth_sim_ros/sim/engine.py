@@ -13,10 +13,10 @@ from cloth_sim_ros.sim import modes
 from cloth_sim_ros.sim.forcing import Forcing
 from cloth_sim_ros.sim.guarded_steps import GuardedSteps
 from cloth_sim_ros.sim.layout import Layout
+from cloth_sim_ros.sim.loads import Loads
 from cloth_sim_ros.sim.modes.mode import Mode
 from cloth_sim_ros.sim.modes.mode import Pieces
 from cloth_sim_ros.sim.observer import Observer
-from cloth_sim_ros.sim.push_field import PushField
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.snapshot import Measures
 from cloth_sim_ros.sim.snapshot import Snapshot
@@ -79,8 +79,7 @@ class Engine:
         """
         scene, layout = self.scene, self.layout
         state = State(layout, scene.start_positions(), scene.pinned_nodes())
-        pushes = PushField(
-            layout, scene.node_mass, scene['gravity'], state.read_positions, state.pinned)
+        loads = Loads(scene, layout, state)
         try:
             still = Forcing(scene['gravity'])
             self.observer.measure(state, still, None)
@@ -89,9 +88,11 @@ class Engine:
             yield
             self.guard.check.passes(state)
             yield
-            yield from self.mode.run_all_passes(state, pushes)
+            loads.forcing(state, 0.0, scene['dt'])
+            yield
+            yield from self.mode.run_all_passes(state, loads)
         finally:
-            pushes.delete()
+            loads.delete()
             state.delete()
 
 

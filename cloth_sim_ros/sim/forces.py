@@ -16,6 +16,7 @@
 
 from dataclasses import replace
 
+from cloth_sim_ros.sim.loads import Loads
 from cloth_sim_ros.sim.modes.mode import Mode
 from cloth_sim_ros.sim.pin_forces import edge_pulls
 from cloth_sim_ros.sim.pin_forces import pin_forces
@@ -29,13 +30,14 @@ import numpy as np
 
 
 def with_forces(
-        snapshot: Snapshot, scene: Scene, mode: Mode, pins: PinMotion, *,
+        snapshot: Snapshot, scene: Scene, mode: Mode, pins: PinMotion, loads: Loads, *,
         every_edge: bool) -> Snapshot:
     """
     Return ``snapshot`` with the forces at its pins.
 
     :param mode: that made its last step
     :param pins: whose velocities were changed for that step
+    :param loads: that acted in it
     :param every_edge: True to add the tension of every edge too, at a cost that grows with the
         cloth
     """
@@ -47,7 +49,8 @@ def with_forces(
         return replace(
             snapshot, tension=tension if every_edge else None,
             pin_forces=pin_forces(
-                scene, positions, tension, nodes, pins.velocity_changes(nodes) / snapshot.dt))
+                scene, positions, tension, nodes, pins.velocity_changes(nodes) / snapshot.dt,
+                loads.at_nodes(nodes)))
 
 
 def pulled_too_hard(scene: Scene, state: State, mode: Mode, pins: PinMotion) -> list[Node]:

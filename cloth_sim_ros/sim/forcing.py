@@ -15,7 +15,6 @@
 """What accelerates the nodes in one step besides the springs."""
 
 from dataclasses import dataclass
-import math
 
 from cloth_sim_ros.gl.buffer import Buffer
 from cloth_sim_ros.gl.program import Program
@@ -25,28 +24,26 @@ from cloth_sim_ros.sim import bindings
 @dataclass(frozen=True, eq=False)
 class Forcing:
     """
-    Gravity and pushes over one step, weighted by how much of the step they act in.
+    The loads over one step, weighted by how much of the step they act in.
 
     :param everywhere: on every free node [m/s2]
     :param pushed_everywhere: True when a push has part in ``everywhere``
     :param regions: what comes on top at each node [m/s2], and how many pushes on regions act
         there; None where there are none
-    :param sum_in_regions: magnitudes of what pushes on regions add, summed over nodes [m/s2]
+    :param parts: what it is made of, equal where nothing else acts
+    :param reads_texture: whether shaders read ``regions`` as they read the state, by textures
     """
 
     everywhere: tuple[float, float, float]
     pushed_everywhere: bool = False
     regions: Buffer | None = None
-    sum_in_regions: float = 0.0
+    parts: tuple = ()
+    reads_texture: bool = False
 
     @property
     def has_regions(self) -> bool:
-        """Tell whether some nodes are pushed and others are not."""
+        """Tell whether nodes are accelerated each by itself."""
         return self.regions is not None
-
-    def sum_over(self, nodes: int) -> float:
-        """Return the magnitudes of what acts, summed over ``nodes`` nodes [m/s2]."""
-        return nodes * math.hypot(*self.everywhere) + self.sum_in_regions
 
     def apply(self, program: Program) -> None:
         """Set the uniforms of applied_acceleration.glsl in the program in use."""
@@ -56,4 +53,7 @@ class Forcing:
     def bind(self) -> None:
         """Bind the regions for the next dispatch, if there are any."""
         if self.regions is not None:
-            self.regions.bind_storage(bindings.REGION_PUSHES)
+            if self.reads_texture:
+                self.regions.bind_texture(bindings.REGION_PUSHES)
+            else:
+                self.regions.bind_storage(bindings.REGION_PUSHES)

@@ -26,11 +26,11 @@ from cloth_sim_ros.sim.bounds_check import BoundsCheck
 from cloth_sim_ros.sim.errors import NonFiniteStateError
 from cloth_sim_ros.sim.forcing import Forcing
 from cloth_sim_ros.sim.layout import Layout
+from cloth_sim_ros.sim.loads import Loads
 from cloth_sim_ros.sim.modes.mode import finish
 from cloth_sim_ros.sim.modes.mode import Mode
 from cloth_sim_ros.sim.modes.mode import Pieces
 from cloth_sim_ros.sim.observer import Observer
-from cloth_sim_ros.sim.push_field import PushField
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.state import State
 import numpy as np
@@ -82,7 +82,7 @@ class GuardedSteps:
 
     def make(
             self, first: int, count: int, step: Callable[[int], Pieces], mode: Mode,
-            pushes: PushField, others: Sequence[Restorable] = (), *,
+            loads: Loads, others: Sequence[Restorable] = (), *,
             is_due: Callable[[], bool] = _never,
             settle: Callable[[int], None] = _nothing) -> Generator[None, None, None]:
         """
@@ -93,12 +93,12 @@ class GuardedSteps:
 
         :param first: number of the first step, counted from 0 at the start of the run
         :param step: makes the step of a number, by ``mode``
-        :param pushes: those that ``step`` uses
+        :param loads: those that ``step`` uses
         :param others: what else ``step`` changes
         :param settle: called with the number of steps made, when they have passed a check
         :raises NonFiniteStateError: after going back to the last finite state
         """
-        parts = (self._state, pushes, *others)
+        parts = (self._state, loads, *others)
         kept = _keep(parts)
         since, substeps = first, 0
         for number in range(first, first + count):
@@ -114,7 +114,7 @@ class GuardedSteps:
                 continue
             if self._guarded and not self.check.passes(self._state):
                 _go_back(parts, kept, mode)
-                self._step_to_the_last_finite(since, number + 1, step, mode, pushes, parts)
+                self._step_to_the_last_finite(since, number + 1, step, mode, loads, parts)
             since, substeps = number + 1, 0
             settle(since)
             if ends:
@@ -127,7 +127,7 @@ class GuardedSteps:
 
     def _step_to_the_last_finite(
             self, begin: int, end: int, step: Callable[[int], Pieces], mode: Mode,
-            pushes: PushField, parts: Sequence[Restorable]) -> NoReturn:
+            loads: Loads, parts: Sequence[Restorable]) -> NoReturn:
         for number in range(begin, end):
             kept = _keep(parts)
             finish(step(number))
@@ -139,7 +139,7 @@ class GuardedSteps:
             raise blow_up.explain(
                 self._scene, lost, self._look(), mode=mode.name, substeps=substeps,
                 longest_substep=self._dt / mode.substeps, stability_limit=mode.stability_limit,
-                steps=number, gained_speed=pushes.speed_gained(time, time + self._dt))
+                steps=number, gained_speed=loads.speed_gained(time, time + self._dt))
         raise NonFiniteStateError(
             f'the state became non-finite before t = {end * self._dt:.6g} s in mode {mode.name}, '
             f'but not when the steps since {begin * self._dt:.6g} s were made again without what '

@@ -25,6 +25,9 @@ class InputListener:
     def pin_target(self, move: PinMove) -> None:
         """Hear of a pin that sets off."""
 
+    def wind(self, velocity: tuple[float, float, float]) -> None:
+        """Hear of another steady wind [m/s]."""
+
     def mode(self, mode: str, previous: str) -> None:
         """Hear of a switch of the mode."""
 

@@ -36,9 +36,11 @@ class PinForces:
 
 def pin_forces(
         scene: Scene, positions: np.ndarray, tension: np.ndarray, nodes: np.ndarray,
-        accelerations: np.ndarray | None = None) -> PinForces:
+        accelerations: np.ndarray | None = None, loads: np.ndarray | None = None) -> PinForces:
     """
     Return R = m (a - g) - (what the edges of a node pull it with) for each of ``nodes``.
+
+    Other loads count with gravity.
 
     The work grows with the nodes given, not with the cloth.
 
@@ -46,9 +48,10 @@ def pin_forces(
     :param tension: of every edge with an end in ``nodes`` [N], (rows, cols, 6) as in Snapshot
     :param nodes: rows and columns of the pinned nodes, (pins, 2) int
     :param accelerations: of the pinned nodes [m/s2], (pins, 3); by default they hold still
+    :param loads: what accelerates them, gravity too [m/s2], (pins, 3); gravity alone by default
     """
-    own = -np.array(scene['gravity']) if accelerations is None \
-        else accelerations - np.array(scene['gravity'])
+    applied = np.array(scene['gravity']) if loads is None else loads
+    own = -applied if accelerations is None else accelerations - applied
     return PinForces(
         nodes, scene.node_mass * own - edge_pulls(scene, positions, tension, nodes))
 

@@ -163,16 +163,6 @@ class PushField:
         return self._compose(
             (entry, scale * share) for entry, share in self._shares(begin, end))
 
-    def greatest_acceleration(self, begin: float, end: float) -> float:
-        """Return what no node exceeds from ``begin`` to ``end`` [m/s2]; begin its pushes."""
-        everywhere, in_regions = np.array(self.still.everywhere), 0.0
-        for entry, share in self._shares(begin, end):
-            if entry.push.region == 'all':
-                everywhere += share * entry.acceleration
-            else:
-                in_regions += share * entry.strength
-        return float(np.linalg.norm(everywhere)) + in_regions
-
     def acting(self, now: float) -> Forcing:
         """Return what acts at the moment ``now`` [s], for looking only: nothing begins by it."""
         return self._compose((entry, 1.0) for entry in self._entries if entry.acts_at(now))
@@ -244,9 +234,8 @@ class PushField:
             self._upload(in_regions)
         forcing = Forcing(
             tuple(everywhere), len(in_regions) < len(active),
-            self._buffer if in_regions else None,
-            sum(share * entry.strength * entry.nodes for entry, share in in_regions),
-        ) if active else self.still
+            self._buffer if in_regions else None, active,
+            self._layout.texture_loads) if active else self.still
         self._latest = (active, forcing)
         return forcing
 

@@ -34,6 +34,7 @@ from cloth_sim_ros.sim.pins import pinned_nodes
 from cloth_sim_ros.sim.push import Push
 from cloth_sim_ros.sim.scene_fields import FAMILIES
 from cloth_sim_ros.sim.scene_fields import SCENE_FIELDS
+from cloth_sim_ros.sim.wind import Gust
 import numpy as np
 
 
@@ -56,9 +57,14 @@ class Scene:
             raise ClothSimError(
                 f'a cloth needs 2 nodes or more, got rows {self.rows} x cols {self.cols}: '
                 'raise one of them')
-        if len(self['gravity']) != 3:
+        for name in ('gravity', 'air.wind'):
+            if len(self[name]) != 3:
+                raise ClothSimError(
+                    f'{name} needs 3 components, got {len(self[name])}: write [x, y, z]')
+        if self.has_air and min(self.rows, self.cols) < 2:
             raise ClothSimError(
-                f'gravity needs 3 components, got {len(self["gravity"])}: write [x, y, z]')
+                f'air acts on areas, and a chain of rows {self.rows} x cols {self.cols} has none: '
+                'give it 2 or more of both, or set air.density: 0')
         for family in FAMILIES:
             if family in self['constraint.hard'] and family in self['constraint.springs']:
                 raise ClothSimError(
@@ -68,6 +74,7 @@ class Scene:
         self.pinned_nodes()
         self.timed_pushes()
         self.timed_pin_moves()
+        self.gusts()
 
     def __getitem__(self, name: str) -> Any:
         """Return the value of the parameter ``name``."""
@@ -152,6 +159,18 @@ class Scene:
                 region='sphere' if radius > 0.0 else 'all', center=center, radius=radius)
             for start, (duration,), force, center, (radius,) in columns)
 
+    @property
+    def has_air(self) -> bool:
+        """Tell whether air acts on the cloth."""
+        return self['air.density'] > 0.0 and (self['air.drag'] > 0.0 or self['air.friction'] > 0.0)
+
+    def gusts(self) -> tuple[Gust, ...]:
+        """Return the gusts that are part of the scene, in the order given."""
+        columns = zip(
+            self['gusts.start'], self._timed('gusts.duration'), self._timed('gusts.wind', 3))
+        return tuple(
+            Gust(start, duration, velocity) for start, (duration,), velocity in columns)
+
     def timed_pin_moves(self) -> tuple[PinMove, ...]:
         """Return the moves of pins that are part of the scene, in the order given."""
         columns = zip(
@@ -200,8 +219,9 @@ class Scene:
     def _timed(
             self, name: str, width: int = 1,
             default: float | None = None) -> list[tuple[Any, ...]]:
-        """Return the ``width`` entries that each push or move has in the parameter ``name``."""
-        group, entry = name.partition('.')[0], 'push' if name.startswith('pushes') else 'move'
+        """Return the ``width`` entries that each one has in the parameter ``name``."""
+        group = name.partition('.')[0]
+        entry = {'pushes': 'push', 'pin_moves': 'move', 'gusts': 'gust'}[group]
         count = len(self[f'{group}.start'])
         flat = self[name]
         if not flat and default is not None:

@@ -20,6 +20,7 @@ from cloth_sim_ros.sim.pins import PIN_NAMES
 MOST_SUBSTEPS = 100000
 MODES = ('mass_spring', 'constraint', 'adaptive')
 FAMILIES = ('structural', 'shear', 'bend')
+FASTEST_WIND = 1000.0
 NO_PRESET = 'none'
 PRESETS = ('fast', 'balanced', 'accurate')
 
@@ -99,6 +100,20 @@ SCENE_FIELDS = (
           choices=('constraint', 'paper')),
     Field('adaptive.threshold', float, 0.1, 'strain limit at which a structural or shear spring '
           'becomes a constraint in mode adaptive', low=0.005, high=0.5),
+    Field('air.density', float, 0.0, 'density of the air, 1.225 at sea level; 0 for no air',
+          'kg/m3', low=0.0, high=1e4),
+    Field('air.drag', float, 1.17, 'drag coefficient of the surface across its plane, '
+          'that of a square plate by default', low=0.0, high=1e3),
+    Field('air.friction', float, 0.02, 'friction coefficient of the surface along its plane',
+          low=0.0, high=1e3),
+    Field('air.wind', float, (0.0, 0.0, 0.0), 'velocity of the air, x y z', 'm/s',
+          low=-FASTEST_WIND, high=FASTEST_WIND, is_array=True),
+    Field('gusts.start', float, (), 'start time of each timed gust', 's', low=0.0, high=1e9,
+          is_array=True),
+    Field('gusts.duration', float, (), 'duration of each timed gust', 's', low=1e-9, high=1e9,
+          is_array=True),
+    Field('gusts.wind', float, (), 'velocity that each timed gust adds to the wind, as one flat '
+          'list of x y z', 'm/s', low=-FASTEST_WIND, high=FASTEST_WIND, is_array=True),
     Field('pushes.start', float, (), 'start time of each timed push', 's', low=0.0, high=1e9,
           is_array=True),
     Field('pushes.duration', float, (), 'duration of each timed push', 's', low=0.0, high=1e9,

@@ -19,11 +19,11 @@ from cloth_sim_ros.sim.engines import Engines
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.forces import pulled_too_hard
 from cloth_sim_ros.sim.forces import with_forces
-from cloth_sim_ros.sim.forcing import Forcing
 from cloth_sim_ros.sim.input_listener import CLEAR_PUSHES
 from cloth_sim_ros.sim.input_listener import InputListener
 from cloth_sim_ros.sim.input_listener import RESET
 from cloth_sim_ros.sim.layout import choose_layout
+from cloth_sim_ros.sim.loads import Loads
 from cloth_sim_ros.sim.near_node import NearNode
 from cloth_sim_ros.sim.nearest import nearest
 from cloth_sim_ros.sim.pin_forces import PinForces
@@ -33,7 +33,6 @@ from cloth_sim_ros.sim.pin_path import PinPath
 from cloth_sim_ros.sim.pin_requests import PinRequests
 from cloth_sim_ros.sim.push import Push
 from cloth_sim_ros.sim.push_field import AppliedPush
-from cloth_sim_ros.sim.push_field import PushField
 from cloth_sim_ros.sim.run_status import RunStatus
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.snapshot import Measures
@@ -89,6 +88,7 @@ class Simulation(RunStatus, AbstractContextManager['Simulation']):
             self.engines.use(scene['mode'])
         self.listener = InputListener()
         self._is_closed = False
+        self.loads = Loads(scene, self.layout, self._state)
         self._begin_run()
 
     def __exit__(self, *_: object) -> None:
@@ -98,7 +98,7 @@ class Simulation(RunStatus, AbstractContextManager['Simulation']):
     @property
     def pushes(self) -> tuple[AppliedPush, ...]:
         """Return the pushes that act or will act."""
-        return self._pushes.applied
+        return self.loads.pushes.applied
 
     def warm_up(self) -> None:
         """Compile all that the present mode can need, not each part when it is first used."""
@@ -134,7 +134,7 @@ class Simulation(RunStatus, AbstractContextManager['Simulation']):
 
         def make_steps(first: int, count: int) -> Generator[None, None, None]:
             return engine.guard.make(
-                first, count, self._make_step, engine.mode, self._pushes, [self._pin_motion],
+                first, count, self._make_step, engine.mode, self.loads, [self._pin_motion],
                 is_due=lambda: stepping.has_edits or is_due(), settle=stepping.settle)
 
         with closing(stepping.run(make_steps)) as pieces:
@@ -164,19 +164,25 @@ class Simulation(RunStatus, AbstractContextManager['Simulation']):
                 'give a later one, or none for now')
         with self._settled_state():
             if self.stepping.is_mid_step and begin <= self.stepping.edit_time:
-                applied = self._pushes.foresee(push, self.pinned_nodes())
-                self.stepping.at_rest(lambda: self._pushes.begin(push))
+                applied = self.loads.pushes.foresee(push, self.pinned_nodes())
+                self.stepping.at_rest(lambda: self.loads.pushes.begin(push))
             else:
-                applied = self._pushes.add(push, self.time)
+                applied = self.loads.pushes.add(push, self.time)
         self.listener.push(push)
         return applied
 
     def clear_pushes(self) -> int:
         """End all pushes and drop those to come; return how many."""
         self.listener.command(CLEAR_PUSHES)
-        pushes = [applied.push for applied in self._pushes.applied]
-        self.stepping.at_rest(lambda: self._pushes.drop(pushes))
+        pushes = [applied.push for applied in self.pushes]
+        self.stepping.at_rest(lambda: self.loads.pushes.drop(pushes))
         return len(pushes)
+
+    def set_wind(self, velocity: Sequence[float]) -> None:
+        """Let ``velocity`` [m/s] blow in place of the steady wind; gusts of the scene stay."""
+        wind = self.loads.checked_wind(velocity)
+        self.stepping.at_rest(lambda: self.loads.set_wind(wind))
+        self.listener.wind(wind)
 
     def pin(self, row: int, col: int) -> None:
         """Hold the node (row, col) where it is; a pin that moves stops."""
@@ -262,6 +268,7 @@ class Simulation(RunStatus, AbstractContextManager['Simulation']):
         self.engines.context.make_current()
         self._state.write(np.asarray(positions), np.asarray(velocities))
         self._pin_motion.drop()
+        self.loads.forget()
         self.engines.forget()
 
     def go_on_from(
@@ -286,9 +293,8 @@ class Simulation(RunStatus, AbstractContextManager['Simulation']):
         self._state.pinned[:] = pinned
         self._state.write(np.asarray(positions), np.asarray(velocities))
         self.engines.forget()
-        self._pushes.delete()
         self._begin_run(steps)
-        self._pushes.take_up(pushes, self.time)
+        self.loads.pushes.take_up(pushes, self.time)
         self._pin_motion.leave_out_before(self.time)
 
     def reset(self) -> None:
@@ -300,14 +306,13 @@ class Simulation(RunStatus, AbstractContextManager['Simulation']):
         start = self.scene.start_positions()
         self._state.write(start, np.zeros_like(start))
         self.engines.forget()
-        self._pushes.delete()
         self._begin_run()
 
     def measure(self) -> Measures:
         """Return energies and largest strain, which is cheaper than a snapshot."""
         engine = self.engines.in_use
         with self._settled_state():
-            return engine.measure(self._state, self._forcing_now())
+            return engine.measure(self._state, self.loads.acting(self.time))
 
     def snapshot(self, *, tension: bool = False, pin_forces: bool = False) -> Snapshot:
         """
@@ -319,12 +324,13 @@ class Simulation(RunStatus, AbstractContextManager['Simulation']):
         engine = self.engines.in_use
         with self._settled_state():
             snapshot = engine.snapshot(
-                self._state, self._forcing_now(), time=self.time, steps=self.steps, dt=self.dt,
-                stalled_pins=self._pin_motion.stalled)
+                self._state, self.loads.acting(self.time), time=self.time, steps=self.steps,
+                dt=self.dt, stalled_pins=self._pin_motion.stalled)
         if tension or pin_forces:
             self.stepping.refuse_mid_step('forces')
             return with_forces(
-                snapshot, self.scene, engine.mode, self._pin_motion, every_edge=tension)
+                snapshot, self.scene, engine.mode, self._pin_motion, self.loads,
+                every_edge=tension)
         return snapshot
 
     def pin_forces(self) -> PinForces:
@@ -344,17 +350,15 @@ class Simulation(RunStatus, AbstractContextManager['Simulation']):
         self._is_closed = True
         self.engines.delete()
         self._state.delete()
-        self._pushes.delete()
+        self.loads.delete()
         if self._owns_context:
             self._first_context.close()
 
     def _begin_run(self, steps: int = 0) -> None:
         self.stepping = Stepping(self.dt, steps)
-        self._pushes = PushField(
-            self.layout, self.scene.node_mass, self.scene['gravity'],
-            self._state.read_positions, self._state.pinned)
+        self.loads.begin_run()
         for push in self.scene.timed_pushes():
-            self._pushes.add(push, -math.inf)
+            self.loads.pushes.add(push, -math.inf)
         self._pin_motion = PinMotion(self.scene, self._state)
         self._pins = PinRequests(self._pin_motion, self._state, self.stepping)
 
@@ -363,7 +367,8 @@ class Simulation(RunStatus, AbstractContextManager['Simulation']):
         begin, end = number * self.dt, (number + 1) * self.dt
         mode, pins = self.engines.in_use.mode, self._pin_motion
         pins.begin_step(begin, end, pulled_too_hard(self.scene, self._state, mode, pins))
-        yield from mode.step(self._state, begin, self._pushes)
+        self.loads.begin_step(begin, end)
+        yield from mode.step(self._state, begin, self.loads)
         pins.end_step(begin, end)
 
     def _finish_work(self) -> None:
@@ -379,6 +384,3 @@ class Simulation(RunStatus, AbstractContextManager['Simulation']):
                 yield
         else:
             yield
-
-    def _forcing_now(self) -> Forcing:
-        return self._pushes.acting(self.time)

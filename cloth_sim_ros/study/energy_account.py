@@ -35,7 +35,7 @@ _ROUNDING = 2e-7
 
 class EnergyAccount:
     """
-    Keeps the books of a run: its energy, and the work that pushes and moving pins do.
+    Keeps the books of a run: its energy, and the work that pushes, air and moving pins do.
 
     Symplectic Euler has its velocities half a substep before its positions, so its energy swings
     to and fro near the stability limit by as much as there is. What it keeps, exactly where forces
@@ -59,6 +59,8 @@ class EnergyAccount:
         self._has_pin_moves = bool(run.scene.timed_pin_moves())
         self._pushed: dict[Push, np.ndarray] = {}
         self._work = 0.0
+        self._air_work = 0.0
+        run.loads.keep_account()
         self._substeps = 0
         self._law = run.engines.energy_law()
         self.seen = self._look()
@@ -74,6 +76,11 @@ class EnergyAccount:
         # What rounding alone may add is no gain.
         excess = self._gain - self._rounding()
         return excess / self._most if excess > 0.0 else 0.0
+
+    @property
+    def air_work(self) -> float:
+        """Return the work of the air on the cloth so far [J]."""
+        return self._air_work
 
     @property
     def pushed(self) -> Mapping[Push, np.ndarray]:
@@ -110,6 +117,9 @@ class EnergyAccount:
         self._work += _closing_work(
             self._run.scene, (self._law, before.positions), (law, now.positions))
         self._law = law
+        air_work = self._run.loads.work()
+        self._work += air_work - self._air_work
+        self._air_work = air_work
         self.seen = now
         energy = self._energy(now) - self._begin_energy
         self._gain = max(self._gain, energy - self._work) if now.finite else np.inf

@@ -71,6 +71,10 @@ class ResimulatedRecording(Listener):
         """Write that a pin sets off."""
         self._inputs.pin_target(move)
 
+    def wind(self, velocity: tuple[float, float, float]) -> None:
+        """Write another steady wind."""
+        self._inputs.wind(velocity)
+
     def mode(self, mode: str, previous: str) -> None:
         """Write a switch of the mode."""
         self._inputs.mode(mode, previous)

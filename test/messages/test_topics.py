@@ -40,8 +40,8 @@ def test_all_inputs_are_recorded():
     """A run could not be simulated again from its recording."""
     inputs = {key for key in TOPICS if key.startswith('inputs/')}
     assert inputs == {
-        'inputs/push', 'inputs/pin', 'inputs/pin_target', 'inputs/mode', 'inputs/command',
-        'inputs/parameters'}
+        'inputs/push', 'inputs/pin', 'inputs/pin_target', 'inputs/wind', 'inputs/mode',
+        'inputs/command', 'inputs/parameters'}
     assert all(TOPICS[key].recorded for key in inputs)
     assert TOPICS['topology'].recorded and TOPICS['clock'].recorded
     assert TOPICS['pins/wrenches'].recorded and TOPICS['tf'].recorded

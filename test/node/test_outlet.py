@@ -33,6 +33,7 @@ NAMES_AND_TYPES = {
     '~/inputs/push': 'cloth_sim_interfaces/msg/Push',
     '~/inputs/pin': 'cloth_sim_interfaces/msg/PinChange',
     '~/inputs/pin_target': 'cloth_sim_interfaces/msg/PinTarget',
+    '~/inputs/wind': 'geometry_msgs/msg/Vector3Stamped',
     '~/inputs/mode': 'cloth_sim_interfaces/msg/ModeChange',
     '~/inputs/command': 'cloth_sim_interfaces/msg/Command',
     '~/inputs/parameters': 'rcl_interfaces/msg/ParameterEvent',
@@ -80,12 +81,13 @@ def test_services_have_their_types(cloth):
         assert offered[f'{cloth.name}/{name}'] == [kind]
 
 
-def test_listens_to_pushes_targets_and_clicks(cloth):
-    """A push from RViz or Foxglove, or a controller's target, would go nowhere."""
+def test_listens_to_pushes_targets_clicks_and_wind(cloth):
+    """A push from RViz or Foxglove, a controller's target, or a wind, would go nowhere."""
     listened = dict(cloth.client.node.get_subscriber_names_and_types_by_node(
         'cloth_sim', NAMESPACE))
     assert listened[f'{cloth.name}/push'] == ['cloth_sim_interfaces/msg/Push']
     assert listened[f'{cloth.name}/pins/target'] == ['cloth_sim_interfaces/msg/PinTarget']
+    assert listened[f'{cloth.name}/wind'] == ['geometry_msgs/msg/Vector3Stamped']
     assert listened['/clicked_point'] == ['geometry_msgs/msg/PointStamped']
 
 

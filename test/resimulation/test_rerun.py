@@ -76,6 +76,36 @@ def test_any_inputs_are_done_again(tmp_path, seed):
     assert_same(director.path, director.frames)
 
 
+@pytest.mark.parametrize('mode', MODES)
+def test_a_run_in_the_wind_is_made_again(tmp_path, mode):
+    """Gusts, or a wind that was set, would blow at another time; or a reset leave it."""
+    air = {'mode': mode, 'air.density': 1.225, 'air.wind': (1.0, 0.0, 0.0), 'gusts.start': (0.05,),
+           'gusts.duration': (0.1,), 'gusts.wind': (0.0, 3.0, 2.0)}
+    with Director(
+            tmp_path, {**SCENE, **air}, lambda cloth: cloth.set_wind((0.0, 0.0, 2.0))) as director:
+        director.step(11)
+        director.set_wind((0.0, -4.0, 1.0))
+        director.step(11)
+        director.reset()
+        director.step(11)
+        director.set_wind((0.0, 2.0, 1.0))
+        director.step(11)
+    assert_same(director.path, director.frames)
+
+
+def test_a_recording_from_the_middle_of_a_run_has_the_wind_that_was_set(tmp_path):
+    """The wind of the parameters would blow again."""
+    def before(cloth):
+        cloth.set_wind((0.0, -4.0, 1.0))
+        cloth.step(18)
+
+    air = {'rows': 8, 'cols': 9, 'start.jitter': 0.1, 'air.density': 1.225}
+    with Director(tmp_path, air, before) as director:
+        for _ in range(4):
+            director.step(11)
+    assert_same(director.path, director.frames)
+
+
 @pytest.mark.parametrize('before', [
     lambda cloth: cloth.push((0.0, 0.5, 0.0), duration=0.1),
     lambda cloth: cloth.clear_pushes(),

@@ -24,10 +24,10 @@ from cloth_sim_ros.sim.errors import NonFiniteStateError
 from cloth_sim_ros.sim.forcing import Forcing
 from cloth_sim_ros.sim.guarded_steps import GuardedSteps
 from cloth_sim_ros.sim.layout import choose_layout
+from cloth_sim_ros.sim.loads import Loads
 from cloth_sim_ros.sim.modes.mass_spring import MassSpring
 from cloth_sim_ros.sim.modes.mode import Pieces
 from cloth_sim_ros.sim.observer import Observer
-from cloth_sim_ros.sim.push_field import PushField
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.simulation import Simulation
 from cloth_sim_ros.sim.state import State
@@ -218,9 +218,9 @@ class _Remembering(MassSpring):
     name = 'remembering'
     remembers = True
 
-    def step(self, state: State, begin: float, pushes: PushField) -> Pieces:
+    def step(self, state: State, begin: float, loads: Loads) -> Pieces:
         """Step ``state`` on by one dt."""
-        yield from super().step(state, begin, pushes)
+        yield from super().step(state, begin, loads)
         if self.remembers:
             self._passes.substep(state, Forcing(_ABSURD), 1.0)
 
@@ -235,19 +235,18 @@ def test_a_blow_up_by_memory_alone_is_told():
     layout = choose_layout(scene, context)
     state = State(layout, scene.start_positions(), scene.pinned_nodes())
     observer = Observer(scene, layout, set(scene.families))
-    pushes = PushField(
-        layout, scene.node_mass, scene['gravity'], scene.start_positions, state.pinned)
+    loads = Loads(scene, layout, state)
     guard, mode = GuardedSteps(scene, layout, observer, state), _Remembering(scene, layout)
 
     def step(number: int) -> Pieces:
-        return mode.step(state, number * scene['dt'], pushes)
+        return mode.step(state, number * scene['dt'], loads)
 
     with pytest.raises(NonFiniteStateError, match='without what the mode had kept') as caught:
-        list(guard.make(0, 3, step, mode, pushes))
+        list(guard.make(0, 3, step, mode, loads))
     assert caught.value.steps == 3
-    assert observer.measure(state, pushes.still, None).finite
-    list(guard.make(3, 3, step, mode, pushes))
-    for part in (guard, mode, pushes, observer, state):
+    assert observer.measure(state, loads.still, None).finite
+    list(guard.make(3, 3, step, mode, loads))
+    for part in (guard, mode, loads, observer, state):
         part.delete()
     context.close()
 

@@ -113,6 +113,11 @@ class Director:
         """Let a pin set off."""
         self._recording.pin_target(self.simulation.move_pin(row, col, target, speed).move)
 
+    def set_wind(self, velocity: tuple[float, float, float]) -> None:
+        """Let another wind blow."""
+        self.simulation.set_wind(velocity)
+        self._recording.wind(velocity)
+
     def set_mode(self, mode: str) -> None:
         """Switch the mode."""
         previous = self.simulation.set_mode(mode)

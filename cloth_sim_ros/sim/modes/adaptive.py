@@ -19,6 +19,7 @@ import math
 
 from cloth_sim_ros.gl.buffer import Buffer
 from cloth_sim_ros.sim.layout import Layout
+from cloth_sim_ros.sim.loads import Loads
 from cloth_sim_ros.sim.modes.limit_marks import LimitMarks
 from cloth_sim_ros.sim.modes.limited_springs import LimitedSprings
 from cloth_sim_ros.sim.modes.mode import Pieces
@@ -26,7 +27,6 @@ from cloth_sim_ros.sim.modes.one_pass import OnePass
 from cloth_sim_ros.sim.modes.paper_limit import PaperLimit
 from cloth_sim_ros.sim.modes.spring_substeps import spring_substeps
 from cloth_sim_ros.sim.modes.strain_watch import StrainWatch
-from cloth_sim_ros.sim.push_field import PushField
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.solver.edge_law import EdgeLaw
 from cloth_sim_ros.sim.solver.edge_law import spring_law
@@ -111,7 +111,7 @@ class Adaptive:
         """Return the strain limit that holds now."""
         return self._limit.strain_bound
 
-    def step(self, state: State, begin: float, pushes: PushField) -> Pieces:
+    def step(self, state: State, begin: float, loads: Loads) -> Pieces:
         """Step ``state`` on by one dt."""
         self._limit.clear_tally()
         self._made_limited = False
@@ -121,28 +121,28 @@ class Adaptive:
             count = math.ceil(left / self._length - _NOTHING)
             length = left / count
             calm = 0
-            if not self._is_limited or self._is_far_from_limit(state, now, left, pushes):
-                calm = min(count, self._watch.calm_substeps(state, now, length, pushes))
+            if not self._is_limited or self._is_far_from_limit(state, now, left, loads):
+                calm = min(count, self._watch.calm_substeps(state, now, length, loads))
             if calm:
                 self._is_limited = False
-                yield from self._spring_substeps(state, now, length, calm, pushes)
+                yield from self._spring_substeps(state, now, length, calm, loads)
                 self._watch.spend(calm)
                 done += calm * length
                 substeps += calm
             else:
-                yield from self._limited_substeps(state, now, left, pushes)
+                yield from self._limited_substeps(state, now, left, loads)
                 done += left
                 substeps += self._limit.substeps
         self.substeps = substeps
         self._marks.update(state, some=self._made_limited)
 
-    def run_all_passes(self, state: State, pushes: PushField) -> Pieces:
+    def run_all_passes(self, state: State, loads: Loads) -> Pieces:
         """Make substeps with and without limit of a ``state`` that nobody needs."""
-        self._watch.strains(state, pushes.still, self._length)
+        self._watch.strains(state, loads.still, self._length)
         yield
-        self._springs.substep(state, pushes.still, self._length, self._length)
+        self._springs.substep(state, loads.still, self._length, self._length)
         yield
-        yield from self._limit.run_all_passes(state, pushes)
+        yield from self._limit.run_all_passes(state, loads)
         self._marks.update(state, some=True)
         yield
         self.forget()
@@ -179,15 +179,15 @@ class Adaptive:
             part.delete()
 
     def _is_far_from_limit(
-            self, state: State, now: float, left: float, pushes: PushField) -> bool:
+            self, state: State, now: float, left: float, loads: Loads) -> bool:
         """Return whether edges that were near their limit stay away from it for ``left`` [s]."""
-        strains = self._watch.strains(state, pushes.forcing(now, now + left), left)
+        strains = self._watch.strains(state, loads.forcing(state, now, now + left), left)
         # Written so that what is no number is not far.
         return max(strains) < _FAR * self._scene['adaptive.threshold']
 
     def _spring_substeps(
             self, state: State, now: float, length: float, count: int,
-            pushes: PushField) -> Pieces:
+            loads: Loads) -> Pieces:
         for index in range(count):
             start = now + index * length
             # A velocity belongs to the middle of its substep, so forces act from there to the
@@ -196,14 +196,14 @@ class Adaptive:
             if self._before and abs(self._before - length) > _NOTHING * length:
                 kick = 0.5 * (self._before + length)
             self._springs.substep(
-                state, pushes.forcing(start, start + length, kick), length, kick)
+                state, loads.forcing(state, start, start + length, kick), length, kick)
             self._before = length
             yield
 
     def _limited_substeps(
-            self, state: State, now: float, left: float, pushes: PushField) -> Pieces:
+            self, state: State, now: float, left: float, loads: Loads) -> Pieces:
         if not self._is_limited:
             self._limit.resume(self._before)
         self._is_limited = self._made_limited = True
-        yield from self._limit.advance(state, now, left, pushes)
+        yield from self._limit.advance(state, now, left, loads)
         self._before = self._limit.last_length

@@ -14,12 +14,12 @@ from typing import Any
 
 from cloth_sim_ros.sim.forcing import Forcing
 from cloth_sim_ros.sim.layout import Layout
+from cloth_sim_ros.sim.loads import Loads
 from cloth_sim_ros.sim.modes.free_motion import FreeMotion
 from cloth_sim_ros.sim.modes.mode import Pieces
 from cloth_sim_ros.sim.modes.settling import first_limit
 from cloth_sim_ros.sim.modes.settling import Settling
 from cloth_sim_ros.sim.modes.turn_watch import TurnWatch
-from cloth_sim_ros.sim.push_field import PushField
 from cloth_sim_ros.sim.scene import FAMILIES
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.solver.edge_law import EdgeLaw
@@ -83,14 +83,14 @@ class ImplicitStep(ABC):
             settling = first_limit(self._watch.look(state, _NO_FORCING, self._dt)[1])
         return self.law(self._dt, settling)
 
-    def step(self, state: State, begin: float, pushes: PushField) -> Pieces:
+    def step(self, state: State, begin: float, loads: Loads) -> Pieces:
         """Step ``state`` on by one dt."""
         self.clear_tally()
-        yield from self.advance(state, begin, self._dt, pushes)
+        yield from self.advance(state, begin, self._dt, loads)
 
-    def advance(self, state: State, begin: float, seconds: float, pushes: PushField) -> Pieces:
+    def advance(self, state: State, begin: float, seconds: float, loads: Loads) -> Pieces:
         """Step ``state`` on by ``seconds``, one dt or what is left of it."""
-        self._choose_substeps(state, pushes.forcing(begin, begin + seconds), seconds)
+        self._choose_substeps(state, loads.forcing(state, begin, begin + seconds), seconds)
         length = seconds / self.substeps
         is_held = bool(state.pinned.any())
         for substep in range(self.substeps):
@@ -99,21 +99,21 @@ class ImplicitStep(ABC):
             # A velocity belongs to the middle of its substep, so forces act from there to the
             # next.
             kick = 0.5 * ((self.last_length or length) + length)
-            forcing_of = partial(pushes.forcing, start, start + length, kick)
+            forcing_of = partial(loads.forcing, state, start, start + length, kick)
             if is_held:
                 yield from self._substep(state, forcing_of, kick)
             else:
                 forcing = forcing_of()
-                self._free_motion.aim_at(state, forcing, pushes.still, kick)
+                self._free_motion.aim_at(state, forcing, loads.still, kick)
                 yield from self._substep(
                     state, lambda: _uneven(forcing_of()), kick, _common(forcing, kick))
-                self._free_motion.restore(state, pushes.still, length)
+                self._free_motion.restore(state, loads.still, length)
             self.last_length = length
             self.settling.spend(length)
 
-    def run_all_passes(self, state: State, pushes: PushField) -> Pieces:
+    def run_all_passes(self, state: State, loads: Loads) -> Pieces:
         """Make a substep of a ``state`` that nobody needs, held and free."""
-        still = pushes.still
+        still = loads.still
         self._watch.look(state, still, self._dt)
         yield
         self._solver.set_law(self.law(self._dt, self.settling.limit))

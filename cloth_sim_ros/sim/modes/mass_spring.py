@@ -19,11 +19,11 @@ import math
 
 from cloth_sim_ros.gl.buffer import Buffer
 from cloth_sim_ros.sim.layout import Layout
+from cloth_sim_ros.sim.loads import Loads
 from cloth_sim_ros.sim.modes.mode import Pieces
 from cloth_sim_ros.sim.modes.one_pass import OnePass
 from cloth_sim_ros.sim.modes.spring_substeps import spring_substeps
 from cloth_sim_ros.sim.modes.two_pass import TwoPass
-from cloth_sim_ros.sim.push_field import PushField
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.solver.edge_law import EdgeLaw
 from cloth_sim_ros.sim.solver.edge_law import spring_law
@@ -69,17 +69,17 @@ class MassSpring:
         """Raise ClothSimError when dt is too long for the springs of ``scene``."""
         spring_substeps(scene, MassSpring.name, check_stability=check_stability)
 
-    def step(self, state: State, begin: float, pushes: PushField) -> Pieces:
+    def step(self, state: State, begin: float, loads: Loads) -> Pieces:
         """Step ``state`` on by one dt, in substeps of equal length."""
         for substep in range(self.substeps):
             start = begin + substep * self._length
-            forcing = pushes.forcing(start, start + self._length)
+            forcing = loads.forcing(state, start, start + self._length)
             self._passes.substep(state, forcing, self._length)
             yield
 
-    def run_all_passes(self, state: State, pushes: PushField) -> Pieces:
+    def run_all_passes(self, state: State, loads: Loads) -> Pieces:
         """Make a substep of a ``state`` that nobody needs."""
-        self._passes.substep(state, pushes.still, self._length)
+        self._passes.substep(state, loads.still, self._length)
         yield
 
     def forget(self) -> None:

@@ -20,7 +20,7 @@ from typing import Protocol
 
 from cloth_sim_ros.gl.buffer import Buffer
 from cloth_sim_ros.sim.layout import Layout
-from cloth_sim_ros.sim.push_field import PushField
+from cloth_sim_ros.sim.loads import Loads
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.solver.edge_law import EdgeLaw
 from cloth_sim_ros.sim.state import State
@@ -79,15 +79,15 @@ class Mode(Protocol):
     def energy_law(self, state: State) -> EdgeLaw:
         """Return the law by which the edges of ``state`` store energy now."""
 
-    def step(self, state: State, begin: float, pushes: PushField) -> Pieces:
+    def step(self, state: State, begin: float, loads: Loads) -> Pieces:
         """
         Step ``state`` on by one dt, piece by piece.
 
         :param begin: simulated time at which the step begins [s]
-        :param pushes: what accelerates the nodes besides the edges, by time
+        :param loads: what accelerates the nodes besides the edges, by time
         """
 
-    def run_all_passes(self, state: State, pushes: PushField) -> Pieces:
+    def run_all_passes(self, state: State, loads: Loads) -> Pieces:
         """Run each pass that a step can need, on a ``state`` that nobody needs."""
 
     def forget(self) -> None:

@@ -18,10 +18,10 @@ import math
 
 from cloth_sim_ros.sim.forcing import Forcing
 from cloth_sim_ros.sim.layout import Layout
+from cloth_sim_ros.sim.loads import Loads
 from cloth_sim_ros.sim.modes.mode import Pieces
 from cloth_sim_ros.sim.modes.one_pass import OnePass
 from cloth_sim_ros.sim.modes.paper_sweeps import PaperSweeps
-from cloth_sim_ros.sim.push_field import PushField
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.solver.edge_law import EdgeLaw
 from cloth_sim_ros.sim.solver.edge_law import spring_law
@@ -63,20 +63,20 @@ class PaperLimit:
         """Return that of the springs: what holds an edge at its limit stores nothing."""
         return spring_law(self._scene, self._length)
 
-    def advance(self, state: State, begin: float, seconds: float, pushes: PushField) -> Pieces:
+    def advance(self, state: State, begin: float, seconds: float, loads: Loads) -> Pieces:
         """Step ``state`` on by ``seconds``."""
         self.substeps = math.ceil(seconds / self._length - _NOTHING)
         length = seconds / self.substeps
         for substep in range(self.substeps):
             start = begin + substep * length
             kick = 0.5 * ((self.last_length or length) + length)
-            self._substep(state, pushes.forcing(start, start + length, kick), length, kick)
+            self._substep(state, loads.forcing(state, start, start + length, kick), length, kick)
             self.last_length = length
             yield
 
-    def run_all_passes(self, state: State, pushes: PushField) -> Pieces:
+    def run_all_passes(self, state: State, loads: Loads) -> Pieces:
         """Make a substep of a ``state`` that nobody needs."""
-        self._substep(state, pushes.still, self._length, self._length)
+        self._substep(state, loads.still, self._length, self._length)
         yield
 
     def resume(self, last_length: float) -> None:

@@ -18,7 +18,7 @@ import math
 
 from cloth_sim_ros.sim.forcing import Forcing
 from cloth_sim_ros.sim.layout import Layout
-from cloth_sim_ros.sim.push_field import PushField
+from cloth_sim_ros.sim.loads import Loads
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.scene_program import SceneProgram
 from cloth_sim_ros.sim.state import State
@@ -54,10 +54,10 @@ class StrainWatch:
         self._edits = -1
 
     def calm_substeps(
-            self, state: State, now: float, length: float, pushes: PushField) -> int:
+            self, state: State, now: float, length: float, loads: Loads) -> int:
         """Return how many substeps of ``length`` [s] can do without limits; 0 if none."""
-        if self._left == 0 or not self._holds(state, now, pushes):
-            self._look_ahead(state, now, length, pushes)
+        if self._left == 0 or not self._holds(state, now, loads):
+            self._look_ahead(state, now, length, loads)
         return self._left
 
     def spend(self, substeps: int) -> None:
@@ -76,16 +76,16 @@ class StrainWatch:
         """Give the result's buffer back."""
         self._strips.delete()
 
-    def _holds(self, state: State, now: float, pushes: PushField) -> bool:
-        return state.edits == self._edits and pushes.quiet_until(now) >= self._until
+    def _holds(self, state: State, now: float, loads: Loads) -> bool:
+        return state.edits == self._edits and loads.quiet_until(now) >= self._until
 
     def _look_ahead(
-            self, state: State, now: float, length: float, pushes: PushField) -> None:
+            self, state: State, now: float, length: float, loads: Loads) -> None:
         # A push takes the nodes of the time it begins, so no look goes beyond that; and while one
         # acts each look is for the next substep alone.
-        quiet = int(min(self._reach, (pushes.quiet_until(now) - now) / length))
+        quiet = int(min(self._reach, (loads.quiet_until(now) - now) / length))
         reach = max(1, quiet)
-        forcing = pushes.still if quiet else pushes.forcing(now, now + length)
+        forcing = loads.foreseen(state, now, now + length, is_quiet=quiet > 0)
         self._until = now + reach * length
         self._edits = state.edits
         present, ahead = self.strains(state, forcing, reach * length)

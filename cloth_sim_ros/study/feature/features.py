@@ -23,8 +23,10 @@ from cloth_sim_ros.sim.scene import Scene
 OUTPUTS = ('points', 'markers', 'stats', 'wrenches', 'recording')
 _BEND, _SHEAR = 'bend springs', 'shear springs'
 _DAMPING, _MODE = 'damping', 'mode'
-_PUSHES, _PIN_MOVES = 'pushes', 'pins that move'
-SCENE_FEATURES = (_BEND, _SHEAR, _DAMPING, _MODE, _PUSHES, _PIN_MOVES)
+_AIR, _PUSHES, _PIN_MOVES = 'air', 'pushes', 'pins that move'
+SCENE_FEATURES = (_BEND, _SHEAR, _DAMPING, _MODE, _AIR, _PUSHES, _PIN_MOVES)
+# Of the parameters that a feature is left out with.
+_PREFIXES = {_AIR: ('air.', 'gusts.'), _PUSHES: ('pushes.',), _PIN_MOVES: ('pin_moves.',)}
 
 
 def has_feature(values: Mapping[str, Any], feature: str) -> bool:
@@ -35,6 +37,7 @@ def has_feature(values: Mapping[str, Any], feature: str) -> bool:
     return {
         _DAMPING: any(scene.damping(family) > 0.0 for family in ('structural', 'shear', 'bend')),
         _MODE: scene['mode'] != 'mass_spring',
+        _AIR: scene.has_air,
         _PUSHES: bool(scene['pushes.start']),
         _PIN_MOVES: bool(scene['pin_moves.start']),
     }[feature]
@@ -49,8 +52,8 @@ def without(values: Mapping[str, Any], feature: str) -> dict[str, Any]:
                              for family in ('structural', 'shear', 'bend')}}
     if feature == _MODE:
         return {**values, 'mode': 'mass_spring'}
-    prefix = 'pushes.' if feature == _PUSHES else 'pin_moves.'
-    return {name: value for name, value in values.items() if not name.startswith(prefix)}
+    prefixes = _PREFIXES[feature]
+    return {name: value for name, value in values.items() if not name.startswith(prefixes)}
 
 
 def _has_edges(scene: Scene, family: str) -> bool:

@@ -1,0 +1,185 @@
+# SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
+# SPDX-License-Identifier: Apache-2.0
+
+"""What air does to the cloth: a load that a pass over the triangles works out."""
+
+import math
+from typing import Any
+
+from cloth_sim_ros.gl.buffer import Buffer
+from cloth_sim_ros.gl.buffer import shader_writes_visible
+from cloth_sim_ros.gl.program import Program
+from cloth_sim_ros.sim import bindings
+from cloth_sim_ros.sim.air_work import AirWork
+from cloth_sim_ros.sim.forcing import Forcing
+from cloth_sim_ros.sim.layout import Layout
+from cloth_sim_ros.sim.push_field import PushField
+from cloth_sim_ros.sim.scene import Scene
+from cloth_sim_ros.sim.scene_program import SceneProgram
+from cloth_sim_ros.sim.state import State
+from cloth_sim_ros.sim.wind import Wind
+import numpy as np
+
+# Of the relative velocity: what air may take of it until it is looked at again.
+_CHANGE = 0.1
+# Of the relative velocity: what air takes of it at most while it is not looked at. Up to there the
+# velocity that is left grows with the one there was.
+_MOST_SHARE = 0.5
+_GRAVITY = 9.81
+# Of a substep: rounding that is no part of one.
+_NOTHING = 1e-6
+
+
+class Air:
+    """
+    Drag and friction of the air, docs/how_to/air.md.
+
+    The acceleration of each node stands in a buffer, with what pushes on regions add. It holds
+    until the relative velocity of air and cloth may have changed by a tenth, for whole
+    substeps, and no longer than a step of dt.
+
+    ``wind`` is what blows. ``work``, where one is set, is told of all that is given.
+    """
+
+    work: AirWork | None = None
+
+    def __init__(self, scene: Scene, layout: Layout) -> None:
+        """Allocate the accelerations; the pass is compiled when it is first needed."""
+        self._scene = scene
+        self._layout = layout
+        self._program = SceneProgram('air.comp', scene, layout, {
+            'HAS_AIR_FRICTION': int(scene['air.friction'] > 0.0)})
+        self._drag, self._friction = air_coefficients(scene)
+        self._inverse_area = 1.0 / math.prod(scene.spacing)
+        # How fast a cloth is moved, as a rule: as if it fell its own size on earth [m/s].
+        size = math.hypot(scene['width'], scene['height'])
+        self._own_speed = math.sqrt(2.0 * _GRAVITY * size)
+        self._accelerations = Buffer(layout.store(
+            np.zeros((scene.rows, scene.cols, 4), dtype=np.float32)))
+        self._set: tuple[float, float, tuple[float, float, float]] | None = None
+        self.begin_run()
+
+    def begin_run(self) -> None:
+        """Go back to the wind of the scene."""
+        self.wind = Wind(self._scene['air.wind'], self._scene.gusts())
+        self.begin_step(-math.inf)
+
+    def begin_step(self, end: float) -> None:
+        """Tell that a step of dt begins that goes to ``end`` [s]."""
+        self._step_end = end
+        self._forget()
+
+    def forcing(
+            self, state: State, pushes: PushField, begin: float, end: float,
+            kick: float | None = None) -> Forcing:
+        """Return the accelerations of a substep, as Loads does, those of ``pushes`` among them."""
+        asked = (begin, end, kick)
+        if asked == self._asked:
+            return self._forcing
+        base = pushes.forcing(begin, end, kick)
+        length = end - begin
+        still_holds = self._since < begin and end <= self._until + _NOTHING * length and (
+            base.parts == self._forcing.parts)
+        self._asked = asked
+        if not still_holds:
+            self._look(state, base, begin, length, length if kick is None else kick)
+        return self._forcing
+
+    def quiet_until(self, now: float) -> float:
+        """Return until when the accelerations hold [s], ``now`` where they don't."""
+        return max(self._until, now)
+
+    def at_nodes(self, nodes: np.ndarray) -> np.ndarray:
+        """
+        Return what the last substep had at ``nodes`` [m/s2], (n, 3); zero before the first.
+
+        :param nodes: rows and columns, (n, 2) int
+        """
+        if self._forcing is None:
+            return np.zeros((len(nodes), 3))
+        return self._read()[tuple(nodes.T)].astype(float)
+
+    def keep(self) -> Any:
+        """Return what ``restore`` needs to come back to this moment."""
+        return self.wind.keep()
+
+    def restore(self, kept: Any) -> None:
+        """Go back to the moment of ``keep``."""
+        self.wind.restore(kept)
+        self._forget()
+
+    def delete(self) -> None:
+        """Give pass and accelerations back."""
+        self._accelerations.delete()
+        self._program.delete()
+
+    def _forget(self) -> None:
+        self._asked: tuple[float, float, float | None] | None = None
+        self._since, self._until = math.inf, -math.inf
+        self._forcing: Forcing | None = None
+
+    def _look(
+            self, state: State, base: Forcing, begin: float, length: float, kick: float) -> None:
+        count = self._substeps(begin, length)
+        self._since, self._until = begin, begin + count * length
+        self._forcing = Forcing(
+            base.everywhere, base.pushed_everywhere, self._accelerations, base.parts,
+            self._layout.texture_loads)
+        acts_for = max(count * length, kick)
+        lead = 0.0 if state.pinned.any() else 0.5 * acts_for
+        past = self.wind.mean(begin, self._until) - lead * np.array(base.everywhere)
+        program = self._use((lead, _MOST_SHARE / acts_for, tuple(past)))
+        base.apply(program)
+        base.bind()
+        state.bind_in()
+        self._accelerations.bind_storage(bindings.AIR_OUT)
+        program.dispatch(*self._layout.node_groups)
+        shader_writes_visible()
+        if self.work is not None:
+            self._tell_work(state, base)
+
+    def _use(self, setting: tuple[float, float, tuple[float, float, float]]) -> Program:
+        """Return the pass, in use and set; most looks are like the one before."""
+        program = self._program.use()
+        if self._set is None:
+            program.set_float('inverse_area', self._inverse_area)
+            program.set_float('drag', self._drag)
+            program.set_float('friction', self._friction)
+        if self._set != setting:
+            lead, most_rate, past = self._set = setting
+            program.set_float('lead', lead)
+            program.set_float('most_rate', most_rate)
+            program.set_vectors('past', past)
+        return program
+
+    def _tell_work(self, state: State, base: Forcing) -> None:
+        given = self._read().astype(float)
+        if base.regions is not None:
+            # What pushes give is not the air's.
+            given -= self._load(base.regions)
+        self.work.take(state, given)
+
+    def _read(self) -> np.ndarray:
+        return self._load(self._accelerations)
+
+    def _load(self, buffer: Buffer) -> np.ndarray:
+        stored = np.empty((self._layout.stored, 4), dtype=np.float32)
+        buffer.read_into(stored)
+        return self._layout.load(stored)[..., :3]
+
+    def _substeps(self, begin: float, length: float) -> int:
+        speed = self.wind.fastest + self._own_speed
+        longest = _CHANGE / max((self._drag + self._friction) * speed, 1e-30)
+        left = (self._step_end - begin) / length
+        if left < 1.0:
+            return 1
+        # Looks are spread evenly over the step.
+        looks = max(1, math.ceil(left * length / longest - _NOTHING))
+        return math.ceil(left / looks - _NOTHING)
+
+
+def air_coefficients(scene: Scene) -> tuple[float, float]:
+    """Return rho Cn / (2 sigma) and rho Ct / (2 sigma) [1/m], sigma the mass per area."""
+    sigma = scene.node_mass * scene.node_count / (scene['width'] * scene['height'])
+    per_drag = scene['air.density'] / (2.0 * sigma)
+    return per_drag * scene['air.drag'], per_drag * scene['air.friction']

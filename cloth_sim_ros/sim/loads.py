@@ -1,0 +1,156 @@
+# SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
+# SPDX-License-Identifier: Apache-2.0
+
+"""Everything that accelerates nodes besides the edges: gravity, pushes and air."""
+
+from collections.abc import Sequence
+from functools import partial
+import math
+from typing import Any
+
+from cloth_sim_ros.sim.air import Air
+from cloth_sim_ros.sim.air_work import AirWork
+from cloth_sim_ros.sim.errors import ClothSimError
+from cloth_sim_ros.sim.forcing import Forcing
+from cloth_sim_ros.sim.layout import Layout
+from cloth_sim_ros.sim.push_field import PushField
+from cloth_sim_ros.sim.scene import Scene
+from cloth_sim_ros.sim.state import State
+from cloth_sim_ros.sim.wind import checked_wind
+import numpy as np
+
+
+class Loads:
+    """
+    The loads of a run, composed into what passes read with applied_acceleration.glsl.
+
+    Modes and watchers ask here what acts, and until when it stays so; none knows which loads
+    there are. ``pushes`` and ``air`` are for those who add to them; ``air`` is None where the
+    scene has none.
+
+    :param state: that they act on
+    """
+
+    def __init__(self, scene: Scene, layout: Layout, state: State) -> None:
+        """Begin with gravity and air alone."""
+        self._make_pushes = partial(
+            PushField, layout, scene.node_mass, scene['gravity'], state.read_positions,
+            state.pinned)
+        self._node_mass = scene.node_mass
+        self._state = state
+        self.pushes = self._make_pushes()
+        self.air = Air(scene, layout) if scene.has_air else None
+
+    @property
+    def still(self) -> Forcing:
+        """Return gravity alone."""
+        return self.pushes.still
+
+    def begin_run(self) -> None:
+        """Go back to gravity and the air of the scene."""
+        self.pushes.delete()
+        self.pushes = self._make_pushes()
+        if self.air is not None:
+            self.air.begin_run()
+
+    def begin_step(self, begin: float, end: float) -> None:
+        """Tell that a step of dt goes from ``begin`` to ``end`` [s]."""
+        if self.air is not None:
+            self.air.begin_step(end)
+
+    def forcing(
+            self, state: State, begin: float, end: float, kick: float | None = None) -> Forcing:
+        """
+        Return the accelerations of a substep from ``begin`` to ``end`` [s]; begin its pushes.
+
+        Asked again for the same substep, it returns the same, wherever the nodes have got to.
+
+        :param state: as the substep begins
+        :param kick: how long they act in it [s], if not for all of it; pushes keep their impulse
+        """
+        if self.air is None:
+            return self.pushes.forcing(begin, end, kick)
+        return self.air.forcing(state, self.pushes, begin, end, kick)
+
+    def foreseen(self, state: State, begin: float, end: float, *, is_quiet: bool) -> Forcing:
+        """
+        Return what ``forcing`` would, for looking further ahead than ``end`` [s].
+
+        :param is_quiet: whether nothing changes until then, so that no push can begin
+        """
+        if is_quiet and self.air is None:
+            return self.still
+        return self.forcing(state, begin, end)
+
+    def acting(self, now: float) -> Forcing:
+        """Return gravity and pushes at the moment ``now`` [s], for looking: nothing begins."""
+        return self.pushes.acting(now)
+
+    def at_nodes(self, nodes: np.ndarray) -> np.ndarray:
+        """
+        Return how gravity and air accelerate ``nodes``, pinned ones too [m/s2], (n, 3).
+
+        The air is that of the last substep.
+
+        :param nodes: rows and columns, (n, 2) int
+        """
+        gravity = np.broadcast_to(np.array(self.still.everywhere), (len(nodes), 3))
+        return gravity if self.air is None else gravity + self.air.at_nodes(nodes)
+
+    def keep_account(self) -> None:
+        """Begin to add up the work that ``work`` tells."""
+        if self.air is not None:
+            self.air.work = AirWork(self._node_mass)
+
+    def work(self) -> float:
+        """Return the work on free nodes of all loads but gravity and pushes, until now [J]."""
+        return 0.0 if self.air is None else self.air.work.settle(self._state)
+
+    def forget(self) -> None:
+        """Take the next state as it comes."""
+        if self.air is not None:
+            self.air.begin_step(-math.inf)
+
+    def quiet_until(self, now: float) -> float:
+        """Return until when what acts at ``now`` [s] stays so: ``now`` itself, or infinite."""
+        quiet = self.pushes.quiet_until(now)
+        return quiet if self.air is None else min(quiet, self.air.quiet_until(now))
+
+    def speed_gained(self, begin: float, end: float) -> float:
+        """Return by how much loads other than gravity make a node faster at most [m/s]."""
+        pushed = self.pushes.speed_gained(begin, end)
+        return pushed if self.air is None else pushed + self.air.wind.fastest
+
+    @property
+    def wind(self) -> tuple[float, float, float] | None:
+        """Return the steady wind [m/s]; None where there is no air."""
+        return None if self.air is None else self.air.wind.steady
+
+    def checked_wind(self, velocity: Sequence[float]) -> tuple[float, float, float]:
+        """Return ``velocity`` [m/s], or raise ClothSimError where it can't blow."""
+        if self.air is None:
+            raise ClothSimError(
+                'there is no wind in a scene without air: start it with air.density, 1.225 kg/m3 '
+                'at sea level, above 0')
+        return checked_wind(velocity)
+
+    def set_wind(self, velocity: tuple[float, float, float]) -> None:
+        """Let ``velocity``, which was checked, blow in place of the steady wind."""
+        self.air.wind.steady = velocity
+
+    def keep(self) -> tuple[Any, ...]:
+        """Return what ``restore`` needs to come back to this moment."""
+        return self.pushes.keep(), None if self.air is None else self.air.keep()
+
+    def restore(self, kept: tuple[Any, ...]) -> None:
+        """Go back to the moment of ``keep``."""
+        pushes, air = kept
+        self.pushes.restore(pushes)
+        if self.air is not None:
+            self.air.restore(air)
+
+    def delete(self) -> None:
+        """Give everything back."""
+        self.pushes.delete()
+        if self.air is not None:
+            self.air.delete()

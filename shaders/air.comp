@@ -1,0 +1,72 @@
+#version 430 core
+// SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
+// SPDX-License-Identifier: Apache-2.0
+
+// The accelerations that air gives to the nodes, on top of what pushes on regions add: each node
+// gathers from its triangles. A cell is cut both ways, so that no direction is preferred: four
+// triangles of half the weight, three of them with a corner at a node of the cell. Each node has an
+// equal share of mass and area, so nodes at a border count twice in their triangles, at a corner
+// four times.
+
+#include "lattice.glsl"
+#include "state_in.glsl"
+#include "applied_acceleration.glsl"
+#include "air_law.glsl"
+
+layout(local_size_x = LOCAL_X, local_size_y = LOCAL_Y) in;
+
+layout(std430, binding = AIR_OUT) writeonly buffer AirOut { vec4 air_out[]; };
+
+uniform vec3 past;           // [m/s] the wind less what gravity adds to a free cloth in the lead
+uniform float inverse_area;  // [1/m2] of a cell at rest
+
+// An inner node has a part in 12 triangles.
+#define SHARE (1.0 / 12.0)
+
+struct Node {
+    vec4 position;
+    vec4 velocity;  // times how often the node counts, which stands in w
+};
+
+Node load_node(int row, int col) {
+    int index = node_index(row, col);
+    float counts = (row == 0 || row == ROWS - 1 ? 2.0 : 1.0)
+        * (col == 0 || col == COLS - 1 ? 2.0 : 1.0);
+    return Node(load_position(index), vec4(counts * load_velocity(index).xyz, counts));
+}
+
+vec3 triangle(Node corner, Node one, Node other) {
+    vec4 v = corner.velocity + one.velocity + other.velocity;
+    // Which side is up does not matter to the air.
+    vec3 area = inverse_area * cross(
+        one.position.xyz - corner.position.xyz, other.position.xyz - corner.position.xyz);
+    return air_acceleration(area, past - (1.0 / v.w) * v.xyz);
+}
+
+// The triangles of a cell that have a corner here.
+vec3 cell(Node here, Node side, Node other_side, Node across) {
+    // 0 where the cell is beyond the border.
+    float present = side.position.w * other_side.position.w * across.position.w;
+    return present * (triangle(here, side, other_side) + triangle(side, here, across)
+        + triangle(other_side, here, across));
+}
+
+void main() {
+    int row = int(gl_GlobalInvocationID.y);
+    int col = int(gl_GlobalInvocationID.x);
+    if (row >= ROWS || col >= COLS) {
+        return;
+    }
+    Node here = load_node(row, col);
+    Node left = load_node(row, col - 1);
+    Node right = load_node(row, col + 1);
+    Node above = load_node(row - 1, col);
+    Node below = load_node(row + 1, col);
+    vec3 given = cell(here, left, above, load_node(row - 1, col - 1));
+    given += cell(here, right, above, load_node(row - 1, col + 1));
+    given += cell(here, left, below, load_node(row + 1, col - 1));
+    given += cell(here, right, below, load_node(row + 1, col + 1));
+    int index = node_index(row, col);
+    vec4 pushed = has_region_pushes ? load_region_pushes(index) : vec4(0.0);
+    air_out[index] = vec4(pushed.xyz + SHARE * here.velocity.w * given, pushed.w);
+}

@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
+// SPDX-License-Identifier: Apache-2.0
+
+// What air gives a triangle of the cloth, quadratic in the velocity of the air past it: drag along
+// the normal, friction along the surface; docs/how_to/air.md.
+// HAS_AIR_FRICTION: 0 leaves friction out.
+
+uniform float drag;       // [1/m] rho Cn / (2 sigma), sigma the mass per area
+uniform float friction;   // [1/m] rho Ct / (2 sigma)
+uniform float lead;       // [s] half of what the acceleration acts for on a cloth that nothing holds,
+                          // 0 on one that is held
+uniform float most_rate;  // [1/s]
+
+// The acceleration over the velocity of the air past the cloth [1/s]; before: without the lead's
+// share of an implicit step.
+//
+// A cloth that nothing holds gives way: what counts is the middle of the step, in closed form. A
+// cloth that is held may not, so that there the present velocity counts. No rate is so high that
+// the velocity would turn round. Both are stable for any step.
+float rate(float before) {
+    float left = 2.0 / (1.0 + sqrt(1.0 + 4.0 * lead * before));
+    return min(left * left * before, most_rate);
+}
+
+// Acceleration [m/s2] of a triangle. area: its area vector over what area it has at rest;
+// past: velocity of the air less that of the triangle, and what the lead adds to it [m/s].
+vec3 air_acceleration(vec3 area, vec3 past) {
+    float square = dot(area, area);
+    float across = dot(area, past);
+    // No triangle, no normal.
+    vec3 normal_part = area * (across / max(square, 1e-12));
+    vec3 acceleration = rate(drag * abs(across)) * normal_part;
+#if HAS_AIR_FRICTION
+    vec3 along = past - normal_part;
+    acceleration += rate(friction * sqrt(square * dot(along, along))) * along;
+#endif
+    return acceleration;
+}

@@ -1,0 +1,92 @@
+# SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
+# SPDX-License-Identifier: Apache-2.0
+
+"""The law of the air in the oracle, against formulas and scipy."""
+
+from cloth_sim_ros.reference.air_force import air_forces
+from cloth_sim_ros.reference.air_force import wind_at
+from cloth_sim_ros.reference.mass_spring import MassSpringReference
+from cloth_sim_ros.sim.scene import Scene
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+
+AIR = {'rows': 6, 'cols': 9, 'width': 0.8, 'height': 0.5, 'air.density': 1.2, 'air.drag': 1.1,
+       'air.friction': 0.05}
+
+
+def rotation(chance):
+    """Return a random rotation."""
+    turn, _ = np.linalg.qr(chance.normal(size=(3, 3)))
+    return turn * np.sign(np.linalg.det(turn))
+
+
+def test_a_flat_sheet_in_any_attitude():
+    """The force would not be that of its area, or normal and tangential parts mixed up."""
+    chance = np.random.default_rng(0)
+    scene = Scene(AIR)
+    for _ in range(20):
+        turn, wind = rotation(chance), chance.normal(size=3)
+        forces = air_forces(
+            scene, scene.rest_positions() @ turn.T, np.zeros((6, 9, 3)), wind)
+        normal = turn[:, 2]
+        across = (wind @ normal) * normal
+        along = wind - across
+        expected = 0.6 * 0.4 * (1.1 * np.linalg.norm(across) * across
+                                + 0.05 * np.linalg.norm(along) * along)
+        np.testing.assert_allclose(forces.sum(axis=(0, 1)), expected, rtol=1e-12)
+        np.testing.assert_allclose(forces - forces.mean(axis=(0, 1)), 0.0, atol=1e-15)
+
+
+def test_a_stretched_sheet_has_its_own_area():
+    """A sheet that is stretched would feel the air as if it were not."""
+    scene = Scene(AIR)
+    forces = air_forces(
+        scene, (1.3, 0.9, 1.0) * scene.rest_positions(), np.zeros((6, 9, 3)),
+        np.array((0.0, 0.0, 3.0)))
+    assert forces[..., 2].sum() == pytest.approx(0.6 * 1.1 * 9.0 * 0.4 * 1.3 * 0.9)
+
+
+def test_a_cloth_without_area_feels_nothing():
+    """Triangles that have collapsed would give what is no number."""
+    scene = Scene(AIR)
+    forces = air_forces(
+        scene, np.zeros((6, 9, 3)), np.zeros((6, 9, 3)), np.array((3.0, 2.0, 1.0)))
+    assert not forces.any()
+
+
+def test_still_air_takes_power_from_any_motion():
+    """What a triangle feels would be spread otherwise than what it moves with."""
+    chance = np.random.default_rng(1)
+    scene = Scene(AIR)
+    for _ in range(50):
+        velocities = chance.normal(size=(6, 9, 3))
+        forces = air_forces(
+            scene, scene.rest_positions() + chance.normal(size=(6, 9, 3)) * 0.1, velocities,
+            np.zeros(3))
+        assert np.sum(forces * velocities) < 0.0
+
+
+def test_wind_and_gusts():
+    """A gust would come at another time than on the device."""
+    scene = Scene({**AIR, 'air.wind': [1.0, 0.0, 0.0], 'gusts.start': [2.0],
+                   'gusts.duration': [1.0], 'gusts.wind': [0.0, 4.0, 0.0]})
+    np.testing.assert_allclose(wind_at(scene, 1.0, 2.0), (1.0, 0.0, 0.0))
+    np.testing.assert_allclose(wind_at(scene, 2.5, 3.5), (1.0, 2.0, 0.0))
+
+
+def test_it_comes_to_the_solution_in_continuous_time():
+    """The scheme would come to another motion than that of the law, or with another order."""
+    def error(dt):
+        cloth = MassSpringReference(Scene({
+            **AIR, 'rows': 5, 'cols': 5, 'air.wind': [2.0, 1.0, 3.0], 'dt': dt}), substeps=1)
+        cloth.advance(0.2)
+        start = MassSpringReference(cloth.scene)
+        exact = solve_ivp(
+            start.right_hand_side, (0.0, cloth.time),
+            np.concatenate((start.positions.ravel(), start.velocities.ravel())),
+            method='DOP853', rtol=1e-9, atol=1e-11).y[:, -1]
+        return np.linalg.norm(cloth.positions.ravel() - exact[:75])
+
+    coarse, fine = error(0.001), error(0.0005)
+    assert 0.9 < np.log2(coarse / fine) < 1.1
