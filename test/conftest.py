@@ -20,7 +20,12 @@ import socket
 
 from cloth_sim_ros.gl.context import Context
 from cloth_sim_ros.gl.errors import DeviceError
+from hypothesis import settings
 import pytest
+
+# How long an example takes depends on what else the machine does.
+settings.register_profile('any_machine', deadline=None)
+settings.load_profile('any_machine')
 
 # Where ROS's own domain_coordinator claims domains too, so that both respect each other.
 FIRST_CLAIM_PORT = 32768

@@ -29,6 +29,8 @@ from cloth_sim_ros.gl.libraries import error
 from cloth_sim_ros.gl.libraries import GL
 from cloth_sim_ros.gl.libraries import GLQuerier
 from cloth_sim_ros.gl.libraries import VERSION_EXTENSIONS
+from cloth_sim_ros.gl.program_pool import ProgramPool
+from cloth_sim_ros.gl.program_pool import set_current_pool
 
 _SOFTWARE = ('llvmpipe', 'softpipe', 'swrast', 'swr')
 _CORE = (
@@ -61,8 +63,10 @@ class Context:
         if beside is None:
             with _worker_threads(single_thread):
                 self._display, self._context, self._attributes = _best_context()
+            self._programs = ProgramPool()
         else:
             self._display, self._attributes = beside._display, beside._attributes
+            self._programs = beside._programs
             self._context = _make_context(self._display, self._attributes, beside._context)
             if self._context is None:
                 raise DeviceError(f'{beside.device} has no second GL context: set the mode before '
@@ -84,12 +88,14 @@ class Context:
                 self._display, EGL.EGL_NO_SURFACE, EGL.EGL_NO_SURFACE, self._context):
             raise DeviceError('the GL context cannot be used on this thread: use it where it '
                               'was made')
+        set_current_pool(self._programs)
 
     def release(self) -> None:
         """Have no context on this thread, so that this one can be used on another."""
         GL.glFinish()
         EGL.eglMakeCurrent(
             self._display, EGL.EGL_NO_SURFACE, EGL.EGL_NO_SURFACE, EGL.EGL_NO_CONTEXT)
+        set_current_pool(None)
 
     def finish(self) -> None:
         """Wait until the device has done everything asked of it."""
@@ -103,6 +109,7 @@ class Context:
                 self._display, EGL.EGL_NO_SURFACE, EGL.EGL_NO_SURFACE, EGL.EGL_NO_CONTEXT)
             EGL.eglDestroyContext(self._display, self._context)
             self._context = None
+            set_current_pool(None)
 
 
 def _best_context() -> tuple[EGL.EGLDisplay, EGL.EGLContext, tuple[int, ...]]:

@@ -21,6 +21,8 @@ import re
 from cloth_sim_ros.gl import quick_calls
 from cloth_sim_ros.gl.errors import ShaderError
 from cloth_sim_ros.gl.libraries import GL
+from cloth_sim_ros.gl.program_pool import current_pool
+from cloth_sim_ros.gl.program_pool import PooledProgram
 from cloth_sim_ros.gl.shader_source import ShaderSource
 import numpy as np
 
@@ -39,21 +41,30 @@ class LinkedProgram:
     def __init__(self, stages: Mapping[int, ShaderSource]) -> None:
         """Compile and link ``stages``."""
         self.name = ' and '.join(source.name for source in stages.values())
-        shaders = [_compiled(stage, source) for stage, source in stages.items()]
-        self._program = GL.glCreateProgram()
-        for shader in shaders:
-            GL.glAttachShader(self._program, shader)
-        GL.glLinkProgram(self._program)
-        for shader in shaders:
-            GL.glDeleteShader(shader)
-        if not GL.glGetProgramiv(self._program, GL.GL_LINK_STATUS):
-            last = list(stages.values())[-1]
-            raise ShaderError(explain(last, _text(GL.glGetProgramInfoLog(self._program))))
-        self._locations: dict[str, int] = {}
+        self._texts = tuple(source.text for source in stages.values())
+        self._lent: PooledProgram | None = None
+        self._pool = current_pool()
+        if self._pool is not None:
+            self._lent = self._pool.take(self._texts)
+        if self._lent is None:
+            self._lent = PooledProgram(_linked(stages))
+        self._program = self._lent.name
+        self._locations = self._lent.locations
 
     def delete(self) -> None:
-        """Give back what the driver keeps of the program; nobody uses it any more."""
-        GL.glDeleteProgram(self._program)
+        """Leave the program to the next who asks for its shaders; it is not used here any more."""
+        lent, self._lent = self._lent, None
+        if lent is None:
+            return
+        if self._pool is None:
+            GL.glDeleteProgram(lent.name)
+        else:
+            self._pool.give_back(self._texts, lent)
+
+    def __del__(self) -> None:
+        """Leave it to the next if nobody has; whichever context is current then, or none."""
+        if self._pool is not None:
+            self.delete()
 
     def use(self) -> None:
         """Make this the program that later calls act on."""
@@ -97,6 +108,20 @@ class LinkedProgram:
             self._locations[name] = GL.glGetUniformLocation(self._program, name)
         # -1 means the shader doesn't use it, and GL ignores what is set there.
         return self._locations[name]
+
+
+def _linked(stages: Mapping[int, ShaderSource]) -> int:
+    shaders = [_compiled(stage, source) for stage, source in stages.items()]
+    program = GL.glCreateProgram()
+    for shader in shaders:
+        GL.glAttachShader(program, shader)
+    GL.glLinkProgram(program)
+    for shader in shaders:
+        GL.glDeleteShader(shader)
+    if not GL.glGetProgramiv(program, GL.GL_LINK_STATUS):
+        last = list(stages.values())[-1]
+        raise ShaderError(explain(last, _text(GL.glGetProgramInfoLog(program))))
+    return program
 
 
 def _compiled(stage: int, source: ShaderSource) -> int:

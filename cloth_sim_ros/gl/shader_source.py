@@ -14,7 +14,9 @@
 
 """Put a shader together: its file, what it includes, and the choices made at compile time."""
 
+from collections.abc import Iterator
 from collections.abc import Mapping
+from functools import cache
 from pathlib import Path
 import re
 
@@ -42,7 +44,9 @@ class ShaderSource:
         self._origins: list[str] = ['version']
         for key, value in self.defines.items():
             self._append(f'#define {key} {value}', 'define')
-        self._read(name, set())
+        body = _expanded(shader_directory(), name)
+        self._lines += (line for line, _ in body)
+        self._origins += (origin for _, origin in body)
 
     @property
     def text(self) -> str:
@@ -63,24 +67,30 @@ class ShaderSource:
             return f'line {line}'
         return f'{self._origins[line - 1]}: {self._lines[line - 1].strip()}'
 
-    def _read(self, name: str, seen: set[str]) -> None:
-        seen.add(name)
-        path = _locate(name)
-        for number, line in enumerate(path.read_text(encoding='utf-8').splitlines(), 1):
-            include = _INCLUDE.match(line)
-            if include and include[1] not in seen:
-                self._read(include[1], seen)
-            # The version stands once, on top; a file keeps its own for tools that read it alone.
-            elif not include and not line.startswith('#version'):
-                self._append(line, f'{name}:{number}')
-
     def _append(self, line: str, origin: str) -> None:
         self._lines.append(line)
         self._origins.append(origin)
 
 
-def _locate(name: str) -> Path:
-    root = shader_directory()
+@cache
+def _expanded(root: Path, name: str) -> tuple[tuple[str, str], ...]:
+    """Return the lines of a file and of all that it includes, and where each is from."""
+    return tuple(_lines(root, name, set()))
+
+
+def _lines(root: Path, name: str, seen: set[str]) -> Iterator[tuple[str, str]]:
+    seen.add(name)
+    text = _locate(root, name).read_text(encoding='utf-8')
+    for number, line in enumerate(text.splitlines(), 1):
+        include = _INCLUDE.match(line)
+        if include and include[1] not in seen:
+            yield from _lines(root, include[1], seen)
+        # The version stands once, on top; a file keeps its own for tools that read it alone.
+        elif not include and not line.startswith('#version'):
+            yield line, f'{name}:{number}'
+
+
+def _locate(root: Path, name: str) -> Path:
     for path in (root / name, root / 'include' / name):
         if path.is_file():
             return path

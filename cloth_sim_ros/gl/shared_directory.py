@@ -14,6 +14,7 @@
 
 """Where files that come with the code lie: in the source tree, or in an installed share folder."""
 
+from functools import cache
 from pathlib import Path
 
 from cloth_sim_ros.gl.errors import MissingFilesError
@@ -21,6 +22,7 @@ from cloth_sim_ros.gl.errors import MissingFilesError
 _INSTALLED = Path('share', 'cloth_sim_ros')
 
 
+@cache
 def shared_directory(name: str) -> Path:
     """
     Return the folder ``name`` that belongs to this code.

@@ -14,6 +14,7 @@
 
 """The longest stable time step of symplectic Euler on the flat lattice."""
 
+from functools import lru_cache
 import math
 
 from cloth_sim_ros.sim.edge_kinds import EDGE_KINDS
@@ -25,6 +26,7 @@ SAFETY = 0.85
 _SAMPLES = 129
 
 
+@lru_cache(maxsize=16)
 def stability_limit(scene: Scene) -> float:
     """
     Return the longest stable substep [s] of the flat cloth at rest; infinite without springs.
@@ -38,6 +40,7 @@ def stability_limit(scene: Scene) -> float:
     return _least_limit(scene, *(_largest_eigenvalue(k) for k in _wave_matrices(scene)))
 
 
+@lru_cache(maxsize=16)
 def any_shape_limit(scene: Scene) -> float:
     """
     Return the longest substep [s] that is stable in any shape, folded or stretched.

@@ -45,12 +45,13 @@ def mode(request: pytest.FixtureRequest) -> str:
 
 
 @pytest.fixture
-def simulate() -> Iterator[Callable[..., Simulation]]:
+def simulate(context: Context) -> Iterator[Callable[..., Simulation]]:
     """Return a function from scene values to a simulation, which ends with the test."""
     opened = []
 
     def start(values: dict, **options) -> Simulation:
-        opened.append(Simulation(Scene({**_SMALL, **values}), **options))
+        opened.append(
+            Simulation(Scene({**_SMALL, **values}), context=context, **options))
         return opened[-1]
 
     yield start

@@ -38,9 +38,9 @@ NAN, INF = float('nan'), float('inf')
 
 
 @pytest.fixture
-def simulation() -> Iterator[Simulation]:
+def simulation(context) -> Iterator[Simulation]:
     """Give a small cloth with two pins, at its start."""
-    with closing(Simulation(Scene(_SMALL))) as simulation:
+    with closing(Simulation(Scene(_SMALL), context=context)) as simulation:
         yield simulation
 
 
@@ -74,10 +74,10 @@ def test_a_pin_goes_straight_and_arrives_exactly(simulation: Simulation):
         assert not simulation.pin_moves
 
 
-def test_slow_pins_arrive_as_well():
+def test_slow_pins_arrive_as_well(context):
     """A pin whose way in a substep is less than float32 can tell would stand still."""
     values = {**_SMALL, 'auto_substeps': False, 'substeps': 1000}
-    with closing(Simulation(Scene(values))) as simulation:
+    with closing(Simulation(Scene(values), context=context)) as simulation:
         simulation.move_pin(0, 0, (-0.5, 0.5, 1.00004), 0.001)
         simulation.step(5)
         assert simulation.snapshot().positions[0, 0, 2] == pytest.approx(1.00002, abs=2e-7)
@@ -85,9 +85,9 @@ def test_slow_pins_arrive_as_well():
         assert simulation.snapshot().positions[0, 0, 2] == np.float32(1.00004)
 
 
-def test_the_scenes_speed_is_taken_where_none_is_given():
+def test_the_scenes_speed_is_taken_where_none_is_given(context):
     """A pin would go at another speed than the parameter says."""
-    with closing(Simulation(Scene({**_SMALL, 'pin_speed': 0.25}))) as simulation:
+    with closing(Simulation(Scene({**_SMALL, 'pin_speed': 0.25}), context=context)) as simulation:
         assert simulation.move_pin(0, 0, (-0.5, 0.6, 1.0)).arrival == pytest.approx(0.4)
 
 
@@ -107,10 +107,11 @@ def test_a_new_target_takes_the_place_of_the_old(simulation: Simulation):
         simulation.snapshot().positions[0, 0], np.array((-0.5, 0.6, 1.2), np.float32))
 
 
-def test_a_released_pin_goes_on_with_its_velocity():
+def test_a_released_pin_goes_on_with_its_velocity(context):
     """A thrown cloth would stop in the air."""
     loose = {f'{kind}.{family}': 0.0 for family in FAMILIES for kind in ('stiffness', 'damping')}
-    with closing(Simulation(Scene({**_SMALL, **loose, 'gravity': [0.0] * 3}))) as simulation:
+    scene = Scene({**_SMALL, **loose, 'gravity': [0.0] * 3})
+    with closing(Simulation(scene, context=context)) as simulation:
         simulation.move_pin(0, 0, (-0.5, 2.5, 1.0), 2.0)
         simulation.step(10)
         simulation.release(0, 0)
@@ -215,9 +216,9 @@ def test_the_nearest_pin_is_found(simulation: Simulation):
         simulation.nearest_pin((0.0, 0.0, 0.0))
 
 
-def test_timed_moves_begin_at_their_times():
+def test_timed_moves_begin_at_their_times(context):
     """The moves of a scene would be late, early, or mixed up; or come once in two runs."""
-    with closing(Simulation(Scene(_TIMED))) as simulation:
+    with closing(Simulation(Scene(_TIMED), context=context)) as simulation:
         for _ in range(2):
             simulation.step(3)
             # It has moved for 2 ms of a step of 4 ms.
@@ -234,20 +235,20 @@ def test_timed_moves_begin_at_their_times():
             simulation.reset()
 
 
-def test_a_timed_move_of_a_released_node_does_nothing():
+def test_a_timed_move_of_a_released_node_does_nothing(context):
     """A free node would be moved as if it were held, or the run would end."""
-    with closing(Simulation(Scene(_TIMED))) as simulation:
+    with closing(Simulation(Scene(_TIMED), context=context)) as simulation:
         simulation.release(0, 6)
         run_until(simulation, 0.2)
         assert simulation.snapshot().positions[0, 6, 2] < 0.95
 
 
-def test_a_new_move_within_a_step_goes_on_from_the_old():
+def test_a_new_move_within_a_step_goes_on_from_the_old(context):
     """A pin would leave its way where two moves meet."""
     values = {
         **_SMALL, 'pin_moves.start': [0.0, 0.01], 'pin_moves.node': ['0,6', '0,6'],
         'pin_moves.target': [0.5, 0.5, 2.0, 0.5, 0.5, 1.0], 'pin_moves.speed': [1.0, 1.0]}
-    with closing(Simulation(Scene(values))) as simulation:
+    with closing(Simulation(Scene(values), context=context)) as simulation:
         simulation.step(3)
         assert simulation.snapshot().positions[0, 6, 2] == pytest.approx(1.008, abs=1e-6)
         assert simulation.snapshot().velocities[0, 6, 2] == pytest.approx(0.0, abs=1e-6)

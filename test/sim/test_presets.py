@@ -74,12 +74,12 @@ def test_its_file_tells_where_it_comes_from(preset):
 
 
 @pytest.mark.parametrize('mode', ['mass_spring', 'constraint', 'adaptive'])
-def test_refine_multiplies_the_substeps(mode):
+def test_refine_multiplies_the_substeps(context, mode):
     """Presets that differ in it would be the same."""
     counts = []
     for refine in (1, 3):
         simulation = Simulation(Scene({
-            'mode': mode, 'rows': 12, 'cols': 9, 'dt': 0.01, 'refine': refine}))
+            'mode': mode, 'rows': 12, 'cols': 9, 'dt': 0.01, 'refine': refine}), context=context)
         simulation.step()
         counts.append(simulation.substeps)
         simulation.close()

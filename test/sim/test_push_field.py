@@ -35,9 +35,9 @@ def velocities_after(simulation: Simulation, seconds: float) -> np.ndarray:
     return simulation.snapshot().velocities[..., 2]
 
 
-def test_a_push_on_all_spreads_over_the_free_nodes():
+def test_a_push_on_all_spreads_over_the_free_nodes(context):
     """The cloth would be pushed with more or less than the force asked for."""
-    simulation = Simulation(Scene(_FREE))
+    simulation = Simulation(Scene(_FREE), context=context)
     applied = simulation.push((0.0, 0.0, 2.9), duration=0.02)
     assert applied.nodes == 29
     assert applied.impulse == pytest.approx((0.0, 0.0, 0.058))
@@ -47,9 +47,9 @@ def test_a_push_on_all_spreads_over_the_free_nodes():
     assert simulation.pushes == ()
 
 
-def test_a_push_on_a_sphere_moves_only_what_is_inside():
+def test_a_push_on_a_sphere_moves_only_what_is_inside(context):
     """Nodes far away would move."""
-    simulation = Simulation(Scene(_FREE))
+    simulation = Simulation(Scene(_FREE), context=context)
     inside = np.linalg.norm(
         simulation.scene.rest_positions() - _CORNER['center'], axis=-1) <= _CORNER['radius']
     applied = simulation.push((0.0, 0.0, 1.0), duration=0.02, **_CORNER)
@@ -61,9 +61,9 @@ def test_a_push_on_a_sphere_moves_only_what_is_inside():
     assert not np.any(simulation.snapshot().flags == 4)
 
 
-def test_overlapping_pushes_add_up():
+def test_overlapping_pushes_add_up(context):
     """The later push would replace the earlier one, or a slot be used twice."""
-    simulation = Simulation(Scene(_FREE))
+    simulation = Simulation(Scene(_FREE), context=context)
     simulation.push((0.0, 0.0, 1.0), duration=0.1)
     for _ in range(3):
         simulation.push((0.0, 0.0, 1.0), duration=0.05, **_CORNER)
@@ -71,9 +71,9 @@ def test_overlapping_pushes_add_up():
     assert simulation.scene.node_mass * v.sum() == pytest.approx(0.25, rel=1e-5)
 
 
-def test_what_has_ended_leaves_no_trace():
+def test_what_has_ended_leaves_no_trace(context):
     """A node would carry on the mark of a push that has ended."""
-    simulation = Simulation(Scene(_FREE))
+    simulation = Simulation(Scene(_FREE), context=context)
     elsewhere = {**_CORNER, 'center': (-0.5, -0.5, 1.0)}
     simulation.push((0.0, 0.0, 1.0), duration=0.02, **_CORNER)
     before = velocities_after(simulation, 0.05).copy()
@@ -83,28 +83,28 @@ def test_what_has_ended_leaves_no_trace():
     assert change[5, 0] > 0.0
 
 
-def test_a_push_to_come_waits():
+def test_a_push_to_come_waits(context):
     """A timed push would act at once."""
-    simulation = Simulation(Scene(_FREE))
+    simulation = Simulation(Scene(_FREE), context=context)
     simulation.push((0.0, 0.0, 1.0), duration=0.02, start=0.1, **_CORNER)
     assert not velocities_after(simulation, 0.1).any()
     assert velocities_after(simulation, 0.1).any()
 
 
-def test_the_scenes_pushes_come_again_after_a_reset():
+def test_the_scenes_pushes_come_again_after_a_reset(context):
     """A second run of the same scene would go without its pushes."""
     simulation = Simulation(Scene({
         **_FREE, 'pushes.start': [0.05], 'pushes.duration': [0.02],
-        'pushes.force': [0.0, 0.0, 1.0]}))
+        'pushes.force': [0.0, 0.0, 1.0]}), context=context)
     first = velocities_after(simulation, 0.1).copy()
     simulation.reset()
     assert np.array_equal(velocities_after(simulation, 0.1), first)
     assert first.any()
 
 
-def test_cleared_pushes_do_no_more():
+def test_cleared_pushes_do_no_more(context):
     """The cloth would go on rising after the user took the push back."""
-    simulation = Simulation(Scene(_FREE))
+    simulation = Simulation(Scene(_FREE), context=context)
     simulation.push((0.0, 0.0, 1.0), duration=1.0)
     simulation.push((0.0, 0.0, 1.0), duration=1.0, start=0.5)
     v = velocities_after(simulation, 0.1).copy()
@@ -120,26 +120,26 @@ def test_cleared_pushes_do_no_more():
     ({'start': -1.0}, 'the start of a push'),
     ({'force': (0.0, 0.0, 1e31)}, 'is at most 1e[+]30 N along each axis'),
 ])
-def test_a_refused_push_leaves_nothing_behind(changed: dict, message: str):
+def test_a_refused_push_leaves_nothing_behind(context, changed: dict, message: str):
     """Half a push would act on."""
-    simulation = Simulation(Scene(_FREE))
+    simulation = Simulation(Scene(_FREE), context=context)
     with pytest.raises(ClothSimError, match=message):
         simulation.push(**{'force': (0.0, 0.0, 1.0), 'duration': 0.1, **changed})
     assert simulation.pushes == ()
     assert not velocities_after(simulation, 0.1).any()
 
 
-def test_a_push_in_the_past_is_refused():
+def test_a_push_in_the_past_is_refused(context):
     """It would be accepted and give less than the impulse it answers with."""
-    simulation = Simulation(Scene(_FREE))
+    simulation = Simulation(Scene(_FREE), context=context)
     simulation.advance(1.0)
     with pytest.raises(ClothSimError, match='the start of the push, 0.5 s, lies in the past'):
         simulation.push((0.0, 0.0, 1.0), duration=1.0, start=0.5)
 
 
-def test_many_pushes_on_spheres_add_up():
+def test_many_pushes_on_spheres_add_up(context):
     """One push too many would be lost, or overwrite another's nodes."""
-    simulation = Simulation(Scene(_FREE))
+    simulation = Simulation(Scene(_FREE), context=context)
     for begin in range(40):
         simulation.push((0.0, 0.0, 0.1), duration=0.1, start=0.001 * begin, **_CORNER)
     v = velocities_after(simulation, 0.2)
@@ -148,9 +148,9 @@ def test_many_pushes_on_spheres_add_up():
 
 @pytest.mark.parametrize('look', [False, True])
 @pytest.mark.parametrize('region', [_CORNER, {}])
-def test_looking_does_not_begin_a_push(look: bool, region: dict):
+def test_looking_does_not_begin_a_push(context, look: bool, region: dict):
     """A frame published before a push begins would settle its nodes too early."""
-    simulation = Simulation(Scene(_FREE))
+    simulation = Simulation(Scene(_FREE), context=context)
     simulation.push((0.0, 0.0, 1.0), duration=0.1, start=0.105, **region)
     simulation.step(10)
     if look:
@@ -160,41 +160,41 @@ def test_looking_does_not_begin_a_push(look: bool, region: dict):
     assert simulation.scene.node_mass * v.sum() == pytest.approx(0.1, rel=1e-5)
 
 
-def test_a_push_that_finds_no_node_marks_none():
+def test_a_push_that_finds_no_node_marks_none(context):
     """The whole cloth would be shown as pushed."""
-    simulation = Simulation(Scene(_FREE))
+    simulation = Simulation(Scene(_FREE), context=context)
     simulation.push((0.0, 0.0, 1.0), duration=0.5, start=0.05, region='sphere',
                     center=(50.0, 0.0, 0.0), radius=0.1)
     assert not velocities_after(simulation, 0.1).any()
     assert not np.any(simulation.snapshot().flags & 4)
 
 
-def test_a_push_for_later_finds_the_nodes_that_have_come():
+def test_a_push_for_later_finds_the_nodes_that_have_come(context):
     """A push would be refused because its sphere is empty now."""
-    simulation = Simulation(Scene({**_FREE, 'gravity': [0.0, 0.0, -10.0]}))
+    simulation = Simulation(Scene({**_FREE, 'gravity': [0.0, 0.0, -10.0]}), context=context)
     simulation.push((0.0, 0.0, 1.0), region='sphere', center=(0.0, 0.0, 0.0), radius=0.7,
                     duration=0.1, start=0.4)
     assert np.ptp(velocities_after(simulation, 0.6)[1:]) > 0.0
 
 
-def test_an_acceleration_beyond_float32_is_refused():
+def test_an_acceleration_beyond_float32_is_refused(context):
     """The state would be infinite after one step."""
-    simulation = Simulation(Scene({**_FREE, 'node_mass': 1e-12}))
+    simulation = Simulation(Scene({**_FREE, 'node_mass': 1e-12}), context=context)
     with pytest.raises(ClothSimError, match='would accelerate its 29 nodes by .* m/s2'):
         simulation.push((0.0, 0.0, 1e29), duration=0.1)
     assert simulation.pushes == ()
 
 
-def test_a_pinned_cloth_has_nothing_to_push():
+def test_a_pinned_cloth_has_nothing_to_push(context):
     """The force would be divided by no nodes at all."""
-    simulation = Simulation(Scene({**_FREE, 'pins': ['all']}))
+    simulation = Simulation(Scene({**_FREE, 'pins': ['all']}), context=context)
     with pytest.raises(ClothSimError, match=r'no free node .*\(the whole cloth\)'):
         simulation.push((0.0, 0.0, 1.0), duration=0.1)
 
 
-def test_the_number_of_pushes_is_bounded():
+def test_the_number_of_pushes_is_bounded(context):
     """A client that pushes again and again would slow the run down without end."""
-    simulation = Simulation(Scene(_FREE))
+    simulation = Simulation(Scene(_FREE), context=context)
     for _ in range(MOST_PUSHES):
         simulation.push((0.0, 0.0, 1e-3), duration=0.02)
     for start in (None, 1.0):
@@ -205,10 +205,10 @@ def test_the_number_of_pushes_is_bounded():
     assert simulation.push((0.0, 0.0, 1e-3), duration=0.02).nodes == 29
 
 
-def test_a_scene_has_as_many_pushes_at_most():
+def test_a_scene_has_as_many_pushes_at_most(context):
     """The pushes of a scene would not be bounded."""
     count = MOST_PUSHES + 1
     with pytest.raises(ClothSimError, match='1000 pushes'):
         Simulation(Scene({
             **_FREE, 'pushes.start': [0.0] * count, 'pushes.duration': [1.0] * count,
-            'pushes.force': [0.0] * 3 * count}))
+            'pushes.force': [0.0] * 3 * count}), context=context)

@@ -19,14 +19,6 @@ _SCENE = {'rows': 8, 'cols': 9, 'dt': 0.01, 'auto_substeps': True}
 _SPHERE = {'region': 'sphere', 'center': (0.0, 0.0, 1.0), 'radius': 0.3}
 
 
-@pytest.fixture(scope='module')
-def context() -> Iterator[Context]:
-    """Lend one context to all, which saves time."""
-    context = Context(single_thread=True)
-    yield context
-    context.close()
-
-
 @pytest.fixture(params=modes.AVAILABLE)
 def simulate(request: pytest.FixtureRequest, context: Context) -> Iterator[Callable]:
     """Return a function that makes a cloth in each mode there is."""

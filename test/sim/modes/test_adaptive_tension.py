@@ -54,10 +54,10 @@ def paper_pull(scene, before, after):
     return np.where(held, after.tension, springs_of(scene, before))
 
 
-def test_tensions_of_the_papers_scheme_are_what_moves_the_nodes():
+def test_tensions_of_the_papers_scheme_are_what_moves_the_nodes(context):
     """A tension would be told of another edge than the one that is held, or be another force."""
     scene = Scene({**SCENE, 'adaptive.scheme': 'paper'})
-    with closing(Simulation(scene)) as simulation:
+    with closing(Simulation(scene, context=context)) as simulation:
         simulation.advance(0.35)
         for _ in range(5):
             before = simulation.snapshot(tension=True)
@@ -77,10 +77,10 @@ def test_tensions_of_the_papers_scheme_are_what_moves_the_nodes():
 
 
 @pytest.mark.parametrize('scheme', ['constraint', 'paper'])
-def test_a_cloth_within_its_limit_has_the_tension_of_its_springs(scheme):
+def test_a_cloth_within_its_limit_has_the_tension_of_its_springs(context, scheme):
     """What held an edge long ago would still be told, or what another mode left."""
     scene = Scene({**SCENE, 'adaptive.scheme': scheme})
-    with closing(Simulation(scene)) as simulation:
+    with closing(Simulation(scene, context=context)) as simulation:
         simulation.advance(0.1)
         for look in (simulation.reset, lambda: simulation.set_mode('mass_spring')):
             look()

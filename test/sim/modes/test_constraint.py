@@ -27,12 +27,12 @@ SCENE = {'mode': 'constraint', 'rows': 12, 'cols': 9, 'dt': 0.01}
 
 
 @pytest.fixture
-def simulate():
+def simulate(context):
     """Return a function from scene values to a simulation, which ends with the test."""
     opened = []
 
     def start(**values):
-        opened.append(Simulation(Scene({**SCENE, **values})))
+        opened.append(Simulation(Scene({**SCENE, **values}), context=context))
         return opened[-1]
 
     yield start

@@ -31,9 +31,9 @@ import pytest
 @pytest.mark.parametrize('values', [
     paper_scene(5.0, 0.005, node_mass=0.3), unit_scene(12, 5.0, 0.005)], ids=['paper', 'unit'])
 @pytest.mark.parametrize(('before', 'after'), list(permutations(AVAILABLE, 2)))
-def test_a_switch_keeps_the_state_and_its_energy(before, after, values):
+def test_a_switch_keeps_the_state_and_its_energy(context, before, after, values):
     """The switch moves nodes, or a mode goes on with what it remembers of another time."""
-    with closing(Simulation(Scene({**values, 'mode': before}))) as simulation:
+    with closing(Simulation(Scene({**values, 'mode': before}), context=context)) as simulation:
         simulation.advance(0.6)
         # There, back after a while, and there again: a mode must not remember the first time.
         for name in (after, before, after):

@@ -18,9 +18,9 @@ STEPS = 40
 
 
 @pytest.mark.parametrize('name', AVAILABLE)
-def test_a_mode_without_memory_goes_on_from_a_state_alone(name: str):
+def test_a_mode_without_memory_goes_on_from_a_state_alone(context, name: str):
     """A run that is made again from the middle of a recording would be held to its bits."""
-    first, second = (Simulation(Scene({**SCENE, 'mode': name})) for _ in range(2))
+    first, second = (Simulation(Scene({**SCENE, 'mode': name}), context=context) for _ in range(2))
     first.step(STEPS)
     reached = first.snapshot()
     second.set_state(reached.positions, reached.velocities)
@@ -35,9 +35,9 @@ def test_a_mode_without_memory_goes_on_from_a_state_alone(name: str):
 
 
 @pytest.mark.parametrize('name', AVAILABLE)
-def test_an_implicit_mode_has_no_stability_limit(name: str):
+def test_an_implicit_mode_has_no_stability_limit(context, name: str):
     """The account of energy would be that of another scheme, and a search for a limit endless."""
-    simulation = Simulation(Scene({**SCENE, 'mode': name}))
+    simulation = Simulation(Scene({**SCENE, 'mode': name}), context=context)
     assert math.isinf(simulation.stability_limit) is AVAILABLE[name].is_implicit
     simulation.close()
 

@@ -22,6 +22,7 @@ of doing it; a new mode joins by its name in the lists below.
 from collections.abc import Callable
 from collections.abc import Iterator
 
+from cloth_sim_ros.gl.context import Context
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.simulation import Simulation
 import pytest
@@ -84,7 +85,7 @@ def layout(request: pytest.FixtureRequest) -> str:
 
 
 @pytest.fixture
-def simulate() -> Iterator[Callable[..., Simulation]]:
+def simulate(context: Context) -> Iterator[Callable[..., Simulation]]:
     """
     Return a function from scene values to a simulation, which ends with the test.
 
@@ -93,7 +94,8 @@ def simulate() -> Iterator[Callable[..., Simulation]]:
     opened = []
 
     def start(values: dict, **options) -> Simulation:
-        simulation = Simulation(Scene({'adaptive.threshold': 0.5, **values}), **options)
+        simulation = Simulation(
+            Scene({'adaptive.threshold': 0.5, **values}), context=context, **options)
         opened.append(simulation)
         return simulation
 

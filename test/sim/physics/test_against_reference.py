@@ -118,7 +118,7 @@ def _twins(scene, substeps, count):
     return exact, rounded
 
 
-def _hold_to_reference(values):
+def _hold_to_reference(values, context):
     """
     Run the scene both ways for up to half a second; fail where they differ by too much.
 
@@ -133,7 +133,7 @@ def _hold_to_reference(values):
     assert np.isfinite(noise), 'automatic substeps let the cloth blow up'
     # Beyond this the scene is chaotic in the time given, and says nothing about the shaders.
     assume(noise < 1e-5)
-    with closing(Simulation(scene)) as simulation:
+    with closing(Simulation(scene, context=context)) as simulation:
         assert simulation.substeps == substeps
         simulation.step(steps)
         snapshot = simulation.snapshot()
@@ -151,7 +151,7 @@ def _hold_to_reference(values):
 
 
 @pytest.mark.parametrize(('layout', 'loads', 'block', 'scenes'), PATHS)
-def test_random_scenes(within, unlimited_mode, layout, loads, block, scenes):
+def test_random_scenes(context, within, unlimited_mode, layout, loads, block, scenes):
     """A spring, a pin, a push or the border is not what the oracle has in its place."""
     ratios = []
 
@@ -159,7 +159,8 @@ def test_random_scenes(within, unlimited_mode, layout, loads, block, scenes):
     @given(values=scene_values())
     def check(values):
         ratios.append(_hold_to_reference({
-            **values, 'mode': unlimited_mode, 'layout': layout, 'loads': loads, 'block': block}))
+            **values, 'mode': unlimited_mode, 'layout': layout, 'loads': loads, 'block': block},
+            context))
 
     check()
     within(f'random scenes against the oracle, {layout} {loads} {block}', max(ratios), 1.0)
@@ -185,8 +186,9 @@ def test_rounding_grows_as_it_does_in_any_cloth(
 @pytest.mark.long
 @settings(max_examples=300, deadline=None)
 @given(values=scene_values(), path=strategies.sampled_from(PATHS))
-def test_many_random_scenes(unlimited_mode, path, values):
+def test_many_random_scenes(context, unlimited_mode, path, values):
     """The same, on other scenes each time."""
     layout, loads, block, _ = path
     _hold_to_reference({
-        **values, 'mode': unlimited_mode, 'layout': layout, 'loads': loads, 'block': block})
+        **values, 'mode': unlimited_mode, 'layout': layout, 'loads': loads, 'block': block},
+        context)

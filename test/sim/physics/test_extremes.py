@@ -19,9 +19,7 @@ The scenes, and what counts as nonsense, are those of ``cloth_sim study extremes
 a line a scene and mode.
 """
 
-from collections.abc import Iterator
 
-from cloth_sim_ros.gl.context import Context
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.simulation import Simulation
 from cloth_sim_ros.study.extremity.run import run_extreme
@@ -33,14 +31,6 @@ QUICK = [(name, mode) for name, extreme in EXTREMES.items() if not extreme.is_lo
          for mode in extreme.modes]
 LONG = [(name, mode) for name, extreme in EXTREMES.items() if extreme.is_long
         for mode in extreme.modes]
-
-
-@pytest.fixture(scope='module')
-def context() -> Iterator[Context]:
-    """Return one context for all scenes."""
-    context = Context(single_thread=True)
-    yield context
-    context.close()
 
 
 def _check(name, mode, context):

@@ -29,12 +29,12 @@ def root_mean_square(vectors: np.ndarray) -> float:
 
 
 @pytest.mark.parametrize(('nodes', 'allowed'), [(32, 2e-3), (64, 4e-3), (128, 8e-3)])
-def test_rounding_makes_the_velocities_of_fine_cloth_noisy(nodes: int, allowed: float):
+def test_rounding_makes_the_velocities_of_fine_cloth_noisy(context, nodes: int, allowed: float):
     """The noise would be more than docs/explanation/numerics.md tells, or reach the positions."""
     scene = Scene({
         'rows': nodes, 'cols': nodes, 'stiffness.structural': 1000.0, 'stiffness.shear': 200.0,
         **{f'damping.{family}': 1.3e-3 / nodes for family in ('structural', 'shear', 'bend')}})
-    simulation, reference = Simulation(scene), MassSpringReference(scene)
+    simulation, reference = Simulation(scene, context=context), MassSpringReference(scene)
     simulation.advance(_SECONDS)
     reference.advance(_SECONDS)
     snapshot = simulation.snapshot()

@@ -28,10 +28,10 @@ _RADII = (1, 2, 3, 4, 5, 7)
 
 
 @pytest.mark.parametrize('parts', [10, 14, 30])
-def test_a_node_on_the_sphere_is_in_it(parts: int):
+def test_a_node_on_the_sphere_is_in_it(context, parts: int):
     """Rounding would decide which nodes are pushed, and the force on each of the others."""
     side = parts + 1
-    simulation = Simulation(Scene({'rows': side, 'cols': side, **_STILL}))
+    simulation = Simulation(Scene({'rows': side, 'cols': side, **_STILL}), context=context)
     free = ~simulation.scene.pinned_nodes()
     wrong = []
     for (col, row), radius in product(_CENTERS, _RADII):
@@ -52,9 +52,9 @@ def test_a_node_on_the_sphere_is_in_it(parts: int):
     assert not wrong
 
 
-def test_a_node_outside_by_more_than_rounding_is_not_pushed():
+def test_a_node_outside_by_more_than_rounding_is_not_pushed(context):
     """The tolerance would reach nodes that are clearly outside."""
-    simulation = Simulation(Scene({'rows': 11, 'cols': 11, **_STILL}))
+    simulation = Simulation(Scene({'rows': 11, 'cols': 11, **_STILL}), context=context)
     place = {'region': 'sphere', 'center': (0.0, 0.0, 1.0)}
     # 2^-23 (1 + 0.1) m is what float32 can't tell apart.
     for radius, nodes in ((0.1 - 1e-7, 5), (0.1 - 3e-7, 1), (0.1 + 3e-7, 5)):
@@ -62,9 +62,9 @@ def test_a_node_outside_by_more_than_rounding_is_not_pushed():
         assert applied.nodes == nodes, radius
 
 
-def test_a_sphere_may_be_as_large_as_a_push_allows():
+def test_a_sphere_may_be_as_large_as_a_push_allows(context):
     """A request with a huge radius would miss the cloth, for the rounding of squared distances."""
-    simulation = Simulation(Scene({'rows': 3, 'cols': 3, **_STILL}))
+    simulation = Simulation(Scene({'rows': 3, 'cols': 3, **_STILL}), context=context)
     applied = simulation.push(
         (0.0, 0.0, 1.0), duration=0.1, region='sphere', center=(7e5, 0.0, -7e5), radius=1e6)
     assert applied.nodes == 9

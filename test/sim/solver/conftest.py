@@ -169,14 +169,6 @@ def _scrambled(scene: Scene) -> tuple[np.ndarray, np.ndarray]:
             random.normal(size=positions.shape))
 
 
-@pytest.fixture(scope='module')
-def context() -> Iterator[Context]:
-    """Return one context for all solvers of a file."""
-    context = Context(single_thread=True)
-    yield context
-    context.close()
-
-
 @pytest.fixture
 def make_case(context: Context) -> Iterator[Callable[..., SolverCase]]:
     """Return a function from scene values and step to a solver case."""
