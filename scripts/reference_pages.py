@@ -29,6 +29,7 @@ from cloth_sim_ros.node.node_fields import NODE_FIELDS
 from cloth_sim_ros.sim.field import Field
 from cloth_sim_ros.sim.scene_fields import SCENE_FIELDS
 from cloth_sim_ros.verb.main import VERBS
+from python_reference import python_page
 
 ROOT = Path(__file__).resolve().parents[1]
 REFERENCE = ROOT / 'docs' / 'reference'
@@ -42,7 +43,8 @@ def pages() -> dict[str, str]:
     """Return the text of every generated page by its name."""
     return {
         'parameters.md': parameters_page(), 'topics.md': topics_page(),
-        'services.md': services_page(), 'verbs.md': verbs_page(), 'launch.md': launch_page()}
+        'services.md': services_page(), 'verbs.md': verbs_page(), 'launch.md': launch_page(),
+        'python.md': python_page(NOTE)}
 
 
 def table(header: Iterable[str], rows: Iterable[Iterable[str]]) -> str:
