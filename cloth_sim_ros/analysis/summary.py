@@ -47,6 +47,8 @@ class Summary:
     :param solver_iterations: most of any frame; 0 without a solver
     :param solver_residual: worst of any frame
     :param solver_missed: frames in which a solve stopped before the residual asked for
+    :param lengths_lost: frames in which an edge was far off its length or limit
+    :param stalled: frames in which a moving pin waited, as its edges pulled too hard
     :param gaps: begin and end [s] of spans without frames where there should be some
     :param missing: topics that would have told more
     :param is_whole: False when the recording was cut off, or a part of it can't be read
@@ -79,6 +81,8 @@ class Summary:
     solver_iterations: float
     solver_residual: float
     solver_missed: int
+    lengths_lost: int
+    stalled: int
     pushes: int
     pins: int
     releases: int
@@ -117,6 +121,8 @@ class Summary:
             solver_residual=told.largest('solver_residual'),
             solver_missed=int(np.count_nonzero(columns['solver_reached'] == 0.0))
             if told.largest('solver_iterations') > 0 else 0,
+            lengths_lost=int(np.count_nonzero(columns['lengths_are_held'] == 0.0)),
+            stalled=int(np.count_nonzero(columns['stalled_pins'] > 0.0)),
             **{name: run.counts[name] for name in ('pushes', 'pins', 'releases', 'resets')},
             gaps=find_gaps(columns['time'], columns['resets']),
             missing=run.missing, is_whole=run.is_whole, problems=run.problems)

@@ -49,6 +49,10 @@ def summary_lines(summary: Summary) -> dict[str, str]:
             f'{summary.solver_residual:.3g}, {summary.solver_missed} frames above the tolerance')
     if summary.most_active > 0:
         lines['constraints'] = f'at most {summary.most_active:.0f} active'
+    if summary.lengths_lost:
+        lines['lengths'] = f'far off in {summary.lengths_lost} frames'
+    if summary.stalled:
+        lines['stalled pins'] = f'in {summary.stalled} frames'
     if summary.switches:
         lines['mode switches'] = _listed([
             f'{mode} at {time:.6g} s' for time, _, mode in summary.switches])
