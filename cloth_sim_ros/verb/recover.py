@@ -4,8 +4,8 @@
 """
 Repair a truncated or damaged recording for other tools.
 
-Writes all intact messages into a new folder, with the index and the metadata.yaml that rosbag2,
-rosbags and Foxglove need. The recording itself is not changed. Needs no node.
+Writes all intact messages to a new folder, with the index and the metadata.yaml that rosbag2,
+rosbags and Foxglove need. The original is not changed. Needs no node.
 
 For example:
   cloth_sim recover bags/killed_run

@@ -13,7 +13,7 @@
 # limitations under the License.
 
 """
-Show the state of a running node and the figures of its latest frame.
+Show the state of a running node and the statistics of its latest frame.
 
 For example:
   cloth_sim status
