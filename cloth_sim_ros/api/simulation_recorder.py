@@ -54,7 +54,8 @@ class SimulationRecorder(AbstractContextManager['SimulationRecorder']):
         """Open the recording and write what it begins with."""
         if type(simulation.listener) is not InputListener:
             raise ClothSimError(
-                'this simulation is being recorded: close its recorder before you make another')
+                'this simulation is already being recorded: close its recorder before creating '
+                'another')
         given = {**(parameters or {}), 'recording.name': name}
         refuse_unknown(given, NODE_FIELDS)
         values = checked_node_values(given)
@@ -100,7 +101,7 @@ class SimulationRecorder(AbstractContextManager['SimulationRecorder']):
         """
         if not self._is_open:
             raise RecordingError(
-                f'the recording {self.path} is closed: make another SimulationRecorder')
+                f'the recording {self.path} is closed: create another SimulationRecorder')
         self._recording.write(step_wall_time, real_time_factor)
         if self._ending is not None:
             raise self._ending
@@ -161,5 +162,5 @@ class _RecordedInputs(Inputs, InputListener):
 
     def new_state(self) -> None:
         raise ClothSimError(
-            'a recording has no message for a new state, and could not be made again after one: '
-            'close the recorder, set the state, and make another recorder')
+            'a new state cannot be recorded, and the run could not be resimulated after one: '
+            'close the recorder, set the state, and create another recorder')

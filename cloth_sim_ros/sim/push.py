@@ -70,21 +70,21 @@ class Push:
                     f'got {[float(part) for part in vector]}: give x, y and z')
             if max(map(abs, vector)) > most:
                 raise ClothSimError(
-                    f'the {name} of a push is at most {most:g} {unit} along each axis, '
-                    f'got {[float(part) for part in vector]}: give less')
+                    f'the {name} of a push must be at most {most:g} {unit} along each axis, got '
+                    f'{[float(part) for part in vector]}: give less')
         # Written so that what is no number is refused.
         if not 0.0 <= start <= _LONGEST:
             raise ClothSimError(
-                f'the start of a push is from 0 to {_LONGEST:g} s, got {start} s: give it in '
+                f'the start of a push must be from 0 to {_LONGEST:g} s, got {start} s: give it in '
                 'simulated seconds')
         if not 0.0 < duration <= _LONGEST:
             raise ClothSimError(
-                f'the duration of a push is above 0 and at most {_LONGEST:g} s, '
-                f'got {duration} s: give it in simulated seconds')
+                f'the duration of a push must be above 0 and at most {_LONGEST:g} s, got '
+                f'{duration} s: give it in simulated seconds')
         if not 0.0 <= radius <= _FARTHEST:
             raise ClothSimError(
-                f'the radius of a push is from 0 to {_FARTHEST:g} m, got {radius} m: give it in '
-                'metres')
+                f'the radius of a push must be from 0 to {_FARTHEST:g} m, got {radius} m: give it '
+                'in metres')
         if region == 'sphere' and radius == 0.0:
             raise ClothSimError(
                 'a push on a sphere needs a radius above 0, got 0 m: '

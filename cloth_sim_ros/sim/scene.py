@@ -64,12 +64,12 @@ class Scene:
         if self.has_air and min(self.rows, self.cols) < 2:
             raise ClothSimError(
                 f'air acts on areas, and a chain of rows {self.rows} x cols {self.cols} has none: '
-                'give it 2 or more of both, or set air.density: 0')
+                'give 2 or more of both, or set air.density: 0')
         for family in FAMILIES:
             if family in self['constraint.hard'] and family in self['constraint.springs']:
                 raise ClothSimError(
-                    f'{family} edges are in constraint.hard and in constraint.springs: '
-                    'take them out of one')
+                    f'{family} edges are in constraint.hard and in constraint.springs: remove '
+                    'them from one')
         self._check_mass()
         self.pinned_nodes()
         self.timed_pushes()
@@ -195,7 +195,7 @@ class Scene:
         if len(given) > 1:
             values = ' and '.join(f'{name} {self[name]:g}' for name in given)
             raise ClothSimError(
-                f'{values} each say what the cloth weighs: give one of them, and set the others '
+                f'{values} each set the mass of the cloth: give one of them, and set the others '
                 'to 0')
         if not given and self['areal_density'] == 0.0:
             raise ClothSimError(

@@ -160,8 +160,8 @@ class Simulation(RunStatus, AbstractContextManager['Simulation']):
             radius=radius)
         if begin < self.time:
             raise ClothSimError(
-                f'the start of the push, {begin:g} s, lies in the past, it is {self.time:g} s: '
-                'give a later one, or none for now')
+                f'the start of the push, {begin:g} s, is in the past, the time is {self.time:g} '
+                's: give a later one, or none for now')
         with self._settled_state():
             if self.stepping.is_mid_step and begin <= self.stepping.edit_time:
                 applied = self.loads.pushes.foresee(push, self.pinned_nodes())

@@ -134,7 +134,7 @@ def _parse_grids(text: str) -> list[int]:
         return list(dict.fromkeys(int(part) for part in text.split(',')))
     except ValueError:
         raise ArgumentTypeError(
-            f'{shown(text)} is no list of whole numbers: give some as 32,64') from None
+            f'{shown(text)} is not a list of integers: write it as in 32,64') from None
 
 
 def _compare_modes(args: Namespace) -> int:

@@ -93,8 +93,8 @@ def _refuse_to_overwrite(folder: Path, figure: PaperFigure) -> None:
     for run in figure.runs:
         if (folder / run.name).exists():
             raise ClothSimError(
-                f'{folder / run.name} is there already, and no recording is overwritten: '
-                'name another folder with --out')
+                f'{folder / run.name} already exists, and no recording is overwritten: name '
+                'another folder with --out')
 
 
 def allowed_strain(scene: Scene) -> float | None:

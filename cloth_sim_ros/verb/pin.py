@@ -79,9 +79,9 @@ def _place(args: Namespace) -> dict[str, Any]:
     if (args.near is None) == (not args.place) or len(args.place) not in (0, 2):
         raise ClothSimError('one node is needed: give ROW COL, or --near X Y Z')
     if args.to is None and args.speed is not None:
-        raise ClothSimError('a speed is that of a move: give --to X Y Z as well')
+        raise ClothSimError('--speed is for a move: give --to X Y Z as well')
     if args.near is None and args.max_distance is not None:
-        raise ClothSimError('a distance is that of a point: give --near X Y Z as well')
+        raise ClothSimError('--max-distance is for a point: give --near X Y Z as well')
     if args.near is not None:
         return {
             'use_point': True, 'point': _point(args.near),

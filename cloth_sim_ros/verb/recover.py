@@ -35,7 +35,7 @@ def main(args: Namespace) -> int:
     source = Path(args.recording).expanduser().absolute()
     recovery = Recovery(source)
     if not recovery.problems:
-        print(f'nothing is missing in {source}: {_extent(recovery)}; nothing was written')
+        print(f'{source} is complete: {_extent(recovery)}; nothing was written')
         return 0
     target = Path(args.out).expanduser().absolute() if args.out else source.with_name(
         f'{source.stem if source.is_file() else source.name}_recovered')

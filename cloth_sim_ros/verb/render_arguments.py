@@ -100,7 +100,7 @@ def pixels(text: str) -> tuple[int, int]:
     try:
         width, height = (int(part) for part in text.split('x'))
     except ValueError as error:
-        raise ArgumentTypeError(f'{shown(text)} is no size: write it as in 640x480') from error
+        raise ArgumentTypeError(f'{shown(text)} is not a size: write it as in 640x480') from error
     if not all(_LEAST_SIDE <= side <= _MOST_SIDE for side in (width, height)):
         raise ArgumentTypeError(
             f'a side must be from {_LEAST_SIDE} to {_MOST_SIDE} pixels, got {cut(text)}')

@@ -114,8 +114,8 @@ def _check_names(changes: dict[str, Any]) -> None:
     for name in changes:
         if name in node_names:
             raise ClothSimError(
-                f'{name} is no parameter of the scene: frames and inputs come from the '
-                'recording, and only the scene can be changed')
+                f'{name} is not a scene parameter: frames and inputs come from the recording, and '
+                'only the scene can be changed')
     refuse_unknown(changes, SCENE_FIELDS)
 
 

@@ -57,7 +57,7 @@ def main(args: Namespace) -> int:
             if left <= 0:
                 break
     if every < args.steps:
-        print(f'{args.steps} steps made, {every} at a time, now at {answer.sim_time:.6g} s')
+        print(f'{args.steps} steps done, {every} at a time, now at {answer.sim_time:.6g} s')
     else:
         print(answer.message)
     return 0
