@@ -99,7 +99,7 @@ def test_a_lost_recording_is_a_failure_that_keeps_the_result(tmp_path):
     (folder / 'small' / 'small_0.mcap').unlink()
     output, errors = process.communicate(timeout=120)
     assert process.returncode == 1
-    assert 'has ended (small_0.mcap was removed or replaced by another program)' in errors
+    assert 'has stopped (small_0.mcap was removed or replaced by another program)' in errors
     assert 'sim_seconds       10' in output
 
 
