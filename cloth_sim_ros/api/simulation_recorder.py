@@ -28,7 +28,7 @@ _ROUNDING = 1e-9  # of a sum of frame times
 
 class SimulationRecorder(AbstractContextManager['SimulationRecorder']):
     """
-    Writes the frames that it is asked for, and by itself every input of the simulation.
+    Writes frames on request, and every input of the simulation automatically.
 
     Pushes, pins, their moves, switches of the mode and resets are recorded when the simulation
     gets them, so that ``cloth_sim resimulate`` and ``resimulate`` can make the run again. The
@@ -93,7 +93,7 @@ class SimulationRecorder(AbstractContextManager['SimulationRecorder']):
 
     def write(self, step_wall_time: float = 0.0, real_time_factor: float = 0.0) -> None:
         """
-        Write the present instant as a frame.
+        Write the current state as a frame.
 
         :param step_wall_time: of a step of dt since the frame before [s]; 0 when not measured
         :param real_time_factor: simulated time per wall time since then; 0 when not measured
@@ -108,7 +108,7 @@ class SimulationRecorder(AbstractContextManager['SimulationRecorder']):
 
     def close(self) -> None:
         """
-        Complete the recording; does nothing when that is done.
+        Complete the recording; does nothing when called again.
 
         :raises RecordingError: when its end can't be written
         """

@@ -15,7 +15,7 @@ import numpy as np
 @dataclass(frozen=True)
 class NearNode:
     """
-    A node and how far it is from the point it was looked for at.
+    A node and its distance from the point of the query.
 
     :param distance: [m]
     """

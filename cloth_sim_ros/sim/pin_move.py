@@ -29,7 +29,7 @@ _SLOWEST, _FASTEST = 1e-6, 1e6
 @dataclass(frozen=True)
 class PinMove:
     """
-    A straight way at one speed, at the end of which the pin rests.
+    A straight path at constant speed, at the end of which the pin rests.
 
     :param row: of the pinned node
     :param col: of the pinned node

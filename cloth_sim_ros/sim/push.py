@@ -36,7 +36,7 @@ _ROUNDING = 2.0**-23
 @dataclass(frozen=True)
 class Push:
     """
-    A total force spread by mass over the free nodes of a region.
+    A total force, distributed by mass over the free nodes of a region.
 
     :param force: x y z [N], of all nodes together
     :param start: simulated time at which it begins [s]
@@ -106,7 +106,7 @@ class Push:
 
     def contains(self, positions: np.ndarray) -> np.ndarray:
         """
-        Tell which of ``positions`` (..., 3) [m] are in the region.
+        Return which of ``positions`` (..., 3) [m] are in the region.
 
         A sphere holds what is at most its radius r from its center c, within the rounding of
         float32. That moves a position x by up to 2^-24 abs(x), where abs(x) <= abs(c) + r on the
@@ -121,6 +121,6 @@ class Push:
         return np.linalg.norm(held - self.center, axis=-1) <= self.radius + _ROUNDING * reach
 
     def overlap(self, begin: float, end: float) -> float:
-        """Return the share of the step from ``begin`` to ``end`` [s] the push acts in, 0 to 1."""
+        """Return the fraction of the step ``begin`` to ``end`` [s] in which it acts, 0 to 1."""
         shared = min(end, self.end) - max(begin, self.start)
         return max(shared, 0.0) / (end - begin)

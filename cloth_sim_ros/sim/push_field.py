@@ -38,7 +38,7 @@ class AppliedPush:
     """
     A push and what it acts on.
 
-    :param nodes: free nodes it is spread over; 0 for one to come, whose nodes are not settled
+    :param nodes: free nodes it acts on; 0 for a scheduled one, whose nodes are not known yet
     """
 
     push: Push

@@ -40,9 +40,9 @@ import numpy as np
 
 class Scene:
     """
-    A checked, unchanging set of scene parameters.
+    A checked, immutable set of scene parameters.
 
-    :param values: dotted parameter names and values; what is not given takes its default
+    :param values: dotted parameter names and values; omitted ones have their defaults
     :raises ClothSimError: for an unknown name, a wrong type or a value outside its range
     """
 
@@ -126,7 +126,7 @@ class Scene:
         return tuple(family for family in FAMILIES if self.models(family))
 
     def rest_positions(self) -> np.ndarray:
-        """Return the undisturbed start pose [m], (rows, cols, 3) float64."""
+        """Return the start pose without random offsets [m], (rows, cols, 3) float64."""
         return grid.rest_positions(
             self.rows, self.cols, self.spacing, self['start.pose'], self['start.z'])
 
@@ -141,7 +141,7 @@ class Scene:
         return positions
 
     def pinned_nodes(self) -> np.ndarray:
-        """Return which nodes are held at the start, (rows, cols) bool."""
+        """Return which nodes are pinned at the start, (rows, cols) bool."""
         pinned = pinned_nodes(self['pins'], self.rows, self.cols)
         for node in self._nodes_at_points():
             pinned[node] = True
