@@ -67,7 +67,7 @@ def test_aliases_do_not_multiply():
 def test_aliases_do_not_nest():
     """Whoever walks through the value would need as many calls in one another."""
     lines = ['a0: &a0 [x]'] + [f'a{i}: &a{i} [*a{i - 1}]' for i in range(1, 2 * MOST_DEPTH)]
-    with pytest.raises(ClothSimError, match=f'more than {MOST_DEPTH} lists and mappings'):
+    with pytest.raises(ClothSimError, match=f'more than {MOST_DEPTH} nested lists and mappings'):
         parse_yaml('\n'.join(lines), 'the file')
 
 
