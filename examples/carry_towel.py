@@ -23,7 +23,7 @@ def see(node: Node, topic: str) -> tuple[float, np.ndarray]:
     """Return the time [s] and the positions (rows, cols, 3) [m] of the next cloud."""
     is_there, cloud = wait_for_message(PointCloud2, node, topic, time_to_wait=60.0)
     if not is_there:
-        raise SystemExit(f'nothing comes on {topic}: start cloth_sim_node, or name it by --node')
+        raise SystemExit(f'no message on {topic}: start cloth_sim_node, or name it with --node')
     words = np.frombuffer(cloud.data, np.float32).reshape(cloud.height, cloud.width, -1)
     return cloud.header.stamp.sec + 1e-9 * cloud.header.stamp.nanosec, words[..., :3]
 

@@ -109,19 +109,19 @@ def generate_launch_description() -> LaunchDescription:
             description='simulation mode (default: as in params_file)'),
         DeclareLaunchArgument(
             'recording', default_value=AS_IN_FILE, choices=[AS_IN_FILE, 'true', 'false'],
-            description='record from the start (default: as in params_file)'),
+            description='start recording at launch (default: as in params_file)'),
         DeclareLaunchArgument(
             'rviz', default_value='false', choices=['true', 'false'],
-            description='show the cloth in RViz'),
+            description='start RViz with a view of the cloth'),
         DeclareLaunchArgument(
             'namespace', default_value='', description='namespace of the node and of RViz'),
         # The actions below take these two by their names.
         DeclareLaunchArgument(
             'sigterm_timeout', default_value='30',
-            description='seconds from SIGINT, at which the node closes its recording, to SIGTERM'),
+            description='seconds between SIGINT, which closes the recording, and SIGTERM'),
         DeclareLaunchArgument(
             'sigkill_timeout', default_value='60',
-            description='seconds from SIGTERM to SIGKILL, which truncates a recording'),
+            description='seconds between SIGTERM and SIGKILL, which truncates the recording'),
         # First, so that nothing has been started when it is missing.
         OpaqueFunction(function=rviz),
         OpaqueFunction(function=simulator),

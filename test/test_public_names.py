@@ -98,7 +98,7 @@ def test_without_ros_the_recorder_says_how_to_get_it(tmp_path):
     done = subprocess.run(
         [sys.executable, '-c', program], capture_output=True, text=True, timeout=60)
     last = done.stderr.splitlines()[-1]
-    assert last.startswith('ImportError: SimulationRecorder cannot be used: ROS 2 is not here')
+    assert last.startswith('ImportError: SimulationRecorder cannot be used: ROS 2 was not found')
 
 
 def test_type_checkers_are_told_that_there_are_types():

@@ -78,8 +78,8 @@ def compare(first: Recording, second: Recording, watch: Watch = not_watched) -> 
     times = np.array(sorted({*distances, *_matched_times(*figures)}))
     if not len(times):
         raise ClothSimError(
-            f'{first.path} and {second.path} have no frame at the same simulated time: record '
-            'both with one publish.rate')
+            f'{first.path} and {second.path} have no frames at common simulated times: record '
+            'both with the same publish.rate')
     rms, largest = np.array([distances.get(time, (np.nan, np.nan)) for time in times]).T
     strain, energy = (
         (_at(times, figures[1]) - _at(times, figures[0])).T)

@@ -26,10 +26,10 @@ def comparison_lines(comparison: Comparison) -> dict[str, str]:
         'compared': f'{comparison.second} with {comparison.first}, at their common times',
         'matched': f'{len(comparison.times)} frames from {comparison.times[0]:.6g} to '
                    f'{comparison.times[-1]:.6g} s; {comparison.unmatched[0]} and '
-                   f'{comparison.unmatched[1]} are in one of them only',
+                   f'{comparison.unmatched[1]} are in only one of them',
     }
     if comparison.identical:
-        lines['node distance'] = 'none: all positions are equal, bit for bit'
+        lines['node distance'] = 'none: all positions are bitwise identical'
     else:
         lines['node distance'] = _line(comparison.rms_distance, ' m', 'RMS')
     lines['max strain'] = _line(comparison.strain_difference, '', 'difference')

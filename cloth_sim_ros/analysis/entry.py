@@ -13,9 +13,9 @@ class Entry:
     One message of a recording.
 
     :param key: the topic behind the name of the node, such as points or inputs/push
-    :param time: [s] simulated, going on where a reset put the clock back
+    :param time: [s] simulated, continuing across resets
     :param message: decoded
-    :param resets: of the run, seen before it
+    :param resets: of the run, before this message
     """
 
     key: str

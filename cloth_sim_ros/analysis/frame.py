@@ -63,11 +63,11 @@ class Frame:
             records = np.frombuffer(cloud.data, layout).reshape(cloud.height, cloud.width)
         except (KeyError, ValueError, TypeError) as error:
             raise ClothSimError(
-                f'the cloud at {time:g} s is not as long as it says, or of unknown fields '
-                f'({error}): give a recording of a cloth_sim node') from error
+                f'the cloud at {time:g} s does not have its declared length, or has unknown '
+                f'fields ({error}): give a recording of a cloth_sim node') from error
         if not records.size:
             raise ClothSimError(
-                f'the cloud at {time:g} s has no point: give a recording of a cloth_sim node')
+                f'the cloud at {time:g} s has no points: give a recording of a cloth_sim node')
         return cls(time, records, tuple(pushes))
 
     @property

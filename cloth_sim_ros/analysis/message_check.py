@@ -78,7 +78,7 @@ def _check(where: str, message: Any, needed: dict[str, Any]) -> None:
         if not isinstance(value, kind):
             raise ClothSimError(
                 f'a message on ~/{where} has {cut(shown(value), 40)} as its {name}, where '
-                f'{_name_of(kind)} belongs: give a recording of a cloth_sim node')
+                f'{_name_of(kind)} is expected: give a recording of a cloth_sim node')
 
 
 def _name_of(kind: Any) -> str:

@@ -32,8 +32,8 @@ def _of_points(entries: Iterable[Entry]) -> dict[str, np.ndarray]:
         if frames and records.shape != frames[0].shape:
             raise ClothSimError(
                 f'a cloud of {records.shape[0]} x {records.shape[1]} nodes at {entry.time:g} s '
-                f'comes after one of {frames[0].shape[0]} x {frames[0].shape[1]}: read them one '
-                'by one, by Recording.entries')
+                f'follows one of {frames[0].shape[0]} x {frames[0].shape[1]}: read them one by '
+                'one, with Recording.entries')
         times.append(entry.time)
         resets.append(entry.resets)
         frames.append(records)

@@ -40,11 +40,11 @@ class Recording:
     """
     A bag with the topics of a cloth_sim node: this project's, or of `ros2 bag record`.
 
-    A recording that was cut off is read up to its last whole record.
+    A truncated recording is read up to its last complete record.
 
     :param path: folder with mcap or sqlite3 files, or one such file
     :param node: name of the node, with its namespace; None finds it
-    :raises ClothSimError: when there is nothing that can be read
+    :raises ClothSimError: when nothing can be read
     """
 
     def __init__(self, path: str | Path, node: str | None = None) -> None:
@@ -90,7 +90,7 @@ class Recording:
         """
         Yield the messages of the topics ``keys`` as they were recorded.
 
-        Topics of another type than the node's are left out.
+        Topics of another type than the node's are skipped.
 
         :raises ClothSimError: when a message makes no sense
         """
@@ -114,7 +114,7 @@ class Recording:
         """
         Return all messages of the topic ``key`` as arrays, the first axis of which is the message.
 
-        All have ``time`` [s], simulated and going on where a reset put the clock back, and
+        All have ``time`` [s], simulated and continuing across resets, and
         ``resets`` before the message. ``points`` has positions [m], velocities [m/s] and normals,
         (frames, rows, cols, 3), strain and flags, (frames, rows, cols), of the type recorded.
         ``stats`` has a column for each figure of ClothStats. ``pins/wrenches`` has row, col and

@@ -36,7 +36,7 @@ _PLOTS = {
         Panel('strain [%]', (
             Line('max_strain', 'largest of all springs', 100.0),
             Line('mean_strain', 'mean of the nodes', 100.0))),)),
-    'pin_forces': ('Forces of the cloth on what holds it', (
+    'pin_forces': ('Forces of the cloth on its pins', (
         Panel('sum of all pins [N]', tuple(
             Line(name, axis) for name, axis in zip(SUM, 'xyz'))),
         Panel('largest of a pin [N]', (Line(LARGEST, 'largest'),)))),

@@ -49,7 +49,7 @@ def strain_histogram_plot(run: Run, title: str) -> Figure:
     # Few nodes have the most strain, and these matter.
     axes.set_yscale('log')
     axes.yaxis.set_major_formatter(lambda share, _: f'{100.0 * share:g} %')
-    finish_axes(axes, f'share of the nodes in each of {BINS} bins')
+    finish_axes(axes, f'fraction of the nodes in each of {BINS} bins')
     axes.set_xlabel('strain, largest of the springs at a node [%]', color=INK)
     figure.suptitle(title, fontsize=11, color=INK)
     return figure

@@ -20,12 +20,12 @@ def resimulate(
         path: str | Path, changes: Mapping[str, Any] | None = None, *,
         node: str | None = None) -> Verdict:
     """
-    Make a recorded run again, with its inputs at their times, and compare all frames.
+    Rerun a recorded simulation, with its inputs at their times, and compare all frames.
 
     :param path: folder of the recording, or its file
     :param changes: parameters of the scene in place of the recorded ones, by name
     :param node: name of the recorded node, with its namespace; None finds it
-    :return: ``frames`` tells how many are equal to the bit, and how far the others are off
+    :return: ``frames`` has the number of bitwise identical frames, and the errors of the others
     :raises ClothSimError: when the recording can't be read, or does not hold the beginning of its
         run
     :raises DeviceError: when there is no GL device

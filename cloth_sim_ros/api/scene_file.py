@@ -17,9 +17,9 @@ from cloth_sim_ros.sim.scene_file import load_parameters
 
 def load_scene(path: str | Path, changes: Mapping[str, Any] | None = None) -> Scene:
     """
-    Return the scene of a ROS parameter file; what only the node needs is passed over.
+    Return the scene of a ROS parameter file; parameters of the node alone are ignored.
 
-    :param changes: parameters that go over those of the file, by dotted name
+    :param changes: parameters that override those of the file, by dotted name
     :raises ClothSimError: when the file can't be read, or a parameter in it or in ``changes`` is
         not right
     """

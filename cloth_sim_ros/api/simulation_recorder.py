@@ -28,7 +28,7 @@ _ROUNDING = 1e-9  # of a sum of frame times
 
 class SimulationRecorder(AbstractContextManager['SimulationRecorder']):
     """
-    Writes the frames that it is asked for, and by itself every input of the simulation.
+    Writes frames on request, and every input of the simulation automatically.
 
     Pushes, pins, their moves, switches of the mode and resets are recorded when the simulation
     gets them, so that ``cloth_sim resimulate`` and ``resimulate`` can make the run again. The
@@ -54,7 +54,8 @@ class SimulationRecorder(AbstractContextManager['SimulationRecorder']):
         """Open the recording and write what it begins with."""
         if type(simulation.listener) is not InputListener:
             raise ClothSimError(
-                'this simulation is being recorded: close its recorder before you make another')
+                'this simulation is already being recorded: close its recorder before creating '
+                'another')
         given = {**(parameters or {}), 'recording.name': name}
         refuse_unknown(given, NODE_FIELDS)
         values = checked_node_values(given)
@@ -92,7 +93,7 @@ class SimulationRecorder(AbstractContextManager['SimulationRecorder']):
 
     def write(self, step_wall_time: float = 0.0, real_time_factor: float = 0.0) -> None:
         """
-        Write the present instant as a frame.
+        Write the current state as a frame.
 
         :param step_wall_time: of a step of dt since the frame before [s]; 0 when not measured
         :param real_time_factor: simulated time per wall time since then; 0 when not measured
@@ -100,14 +101,14 @@ class SimulationRecorder(AbstractContextManager['SimulationRecorder']):
         """
         if not self._is_open:
             raise RecordingError(
-                f'the recording {self.path} is closed: make another SimulationRecorder')
+                f'the recording {self.path} is closed: create another SimulationRecorder')
         self._recording.write(step_wall_time, real_time_factor)
         if self._ending is not None:
             raise self._ending
 
     def close(self) -> None:
         """
-        Complete the recording; does nothing when that is done.
+        Complete the recording; does nothing when called again.
 
         :raises RecordingError: when its end can't be written
         """
@@ -161,5 +162,5 @@ class _RecordedInputs(Inputs, InputListener):
 
     def new_state(self) -> None:
         raise ClothSimError(
-            'a recording has no message for a new state, and could not be made again after one: '
-            'close the recorder, set the state, and make another recorder')
+            'a new state cannot be recorded, and the run could not be resimulated after one: '
+            'close the recorder, set the state, and create another recorder')

@@ -51,13 +51,13 @@ def load_arrays(path: str | Path, what: str, way_out: str) -> dict[str, np.ndarr
         except (*_BROKEN, OSError) as error:  # of a file that is open, OSError is a wrong offset
             reason = cut(error) or type(error).__name__
             raise ClothSimError(
-                f'{cut(path)} is no {what} ({reason}): {way_out}') from error
+                f'{cut(path)} is not a {what} ({reason}): {way_out}') from error
 
 
 def _arrays(archive: zipfile.ZipFile, size: int) -> dict[str, np.ndarray]:
     members = archive.infolist()
     if len(members) > MOST_ARRAYS:
-        raise ValueError(f'it has {len(members)} arrays, and {MOST_ARRAYS} are the most')
+        raise ValueError(f'it has {len(members)} arrays, the maximum is {MOST_ARRAYS}')
     declared = sum(member.file_size for member in members)
     if declared > _SPARE + _GAIN * size:
         raise ValueError(f'it has {size} bytes and declares arrays of {declared}')
@@ -67,7 +67,7 @@ def _arrays(archive: zipfile.ZipFile, size: int) -> dict[str, np.ndarray]:
 def _array(archive: zipfile.ZipFile, member: zipfile.ZipInfo) -> np.ndarray:
     label = cut(member.filename, 64)
     if member.compress_type not in (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED):
-        raise ValueError(f'{label} is compressed in another way than numpy does')
+        raise ValueError(f'{label} uses a compression that numpy does not')
     with archive.open(member) as stream:
         shape, fortran_order, kind = _header(stream, label)
         count = math.prod(shape)
@@ -90,17 +90,17 @@ def _content(stream: IO[bytes], length: int, label: str) -> bytearray:
         place += got
     # The end is where the checksum is compared.
     if stream.read(1):
-        raise ValueError(f'{label} goes on after its {length} bytes')
+        raise ValueError(f'{label} continues after its {length} bytes')
     return content
 
 
 def _header(stream: IO[bytes], label: str) -> tuple[tuple[int, ...], bool, np.dtype]:
     version = np.lib.format.read_magic(stream)
     if version not in _HEADERS:
-        raise ValueError(f'{label} is of the unknown version {version}')
+        raise ValueError(f'{label} has the unknown version {version}')
     shape, fortran_order, kind = _HEADERS[version](stream)
     if kind.kind not in _KINDS or kind.subdtype is not None or not kind.itemsize:
-        raise ValueError(f'{label} holds {cut(kind, 64)}, and neither numbers nor words')
+        raise ValueError(f'{label} holds {cut(kind, 64)}, neither numbers nor strings')
     if not all(0 <= side for side in shape):
         raise ValueError(f'{label} has the shape {cut(shape, 64)}')
     return shape, fortran_order, kind

@@ -31,13 +31,13 @@ def load_yaml(path: str | Path) -> Any:
         content = read_regular(path, MOST_BYTES)
     except OSError as error:
         raise ClothSimError(
-            f'{cut(path)} cannot be read: {error.strerror}: give a file that is there and '
-            'may be read') from error
+            f'{cut(path)} cannot be read: {error.strerror}: give a file that exists and is '
+            'readable') from error
     try:
         return parse_yaml(content.decode(), cut(path))
     except UnicodeDecodeError as error:
         raise ClothSimError(
-            f'{cut(path)} is not valid YAML: byte {error.start} is no UTF-8: save it as '
+            f'{cut(path)} is not valid YAML: byte {error.start} is not UTF-8: save it as '
             'UTF-8') from error
 
 
@@ -60,7 +60,7 @@ def parse_yaml(text: str, name: str) -> Any:
         raise ClothSimError(f'{name} is not valid YAML: {_reason(error)}') from error
     except UnicodeEncodeError as error:
         raise ClothSimError(
-            f'{name} is not valid YAML: character {error.start} is no text: save it as UTF-8'
+            f'{name} is not valid YAML: character {error.start} is not text: save it as UTF-8'
         ) from error
 
 
@@ -129,8 +129,8 @@ class _Document:
     def _begin(self, value: list | dict, kind: str, event: yaml.CollectionStartEvent) -> None:
         if not is_collection_tag(event.tag, kind):
             raise _Refused(
-                f'the tag {cut(event.tag, 64)} in line {_line(event)}, which ROS has no '
-                'type for: take it out')
+                f'the tag {cut(event.tag, 64)} in line {_line(event)}, for which ROS has no type: '
+                'remove it')
         self._open.append(_Collection(value, event))
         self._check_depth(0, event)
         self._add(1, event)
@@ -144,7 +144,7 @@ class _Document:
     def _repeat(self, event: yaml.AliasEvent) -> None:
         name = cut(event.anchor, 64)
         if any(each.anchor == event.anchor for each in self._open):
-            raise _Refused(f'*{name} within &{name} in line {_line(event)}: take one out')
+            raise _Refused(f'*{name} within &{name} in line {_line(event)}: remove one')
         if event.anchor not in self._anchors:
             raise _Refused(f'*{name} without &{name} before it in line {_line(event)}: add it')
         value, size, height = self._anchors[event.anchor]
@@ -167,14 +167,14 @@ class _Document:
         self._count += size
         if self._count > MOST_VALUES:
             raise _Refused(
-                f'more than {MOST_VALUES} values, with what aliases stand for, in line '
-                f'{_line(event)}: take some out')
+                f'more than {MOST_VALUES} values, with aliases expanded, in line {_line(event)}: '
+                'remove some')
 
     def _check_depth(self, height: int, event: yaml.NodeEvent) -> None:
         if len(self._open) + height > MOST_DEPTH:
             raise _Refused(
-                f'more than {MOST_DEPTH} lists and mappings in one another in line '
-                f'{_line(event)}: write it flatter')
+                f'more than {MOST_DEPTH} nested lists and mappings in line {_line(event)}: '
+                'flatten it')
 
 
 def _scalar(event: yaml.ScalarEvent) -> Any:
@@ -183,7 +183,7 @@ def _scalar(event: yaml.ScalarEvent) -> Any:
             return tagged_value(event.value, event.tag)
         return plain_value(event.value) if event.implicit[0] else event.value
     except ValueError as error:
-        raise _Refused(f'{error}, in line {_line(event)}: write it otherwise') from error
+        raise _Refused(f'{error}, in line {_line(event)}: rewrite it') from error
 
 
 def _line(event: yaml.Event) -> int:

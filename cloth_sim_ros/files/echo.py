@@ -15,7 +15,7 @@ def shown(value: object) -> str:
     try:
         text = repr(part)
     except ValueError:
-        return 'a number of too many digits'  # Python writes no more than 4300
+        return 'a number with too many digits'  # Python writes no more than 4300
     if part is value or len(part) == len(value):
         return cut(text)
     return f'{text[:MOST_SHOWN]}... (a length of {len(value)})'

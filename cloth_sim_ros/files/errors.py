@@ -5,4 +5,4 @@
 
 
 class ClothSimError(ValueError):
-    """A request that cannot be carried out; nothing was changed by it."""
+    """A request that cannot be carried out; it has changed nothing."""

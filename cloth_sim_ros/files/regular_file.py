@@ -35,8 +35,8 @@ def open_regular(path: str | Path, limit: int | None = None) -> BinaryIO:
         for is_kind, name in _KINDS:
             if is_kind(status.st_mode):
                 raise ClothSimError(
-                    f'{cut(path)} is {name}, and only regular files are read: copy what it '
-                    'holds into a file, and give that')
+                    f'{cut(path)} is {name}, and only regular files are read: copy its contents '
+                    'into a file, and give that')
         if limit is not None and status.st_size > limit:
             raise _too_large(path, status.st_size, limit)
         return os.fdopen(number, 'rb')
@@ -78,5 +78,5 @@ def is_folder(path: str | Path) -> bool:
 
 def _too_large(path: str | Path, size: int, limit: int) -> ClothSimError:
     return ClothSimError(
-        f'{cut(path)} has {size} bytes, and a file of its kind at most {limit}: give '
-        'another one, or split it')
+        f'{cut(path)} has {size} bytes, the limit for its kind is {limit}: give another one, or '
+        'split it')

@@ -42,7 +42,7 @@ def plain_value(text: str) -> Any:
     if not _FLOAT.fullmatch(text) and not _INT.fullmatch(text):
         return text
     if len(text) > MOST_DIGITS:
-        raise ValueError(f'a number of {len(text)} characters, where {MOST_DIGITS} are the most')
+        raise ValueError(f'a number of {len(text)} characters, the maximum is {MOST_DIGITS}')
     return _number(text)
 
 
@@ -61,8 +61,8 @@ def tagged_value(text: str, tag: str) -> Any:
     if kind in _TYPES and type(value) is _TYPES[kind]:
         return value
     if kind in _TYPES:
-        raise ValueError(f'{shown(text[:MOST_DIGITS])} where !!{kind} asks for another type')
-    raise ValueError(f'the tag {shown(tag[:MOST_DIGITS])}, which ROS has no type for')
+        raise ValueError(f'{shown(text[:MOST_DIGITS])} where !!{kind} requires another type')
+    raise ValueError(f'the tag {shown(tag[:MOST_DIGITS])}, for which ROS has no type')
 
 
 def is_collection_tag(tag: str | None, kind: str) -> bool:

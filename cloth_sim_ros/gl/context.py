@@ -83,11 +83,11 @@ class Context:
     def make_current(self) -> None:
         """Direct the GL calls of this thread to this context; DeviceError once it is closed."""
         if self._context is None:
-            raise DeviceError('the GL context is closed: make a new one, with a new Simulation')
+            raise DeviceError('the GL context is closed: create a new Simulation')
         if not EGL.eglMakeCurrent(
                 self._display, EGL.EGL_NO_SURFACE, EGL.EGL_NO_SURFACE, self._context):
-            raise DeviceError('the GL context cannot be used on this thread: use it where it '
-                              'was made')
+            raise DeviceError('the GL context cannot be used on this thread: use it on the thread '
+                              'that created it')
         set_current_pool(self._programs)
 
     def release(self) -> None:

@@ -19,8 +19,8 @@ from cloth_sim_ros.gl.libraries import PLATFORM
 from OpenGL.GL.ARB.robustness import glGetGraphicsResetStatusARB
 
 _REASONS = {
-    GL.GL_GUILTY_CONTEXT_RESET: 'by what this process did',
-    GL.GL_INNOCENT_CONTEXT_RESET: 'by what another process did',
+    GL.GL_GUILTY_CONTEXT_RESET: 'because of this process',
+    GL.GL_INNOCENT_CONTEXT_RESET: 'because of another process',
     GL.GL_UNKNOWN_CONTEXT_RESET: 'for an unknown reason',
 }
 
@@ -36,9 +36,8 @@ def refuse_lost_context() -> None:
     status = reset_status()
     if status != GL.GL_NO_ERROR:
         raise DeviceError(
-            f'the GL device was reset {_REASONS.get(status, f"({status:#x})")}, and all that it '
-            'held is lost: start again, and if that happens again, take a smaller cloth or '
-            'another device')
+            f'the GL device was reset {_REASONS.get(status, f"({status:#x})")}, and its contents '
+            'are lost: restart and, if it happens again, use a smaller cloth or another device')
 
 
 @contextmanager

@@ -36,8 +36,8 @@ class Framebuffer:
         most = int(GL.glGetIntegerv(GL.GL_MAX_RENDERBUFFER_SIZE))
         if max(width, height) * detail > most:
             raise DeviceError(
-                f'a picture of {width} x {height} pixels is too large for this device: give at '
-                f'most {most // detail} a side')
+                f'an image of {width} x {height} pixels is too large for this device: use at most '
+                f'{most // detail} per side')
         self.width, self.height, self.detail = width, height, detail
         self.samples = min(int(GL.glGetIntegerv(GL.GL_MAX_SAMPLES)), _MOST_SAMPLES)
         self._buffers: list[int] = []
@@ -96,6 +96,6 @@ class Framebuffer:
         status = GL.glCheckFramebufferStatus(GL.GL_FRAMEBUFFER)
         if status != GL.GL_FRAMEBUFFER_COMPLETE:
             raise DeviceError(
-                f'the device makes no picture of {self.width} x {self.height} pixels '
+                f'the device cannot render an image of {self.width} x {self.height} pixels '
                 f'({status:#x}): give a smaller size')
         return framebuffer

@@ -23,13 +23,13 @@ try:
     from OpenGL.platform.egl import EGLPlatform
 except ModuleNotFoundError as missing:
     raise DeviceError(
-        f'the Python module {missing.name} is not here: install python3-opengl, or run '
-        '`pip install PyOpenGL`') from missing
+        f'the Python module {missing.name} is missing: install python3-opengl, or run `pip '
+        'install PyOpenGL`') from missing
 except (ImportError, AttributeError, TypeError) as problem:
     # Where PyOpenGL finds no library, it goes on without and trips over it.
     raise DeviceError(f'the EGL library cannot be loaded: {INSTALL}') from problem
 
 if not isinstance(PLATFORM, EGLPlatform):
     raise DeviceError(
-        f'OpenGL was imported for the platform {type(PLATFORM).__module__} before, and a context '
+        f'OpenGL was imported for the platform {type(PLATFORM).__module__} already, but a context '
         'without a window needs EGL: import cloth_sim_ros first, or set PYOPENGL_PLATFORM=egl')

@@ -46,7 +46,7 @@ class Program(LinkedProgram):
         if max(groups_x, groups_y) > _MOST_GROUPS:
             raise ShaderError(
                 f'{self.name} needs {groups_x} x {groups_y} workgroups, at most {_MOST_GROUPS} '
-                'are allowed a side: use fewer nodes')
+                'are allowed per side: use fewer nodes')
         self.dispatches += 1
         quick_calls.dispatch(groups_x, groups_y, 1)
 

@@ -37,4 +37,5 @@ def shared_directory(name: str) -> Path:
         if (parent / _INSTALLED / name).is_dir():
             return parent / _INSTALLED / name
     raise MissingFilesError(
-        f'no {name} lie beside {here.parents[1]}: install the package again, it brings them')
+        f'there are no {name} beside {here.parents[1]}: reinstall the package, which contains '
+        'them')

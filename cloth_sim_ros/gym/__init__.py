@@ -12,7 +12,7 @@ try:
     import gymnasium
 except ModuleNotFoundError as error:
     raise ModuleNotFoundError(
-        f'cloth_sim_ros.gym cannot be used without {error.name}: install it by `pip install '
+        f'cloth_sim_ros.gym cannot be used without {error.name}: install it with `pip install '
         'gymnasium`', name=error.name) from error
 
 __all__ = ('CarryCloth',)

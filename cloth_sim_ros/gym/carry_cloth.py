@@ -60,16 +60,17 @@ class CarryCloth(gymnasium.Env[np.ndarray, np.ndarray]):
             scene = Scene(_DEFAULT if scene is None else scene)
         self.pins = np.argwhere(scene.pinned_nodes())
         if not len(self.pins):
-            raise ClothSimError('a cloth is carried by its pins, and this has none: set pins')
+            raise ClothSimError('the cloth is carried by its pins, but this scene has none: set '
+                                'pins')
         if observation not in OBSERVATIONS:
             raise ClothSimError(
-                f'an observation is {" or ".join(OBSERVATIONS)}, got {shown(observation)}: '
+                f'an observation must be {" or ".join(OBSERVATIONS)}, got {shown(observation)}: '
                 'choose one')
         _check('frame', frame, 's')
         _check('speed', speed, 'm/s')
         if not 0.0 <= jitter <= 0.5:
             raise ClothSimError(
-                f'the jitter is from 0 to 0.5 of the node spacing, got {jitter}: give less')
+                f'the jitter must be from 0 to 0.5 of the node spacing, got {jitter}: give less')
         offset = np.array(goal, dtype=float)
         if offset.shape != (3,) or not np.all(np.abs(offset) <= FARTHEST):
             raise ClothSimError(
@@ -116,7 +117,7 @@ class CarryCloth(gymnasium.Env[np.ndarray, np.ndarray]):
         """
         if not self.action_space.contains(np.asarray(action, dtype=np.float32)):
             raise ClothSimError(
-                f'an action is {self.action_space.shape} numbers from -1 to 1, got '
+                f'an action must be {self.action_space.shape} numbers from -1 to 1, got '
                 f'{np.shape(action)}: clip it')
         simulation = self._simulation
         places = simulation.positions()

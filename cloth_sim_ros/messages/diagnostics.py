@@ -78,7 +78,7 @@ def _text(value: object) -> str:
 
 
 def _device(snapshot: Snapshot | None, device: str) -> tuple[bytes, str, dict]:
-    text = device if snapshot is not None else f'{device} compiles the first shaders'
+    text = device if snapshot is not None else f'{device} is compiling the first shaders'
     return OK, text, {'renderer': device}
 
 
@@ -130,14 +130,13 @@ def _stability(snapshot: Snapshot, problem: str) -> tuple[bytes, str, dict]:
         return ERROR, problem, values
     if not snapshot.lengths_are_held:
         return WARN, (
-            f'edges are off by {snapshot.max_strain:.2g} of their length, with '
-            f'{snapshot.strain_bound:.2g} allowed: take a shorter dt, or push and pull with less '
-            'force'), values
+            f'edges deviate by {snapshot.max_strain:.2g} from their length, and '
+            f'{snapshot.strain_bound:.2g} is allowed: use a shorter dt, or smaller forces'), values
     if snapshot.solves:
         return _turns(margin, values)
-    text = f'a substep is {margin:.3g} of the stability limit'
+    text = f'a substep is {margin:.3g} times the stability limit'
     if margin > 1.0:
-        return ERROR, f'{text}: take a shorter dt, or auto_substeps: true', values
+        return ERROR, f'{text}: use a shorter dt, or auto_substeps: true', values
     if margin > SAFE_MARGIN + 1e-3:
         return WARN, f'{text}, above the safe {SAFE_MARGIN}: use a shorter dt', values
     return OK, text, values
@@ -147,13 +146,13 @@ def _pins(snapshot: Snapshot) -> tuple[bytes, str, dict]:
     values = {'stalled': int(snapshot.stalled_pins)}
     if snapshot.stalled_pins:
         return WARN, (
-            f'{snapshot.stalled_pins} moving pins stand still, pulled at with more than '
-            'pin.max_force: let the cloth follow, or choose nearer targets'), values
-    return OK, 'no pin stands still on its way', values
+            f'{snapshot.stalled_pins} moving pins are stalled by edge forces above pin.max_force: '
+            'let the cloth follow, or choose nearer targets'), values
+    return OK, 'no moving pin is stalled', values
 
 
 def _turns(margin: float, values: dict) -> tuple[bytes, str, dict]:
-    text = f'edges turn by {margin**2:.3g} of what is exact in a substep'
+    text = f'edges rotate by {margin**2:.3g} times the accurate limit per substep'
     if margin > 1.0 + 1e-3:
         return WARN, f'{text}: raise constraint.max_substeps, or use a shorter dt', values
     return OK, text, values

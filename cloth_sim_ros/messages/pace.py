@@ -26,5 +26,5 @@ def slow_pace(achieved: float, wanted: float, *, substeps: int, automatic: bool)
     """
     faster = 'softer springs' if automatic and substeps > 1 else 'a longer dt'
     return (
-        f'{achieved:.3g} x real time, below the desired {wanted:.3g}: use fewer nodes, '
-        f'{faster}, another mode or a lower real_time_factor')
+        f'{achieved:.3g} x real time, below the target {wanted:.3g}: use fewer nodes, {faster}, '
+        'another mode or a lower real_time_factor')

@@ -69,7 +69,7 @@ class PointsMessage:
         if records.shape != self._shape or records.dtype != POINT_DTYPE:
             raise ValueError(
                 f'points are {records.shape} {records.dtype}, the message is {self._shape} '
-                f'{POINT_DTYPE}: make a PointsMessage for this cloth')
+                f'{POINT_DTYPE}: create a PointsMessage for this cloth')
         time = stamp(snapshot.time)
         _STAMP.pack_into(self._head, _STAMP_AT, time.sec, time.nanosec)
         self._tail[0] = snapshot.finite  # is_dense, the last field

@@ -42,18 +42,18 @@ class Request:
 
 SERVICES = (
     Request('~/set_mode', SetMode, 'switch the mode; positions and velocities are kept'),
-    Request('~/apply_push', ApplyPush, 'push the whole cloth or the nodes in a sphere with a '
-            'total force for a duration; returns the number of nodes and the impulse'),
-    Request('~/clear_pushes', Trigger, 'end all pushes'),
-    Request('~/set_pin', SetPin, 'pin or release a node, given by row and column or as the one '
-            'nearest to a point'),
-    Request('~/move_pin', MovePin, 'move a pin to a point in a straight line; returns the time '
+    Request('~/apply_push', ApplyPush, 'apply a total force to the whole cloth or to the nodes '
+            'in a sphere for a duration; returns the number of nodes and the impulse'),
+    Request('~/clear_pushes', Trigger, 'cancel all pushes'),
+    Request('~/set_pin', SetPin, 'pin or release a node, selected by row and column or as the '
+            'one nearest to a point'),
+    Request('~/move_pin', MovePin, 'move a pin to a target in a straight line; returns the time '
             'of arrival'),
     Request('~/reset', Trigger, 'restore the initial pose, pins and time, and the pushes and pin '
             'moves of the scene'),
     Request('~/pause', SetBool, 'pause or resume simulated time'),
-    Request('~/step', Step, 'make a number of time steps while paused; answers when they are '
-            'done'),
+    Request('~/step', Step, 'advance a paused simulation by a number of time steps; responds '
+            'when they are done'),
     Request('~/start_recording', StartRecording, 'start a recording in `recording.directory`'),
     Request('~/stop_recording', Trigger, 'complete and close the recording'),
 )
@@ -61,7 +61,7 @@ SERVICES = (
 SUBSCRIPTIONS = (
     Request('~/push', Push, 'push the cloth, now or at a later simulated time'),
     Request('~/pins/target', PinTarget, 'stream targets to a pin'),
-    Request('~/wind', Vector3Stamped, 'set the steady wind, where the scene has air'),
-    Request('/clicked_point', PointStamped, 'push around a point that was clicked in RViz or '
-            'Foxglove, as the parameters `clicked_point.*` say'),
+    Request('~/wind', Vector3Stamped, 'set the steady wind, if the scene has air'),
+    Request('/clicked_point', PointStamped, 'push the cloth around a point clicked in RViz or '
+            'Foxglove, as set by the parameters `clicked_point.*`'),
 )

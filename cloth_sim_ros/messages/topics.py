@@ -39,14 +39,14 @@ TOPICS = {
         Topic('points', PointCloud2, depth=10, text='one point per node, organised as rows and '
               'columns: position, velocity, normal, strain, flags'),
         Topic('markers', MarkerArray, depth=1, recorded=False, text='the surface coloured by '
-              'strain, pins, nodes at their strain limit, pushes'),
+              'strain, pins, nodes at their strain limit, and pushes'),
         Topic('topology', Mesh, depth=1, transient_local=True, text='the cloth at rest as a '
               'triangle mesh'),
         Topic('stats', ClothStats, depth=10, text='energies, largest strain, solver, constraints '
-              'and pace as plain numbers to plot'),
+              'and real-time factor as plain numbers to plot'),
         # A message a pin: a whole frame of them must have room.
-        Topic('pins/wrenches', WrenchStamped, depth=MOST_PINS, text='force of the cloth on the '
-              'holder of each pin, one message per pin'),
+        Topic('pins/wrenches', WrenchStamped, depth=MOST_PINS, text='force that the cloth '
+              'exerts on each pin, one message per pin'),
         Topic('state', ClothState, depth=1, transient_local=True, text='mode, run state, device '
               'and recording'),
         # As tf2's own broadcasters have it.
@@ -55,13 +55,14 @@ TOPICS = {
         Topic('clock', Clock, depth=10, is_global=True, text='simulated time, when '
               '`publish.clock` is true'),
         Topic('diagnostics', DiagnosticArray, depth=10, is_global=True, text='health of the '
-              'device, pace, solver, stability and recorder, once per second of wall time'),
+              'device, real-time factor, solver, stability and recorder, once per second of wall '
+              'time'),
         Topic('inputs/push', Push, depth=100, text='each accepted push'),
         Topic('inputs/pin', PinChange, depth=100, text='each node that was pinned or released'),
         Topic('inputs/pin_target', PinTarget, depth=100, text='each accepted target of a pin'),
-        Topic('inputs/wind', Vector3Stamped, depth=100, text='each steady wind that was set'),
+        Topic('inputs/wind', Vector3Stamped, depth=100, text='each change of the steady wind'),
         Topic('inputs/mode', ModeChange, depth=100, text='each mode switch'),
-        Topic('inputs/command', Command, depth=100, text='each reset, and each removal of all '
-              'pushes'),
-        Topic('inputs/parameters', ParameterEvent, depth=100, text='each change of parameters'),
+        Topic('inputs/command', Command, depth=100, text='each reset, and each cancellation of '
+              'all pushes'),
+        Topic('inputs/parameters', ParameterEvent, depth=100, text='each parameter change'),
     )}

@@ -78,6 +78,6 @@ def too_many_pins(pins: int) -> str:
     if pins <= MOST_PINS:
         return ''
     return (
-        f'~/pins/wrenches and the frames of pins on /tf are for {MOST_PINS} pins or fewer and '
-        f'there are {pins}, so they stay silent: release some, or set publish.wrenches: false and '
+        f'~/pins/wrenches and the pin frames on /tf are limited to {MOST_PINS} pins and there are '
+        f'{pins}, so neither is published: release some, or set publish.wrenches: false and '
         'publish.tf: false')

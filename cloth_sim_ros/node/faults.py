@@ -42,7 +42,7 @@ class Faults:
         repeats = f', and {missed} times since this was last logged' if missed else ''
         trace = ''.join(traceback.format_exception(error))
         self._log(
-            f'unexpected error in {self.latest}{repeats}; the node goes on: report it with this '
+            f'unexpected error in {self.latest}{repeats}; the node continues: report it with this '
             f'trace\n{trace}')
         return self.latest
 

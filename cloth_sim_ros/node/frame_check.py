@@ -23,5 +23,5 @@ def check_frame(given: str, own: str) -> None:
     """Raise ClothSimError unless the frame ``given`` is the cloth's ``own``, or empty."""
     if given not in ('', own):
         raise ClothSimError(
-            f'its frame is {shown(given)} and the cloth is in {shown(own)}: transform it to that '
-            'one, or choose that as the fixed frame')
+            f'its frame is {shown(given)} but the frame of the cloth is {shown(own)}: transform '
+            'it to the latter, or choose that as the fixed frame')

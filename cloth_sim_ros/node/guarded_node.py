@@ -136,8 +136,8 @@ class GuardedNode(Node):
 def _answer_with(reason: str, request: Any, response: Any) -> Any:
     """Return the answer to a request that failed unexpectedly."""
     text = (
-        f'an unexpected error ended the request, {reason}: the log of the node has its trace; '
-        'report it, and call ~/reset if the cloth is not as it should be')
+        f'an unexpected error aborted the request, {reason}: report it with the trace from the '
+        'log, and call ~/reset if the cloth is in a wrong state')
     if hasattr(response, 'success'):
         response.success, response.message = False, text
     refused = SetParametersResult(successful=False, reason=text)

@@ -65,9 +65,9 @@ class SharedMemory:
         """
         if self.lack and cloud > self.segment:
             return (
-                f'a cloud has {cloud / 1e6:.2g} MB and Fast DDS {self.segment / 1e6:.2g} MB of '
-                'shared memory, so best-effort subscribers will miss some; subscribe reliably, '
-                f'or mend this: {self.lack}')
+                f'a point cloud has {cloud / 1e6:.2g} MB but Fast DDS only '
+                f'{self.segment / 1e6:.2g} MB of shared memory, so best-effort subscribers will '
+                f'miss some; subscribe reliably, or fix this: {self.lack}')
         return self.lack if self.is_full else ''
 
 
@@ -95,7 +95,7 @@ def use_profile(
     implementation = environment.get('RMW_IMPLEMENTATION', '')
     if implementation not in _FAST_DDS:
         return SharedMemory(_DEFAULT_SEGMENT, (
-            f'{implementation} takes no profile of Fast DDS: give it larger buffers, or set '
+            f'{implementation} does not use Fast DDS profiles: give it larger buffers, or set '
             'RMW_IMPLEMENTATION=rmw_fastrtps_cpp'))
     if VARIABLE in environment:
         return _memory_of(environment[VARIABLE])
@@ -121,7 +121,7 @@ def _fitting(frame: int, environment: MutableMapping[str, str], free: int) -> Sh
         return SharedMemory(segment)
     return SharedMemory(segment, (
         f'/dev/shm has {free / _MIB:.0f} MiB free and {2 * wanted // _MIB} MiB are needed for the '
-        'shared memory of Fast DDS: make room, in a container with --shm-size'), is_full=True)
+        'shared memory of Fast DDS: free some, or raise --shm-size of a container'), is_full=True)
 
 
 def _memory_of(profile: str) -> SharedMemory:

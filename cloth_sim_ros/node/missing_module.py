@@ -28,18 +28,18 @@ def way_out(error: ImportError) -> str:
             f'`{BUILD_COMMAND}`')
     if package == 'tf2_msgs':
         return (
-            'the ROS package tf2_msgs is not here: install ros-jazzy-tf2-msgs, or run '
+            'the ROS package tf2_msgs is missing: install ros-jazzy-tf2-msgs, or run '
             './scripts/setup.sh again')
     if package in ('rclpy', 'rcl_interfaces', 'std_msgs', 'std_srvs', 'sensor_msgs'):
         return (
-            f'ROS 2 is not here ({package} is missing): source /opt/ros/jazzy/setup.bash, '
-            'or run ./scripts/setup.sh and then `. .venv/bin/activate`')
+            f'ROS 2 was not found ({package} is missing): source /opt/ros/jazzy/setup.bash, or '
+            'run ./scripts/setup.sh and then `. .venv/bin/activate`')
     if package in ('rosbags', 'mcap'):
         return (
-            f'{package}, which reads and writes recordings, is not here: run `pip install mcap '
-            'rosbags`, with --break-system-packages where pip asks for it')
+            f'{package}, which reads and writes recordings, is missing: run `pip install mcap '
+            'rosbags`, with --break-system-packages if pip asks for it')
     if package == 'viser':
         return (
-            'viser, which shows the cloth in a browser, is not here: run `./scripts/setup.sh '
+            'viser, which shows the cloth in a browser, is missing: run `./scripts/setup.sh '
             '--view`, or `pip install viser`')
     raise error

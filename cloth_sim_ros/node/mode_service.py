@@ -41,6 +41,6 @@ class ModeService:
             raise ClothSimError(result.reason)
         done = self._switch.is_done(request.mode)
         if not request.wait and not done.done():
-            return f'mode {request.mode} takes over when it is ready; ~/state says when'
+            return f'mode {request.mode} becomes active when it is ready; ~/state reports when'
         await done
         return f'mode {request.mode}, was {response.previous_mode}'

@@ -146,8 +146,8 @@ class ModeSwitch:
         self._waiting = [entry for entry in self._waiting if entry not in others]
         for mode, future in others:
             future.set_exception(ClothSimError(
-                f'mode {self._wanted} was asked for before mode {mode} was ready: ask again for '
-                f'{mode}'))
+                f'mode {self._wanted} was requested before mode {mode} was ready: request {mode} '
+                'again'))
 
     def _resolve(self, error: Exception | None) -> None:
         waiting, self._waiting = self._waiting, []

@@ -29,7 +29,7 @@ class Namesake:
         if is_there and not self._is_told:
             name = self._node.get_fully_qualified_name()
             self._warn(
-                f'there is another node {name}: both carry out each request, the first answer '
-                'counts, and their topics are mixed; give one of them a namespace, as by '
-                '--ros-args -r __ns:=/left')
+                f'another node is also named {name}: both execute each request, the first '
+                'response counts, and their topics are mixed; give one of them a namespace, such '
+                'as by --ros-args -r __ns:=/left')
         self._is_told = is_there

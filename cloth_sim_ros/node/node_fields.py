@@ -25,9 +25,9 @@ SLOWEST = 1e-6
 
 NODE_FIELDS = (
     Field('frame_id', str, 'world', 'frame_id of all messages'),
-    Field('real_time_factor', float, 1.0, 'desired ratio of simulated time to wall time, at least '
-          f'{SLOWEST:g}; 0 runs as fast as possible', low=0.0, high=1e6, live=True),
-    Field('start_paused', bool, False, 'start paused; ~/pause or ~/step starts the simulation'),
+    Field('real_time_factor', float, 1.0, 'target ratio of simulated time to wall time, at least '
+          f'{SLOWEST:g}; 0 to run as fast as possible', low=0.0, high=1e6, live=True),
+    Field('start_paused', bool, False, 'start paused; ~/pause resumes, ~/step advances'),
     Field('publish.rate', float, 50.0, 'frames per second of simulated time', 'Hz',
           low=1e-3, high=1e6),
     Field('publish.points', bool, True, 'publish ~/points', live=True),
@@ -35,22 +35,21 @@ NODE_FIELDS = (
     Field('publish.stats', bool, True, 'publish ~/stats', live=True),
     Field('publish.wrenches', bool, True, 'publish ~/pins/wrenches', live=True),
     Field('publish.tf', bool, True, 'publish a transform for each pin on /tf', live=True),
-    Field('publish.clock', bool, False, 'publish simulated time on /clock unless another node '
-          'does'),
-    Field('recording.directory', str, 'bags', 'directory of all recordings'),
-    Field('recording.enabled', bool, False, 'record from the start'),
-    Field('recording.name', str, '', 'name of the recording that begins at the start; empty '
-          'generates one'),
-    Field('recording.max_bagfile_size', int, 0, 'size at which a recording continues in a new '
-          'file, at least 1 MiB; 0 for no limit', 'bytes', low=0, high=10**15),
-    Field('recording.max_bagfile_duration', float, 0.0, 'recorded time after which a recording '
-          'continues in a new file, at least 1 s; 0 for no limit', 's', low=0.0, high=1e9),
-    Field('recording.max_size', int, 0, 'total size at which a recording ends, at least 1 MiB; '
-          '0 for no limit', 'bytes', low=0, high=10**15),
-    Field('recording.fsync', bool, False, 'wait for the disk each time a recording is flushed, '
-          'twice a second, and not only at its end'),
-    Field('clicked_point.force', float, (0.0, 0.0, 1.0), 'total force of the push that a message '
-          'on /clicked_point triggers, x y z', 'N', low=-1e9, high=1e9, is_array=True, live=True),
+    Field('publish.clock', bool, False, 'publish simulated time on /clock, unless another '
+          'node does'),
+    Field('recording.directory', str, 'bags', 'directory in which recordings are created'),
+    Field('recording.enabled', bool, False, 'start recording when the node starts'),
+    Field('recording.name', str, '', 'name of that recording; empty to generate one'),
+    Field('recording.max_bagfile_size', int, 0, 'size at which a recording is split into a '
+          'new file, at least 1 MiB; 0 for no limit', 'bytes', low=0, high=10**15),
+    Field('recording.max_bagfile_duration', float, 0.0, 'duration after which a recording is '
+          'split into a new file, at least 1 s; 0 for no limit', 's', low=0.0, high=1e9),
+    Field('recording.max_size', int, 0, 'total size at which a recording is stopped, at least '
+          '1 MiB; 0 for no limit', 'bytes', low=0, high=10**15),
+    Field('recording.fsync', bool, False, 'sync a recording to disk at every flush, twice a '
+          'second, not only at its end'),
+    Field('clicked_point.force', float, (0.0, 0.0, 1.0), 'total force of the push triggered by a '
+          'message on /clicked_point, x y z', 'N', low=-1e9, high=1e9, is_array=True, live=True),
     Field('clicked_point.radius', float, 0.1, 'radius of that push around the clicked point', 'm',
           low=1e-6, high=1e6, live=True),
     Field('clicked_point.duration', float, 0.1, 'duration of that push', 's', low=1e-6, high=1e6,

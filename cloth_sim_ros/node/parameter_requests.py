@@ -78,22 +78,23 @@ def _check(node: Node, message: ParameterMessage) -> None:
         refuse_unknown([name], FIELDS)
     if not 0 < kind <= _LAST_TYPE:
         raise ClothSimError(
-            f'the value of {name} has the type {kind}, which is none: give one of '
+            f'the value of {name} has the type {kind}, which does not exist: use one of '
             f'rcl_interfaces/msg/ParameterType from 1 to {_LAST_TYPE}')
     if field is None:
         _check_type(name, Parameter.Type(kind), node.get_parameter(name).type_)
         return
     if not field.live:
         raise ClothSimError(
-            f'{name} is read-only while the node runs: start the node again with '
-            f'-p {name}:=VALUE, or with a parameter file')
+            f'{name} is read-only while the node runs: restart the node with -p {name}:=VALUE, or '
+            'with a parameter file')
     field.check(plain_value(as_field_type(Parameter.from_parameter_msg(message))))
 
 
 def _check_type(name: str, given: Parameter.Type, own: Parameter.Type) -> None:
     if given is not own:
         raise ClothSimError(
-            f'{name} holds {_in_words(own)}, got {_in_words(given)}: give one of its own kind')
+            f'{name} has the type {_in_words(own)}, got {_in_words(given)}: give a value of its '
+            'type')
 
 
 def _in_words(kind: Parameter.Type) -> str:
@@ -102,5 +103,5 @@ def _in_words(kind: Parameter.Type) -> str:
 
 def _too_many(request: Any) -> str:
     return (
-        f'a request sets {MOST_AT_ONCE} parameters at most, this one has '
+        f'a request can set at most {MOST_AT_ONCE} parameters, this one has '
         f'{len(request.parameters)}: send several')

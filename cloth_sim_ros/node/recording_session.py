@@ -79,8 +79,8 @@ class RecordingSession:
         self.check()
         if self._recorder is not None:
             raise ClothSimError(
-                f'a recording is being written to {self.path}: stop it first, by ~/stop_recording '
-                'or `cloth_sim record stop`')
+                f'a recording is being written to {self.path}: stop it first, with '
+                '~/stop_recording or `cloth_sim record stop`')
         self._recorder = self._open(name)
         self._ending = None
         self._offset = 0.0
@@ -116,7 +116,7 @@ class RecordingSession:
         """
         if self._recorder is None:
             raise self._ending or ClothSimError(
-                'no recording is being written: start one first, by ~/start_recording or '
+                'no recording is being written: start one first, with ~/start_recording or '
                 '`cloth_sim record start`')
         path = self.path
         try:

@@ -24,9 +24,8 @@ def no_node(error: Exception) -> ClothSimError:
     """Return the error to raise where ROS makes no node."""
     if os.environ.get('ROS_SECURITY_ENABLE', '').lower() == 'true':
         way_out = (
-            'take a ROS that is built with security and name an enclave of ROS_SECURITY_KEYSTORE, '
-            'by --ros-args --enclave or ROS_SECURITY_ENCLAVE_OVERRIDE, or unset '
-            'ROS_SECURITY_ENABLE')
+            'use a ROS built with security and name an enclave of ROS_SECURITY_KEYSTORE, with '
+            '--ros-args --enclave or ROS_SECURITY_ENCLAVE_OVERRIDE, or unset ROS_SECURITY_ENABLE')
     else:
-        way_out = 'check what ROS_ and RMW_ variables the environment has'
-    return ClothSimError(f'ROS makes no node: {ros_reason(error)}; {way_out}')
+        way_out = 'check the ROS_ and RMW_ variables of the environment'
+    return ClothSimError(f'ROS cannot create a node: {ros_reason(error)}; {way_out}')

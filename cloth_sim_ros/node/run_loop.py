@@ -121,7 +121,7 @@ class RunLoop:
         self._problem = ''
         self._begin_frame()
         self._end_steps(ClothSimError(
-            'the cloth was put back to its start before all steps were made: ask for them again'))
+            'the cloth was reset before all steps were done: request them again'))
         self.start()
 
     def close(self) -> None:
@@ -139,14 +139,14 @@ class RunLoop:
         """
         if not self._paused and not self._problem:
             raise ClothSimError(
-                'the simulation is running, and steps need it paused: pause it first, by ~/pause '
-                'with data: true or `cloth_sim pause`')
+                'the simulation is running, and single steps need it paused: pause it first, with '
+                '~/pause with data: true or `cloth_sim pause`')
         if not 1 <= steps <= MOST_STEPS:
             raise ClothSimError(
                 f'steps {steps} is outside its range: give a value from 1 to {MOST_STEPS}')
         if self._answer is not None:
             raise ClothSimError(
-                'steps are being made for another caller: wait until ~/step has answered')
+                'another caller is stepping: wait until ~/step has responded')
         answer = self._answer = Future()
         self._paused, self._problem = True, ''
         self._simulation.stepping.at_rest(lambda: self._begin_steps(steps))
@@ -188,8 +188,8 @@ class RunLoop:
             # A fault in a step comes again with the next: it ends the run, and not the node.
             self._worked += time.monotonic() - begin
             self._stop(ClothSimError(
-                f'the run has failed unexpectedly, {self._note(error, "a step")}: the log of the '
-                'node has its trace; report it'))
+                f'the run failed unexpectedly, {self._note(error, "a step")}: report it with the '
+                'trace from the log'))
             return
         self._worked += time.monotonic() - begin
         if is_made:

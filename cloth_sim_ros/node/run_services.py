@@ -63,8 +63,8 @@ class RunServices:
             response.sim_time = self._simulation.time
             if self._run_loop.run_state != before:
                 self._changed()
-        return f'{request.steps} steps made, now at {self._simulation.time:.6g} s'
+        return f'{request.steps} steps done, now at {self._simulation.time:.6g} s'
 
     async def _on_reset(self, _: Trigger.Request, __: Trigger.Response) -> str:
         await at_rest(self._simulation, self._reset)
-        return f'back at the start, {self._run_loop.run_state}'
+        return f'reset to the start, {self._run_loop.run_state}'

@@ -38,7 +38,7 @@ def message_class(type_name: str, definition: MessageDefinition) -> type:
     match = _TYPE_NAME.fullmatch(type_name)
     if match is None:
         raise ClothSimError(
-            f'{shown(type_name)} is no message type: record it anew, with a type like '
+            f'{shown(type_name)} is not a message type: record it again, with a type like '
             'std_msgs/msg/Header')
     package, name = match.groups()
     try:
@@ -50,8 +50,8 @@ def message_class(type_name: str, definition: MessageDefinition) -> type:
             f'{package}, and source its setup') from error
     if not _is_as_installed(type_name, definition):
         raise ClothSimError(
-            f'the message type {type_name} was another one when this was recorded: play it with '
-            f'the {package} of that time')
+            f'the message type {type_name} had another definition when this was recorded: play it '
+            f'with the {package} of that time')
     return found
 
 

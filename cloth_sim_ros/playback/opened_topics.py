@@ -41,7 +41,7 @@ def wanted_topics(topics: Iterable[BagTopic], options: PlayOptions) -> list[BagT
     for name in options.topics:
         if name not in names:
             raise ClothSimError(
-                f'the recording has no topic {cut(name)}: give some of {", ".join(sorted(names))}')
+                f'the recording has no topic {cut(name)}: choose from {", ".join(sorted(names))}')
     return [topic for topic in topics if not options.topics or topic.name in options.topics]
 
 
@@ -77,7 +77,7 @@ def _open(node: Node, topic: BagTopic, options: PlayOptions) -> PlayedTopic:
         return PlayedTopic(node, name, found, quality, _kept(topic, quality))
     except InvalidTopicNameException as error:
         raise ClothSimError(
-            f'{cut(name)} is no name of a topic: name it with --as') from error
+            f'{cut(name)} is not a valid topic name: rename it with --as') from error
 
 
 def _kept(topic: BagTopic, quality: QoSProfile) -> int:

@@ -42,8 +42,8 @@ def warning_of(others: dict[str, list[str]]) -> str:
     name, topics = max(others.items(), key=lambda item: len(item[1]))
     more = f' and {len(topics) - 1} more of these topics' if len(topics) > 1 else ''
     return (
-        f'{name} publishes {topics[0]}{more} as well, and readers get both mixed: stop it, or '
-        'give the played topics another name with --as')
+        f'{name} publishes {topics[0]}{more} as well, and subscribers receive both: stop it, or '
+        'rename the played topics with --as')
 
 
 def _full_name(namespace: str, name: str) -> str:

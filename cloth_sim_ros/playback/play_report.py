@@ -47,10 +47,10 @@ class PlayReport:
         found = [f'played {self.messages} messages{rounds}, {behind}']
         if self.slipped:
             found.append(
-                f'this took {self.slipped:.2g} s longer than it should have, as machine or '
-                'readers could not keep up: nothing was left out, but give a lower --rate')
+                f'this took {self.slipped:.2g} s longer than intended, as the machine or the '
+                'subscribers could not keep up: nothing was dropped, but use a lower --rate')
         for topic, count in self.overruns.items():
             found.append(
-                f'a reader of {topic} may have lost up to {count} messages, as it did not take '
-                'them in time: give a lower --rate, or a longer queue to that reader')
+                f'a subscriber of {topic} may have lost up to {count} messages, as it did not '
+                'read them in time: use a lower --rate, or a deeper queue in that subscriber')
         return found

@@ -67,8 +67,8 @@ class Player:
         self._start = self._begin + round(options.start * _NANOSECONDS)
         if self._start > end:
             raise ClothSimError(
-                f'--start {options.start:g} is behind the end of the recording: give a time from '
-                f'0 to {(end - self._begin) / _NANOSECONDS:g}')
+                f'--start {options.start:g} is after the end of the recording: give a time from 0 '
+                f'to {(end - self._begin) / _NANOSECONDS:g}')
         self._end = min(end, self._start + options.duration * _NANOSECONDS)
         topics = wanted_topics(bag.topics, options)
         self._topics = open_topics(node.node, topics, options, warn)

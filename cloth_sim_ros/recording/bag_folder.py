@@ -95,8 +95,8 @@ def _check_name(name: str, parent: Path) -> None:
     if not _PLAIN.fullmatch(name) or len(name.encode()) > MOST_BYTES:
         raise ClothSimError(
             f'the recording name {shown(name)} is not the plain name of a folder inside '
-            f'{cut(parent)}: begin it with a letter, a digit or _, go on with '
-            f'these and .+-=,@, and use up to {MOST_BYTES} bytes')
+            f'{cut(parent)}: start it with a letter, a digit or _, continue with these and '
+            f'.+-=,@, and use up to {MOST_BYTES} bytes')
 
 
 def _make_named(folder: Path) -> Path:
@@ -104,8 +104,8 @@ def _make_named(folder: Path) -> Path:
         folder.mkdir()
     except FileExistsError as error:
         raise ClothSimError(
-            f'{folder} is there already, and no recording is overwritten: '
-            'give another name, or none') from error
+            f'{folder} already exists, and no recording is overwritten: give another name, or '
+            'none') from error
     return folder
 
 

@@ -89,7 +89,7 @@ class BagReader:
     def no_message(self) -> ClothSimError:
         """Return the error of a bag that has none."""
         if not self.problems:
-            return ClothSimError(f'{self.path} holds no message: give another recording')
+            return ClothSimError(f'{self.path} contains no messages: give another recording')
         return nothing_flushed(self.path, 'holds no message')
 
     def messages(
@@ -151,8 +151,8 @@ class BagReader:
 
     def _undecompressed(self, error: Exception) -> ClothSimError:
         return ClothSimError(
-            f'{cut(self.path)} cannot be read '
-            f'({cut(error) or type(error).__name__}): decompress it, or record it anew')
+            f'{cut(self.path)} cannot be read ({cut(error) or type(error).__name__}): decompress '
+            'it, or record it again')
 
 
 Storage = IndexedMcap | SqliteBag | BrokenMcap
@@ -170,6 +170,6 @@ def _storage(file: Path) -> Storage:
         return SqliteBag(file)
     except Exception as error:  # what a broken file raises can be anything
         raise ClothSimError(
-            f'{cut(file)} is no whole sqlite3 bag '
-            f'({cut(error) or type(error).__name__}): give another one, or save what is '
-            f'left by `sqlite3 {cut(file.name)} .recover | sqlite3 whole.db3`') from error
+            f'{cut(file)} is not an intact sqlite3 bag ({cut(error) or type(error).__name__}): '
+            f'give another one, or recover what is left with `sqlite3 {cut(file.name)} .recover | '
+            'sqlite3 whole.db3`') from error

@@ -145,8 +145,8 @@ class BagWriter:
         if bound > most:
             raise RecordingFull(
                 f'the recording {self._folder} is complete up to {self._end / _NANOSECONDS:.6g} s '
-                f'of recorded time, as more could take it beyond {MAX_SIZE_SETTING} {most} bytes: '
-                'set a larger one, and start a new recording')
+                f'of recorded time, as more could exceed {MAX_SIZE_SETTING} {most} bytes: set a '
+                'larger limit, and start a new recording')
 
     def _repeated_bytes(self) -> int:
         """Return what the next file would have of this one [bytes]."""

@@ -65,7 +65,7 @@ class BrokenMcap:
         if begin != MAGIC and MAGIC.startswith(begin):
             raise nothing_flushed(path, f'has {len(begin)} bytes')
         if begin != MAGIC:
-            raise ClothSimError(f'{path} is no mcap file: give the folder of a recording')
+            raise ClothSimError(f'{path} is not an mcap file: give the folder of a recording')
 
     @cached_property
     def topics(self) -> list[BagTopic]:
@@ -170,4 +170,5 @@ class BrokenMcap:
 
     def _end(self, error: Exception) -> None:
         reason = f' ({cut(error)})' if str(error) else ''
-        self.problem = f'{self.path.name} is cut off: read up to its last whole record{reason}'
+        self.problem = (
+            f'{self.path.name} is truncated: read up to its last complete record{reason}')

@@ -35,7 +35,7 @@ def parse_definition(definition: MessageDefinition, name: str) -> Typesdict:
     text = definition.data
     if len(text) > MOST_CHARACTERS:
         raise ValueError(
-            f'its definition has {len(text)} characters, and {MOST_CHARACTERS} are the most')
+            f'its definition has {len(text)} characters, the maximum is {MOST_CHARACTERS}')
     types = (
         get_types_from_msg(text, name) if definition.format is MessageDefinitionFormat.MSG
         else _idl_types(text))
@@ -74,5 +74,4 @@ def _check_arrays(types: Typesdict) -> None:
                 elements += length
     if elements > MOST_ELEMENTS:
         raise ValueError(
-            f'its arrays of fixed length have {elements} elements, and {MOST_ELEMENTS} are the '
-            'most')
+            f'its arrays of fixed length have {elements} elements, the maximum is {MOST_ELEMENTS}')

@@ -15,5 +15,5 @@ def nothing_flushed(path: Path, finding: str) -> ClothSimError:
     :param finding: what is there in place of a recording, behind the path
     """
     return ClothSimError(
-        f'{path} {finding}, as it is cut off before anything was flushed, within a second of its '
+        f'{path} {finding}, as it was truncated before the first flush, within a second of its '
         'start: give another recording, or read it later if it is being recorded')

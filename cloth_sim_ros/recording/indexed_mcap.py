@@ -61,9 +61,9 @@ class IndexedMcap:
                 elif isinstance(record, Statistics):
                     statistics = record
         if statistics is None or statistics.chunk_count != len(self._chunks):
-            raise ValueError('its index is not whole')
+            raise ValueError('its index is incomplete')
         if statistics.message_count and not self._chunks:
-            raise ValueError('its messages stand in no chunks')
+            raise ValueError('its messages are not in chunks')
         counts = statistics.channel_message_counts
         if any(number not in self._channels for number in counts):
             raise ValueError('its index lacks topics')
@@ -103,7 +103,7 @@ class IndexedMcap:
 def _summary(stream: BinaryIO) -> tuple[int, int]:
     """Return where the index begins and ends [bytes]."""
     if stream.read(len(MAGIC)) != MAGIC:
-        raise ValueError('it is no mcap file')
+        raise ValueError('it is not an mcap file')
     end = stream.seek(0, 2) - len(MAGIC) - _FOOTER_BYTES
     if end < len(MAGIC):
         raise ValueError('it is too short for an index')

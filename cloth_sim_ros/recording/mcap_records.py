@@ -63,7 +63,7 @@ def chunk_content(chunk: Chunk) -> bytes:
     """Return the records in ``chunk``, decompressed; ValueError when they are not as declared."""
     content = decompress(chunk.data, chunk.compression, chunk.uncompressed_size)
     if chunk.uncompressed_crc and zlib.crc32(content) != chunk.uncompressed_crc:
-        raise ValueError('its checksum is another one')
+        raise ValueError('its checksum does not match')
     return content
 
 

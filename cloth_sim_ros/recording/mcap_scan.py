@@ -51,13 +51,13 @@ class McapScan:
                     continue
                 yield from records
         if damaged:
-            self.problems.append(f'what stood in {damaged} damaged records')
+            self.problems.append(f'the contents of {damaged} damaged records')
 
     def _frames(self, stream: IO[bytes]) -> Iterator[tuple[int, bytes]]:
         """Yield opcode and content of each record; a damaged content moves none behind it."""
         length = self.path.stat().st_size
         if stream.read(len(MAGIC)) != MAGIC:
-            self.problems.append('the begin of an mcap file')
+            self.problems.append('the beginning of an mcap file')
             return
         while True:
             place = stream.tell()
@@ -66,7 +66,7 @@ class McapScan:
             if stream.tell() + size > length:
                 self.problems.append(
                     'its index' if place == length
-                    else f'all behind its first {place} of {length} bytes')
+                    else f'everything after its first {place} of {length} bytes')
                 return
             yield opcode, stream.read(size)
             if opcode == Opcode.FOOTER:

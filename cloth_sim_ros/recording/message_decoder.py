@@ -58,7 +58,7 @@ class MessageDecoder:
             return _decoded(self._stores[name], message.data, name)
         except Exception as error:  # what foreign text or a damaged byte raises can be anything
             raise ClothSimError(
-                f'a message of {cut(message.topic)} is no {cut(name)} '
+                f'a message on {cut(message.topic)} is not a valid {cut(name)} '
                 f'({cut(error) or type(error).__name__}): give a recording of a cloth_sim '
                 'node') from error
 

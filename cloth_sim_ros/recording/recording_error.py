@@ -18,7 +18,7 @@ from cloth_sim_ros.sim.errors import ClothSimError
 
 
 class RecordingError(ClothSimError):
-    """A recording that could not go on; what was flushed before stays readable."""
+    """A recording that could not continue; what was flushed before stays readable."""
 
 
 class RecordingFull(RecordingError):

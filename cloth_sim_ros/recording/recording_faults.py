@@ -23,7 +23,7 @@ def refusal(folder: Path, error: Exception, setting: str) -> ClothSimError:
     :param setting: what ``folder`` was given by
     """
     return ClothSimError(
-        f'nothing can be recorded into {folder} ({_reason(error)}): {_way_out(error, setting)}')
+        f'cannot record into {folder} ({_reason(error)}): {_way_out(error, setting)}')
 
 
 def ending(path: Path, error: Exception, setting: str) -> RecordingError:
@@ -34,8 +34,8 @@ def ending(path: Path, error: Exception, setting: str) -> RecordingError:
     :param setting: what the folder around it was given by
     """
     return RecordingError(
-        f'recording to {path} has ended ({_reason(error)}): {_way_out(error, setting)}, and start '
-        'a new one')
+        f'recording to {path} has stopped ({_reason(error)}): {_way_out(error, setting)}, and '
+        'start a new one')
 
 
 def _reason(error: Exception) -> str:
@@ -47,10 +47,10 @@ def _way_out(error: Exception, setting: str) -> str:
         return 'leave the folder of a recording alone while it is written'
     number = getattr(error, 'errno', None)
     if number in _NO_ROOM:
-        return f'make room, or set {setting} to another disk'
+        return f'free disk space, or set {setting} to another disk'
     if number in _TOO_MANY_FILES:
         return 'raise the limit of open files (ulimit -n), or close some'
     # Python reports a thread that the system refuses as a RuntimeError.
     if number in _USED_UP or isinstance(error, (RuntimeError, MemoryError)):
-        return 'end other programs, or raise the limits of memory and processes (ulimit -a)'
-    return f'set {setting} to a folder that can be written to'
+        return 'close other programs, or raise the limits of memory and processes (ulimit -a)'
+    return f'set {setting} to a writable folder'

@@ -60,13 +60,13 @@ class Recovery:
         self.source = source
         if is_folder(source) and compression_of(source) != 'none':
             raise ClothSimError(
-                f'{source} is compressed by rosbag2, and cannot be recovered so: decompress its '
-                'files first')
+                f'{source} is compressed by rosbag2, and cannot be recovered in that form: '
+                'decompress its files first')
         files = storage_files(source)
         if any(file.suffix != '.mcap' for file in files):
             raise ClothSimError(
-                f'{source} has sqlite3 files, and mcap files alone can be recovered: save what is '
-                f'left by `sqlite3 {files[0].name} .recover | sqlite3 whole.db3`')
+                f'{source} has sqlite3 files, and only mcap files can be recovered: recover what '
+                f'is left with `sqlite3 {files[0].name} .recover | sqlite3 whole.db3`')
         self._times: list[int] = []
         try:
             self._files = [self._read(file) for file in files]

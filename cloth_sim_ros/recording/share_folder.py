@@ -37,5 +37,5 @@ def share_folder(package: str) -> Path:
         if folder.is_dir():
             return folder
     raise ClothSimError(
-        f'the ROS package {package} has no share folder, which recordings take its message '
-        'definitions from: install or build it, and source its setup')
+        f'the ROS package {package} has no share folder, from which recordings take its message '
+        'definitions: install or build it, and source its setup')

@@ -25,10 +25,10 @@ _FIELDS = POINT_DTYPE.names or ()
 @dataclass(frozen=True)
 class Difference:
     """
-    Where two frames are furthest apart.
+    The largest difference between two frames.
 
     :param frame: its number, from 1
-    :param time: of the recorded frame [s], going on over resets
+    :param time: of the recorded frame [s], continuing across resets
     :param node: row and col
     :param distance: of the two positions of that node [m]; 0 when only other fields differ
     :param fields: those whose bits differ anywhere in the frame
@@ -47,7 +47,7 @@ class FrameCheck:
     Compare frame by frame.
 
     :param frames: compared so far
-    :param equal: of these, with the same bits in all fields
+    :param equal: of these, bitwise identical in all fields
     :param first: the first that was not equal
     :param largest: the one with the largest distance of a node
     :param last_rms: RMS distance of the nodes in the last frame [m]

@@ -104,7 +104,7 @@ class InputReplay:
     def _command(self, message: Any) -> None:
         if message.command not in (RESET, CLEAR_PUSHES):
             raise ClothSimError(
-                f'this version has no command {shown(message.command)}: it is left out')
+                f'this version has no command {shown(message.command)}: it is ignored')
         self.inputs += 1
         self._listener.command(message.command)
         if message.command == RESET:
@@ -116,10 +116,10 @@ class InputReplay:
     def _parameters(self, message: Any) -> None:
         if message.new_parameters:
             raise ClothSimError(
-                'the recording begins anew: what follows is another run, record it by itself')
+                'the recording restarts here: what follows is another run, record it separately')
         changed = [parameter.name for parameter in message.changed_parameters]
         physical = [name for name in changed if name in self._simulation.scene.values]
         if physical:
             raise ClothSimError(
-                f'this version cannot change {", ".join(physical)} while running: '
-                'the change is left out')
+                f'this version cannot change {", ".join(physical)} while running: the change is '
+                'ignored')

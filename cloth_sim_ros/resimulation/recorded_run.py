@@ -117,6 +117,6 @@ def _is_at(entry: Entry, moment: Any) -> bool:
 
 def _no_beginning(recording: Recording) -> ClothSimError:
     return ClothSimError(
-        f'{recording.path} does not begin with the parameters of its run, without which it '
-        'cannot be made again: record with recording.enabled, `cloth_sim record start` or '
-        '`cloth_sim run --record`, which write them; `ros2 bag record` cannot')
+        f'{recording.path} does not begin with the parameters of its run, which resimulation '
+        'needs: record with recording.enabled, `cloth_sim record start` or `cloth_sim run '
+        '--record`, which write them; `ros2 bag record` cannot')

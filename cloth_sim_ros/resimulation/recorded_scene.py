@@ -107,5 +107,5 @@ class RecordedScene:
             _FIELDS[name].check(self.values[name])
         except ClothSimError as error:
             raise ClothSimError(
-                f'the recording has a parameter that this version does not take: {error}; '
+                f'the recording has a parameter that this version does not accept: {error}; '
                 f'replace it with --set {name}=...') from error

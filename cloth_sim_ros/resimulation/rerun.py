@@ -194,7 +194,7 @@ class Rerun:
         mode = self.simulation.mode
         if self._is_at_stop and AVAILABLE[mode].has_memory:
             self._unknown_after_stop = (
-                f'with which step mode {mode} began anew as the run stopped',)
+                f'at which step mode {mode} restarted when the run stopped',)
 
     def _try_the_stop(self) -> None:
         """Where the recorded run could not go on, try to."""

@@ -57,9 +57,9 @@ class RerunLimits:
                 'another recording')
         if shown is None and scene.node_count > MOST_UNSEEN_NODES:
             raise ClothSimError(
-                f'{cut(self._run.path)} has parameters of {size[0]} x {size[1]} nodes and '
-                f'no cloud, without which at most {MOST_UNSEEN_NODES} are made: give --set '
-                f'rows={size[0]} if they are right')
+                f'{cut(self._run.path)} has parameters of {size[0]} x {size[1]} nodes but no '
+                f'cloud, without which at most {MOST_UNSEEN_NODES} nodes are simulated: give '
+                f'--set rows={size[0]} if they are right')
 
     def check_step(self, entry: Entry, duration: float, time: float) -> None:
         """
@@ -74,10 +74,9 @@ class RerunLimits:
             most = min(most, max(MOST_FRAMES / self._rate, MOST_FRAMES * self._dt))
         if duration > most:
             raise ClothSimError(
-                f'{cut(self._run.path)} has a message on ~/{entry.key} of '
-                f'{time + duration:.6g} s after one of {time:.6g} s, and at {self._rate:g} frames '
-                f'a second nothing is missing for more than {most:.6g} s: re-simulate the '
-                'recording as it was written')
+                f'{cut(self._run.path)} has a message on ~/{entry.key} of {time + duration:.6g} s '
+                f'after one of {time:.6g} s, and at {self._rate:g} frames per second no gap is '
+                f'longer than {most:.6g} s: re-simulate the recording as it was written')
         if entry.key == 'inputs/parameters':
             for parameter in entry.message.changed_parameters:
                 if parameter.name in _FRAMES:

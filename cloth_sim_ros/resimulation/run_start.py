@@ -90,11 +90,11 @@ class RunStart:
             self._take(key)
         unknown = []
         if AVAILABLE[simulation.mode].has_memory:
-            unknown.append(f'what mode {simulation.mode} kept from earlier steps')
+            unknown.append(f'what mode {simulation.mode} carried over from earlier steps')
         if self._opening('inputs/pin_target'):
-            unknown.append('where the pins under way set off')
+            unknown.append('where the moving pins started')
         if any(push.region == 'sphere' and push.start < now for push in self._pushes):
-            unknown.append('which nodes a push under way took as it began')
+            unknown.append('which nodes an active push selected when it began')
         self.unknown = tuple(unknown)
 
     def _records(self, now: float) -> np.ndarray:
@@ -102,14 +102,14 @@ class RunStart:
         if cloud is None:
             raise ClothSimError(
                 f'the recording begins in the middle of a run, at {now:.6g} s, without ~/points '
-                'of that moment: record with publish.points: true, or from the start')
+                'at that time: record with publish.points: true, or from the start')
         records = Frame.from_points(now, cloud).records
         rows, cols = self._simulation.scene.rows, self._simulation.scene.cols
         if records.shape != (rows, cols):
             raise ClothSimError(
                 f'the recording begins in the middle of a run, at {now:.6g} s, with '
                 f'{records.shape[0]} x {records.shape[1]} nodes, from which {rows} x {cols} '
-                'cannot go on: leave rows and cols as they are, or record from the start')
+                'cannot continue: leave rows and cols as they are, or record from the start')
         missing = [name for name in _VELOCITY if name not in records.dtype.names]
         if missing:
             raise ClothSimError(
@@ -124,7 +124,7 @@ class RunStart:
             if not all(0 <= place < side for place, side in zip(node, pinned.shape)):
                 raise ClothSimError(
                     f'the recording begins with a pin at node {node}, and the cloth has '
-                    f'{pinned.shape[0]} x {pinned.shape[1]} nodes: record it anew')
+                    f'{pinned.shape[0]} x {pinned.shape[1]} nodes: record it again')
             pinned[node] = entry.message.pinned
         return pinned
 

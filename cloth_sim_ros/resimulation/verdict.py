@@ -44,7 +44,7 @@ class Verdict:
             self.reasons.append(f'{", ".join(rerun.changed)} set to other values')
         if rerun.left_out_modes:
             self.reasons.append('the mode is not switched')
-        self.reasons += [f'the recording does not hold {what}' for what in rerun.unknown]
+        self.reasons += [f'the recording does not contain {what}' for what in rerun.unknown]
         if rerun.refused:
             self.reasons.append('some recorded inputs are left out')
 
@@ -70,11 +70,11 @@ class Verdict:
         if check.other_grids:
             scene = self._rerun.simulation.scene
             return [
-                f'{check.other_grids} frames have other nodes than the {scene.rows} x '
+                f'{check.other_grids} frames have another grid than the {scene.rows} x '
                 f'{scene.cols} of this run: they cannot be compared node by node']
         if not check.frames:
             return ['no frame was recorded, so there is nothing to compare with']
-        lines = [f'{check.equal} of {check.frames} frames equal to the bit']
+        lines = [f'{check.equal} of {check.frames} frames bitwise identical']
         if check.first is not None and check.largest is not None:
             lines += [
                 f'first difference: {_in_words(check.first)}',
@@ -84,7 +84,7 @@ class Verdict:
                       if reason not in self._origin]
             if not self.reasons:
                 lines.append(
-                    'this run should have the same bits: the recording was changed, or the '
+                    'this run should be bitwise identical: the recording was changed, or the '
                     'simulator is not deterministic here')
         if check.missing_fields:
             lines.append(f'the recorded points lack {", ".join(check.missing_fields)}')
@@ -95,9 +95,9 @@ class Verdict:
         if rerun.problem:
             stopped = 'as the recorded one did' if rerun.has_recorded_stop else (
                 'before the recording ends')
-            return [f'the run has stopped {stopped}: {rerun.problem}']
+            return [f'the run stopped {stopped}: {rerun.problem}']
         if rerun.has_recorded_stop and not rerun.changed:
-            return ['the recorded run has stopped at its end, this one can go on']
+            return ['the recorded run stopped at its end, this one can continue']
         return []
 
     def _left_out(self) -> list[str]:
@@ -108,7 +108,7 @@ class Verdict:
         if self._rerun.left_out_modes:
             lines.append(
                 f'left out: {self._rerun.left_out_modes} recorded switches of the mode, because '
-                '--set mode holds for the whole run')
+                '--set mode applies to the whole run')
         return lines
 
 
@@ -117,8 +117,8 @@ def _origin(recorded_device: str, device: str, versions: tuple[str, str]) -> lis
     reasons = []
     if recorded_device != device:
         reasons.append(
-            f'recorded on {recorded_device or "a device that is not named"}, this is {device}: '
-            'bits are the same on one device only')
+            f'recorded on {recorded_device or "an unknown device"}, this is {device}: results are '
+            'bitwise reproducible only on the same device')
     if recorded != present:
         reasons.append(
             f'recorded by {_named(recorded)} of cloth_sim_ros, this is {_named(present)}')
@@ -140,7 +140,7 @@ def version_lines(
     :param changes: names given in place of recorded ones
     """
     lines = [
-        f'not recorded, so the default is taken: {field.name} {shown(field.default)}'
+        f'not recorded, so the default is used: {field.name} {shown(field.default)}'
         for field in missing if field.name not in changes]
     return lines + [f'recorded, but unknown here and left out: {name}' for name in unknown]
 

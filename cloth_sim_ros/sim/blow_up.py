@@ -66,24 +66,23 @@ def _cause(
             f'set dt <= {safe_dt}, or auto_substeps: true')
     if gained_speed * substep > reach:
         return (
-            f'a push made nodes faster by up to {gained_speed:.3g} m/s, while in a substep they '
-            f'can follow {reach:.3g} m', 'push with less force, or take a larger mass')
+            f'a push accelerated nodes by up to {gained_speed:.3g} m/s, more than {reach:.3g} m '
+            'per substep', 'push with less force, or use a larger mass')
     if speed * substep > reach:
         return (
-            f'the fastest node moved at {speed:.3g} m/s, while in a substep it can follow '
-            f'{reach:.3g} m', 'push or start it more gently, or set a smaller dt')
+            f'the fastest node moved at {speed:.3g} m/s, more than {reach:.3g} m per '
+            'substep', 'push or start it more gently, or set a smaller dt')
     if strain > _OVERSTRETCHED:
         return (
             f'a spring had the strain {strain:.3g}',
-            'stretch it less, or take stiffer springs or more damping')
+            'stretch it less, or use stiffer springs or more damping')
     if substep > safe_substep(scene):
         return (
-            'substeps of that length are stable in a flat cloth, not in a folded one',
+            'substeps of that length are stable for a flat cloth, but not for a folded one',
             f'set dt <= {safe_dt}, or auto_substeps: true')
     return (
         f'the fastest node moved at {speed:.3g} m/s and the largest strain was {strain:.3g}',
-        f'set dt <= {min(substep, scene["dt"]) / 2.0:.3g}, or take softer springs or a larger '
-        'mass')
+        f'set dt <= {min(substep, scene["dt"]) / 2.0:.3g}, or use softer springs or a larger mass')
 
 
 def _is_lost(records: np.ndarray) -> np.ndarray:

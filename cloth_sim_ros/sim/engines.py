@@ -45,7 +45,7 @@ class Engines:
         """Return the engine of the mode in use; ClothSimError before there is one."""
         if self.current is None:
             raise ClothSimError(
-                'no mode is compiled yet: use one by set_mode, or take over one that is prepared')
+                'no mode is compiled yet: compile one with set_mode, or activate a prepared one')
         return self.current
 
     @property

@@ -19,10 +19,10 @@ from cloth_sim_ros.files.errors import ClothSimError
 
 class NonFiniteStateError(ClothSimError):
     """
-    The state could not be stepped on: a position or velocity is no number, or absurdly large.
+    The state became invalid: a position or velocity is not finite, or far too large.
 
-    The simulation keeps the last finite state, and can be looked at, changed, reset or tried
-    again.
+    The simulation keeps the last finite state, and can be inspected, changed, reset or
+    retried.
 
     :param steps: made since the start or the last reset until the state that is kept
     :param node: row and col of the node that was fastest among those that were lost; None where

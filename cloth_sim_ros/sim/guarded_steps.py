@@ -142,8 +142,9 @@ class GuardedSteps:
                 steps=number, gained_speed=loads.speed_gained(time, time + self._dt))
         raise NonFiniteStateError(
             f'the state became non-finite before t = {end * self._dt:.6g} s in mode {mode.name}, '
-            f'but not when the steps since {begin * self._dt:.6g} s were made again without what '
-            'the mode had kept from earlier ones: go on from there, or set a smaller dt',
+            f'but not when the steps since {begin * self._dt:.6g} s were repeated without what '
+            'the mode had carried over from earlier ones: continue from there, or set a smaller '
+            'dt',
             steps=end)
 
     def _look(self) -> np.ndarray:

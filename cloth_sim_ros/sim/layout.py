@@ -113,7 +113,7 @@ def choose_layout(scene: Scene, context: Context) -> Layout:
     if kind == 'paper':
         if loads == 'texture' or block > 1:
             raise ClothSimError(
-                f'layout paper reads storage, one node an invocation, got loads {loads} and '
+                f'layout paper reads storage, one node per invocation, got loads {loads} and '
                 f'block {block}: set loads: storage and block: 1, or layout: fused')
         loads, block, local = 'storage', 1, (16, 16)
     else:

@@ -130,8 +130,8 @@ class Loads:
         """Return ``velocity`` [m/s], or raise ClothSimError where it can't blow."""
         if self.air is None:
             raise ClothSimError(
-                'there is no wind in a scene without air: start it with air.density, 1.225 kg/m3 '
-                'at sea level, above 0')
+                'there is no wind in a scene without air: start it with air.density above 0, '
+                '1.225 kg/m3 at sea level')
         return checked_wind(velocity)
 
     def set_wind(self, velocity: tuple[float, float, float]) -> None:

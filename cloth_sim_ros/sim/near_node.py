@@ -15,7 +15,7 @@ import numpy as np
 @dataclass(frozen=True)
 class NearNode:
     """
-    A node and how far it is from the point it was looked for at.
+    A node and its distance from the point of the query.
 
     :param distance: [m]
     """
@@ -42,7 +42,7 @@ def near_node(
             f'a point needs 3 finite numbers [m], got {tuple(point)}: give x, y and z')
     if max(map(abs, point)) > FARTHEST:
         raise ClothSimError(
-            f'a point is at most {FARTHEST:g} m from the origin along each axis, got '
+            f'a point must be at most {FARTHEST:g} m from the origin along each axis, got '
             f'{tuple(point)}: give it in metres')
     if not max_distance > 0.0:
         raise ClothSimError(

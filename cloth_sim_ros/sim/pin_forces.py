@@ -24,10 +24,10 @@ import numpy as np
 @dataclass(frozen=True)
 class PinForces:
     """
-    What holds each pinned node, row by row.
+    The reaction force at each pinned node, row by row.
 
     :param nodes: its row and column, (pins, 2) int
-    :param forces: the force on the cloth [N], (pins, 3) float64; who holds it feels the opposite
+    :param forces: the force on the cloth [N], (pins, 3) float64; a gripper feels the opposite
     """
 
     nodes: np.ndarray

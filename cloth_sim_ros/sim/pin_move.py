@@ -29,7 +29,7 @@ _SLOWEST, _FASTEST = 1e-6, 1e6
 @dataclass(frozen=True)
 class PinMove:
     """
-    A straight way at one speed, at the end of which the pin rests.
+    A straight path at constant speed, at the end of which the pin rests.
 
     :param row: of the pinned node
     :param col: of the pinned node
@@ -55,12 +55,12 @@ class PinMove:
                 f'got {[float(part) for part in target]}: give x, y and z')
         if max(map(abs, target)) > FARTHEST:
             raise ClothSimError(
-                f'the target of a pin is at most {FARTHEST:g} m along each axis, '
-                f'got {[float(part) for part in target]}: keep the cloth near the origin')
+                f'the target of a pin must be at most {FARTHEST:g} m along each axis, got '
+                f'{[float(part) for part in target]}: keep the cloth near the origin')
         if not _SLOWEST <= speed <= _FASTEST:
             raise ClothSimError(
-                f'the speed of a pin is from {_SLOWEST:g} to {_FASTEST:g} m/s, '
-                f'got {speed} m/s: give it in simulated time')
+                f'the speed of a pin must be from {_SLOWEST:g} to {_FASTEST:g} m/s, got {speed} '
+                'm/s: give it in simulated time')
         x, y, z = map(float, target)
         return cls(row, col, (x, y, z), float(speed), float(start))
 

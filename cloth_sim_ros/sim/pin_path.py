@@ -23,16 +23,16 @@ import numpy as np
 
 class PinPath:
     """
-    The way of one pin, in float64: nothing adds up, so it ends exactly at its target.
+    The path of one pin, in float64, without accumulated error: it ends exactly at its target.
 
     ``begin`` and ``arrival`` are simulated times [s].
 
-    :param move: what is to be done
+    :param move: the move to make
     :param origin: where the pin is when it begins [m], (3,)
     """
 
     def __init__(self, move: PinMove, origin: np.ndarray) -> None:
-        """Lay the way from ``origin`` to the target."""
+        """Plan the path from ``origin`` to the target."""
         self.move = move
         self._origin = np.asarray(origin, dtype=float)
         self._target = np.array(move.target)

@@ -36,7 +36,7 @@ _ROUNDING = 2.0**-23
 @dataclass(frozen=True)
 class Push:
     """
-    A total force spread by mass over the free nodes of a region.
+    A total force, distributed by mass over the free nodes of a region.
 
     :param force: x y z [N], of all nodes together
     :param start: simulated time at which it begins [s]
@@ -70,21 +70,21 @@ class Push:
                     f'got {[float(part) for part in vector]}: give x, y and z')
             if max(map(abs, vector)) > most:
                 raise ClothSimError(
-                    f'the {name} of a push is at most {most:g} {unit} along each axis, '
-                    f'got {[float(part) for part in vector]}: give less')
+                    f'the {name} of a push must be at most {most:g} {unit} along each axis, got '
+                    f'{[float(part) for part in vector]}: give less')
         # Written so that what is no number is refused.
         if not 0.0 <= start <= _LONGEST:
             raise ClothSimError(
-                f'the start of a push is from 0 to {_LONGEST:g} s, got {start} s: give it in '
+                f'the start of a push must be from 0 to {_LONGEST:g} s, got {start} s: give it in '
                 'simulated seconds')
         if not 0.0 < duration <= _LONGEST:
             raise ClothSimError(
-                f'the duration of a push is above 0 and at most {_LONGEST:g} s, '
-                f'got {duration} s: give it in simulated seconds')
+                f'the duration of a push must be above 0 and at most {_LONGEST:g} s, got '
+                f'{duration} s: give it in simulated seconds')
         if not 0.0 <= radius <= _FARTHEST:
             raise ClothSimError(
-                f'the radius of a push is from 0 to {_FARTHEST:g} m, got {radius} m: give it in '
-                'metres')
+                f'the radius of a push must be from 0 to {_FARTHEST:g} m, got {radius} m: give it '
+                'in metres')
         if region == 'sphere' and radius == 0.0:
             raise ClothSimError(
                 'a push on a sphere needs a radius above 0, got 0 m: '
@@ -106,7 +106,7 @@ class Push:
 
     def contains(self, positions: np.ndarray) -> np.ndarray:
         """
-        Tell which of ``positions`` (..., 3) [m] are in the region.
+        Return which of ``positions`` (..., 3) [m] are in the region.
 
         A sphere holds what is at most its radius r from its center c, within the rounding of
         float32. That moves a position x by up to 2^-24 abs(x), where abs(x) <= abs(c) + r on the
@@ -121,6 +121,6 @@ class Push:
         return np.linalg.norm(held - self.center, axis=-1) <= self.radius + _ROUNDING * reach
 
     def overlap(self, begin: float, end: float) -> float:
-        """Return the share of the step from ``begin`` to ``end`` [s] the push acts in, 0 to 1."""
+        """Return the fraction of the step ``begin`` to ``end`` [s] in which it acts, 0 to 1."""
         shared = min(end, self.end) - max(begin, self.start)
         return max(shared, 0.0) / (end - begin)

@@ -38,7 +38,7 @@ class AppliedPush:
     """
     A push and what it acts on.
 
-    :param nodes: free nodes it is spread over; 0 for one to come, whose nodes are not settled
+    :param nodes: free nodes it acts on; 0 for a scheduled one, whose nodes are not known yet
     """
 
     push: Push
@@ -208,8 +208,8 @@ class PushField:
     def _check_count(self) -> None:
         if len(self._entries) >= MOST_PUSHES:
             raise ClothSimError(
-                f'{MOST_PUSHES} pushes act or are to come, and there can be no more: wait for the '
-                'end of one, or clear them')
+                f'{MOST_PUSHES} pushes are active or scheduled, which is the maximum: wait for '
+                'one to end, or clear them')
 
     def _shares(self, begin: float, end: float) -> list[tuple[_Entry, float]]:
         """Begin the pushes that act from ``begin`` to ``end`` [s]; return their parts of it."""

@@ -40,9 +40,9 @@ import numpy as np
 
 class Scene:
     """
-    A checked, unchanging set of scene parameters.
+    A checked, immutable set of scene parameters.
 
-    :param values: dotted parameter names and values; what is not given takes its default
+    :param values: dotted parameter names and values; omitted ones have their defaults
     :raises ClothSimError: for an unknown name, a wrong type or a value outside its range
     """
 
@@ -64,12 +64,12 @@ class Scene:
         if self.has_air and min(self.rows, self.cols) < 2:
             raise ClothSimError(
                 f'air acts on areas, and a chain of rows {self.rows} x cols {self.cols} has none: '
-                'give it 2 or more of both, or set air.density: 0')
+                'give 2 or more of both, or set air.density: 0')
         for family in FAMILIES:
             if family in self['constraint.hard'] and family in self['constraint.springs']:
                 raise ClothSimError(
-                    f'{family} edges are in constraint.hard and in constraint.springs: '
-                    'take them out of one')
+                    f'{family} edges are in constraint.hard and in constraint.springs: remove '
+                    'them from one')
         self._check_mass()
         self.pinned_nodes()
         self.timed_pushes()
@@ -126,7 +126,7 @@ class Scene:
         return tuple(family for family in FAMILIES if self.models(family))
 
     def rest_positions(self) -> np.ndarray:
-        """Return the undisturbed start pose [m], (rows, cols, 3) float64."""
+        """Return the start pose without random offsets [m], (rows, cols, 3) float64."""
         return grid.rest_positions(
             self.rows, self.cols, self.spacing, self['start.pose'], self['start.z'])
 
@@ -141,7 +141,7 @@ class Scene:
         return positions
 
     def pinned_nodes(self) -> np.ndarray:
-        """Return which nodes are held at the start, (rows, cols) bool."""
+        """Return which nodes are pinned at the start, (rows, cols) bool."""
         pinned = pinned_nodes(self['pins'], self.rows, self.cols)
         for node in self._nodes_at_points():
             pinned[node] = True
@@ -195,7 +195,7 @@ class Scene:
         if len(given) > 1:
             values = ' and '.join(f'{name} {self[name]:g}' for name in given)
             raise ClothSimError(
-                f'{values} each say what the cloth weighs: give one of them, and set the others '
+                f'{values} each set the mass of the cloth: give one of them, and set the others '
                 'to 0')
         if not given and self['areal_density'] == 0.0:
             raise ClothSimError(

@@ -47,7 +47,7 @@ SINGLE_THREAD_NODES = 128 * 128
 
 class Simulation(RunStatus, AbstractContextManager['Simulation']):
     """
-    A cloth that moves. To be used on one thread, the one it was made on.
+    A simulated cloth. Use it only on the thread that created it.
 
     As a context manager it is closed at the end of the block.
 
@@ -58,8 +58,8 @@ class Simulation(RunStatus, AbstractContextManager['Simulation']):
 
     :param scene: what to model
     :param context: GL context to use; by default one of its own
-    :param check_stability: False lets dt pass the stability limit, to study what happens
-    :param stop_at_non_finite: False steps on whatever becomes of the state, to study that
+    :param check_stability: False allows a dt above the stability limit, for studies
+    :param stop_at_non_finite: False continues with a non-finite state, for studies
     :param compiles: False leaves it to ``engines``, without which nothing can be advanced or
         measured
     :raises ClothSimError: when the scene can't be run as it asks
@@ -106,7 +106,7 @@ class Simulation(RunStatus, AbstractContextManager['Simulation']):
 
     def advance(self, seconds: float) -> int:
         """
-        Simulate ``seconds`` more; what is no whole dt is carried over to the next call.
+        Simulate ``seconds`` more; a remainder below dt is carried over to the next call.
 
         :return: steps of dt made
         :raises NonFiniteStateError: when the state is lost; the last finite one is kept
@@ -160,8 +160,8 @@ class Simulation(RunStatus, AbstractContextManager['Simulation']):
             radius=radius)
         if begin < self.time:
             raise ClothSimError(
-                f'the start of the push, {begin:g} s, lies in the past, it is {self.time:g} s: '
-                'give a later one, or none for now')
+                f'the start of the push, {begin:g} s, is in the past, the time is {self.time:g} '
+                's: give a later one, or none for now')
         with self._settled_state():
             if self.stepping.is_mid_step and begin <= self.stepping.edit_time:
                 applied = self.loads.pushes.foresee(push, self.pinned_nodes())
@@ -172,26 +172,26 @@ class Simulation(RunStatus, AbstractContextManager['Simulation']):
         return applied
 
     def clear_pushes(self) -> int:
-        """End all pushes and drop those to come; return how many."""
+        """Cancel all active and scheduled pushes; return how many."""
         self.listener.command(CLEAR_PUSHES)
         pushes = [applied.push for applied in self.pushes]
         self.stepping.at_rest(lambda: self.loads.pushes.drop(pushes))
         return len(pushes)
 
     def set_wind(self, velocity: Sequence[float]) -> None:
-        """Let ``velocity`` [m/s] blow in place of the steady wind; gusts of the scene stay."""
+        """Replace the steady wind by ``velocity`` [m/s]; gusts of the scene stay."""
         wind = self.loads.checked_wind(velocity)
         self.stepping.at_rest(lambda: self.loads.set_wind(wind))
         self.listener.wind(wind)
 
     def pin(self, row: int, col: int) -> None:
-        """Hold the node (row, col) where it is; a pin that moves stops."""
+        """Pin the node (row, col) where it is; a moving pin stops."""
         self.engines.context.make_current()
         self._pins.hold(row, col)
         self.listener.pin(row, col, True)
 
     def release(self, row: int, col: int) -> None:
-        """Let the node (row, col) go, with the velocity its pin has."""
+        """Release the node (row, col), with the velocity of its pin."""
         self.engines.context.make_current()
         self._pins.release(row, col)
         self.listener.pin(row, col, False)
@@ -202,10 +202,10 @@ class Simulation(RunStatus, AbstractContextManager['Simulation']):
         """
         Move the pinned node (row, col) in a straight line to ``target`` [m], where it rests.
 
-        A new target takes the place of the one before, from where the pin is by then.
+        A new target replaces the previous one, from the pin's position at that time.
 
         :param speed: [m/s] in simulated time; the scene's pin_speed by default
-        :return: its way, which tells when it arrives
+        :return: its path, with the time of arrival
         :raises ClothSimError: when the node is not pinned or a value is wrong
         """
         self.engines.context.make_current()
@@ -316,7 +316,7 @@ class Simulation(RunStatus, AbstractContextManager['Simulation']):
 
     def snapshot(self, *, tension: bool = False, pin_forces: bool = False) -> Snapshot:
         """
-        Return everything there is to know of this instant.
+        Return the complete state at this time.
 
         :param tension: True to have the tension of every edge in it, and the forces at the pins
         :param pin_forces: True to have these forces alone, which costs less on a large cloth
@@ -334,17 +334,17 @@ class Simulation(RunStatus, AbstractContextManager['Simulation']):
         return snapshot
 
     def pin_forces(self) -> PinForces:
-        """Return what holds each pinned node now."""
+        """Return the present reaction force at each pinned node."""
         forces = self.snapshot(pin_forces=True).pin_forces
         assert forces is not None
         return forces
 
     def finish(self) -> None:
-        """Wait until the device has done everything asked of it; for timing."""
+        """Wait until the device has finished all work; for timing."""
         self.engines.context.finish()
 
     def close(self) -> None:
-        """Give everything on the device back; does nothing when that is done."""
+        """Free all memory on the device; does nothing when called again."""
         if self._is_closed:
             return
         self._is_closed = True

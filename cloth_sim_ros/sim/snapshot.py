@@ -39,10 +39,10 @@ FLAG_PUSHED = 4
 @dataclass(frozen=True)
 class Measures:
     """
-    The state in a few numbers.
+    Summary values of the state.
 
     :param kinetic_energy: of the free nodes [J]
-    :param elastic_energy: that the edges store by the law of the present mode [J]
+    :param elastic_energy: of the edges, in the model of the current mode [J]
     :param gravitational_energy: [J], zero at the origin
     :param max_strain: largest abs(l / L0 - 1) of structural and shear edges
     :param finite: False when a position or velocity is not a finite number
@@ -63,7 +63,7 @@ class Measures:
 @dataclass(frozen=True, kw_only=True)
 class Snapshot(Measures):
     """
-    Everything there is to know of one instant.
+    The complete state at one time.
 
     :param records: (rows, cols) of POINT_DTYPE
     :param time: simulated [s]
@@ -86,10 +86,10 @@ class Snapshot(Measures):
         (docs/explanation/adaptive.md)
     :param stalled_pins: pins under way that stood still in the last step, as edges pulled at them
         with more than ``pin.max_force``
-    :param tension: when asked for, of the edges that start at each node [N], (rows, cols, 6)
+    :param tension: if requested, of the edges that start at each node [N], (rows, cols, 6)
         float32, above 0 where it pulls: of node (r, c) to (r, c + 1), (r + 1, c), (r + 1, c + 1),
         (r + 1, c - 1), (r, c + 2) and (r + 2, c); 0 where there is no such edge
-    :param pin_forces: when asked for, what holds each pinned node
+    :param pin_forces: if requested, the reaction force at each pinned node
     """
 
     records: np.ndarray
@@ -145,7 +145,7 @@ class Snapshot(Measures):
 
     @property
     def state_sha256(self) -> str:
-        """Return a fingerprint of positions and velocities, equal for equal bits."""
+        """Return a hash of positions and velocities; bitwise identical states have the same."""
         digest = hashlib.sha256(np.ascontiguousarray(self.positions).tobytes())
         digest.update(np.ascontiguousarray(self.velocities).tobytes())
         return digest.hexdigest()

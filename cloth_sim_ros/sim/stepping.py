@@ -115,13 +115,13 @@ class Stepping:
         """Raise RuntimeError while a step is under way."""
         if self.is_mid_step:
             raise RuntimeError(
-                f'{name} needs the step under way to end: go on with its work, or close it')
+                f'{name} needs the current step to end: continue its work, or close it')
 
     def _aim_at(self, goal: int) -> None:
         if goal * self._dt > LATEST:
             raise ClothSimError(
-                f'simulated time ends at {LATEST} s, as stamps of ROS do, and the run would come '
-                f'to {goal * self._dt:.10g} s: reset it, which begins at 0 again')
+                f'simulated time ends at {LATEST} s, like ROS time stamps, and the run would '
+                f'reach {goal * self._dt:.10g} s: reset it, which restarts at 0')
         self._goal = goal
 
     def _make_edits(self) -> None:

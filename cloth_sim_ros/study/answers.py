@@ -2,12 +2,12 @@
 # SPDX-License-Identifier: Apache-2.0
 
 r"""
-Measure the response times of a running node, and the gaps between its frames.
+Measure the service response times of a running node, and the gaps between its frames.
 
-First with an empty shader cache: the largest gap between frames and between answers while a node
-switches to each of the other modes for the first time, then for a node of another size. Then, in
-each mode, the response times of services while the cloth is advanced. Each figure is given as wall
-time and as processor time of the node; on a busy machine the latter is more meaningful.
+First, with an empty shader cache: the largest gap between frames and between responses during the
+first switch of a node to each of the other modes, repeated for a node of another size. Then, in
+each mode: the response times of services during simulation. Each figure is given as wall time and
+as CPU time of the node; on a busy machine the latter is more meaningful.
 
 For example:
   cloth_sim study answers
@@ -47,11 +47,11 @@ def add_arguments(parser: ArgumentParser) -> None:
     parser.add_argument('--sizes', type=int, nargs='+', default=[64], metavar='N',
                         help='nodes along each side, for response times (default: %(default)s)')
     parser.add_argument('--calls', type=int, default=200, metavar='N',
-                        help='calls of each service in each mode (default: %(default)s)')
+                        help='number of calls per service and mode (default: %(default)s)')
     parser.add_argument('--switches', action=BooleanOptionalAction, default=True,
-                        help='measure first mode switches with an empty shader cache')
+                        help='measure first mode switches, with an empty shader cache')
     parser.add_argument('--modes', nargs='+', default=list(MODES), choices=MODES,
-                        help='modes in which response times are measured (default: all)')
+                        help='modes in which to measure response times (default: all)')
     parser.add_argument('--json', action='store_true', help='print one line of JSON per figure')
 
 

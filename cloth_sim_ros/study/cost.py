@@ -15,9 +15,10 @@
 r"""
 Measure the cost of each feature of a scene by leaving it out, and the error without it.
 
-Variants are timed in turn in one process, so that their ratio is valid on a machine whose speed
-drifts: below 1, leaving the feature out saves time. The list of compiled passes shows that unused
-features cost nothing. Messages and recordings need the ROS packages.
+Variants are timed in one process in interleaved rounds, so that their ratios are robust against
+drift of the clock rate; a ratio below 1 means that leaving the feature out saves time. The list of
+compiled passes shows that unused features cost nothing. Messages and recordings need the ROS
+packages.
 
 For example:
   cloth_sim study cost config/drape.yaml
@@ -58,14 +59,14 @@ def add_arguments(parser: ArgumentParser) -> None:
     parser.add_argument('--rounds', type=int, default=9, metavar='N',
                         help='rounds of each variant (default: %(default)s)')
     parser.add_argument('--seconds', type=float, default=0.5, metavar='T',
-                        help='simulated time of a round, and until results are compared [s] '
+                        help='simulated time of a round, and before results are compared [s] '
                              '(default: %(default)s)')
     parser.add_argument('--rate', type=float, default=50.0, metavar='HZ',
                         help='frames per second of simulated time (default: %(default)s)')
     parser.add_argument('--without-messages', action='store_true',
-                        help='time the simulation alone')
+                        help='time only the simulation')
     parser.add_argument('--passes', action='store_true',
-                        help='only list the passes that the scene compiles')
+                        help='only list the shader passes that the scene compiles')
     add_run_arguments(parser, 'studies/cost')
 
 

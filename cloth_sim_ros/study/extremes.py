@@ -13,10 +13,10 @@
 # limitations under the License.
 
 r"""
-Run extreme scenes in every mode: each stays finite, is refused, or stops with a reason.
+Run extreme scenes in every mode: each must stay finite, be refused, or stop with a reason.
 
-A row is nonsense if numbers are not finite without a report, energy comes from nothing, hard edges
-have wrong lengths, a free cloth does not fall as it should, or a message suggests no way out. The
+A row is nonsense if values become non-finite unreported, energy appears without a source, hard
+edges have wrong lengths, a free cloth does not fall freely, or a message suggests no remedy. The
 exit code is 1 if a row is nonsense or has an unexpected outcome, apart from known limits.
 
 For example:
@@ -44,7 +44,7 @@ def add_arguments(parser: ArgumentParser) -> None:
     """Add the arguments of this study."""
     parser.add_argument('--long', action='store_true',
                         help='also run those that take minutes: a grid of stiffness, mass and dt, '
-                             'random scenes, a million nodes')
+                             'random scenes, and a million nodes')
     add_run_arguments(parser, 'studies/extremes')
 
 

@@ -15,8 +15,8 @@
 """
 Derive the values of the parameter `preset` from a tradeoff study of a scene.
 
-Only settings that keep the springs of the scene compete: a preset does not change the cloth. The
-file of each preset gives its criterion, error and real-time factor.
+Only settings that keep the springs of the scene are considered: a preset does not change the
+cloth. The file of each preset states its criterion, error and real-time factor.
 
 For example:
   cloth_sim study presets config/drape.yaml
@@ -51,7 +51,7 @@ def add_arguments(parser: ArgumentParser) -> None:
                         help='settings to compare (default: those of config/studies/'
                              'tradeoff.yaml)')
     parser.add_argument('--write', metavar='DIR',
-                        help='folder for the presets (default: presets in --out)')
+                        help='folder of the presets (default: presets in --out)')
     add_run_arguments(parser, 'studies/tradeoff')
 
 

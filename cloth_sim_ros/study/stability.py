@@ -15,9 +15,10 @@
 r"""
 Map the stable region of a scene over dt and stiffness, and compare its limits with closed forms.
 
-For each mode: the cloth at rest with one substep per dt, whatever the limit, and the moving scene
-with automatic substeps. Then limits found by bisection, over resolution, stiffness, damping, mass,
-pushes and solves. docs/notes/stability.md defines what counts as unstable.
+The maps show, for each mode, the cloth at rest with one substep per dt regardless of the stability
+limit, and the moving scene with automatic substeps. Bisection then finds the limits over
+resolution, stiffness, damping, mass, pushes and number of solves. docs/notes/stability.md defines
+instability.
 
 For example:
   cloth_sim study stability config/drape.yaml --set rows=24 --set cols=24
@@ -48,8 +49,8 @@ def add_arguments(parser: ArgumentParser) -> None:
                         help='points along each axis of a map; 0 for no maps '
                              '(default: %(default)s)')
     parser.add_argument('--figure', action='append', default=[], metavar='FILE.png', type=Path,
-                        dest='figures', help='file of the figure of the maps and, given a '
-                        'second time, of the limits (default: maps.png and edges.png in --out)')
+                        dest='figures', help='figure of the maps to write and, given a second '
+                        'time, of the limits (default: maps.png and edges.png in --out)')
     add_run_arguments(parser, 'studies/stability')
 
 

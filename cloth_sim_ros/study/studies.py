@@ -21,10 +21,10 @@ and --set, and `args.scene` is the Scene when main is called.
 """
 
 STUDIES = {
-    'tradeoff': 'error against cost of modes and settings for a scene',
-    'presets': 'derive the values of the parameter preset from a tradeoff study',
+    'tradeoff': 'accuracy-cost trade-off of modes and settings for a scene',
+    'presets': 'values of the parameter preset, derived from a tradeoff study',
     'stability': 'measured and predicted stability limits of each mode',
-    'extremes': 'extreme scenes in every mode',
-    'answers': 'response times of a running node, also while a mode is compiled',
+    'extremes': 'robustness against extreme scenes in every mode',
+    'answers': 'service response times of a node, also while a mode is compiled',
     'cost': 'cost of each feature of a scene, and the error without it',
 }

@@ -13,14 +13,14 @@
 # limitations under the License.
 
 r"""
-Measure error against cost of modes and settings on a scene, and choose among them.
+Measure the accuracy-cost trade-off of modes and settings on a scene, and choose among them.
 
-Errors are those of positions against a converged run, RMS over times and nodes, over the side of
-the cloth. Runs are spread over processes; the wall time of settings that may matter is measured
-afterwards, one at a time. A study that was stopped goes on where it was.
+The error is the RMS position error over times and nodes against a converged run, relative to the
+side of the cloth. Runs are distributed over processes; the wall time of promising settings is
+measured afterwards, one at a time. An interrupted study resumes where it stopped.
 
-Into --out go results.jsonl (every run), table.csv and table.jsonl, tradeoff.png, and tradeoff.md,
-which tells in plain words what came out. With a budget, a parameter file for the node as well.
+Writes to --out: results.jsonl (every run), table.csv, table.jsonl, tradeoff.png, tradeoff.md (a
+summary of the results) and, with a budget, a parameter file for the node.
 
 For example:
   cloth_sim study tradeoff config/drape.yaml
@@ -59,22 +59,23 @@ TAKES_SCENE = True
 def add_arguments(parser: ArgumentParser) -> None:
     """Add the arguments of this study."""
     parser.add_argument('--grid', metavar='GRID.yaml',
-                        help='what to measure (default: config/studies/tradeoff.yaml)')
+                        help='settings to measure (default: config/studies/tradeoff.yaml)')
     add_run_arguments(parser, 'studies/tradeoff')
     parser.add_argument('--figure', metavar='FIGURE.png',
-                        help='where the figure is written (default: tradeoff.png in --out)')
+                        help='figure to write (default: tradeoff.png in --out)')
     budget = parser.add_mutually_exclusive_group()
     budget.add_argument('--budget-error', type=float, metavar='E',
-                        help='choose the fastest setting with this error or less')
+                        help='choose the fastest setting with at most this error')
     budget.add_argument('--budget-rtf', type=float, metavar='R',
-                        help='choose the most exact setting with this real-time factor or more')
+                        help='choose the most accurate setting with at least this real-time '
+                             'factor')
     budget.add_argument('--budget-strain', type=float, metavar='S',
-                        help='choose the cheapest setting, of any mode, in which no structural or '
-                             'shear edge is longer or shorter by more than this share')
+                        help='choose the cheapest setting, of any mode, that keeps the strain of '
+                             'every structural and shear edge within this limit, 0.02 for 2 %%')
     budget.add_argument('--check', metavar='PARAMS.yaml',
-                        help='measure a choice again, and tell whether it keeps to its budget')
+                        help='measure a choice again, and report whether it meets its budget')
     parser.add_argument('--write', metavar='PARAMS.yaml',
-                        help='where the choice is written (default: params.yaml in --out)')
+                        help='file for the choice (default: params.yaml in --out)')
 
 
 def main(args: Namespace) -> int:

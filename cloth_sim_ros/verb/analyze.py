@@ -16,9 +16,9 @@
 """
 Analyse recordings: print a table and, with --out, write CSV, JSON and plots.
 
-Reads bags of this project and of ros2 bag record, mcap or sqlite3, even if they were truncated.
-With several bags, each is compared with the first one at the simulated times at which both have a
-frame, and --out has the curves of all in one plot. Needs no node.
+Reads mcap and sqlite3 bags of this project and of ros2 bag record, even truncated ones. If several
+bags are given, each is compared with the first at the simulated times at which both have a frame,
+and --out also gets a plot of all their curves. Needs no node.
 
 For example:
   cloth_sim analyze bags/cloth_2026_01_31-12_00_00
@@ -61,11 +61,11 @@ def add_arguments(parser: ArgumentParser) -> None:
     add_node_argument(parser)
     parser.add_argument(
         '--out', metavar='DIR',
-        help='write CSV, JSON and plots into this directory, in one folder per recording')
+        help='directory for CSV, JSON and plots, in one folder per recording')
     parser.add_argument(
         '--npz', action='store_true',
-        help='with --out, write time, positions, velocities, normals, strain and flags of all '
-             'frames as points.npz as well')
+        help='with --out, also write points.npz: time, positions, velocities, normals, strain '
+             'and flags of all frames')
 
 
 def main(args: Namespace) -> int:

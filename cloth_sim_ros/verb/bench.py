@@ -13,18 +13,18 @@
 # limitations under the License.
 
 r"""
-Measure the speed of this device.
+Benchmark this device.
 
-Variants are measured in turn, so that their ratio holds on a machine whose speed drifts; each
-is compared with the last one, by default the paper's layout. LP_NUM_THREADS sets the worker
-threads of llvmpipe.
+Rounds of the variants are interleaved, so that their ratios are robust against drift of the clock
+rate. Each variant is compared with the last one, by default the paper's layout. LP_NUM_THREADS
+sets the number of llvmpipe threads.
 
---solver measures the implicit step instead: solves a second, set-up included, with the iterations
-to a residual of 1e-2 and the error against a direct float64 solve beside them.
+--solver measures the implicit step instead: solves per second including set-up, iterations to a
+residual of 1e-2, and error against a direct float64 solve.
 
---modes compares whole modes on a light cloth that falls from two corners: real-time factor beside
-stretch, work and rise of energy. Each makes 20 ms in turn; docs/notes/performance.md defines the
-figures.
+--modes compares whole modes on a light cloth that falls while two corners are pinned: real-time
+factor, stretch, work and energy gain. The modes alternate every 20 ms of simulated time;
+docs/notes/performance.md defines the figures.
 
 For example:
   cloth_sim bench
@@ -78,26 +78,28 @@ def add_arguments(parser: ArgumentParser) -> None:
                         help=f'rounds of each variant (default: {_ROUNDS}, with --modes '
                              f'{_MODES_ROUNDS})')
     parser.add_argument('--round-seconds', type=float, default=0.4, metavar='T',
-                        help='wall time of a round (default: %(default)s)')
+                        help='wall time of a round [s] (default: %(default)s)')
     parser.add_argument('--solver', action='store_true',
-                        help='measure the solver of the implicit step instead')
+                        help='benchmark the solver of the implicit step instead')
     parser.add_argument('--baseline', choices=('paper', 'block_jacobi'),
-                        help='measure this solver in turn with it, and their ratio')
+                        help='solver to compare it with, in interleaved rounds')
     parser.add_argument('--modes', action='store_true',
                         help='compare whole modes on a falling cloth instead')
     parser.add_argument('--grids', type=_parse_grids, default=_GRIDS, metavar='N,N,...',
                         help='nodes along each side with --modes (default: '
                              f'{",".join(map(str, _GRIDS))})')
     parser.add_argument('--seconds', type=float, default=1.2, metavar='T',
-                        help='simulated in a round with --modes (default: %(default)s)')
+                        help='simulated time of a round with --modes [s] '
+                             '(default: %(default)s)')
     parser.add_argument('--only', nargs='+', choices=CONTENDERS, default=list(CONTENDERS),
-                        metavar='NAME', help='compare these with --modes, of '
+                        metavar='NAME', help='modes to compare with --modes, of '
                                              f'{", ".join(CONTENDERS)} (default: all)')
     parser.add_argument('--start-up', metavar='SCENE.yaml',
-                        help='measure the time of a node to its first cloud instead; needs ROS')
+                        help='measure the time from the start of a node to its first point '
+                             'cloud instead; needs ROS')
     parser.add_argument('--set', action='append', default=[], metavar='name=value',
-                        dest='changes', help='change a parameter of that node')
-    parser.add_argument('--json', action='store_true', help='print JSON, a line for each size')
+                        dest='changes', help='set a parameter of that node')
+    parser.add_argument('--json', action='store_true', help='print JSON, one line per size')
 
 
 def main(args: Namespace) -> int:
@@ -132,7 +134,7 @@ def _parse_grids(text: str) -> list[int]:
         return list(dict.fromkeys(int(part) for part in text.split(',')))
     except ValueError:
         raise ArgumentTypeError(
-            f'{shown(text)} is no list of whole numbers: give some as 32,64') from None
+            f'{shown(text)} is not a list of integers: write it as in 32,64') from None
 
 
 def _compare_modes(args: Namespace) -> int:

@@ -14,7 +14,7 @@
 
 
 """
-Summarise a recording: the cloth, its inputs, strain, energies and pace.
+Summarise a recording: cloth, inputs, strain, energies and real-time factor.
 
 Needs no node.
 

@@ -34,10 +34,10 @@ from cloth_sim_ros.verb.termination import raise_on_sigterm
 from cloth_sim_ros.verb.termination import Terminated
 
 VERBS = {
-    'run': 'simulate a scene file without ROS',
-    'bench': 'measure the speed of this device without ROS',
+    'run': 'simulate a scene file, without ROS',
+    'bench': 'benchmark this device, without ROS',
     'mode': 'switch the simulation mode of a running node',
-    'push': 'push the cloth of a running node, or end all pushes',
+    'push': 'push the cloth of a running node, or cancel all pushes',
     'pin': 'pin, move or release a node of the cloth',
     'pause': 'pause a running node',
     'resume': 'resume a paused node',
@@ -48,12 +48,12 @@ VERBS = {
     'info': 'summarise a recording',
     'recover': 'repair a truncated or damaged recording for other tools',
     'analyze': 'analyse and compare recordings: table, CSV, JSON and plots',
-    'render': 'draw recordings as a sheet of pictures or as a video',
-    'play': 'publish a recording again',
-    'view': 'show a node, a scene or a recording in the browser',
-    'resimulate': 'repeat a recorded simulation, with the same or other settings',
-    'paper': 'reproduce Fig. 10 and 11 of the paper',
-    'study': 'measure error, cost and stability of a scene and choose settings',
+    'render': 'render recordings as a sheet of images or as a video',
+    'play': 'replay a recording on its topics',
+    'view': 'view a node, a scene or a recording in the browser',
+    'resimulate': 'rerun a recorded simulation with the same or other settings',
+    'paper': 'reproduce Figs. 10 and 11 of the paper',
+    'study': 'measure error, cost and stability of a scene, and choose settings',
 }
 _MOST_TOLD = 500
 # 128 and the number of the signal, as shells have it.
@@ -103,8 +103,8 @@ def _no_verb(arguments: list[str]) -> int:
     verbs = '\n'.join(f'  {name:10} {text}' for name, text in VERBS.items())
     parser = _Parser(
         prog='cloth_sim', usage='cloth_sim VERB ...', formatter_class=RawDescriptionHelpFormatter,
-        description=f'Simulate cloth, and talk to a running cloth_sim_node.\n\nverbs:\n{verbs}',
-        epilog='cloth_sim VERB --help describes a verb.')
-    parser.add_argument('verb', choices=VERBS, metavar='VERB', help='what to do')
+        description=f'Simulate cloth, and control a running cloth_sim_node.\n\nverbs:\n{verbs}',
+        epilog='Run cloth_sim VERB --help for the options of a verb.')
+    parser.add_argument('verb', choices=VERBS, metavar='VERB', help='one of the verbs above')
     parser.parse_args(arguments[:1])
     return 0

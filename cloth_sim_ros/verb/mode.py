@@ -13,7 +13,7 @@
 # limitations under the License.
 
 """
-Switch the simulation mode of a running node. Positions and velocities are kept.
+Switch the simulation mode of a running node; positions and velocities are kept.
 
 For example:
   cloth_sim mode mass_spring
@@ -30,7 +30,7 @@ from cloth_sim_ros.verb.node_arguments import open_node
 
 def add_arguments(parser: ArgumentParser) -> None:
     """Add the arguments of this verb."""
-    parser.add_argument('mode', help=', '.join(MODES))
+    parser.add_argument('mode', help=f'one of {", ".join(MODES)}')
     add_node_arguments(parser)
 
 

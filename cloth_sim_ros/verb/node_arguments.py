@@ -31,7 +31,7 @@ def add_node_arguments(parser: ArgumentParser) -> None:
     group.add_argument(
         # Nodes of a graph may need 3 s to find each other.
         '--timeout', type=float, default=10.0, metavar='S',
-        help='wall time to wait for an answer [s] (default: %(default)s)')
+        help='wall time to wait for a response [s] (default: %(default)s)')
 
 
 def open_node(args: Namespace) -> 'NodeClient':

@@ -56,8 +56,8 @@ class NodeClient:
             validate_full_topic_name(self._target)
         except InvalidTopicNameException as error:
             raise ClothSimError(
-                f'{shown(node)} is no name of a node: give its name with its namespace by --node, '
-                'as in left/cloth_sim') from error
+                f'{shown(node)} is not a node name: give the name with its namespace, as in '
+                '--node left/cloth_sim') from error
         self._timeout = timeout
         check_interfaces()
         # In a context of its own, rclpy leaves the signals alone: Ctrl-C works as in any command.
@@ -103,7 +103,7 @@ class NodeClient:
                 waiting = ''
             if patient and client.service_is_ready():
                 deadline = time.monotonic() + self._timeout
-            self._wait(deadline, f'{cut(self._target)}/{name} does not answer')
+            self._wait(deadline, f'{cut(self._target)}/{name} does not respond')
         response = future.result()
         if not response.success:
             raise ClothSimError(response.message)
@@ -128,7 +128,7 @@ class NodeClient:
                     self._node.destroy_subscription(subscription)
                     return message
                 deadline = time.monotonic() + self._timeout
-            self._wait(deadline, f'nothing comes on {cut(self._target)}/{name}')
+            self._wait(deadline, f'no message arrives on {cut(self._target)}/{name}')
 
     def _client(self, kind: type, name: str) -> Client:
         if name not in self._clients:
@@ -152,7 +152,7 @@ class NodeClient:
             name.rpartition('/')[0]
             for name, kinds in self._node.get_service_names_and_types() if kind in kinds)
         if self._target in found:
-            return 'it may be busy, so give more time with --timeout'
+            return 'it may be busy, so raise --timeout'
         if found:
             return f'name the node with --node, there is {", ".join(found)}'
         return 'start one with `cloth_sim_node`, or name it with --node'

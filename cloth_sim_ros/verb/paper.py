@@ -13,10 +13,10 @@
 # limitations under the License.
 
 r"""
-Reproduce Fig. 10 or 11 of the paper: recordings, a table of peaks, and a sheet of pictures.
+Reproduce Fig. 10 or 11 of the paper: recordings, a table of peak values, and a sheet of images.
 
-Each run of a figure is recorded in the folder of that figure. Some runs are unstable, as they are
-in the paper; they end at their last finite state. docs/notes/paper.md discusses the results.
+Each run of a figure is recorded in the folder of that figure. Some runs are unstable, as in the
+paper; they stop at their last finite state. docs/notes/paper.md discusses the results.
 
 For example:
   cloth_sim paper fig10 --sheet fig10.png
@@ -53,13 +53,13 @@ def add_arguments(parser: ArgumentParser) -> None:
     parser.add_argument('--out', metavar='DIR',
                         help='folder of the recordings (default: bags/paper_FIGURE)')
     parser.add_argument('--sheet', metavar='FILE.png',
-                        help='picture to write (default: FIGURE.png in that folder)')
+                        help='image to write (default: FIGURE.png in that folder)')
     parser.add_argument('--seconds', type=float, default=_SECONDS, metavar='T',
                         help='simulated time of each run (default: %(default)s)')
     parser.add_argument('--at', type=list_of_times, metavar='T,T,...',
                         help='times to show [s]')
     parser.add_argument('--set', action='append', default=[], metavar='name=value', dest='changes',
-                        help='change a parameter of all runs; can be given several times')
+                        help='set a parameter of all runs; can be given several times')
 
 
 def main(args: Namespace) -> int:
@@ -93,8 +93,8 @@ def _refuse_to_overwrite(folder: Path, figure: PaperFigure) -> None:
     for run in figure.runs:
         if (folder / run.name).exists():
             raise ClothSimError(
-                f'{folder / run.name} is there already, and no recording is overwritten: '
-                'name another folder with --out')
+                f'{folder / run.name} already exists, and no recording is overwritten: name '
+                'another folder with --out')
 
 
 def allowed_strain(scene: Scene) -> float | None:

@@ -13,7 +13,7 @@
 # limitations under the License.
 
 """
-Pause a running node: simulated time stops, services still answer.
+Pause a running node: simulated time stops, services still respond.
 
 For example:
   cloth_sim pause

@@ -13,9 +13,9 @@
 # limitations under the License.
 
 """
-Pin a node of the cloth where it is, move a pin, or release it.
+Pin a node of the cloth at its current position, move a pin, or release it.
 
-A pin moves in a straight line, at a speed in simulated time. A new target replaces the previous
+A pin moves in a straight line; its speed is in simulated time. A new target replaces the previous
 one.
 
 For example:
@@ -48,17 +48,17 @@ def add_arguments(parser: ArgumentParser) -> None:
         help='row and column of the node; row 0 is the top row')
     parser.add_argument(
         '--near', nargs=3, type=float, metavar=_AXES,
-        help='choose the node nearest to this point or, with --to, the nearest pin [m]')
+        help='select the node nearest to this point or, with --to, the nearest pin [m]')
     parser.add_argument(
         '--max-distance', type=float, metavar='M',
-        help='largest distance of that node from the point [m] (default: 0.1, or the node '
-             'spacing if that is larger)')
+        help='largest accepted distance of that node from the point [m] (default: 0.1, or the '
+             'node spacing if that is larger)')
     what = parser.add_mutually_exclusive_group()
     what.add_argument('--release', action='store_true', help='release the node')
-    what.add_argument('--to', nargs=3, type=float, metavar=_AXES, help='move the pin there [m]')
+    what.add_argument('--to', nargs=3, type=float, metavar=_AXES, help='target of the pin [m]')
     parser.add_argument(
         '--speed', type=float, metavar='M/S',
-        help='speed of the move [m/s] (default: the parameter pin_speed of the node)')
+        help='speed of the move [m/s] (default: parameter pin_speed of the node)')
     add_node_arguments(parser)
 
 
@@ -79,9 +79,9 @@ def _place(args: Namespace) -> dict[str, Any]:
     if (args.near is None) == (not args.place) or len(args.place) not in (0, 2):
         raise ClothSimError('one node is needed: give ROW COL, or --near X Y Z')
     if args.to is None and args.speed is not None:
-        raise ClothSimError('a speed is that of a move: give --to X Y Z as well')
+        raise ClothSimError('--speed is for a move: give --to X Y Z as well')
     if args.near is None and args.max_distance is not None:
-        raise ClothSimError('a distance is that of a point: give --near X Y Z as well')
+        raise ClothSimError('--max-distance is for a point: give --near X Y Z as well')
     if args.near is not None:
         return {
             'use_point': True, 'point': _point(args.near),

@@ -13,12 +13,12 @@
 # limitations under the License.
 
 """
-Publish a recording again: the same messages on the same topics, at the recorded pace.
+Replay a recording: the same messages on the same topics, at the recorded rate.
 
-Plays recordings of this project and of `ros2 bag record`. The pace follows simulated time, or the
-wall clock in a bag of `ros2 bag record`. The player is the node /cloth_sim_player: pause and
-resume it with `cloth_sim pause --node cloth_sim_player` and
-`cloth_sim resume --node cloth_sim_player`. Ctrl-C ends it.
+Recordings of this project are timed by simulated time, bags of `ros2 bag record` by wall time. The
+player is the node /cloth_sim_player: pause and resume it with
+`cloth_sim pause --node cloth_sim_player` and `cloth_sim resume --node cloth_sim_player`. Ctrl-C
+stops it.
 
 For example:
   cloth_sim play bags/drop_test
@@ -48,11 +48,11 @@ def add_arguments(parser: ArgumentParser) -> None:
     parser.add_argument(
         '--rate', type=float, default=1.0, metavar='R',
         help='recorded seconds per second of wall time (default: %(default)s)')
-    parser.add_argument('--loop', action='store_true', help='start again at the end')
+    parser.add_argument('--loop', action='store_true', help='restart at the end')
     parser.add_argument(
         '--start', type=float, default=0.0, metavar='S',
-        help='time from the beginning of the recording at which to start [s]; the topology, state '
-             'and parameters of that time are sent first')
+        help='start this long after the beginning of the recording [s]; the topology, state and '
+             'parameters at that time are published first')
     parser.add_argument(
         '--duration', type=float, default=float('inf'), metavar='S',
         help='recorded time to play [s] (default: all)')
@@ -60,15 +60,15 @@ def add_arguments(parser: ArgumentParser) -> None:
         '--topics', nargs='+', default=(), metavar='TOPIC', help='topics to play (default: all)')
     parser.add_argument(
         '--as', metavar='NAME', dest='played_node', default='',
-        help='publish the topics of the recorded node under this node name')
+        help='node name under which the topics of the recorded node are published')
     parser.add_argument(
         '--clock', action='store_true',
         help='publish simulated time on /clock; a recorded /clock is always played')
     parser.add_argument(
-        '--paused', action='store_true', help='start paused, until cloth_sim resume')
+        '--paused', action='store_true', help='start paused; continue with cloth_sim resume')
     parser.add_argument(
         '--delay', type=float, default=1.0, metavar='S',
-        help='time before the first message, for subscribers to find the player [s] '
+        help='time for subscribers to discover the player before the first message [s] '
              '(default: %(default)s)')
 
 

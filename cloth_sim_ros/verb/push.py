@@ -13,10 +13,10 @@
 # limitations under the License.
 
 """
-Push the cloth of a running node with a total force, or end all pushes.
+Push the cloth of a running node with a total force, or cancel all pushes.
 
-The force acts on all free nodes or, with --center, on those within --radius of that point. The
-duration is in simulated time.
+The force is distributed over all free nodes or, with --center, over those within --radius of that
+point. The duration is in simulated time.
 
 For example:
   cloth_sim push --force 0 0 2.5 --duration 0.2
@@ -42,7 +42,7 @@ def add_arguments(parser: ArgumentParser) -> None:
     """Add the arguments of this verb."""
     what = parser.add_mutually_exclusive_group(required=True)
     what.add_argument('--force', nargs=3, type=float, metavar=_AXES, help='total force [N]')
-    what.add_argument('--clear', action='store_true', help='end all pushes instead')
+    what.add_argument('--clear', action='store_true', help='cancel all pushes instead')
     parser.add_argument(
         '--center', nargs=3, type=float, metavar=_AXES, help='centre of the pushed sphere [m]')
     parser.add_argument(

@@ -15,8 +15,7 @@
 """
 Start or stop a recording of a running node.
 
-The node writes into a new folder inside its recording.directory; start prints the path of that
-folder.
+The node writes to a new folder in its recording.directory; start prints the path of that folder.
 
 For example:
   cloth_sim record start

@@ -51,5 +51,5 @@ def list_of_times(text: str) -> list[float]:
     except ValueError:
         times = [math.nan]
     if not all(math.isfinite(time) for time in times):
-        raise ArgumentTypeError(f'{shown(text)} is no list of times: write them as in 0.5,1,2')
+        raise ArgumentTypeError(f'{shown(text)} is not a list of times: write them as in 0.5,1,2')
     return sorted(times)

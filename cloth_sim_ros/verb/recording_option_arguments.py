@@ -19,16 +19,16 @@ def add_recording_options(parser: ArgumentParser) -> None:
     """Add the arguments for files, limit and fsync of a recording."""
     parser.add_argument(
         '--max-bag-size', type=int, metavar='BYTES',
-        help='continue the recording in a new file at this size')
+        help='split the recording into files of this size')
     parser.add_argument(
         '--max-bag-duration', type=float, metavar='T',
-        help='continue the recording in a new file every T seconds of simulated time')
+        help='split the recording every T seconds of simulated time')
     parser.add_argument(
         '--max-recording-size', type=int, metavar='BYTES',
-        help='end the recording at this total size; the simulation continues')
+        help='stop the recording at this total size; the simulation continues')
     parser.add_argument(
         '--fsync', action='store_true', default=None,
-        help='wait for the disk at every flush, twice a second')
+        help='sync the recording to disk at every flush, twice a second')
 
 
 def recording_changes(args: Namespace) -> list[str]:

@@ -4,8 +4,8 @@
 """
 Repair a truncated or damaged recording for other tools.
 
-Writes all intact messages into a new folder, with the index and the metadata.yaml that rosbag2,
-rosbags and Foxglove need. The recording itself is not changed. Needs no node.
+Writes all intact messages to a new folder, with the index and the metadata.yaml that rosbag2,
+rosbags and Foxglove need. The original is not changed. Needs no node.
 
 For example:
   cloth_sim recover bags/killed_run
@@ -35,7 +35,7 @@ def main(args: Namespace) -> int:
     source = Path(args.recording).expanduser().absolute()
     recovery = Recovery(source)
     if not recovery.problems:
-        print(f'nothing is missing in {source}: {_extent(recovery)}; nothing was written')
+        print(f'{source} is complete: {_extent(recovery)}; nothing was written')
         return 0
     target = Path(args.out).expanduser().absolute() if args.out else source.with_name(
         f'{source.stem if source.is_file() else source.name}_recovered')

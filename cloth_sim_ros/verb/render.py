@@ -13,12 +13,12 @@
 # limitations under the License.
 
 """
-Draw recordings as a sheet of pictures or as a video. Needs no node and no window.
+Render recordings as a sheet of images or as a video. Needs no node and no window.
 
 The colour of the cloth shows its strain. Balls are pins, arrows are active pushes, dots are nodes
-at their strain limit. Without --at, the times are chosen so that the pushes are visible. With
-several recordings, each has a row of its own, with the same camera. A state that
-`cloth_sim run --out` wrote can take the place of a recording.
+at their strain limit. Without --at, the times are chosen so that the pushes are visible. Several
+recordings get one row each, with the same camera. A state written by `cloth_sim run --out` can
+replace a recording.
 
 For example:
   cloth_sim render bags/drop_test --out drop.png --at 0.5,1,2 --azimuth 30 --elevation 10
@@ -44,12 +44,12 @@ from cloth_sim_ros.verb.render_arguments import style_of
 def add_arguments(parser: ArgumentParser) -> None:
     """Add the arguments of this verb."""
     add_source_arguments(parser)
-    sheet = parser.add_argument_group('sheet of pictures')
-    sheet.add_argument('--out', metavar='FILE.png', help='picture to write')
+    sheet = parser.add_argument_group('sheet of images')
+    sheet.add_argument('--out', metavar='FILE.png', help='image to write')
     sheet.add_argument('--at', type=list_of_times, metavar='T,T,...', help='times to show [s]')
     sheet.add_argument(
         '--columns', type=int, default=3, metavar='N',
-        help='panels per row, with one recording (default: %(default)s)')
+        help='panels per row for a single recording (default: %(default)s)')
     video = parser.add_argument_group('video')
     video.add_argument('--video', metavar='FILE.mp4', help='video to write')
     video.add_argument(

@@ -45,31 +45,31 @@ def add_camera_arguments(parser: ArgumentParser) -> None:
     group = parser.add_argument_group('camera')
     group.add_argument(
         '--azimuth', type=float, default=Camera.azimuth, metavar='DEG',
-        help='direction of the camera, from x towards y (default: %(default)s)')
+        help='azimuth of the camera, from x towards y (default: %(default)s)')
     group.add_argument(
         '--elevation', type=float, default=Camera.elevation, metavar='DEG',
-        help='angle above the horizon (default: %(default)s)')
+        help='elevation of the camera above the horizon (default: %(default)s)')
     group.add_argument(
         '--fov', type=float, default=Camera.field_of_view, metavar='DEG',
         help='vertical field of view; 0 for no perspective (default: %(default)s)')
     group.add_argument(
         '--zoom', type=float, default=1.0,
-        help='magnification; 1 shows everything (default: %(default)s)')
+        help='magnification; 1 fits everything (default: %(default)s)')
     group.add_argument(
         '--target', nargs=3, type=float, metavar=('X', 'Y', 'Z'),
-        help='point at the centre of the picture [m]')
+        help='point at the centre of the image [m]')
 
 
 def add_style_arguments(parser: ArgumentParser) -> None:
     """Add how the picture looks."""
-    group = parser.add_argument_group('looks')
+    group = parser.add_argument_group('style')
     group.add_argument(
         '--size', type=pixels, metavar='WIDTHxHEIGHT', help='size of each panel [pixel]')
     group.add_argument(
         '--strain-max', type=float, metavar='S',
-        help='strain at the end of the colour scale, 0.05 for 5 %% (default: fits the data)')
+        help='strain at the end of the colour scale, 0.05 for 5 %% (default: fit to the data)')
     group.add_argument('--labels', nargs='+', metavar='NAME', help='names of the recordings')
-    group.add_argument('--title', help='heading (default: describes the contents)')
+    group.add_argument('--title', help='title (default: generated from the contents)')
 
 
 def sources_of(args: Namespace) -> list[Source]:
@@ -100,7 +100,7 @@ def pixels(text: str) -> tuple[int, int]:
     try:
         width, height = (int(part) for part in text.split('x'))
     except ValueError as error:
-        raise ArgumentTypeError(f'{shown(text)} is no size: write it as in 640x480') from error
+        raise ArgumentTypeError(f'{shown(text)} is not a size: write it as in 640x480') from error
     if not all(_LEAST_SIDE <= side <= _MOST_SIDE for side in (width, height)):
         raise ArgumentTypeError(
             f'a side must be from {_LEAST_SIDE} to {_MOST_SIDE} pixels, got {cut(text)}')

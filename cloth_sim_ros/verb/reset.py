@@ -13,7 +13,7 @@
 # limitations under the License.
 
 """
-Restore the initial state of a running node: pose, pins, time, and the inputs of the scene.
+Restore the initial state of a running node: pose, pins, time and scheduled inputs.
 
 For example:
   cloth_sim reset

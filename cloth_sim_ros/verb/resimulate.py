@@ -13,12 +13,12 @@
 # limitations under the License.
 
 r"""
-Repeat a recorded simulation from its recording alone.
+Rerun a recorded simulation from its recording alone.
 
-Scene and inputs (pushes, pins, pin targets, mode switches, resets) are taken from the recording,
-at their simulated times. With the same settings on the same device the result is identical bit
-for bit, and the exit code is 1 if it is not. With --set, another scene gets the same inputs; a
-mode that is set this way applies to the whole run. Needs no ROS without --out and --compare.
+The scene and the inputs (pushes, pins, pin targets, mode switches, resets) are read from the
+recording; inputs are applied at their simulated times. With the same settings on the same device
+the result is bitwise identical; if it is not, the exit code is 1. --set applies the inputs to a
+modified scene; a mode set this way applies to the whole run. Only --out and --compare need ROS.
 
 For example:
   cloth_sim resimulate bags/my_run
@@ -57,11 +57,12 @@ def add_arguments(parser: ArgumentParser) -> None:
     """Add the arguments of this verb."""
     add_recording_arguments(parser)
     parser.add_argument('--set', action='append', default=[], metavar='name=value', dest='changes',
-                        help='change a scene parameter; can be given several times')
-    parser.add_argument('--out', metavar='DIR', help='record the new run into this folder')
+                        help='set a scene parameter; can be given several times')
+    parser.add_argument('--out', metavar='DIR',
+                        help='record the new run into a new folder in this directory')
     parser.add_argument('--compare', action='store_true',
-                        help='compare both runs as `cloth_sim analyze` does; with --out, write '
-                             'its files there')
+                        help='compare both runs like `cloth_sim analyze`; with --out, write its '
+                             'files there')
 
 
 def main(args: Namespace) -> int:
@@ -113,8 +114,8 @@ def _check_names(changes: dict[str, Any]) -> None:
     for name in changes:
         if name in node_names:
             raise ClothSimError(
-                f'{name} is no parameter of the scene: frames and inputs come from the '
-                'recording, and only the scene can be changed')
+                f'{name} is not a scene parameter: frames and inputs come from the recording, and '
+                'only the scene can be changed')
     refuse_unknown(changes, SCENE_FIELDS)
 
 

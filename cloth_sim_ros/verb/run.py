@@ -15,8 +15,8 @@
 r"""
 Simulate a scene file without a node and without ROS.
 
-A scene file is a ROS parameter file; what only a node needs is ignored. With --record, the run
-is written as a recording, which needs the ROS packages.
+A scene file is a ROS parameter file; parameters that only a node uses are ignored. --record needs
+the ROS packages.
 
 For example:
   cloth_sim run config/drape.yaml --seconds 2
@@ -45,10 +45,12 @@ def add_arguments(parser: ArgumentParser) -> None:
     add_scene_arguments(parser)
     parser.add_argument('--seconds', type=float, default=1.0, metavar='T',
                         help='simulated time [s] (default: %(default)s)')
-    parser.add_argument('--record', metavar='DIR', help='write a recording into this directory')
+    parser.add_argument('--record', metavar='DIR',
+                        help='record the run into a new folder in this directory')
     add_recording_options(parser)
     parser.add_argument('--out', metavar='STATE.npz',
-                        help='write the final positions, velocities, strains, flags and time')
+                        help='file for the final positions, velocities, strains, flags and '
+                             'time')
     parser.add_argument('--json', action='store_true',
                         help='print the result as one line of JSON')
 

@@ -34,7 +34,7 @@ def add_scene_arguments(parser: ArgumentParser) -> None:
                         help='parameter file that overrides the scene; can be given several '
                              'times')
     parser.add_argument('--set', action='append', default=[], metavar='name=value', dest='changes',
-                        help='change a parameter; can be given several times')
+                        help='set a parameter; can be given several times')
 
 
 def read_scene(args: Namespace) -> tuple[Scene, dict[str, Any]]:

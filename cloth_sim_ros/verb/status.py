@@ -13,7 +13,7 @@
 # limitations under the License.
 
 """
-Show the state of a running node and the figures of its latest frame.
+Show the state of a running node and the statistics of its latest frame.
 
 For example:
   cloth_sim status
@@ -74,8 +74,8 @@ def _wait_until(node: NodeClient, sim_time: float) -> None:
         state = _state(node)
         if state.run_state != ClothState.RUNNING:
             raise ClothSimError(
-                f'the node is {state.run_state} at {stats.sim_time:.6g} s and does not come to '
-                f'{sim_time:g} s: let it go on with `cloth_sim resume`')
+                f'the node is {state.run_state} at {stats.sim_time:.6g} s and will not reach '
+                f'{sim_time:g} s: continue it with `cloth_sim resume`')
 
 
 def _stands_still(stats: ClothStats, seen: set[float]) -> bool:

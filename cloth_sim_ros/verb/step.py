@@ -13,9 +13,9 @@
 # limitations under the License.
 
 """
-Advance a paused node by a number of time steps and wait until they are done.
+Advance a paused node by a number of time steps and wait for them to finish.
 
-The node publishes and records a frame at the end and, with --every, in between.
+The node publishes and records a frame after the last step and, with --every, in between.
 
 For example:
   cloth_sim step
@@ -57,7 +57,7 @@ def main(args: Namespace) -> int:
             if left <= 0:
                 break
     if every < args.steps:
-        print(f'{args.steps} steps made, {every} at a time, now at {answer.sim_time:.6g} s')
+        print(f'{args.steps} steps done, {every} at a time, now at {answer.sim_time:.6g} s')
     else:
         print(answer.message)
     return 0

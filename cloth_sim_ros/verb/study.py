@@ -13,7 +13,7 @@
 # limitations under the License.
 
 """
-Measure the error, the cost and the stability limits of a scene, and choose settings.
+Measure error, cost and stability limits of a scene, and choose settings.
 
 For example:
   cloth_sim study tradeoff config/drape.yaml

@@ -2,12 +2,12 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-Show a cloth in the browser: a running node, a scene that is simulated for it, or a recording.
+View a cloth in the browser: that of a running node, of a scene or of a recording.
 
-The colour of the cloth is its strain. Beside it are the mode, pause, step and reset. A click on
-the cloth pushes it away from you, or pins a node; the arrows at a pin drag it. Only this machine
-can open the page, unless --host says otherwise. Ctrl-C ends it. Without SHOWN a running node is
-shown. It needs viser: scripts/setup.sh --view.
+The colour of the cloth shows its strain. A panel has mode, pause, step and reset. A click on the
+cloth pushes it away from the viewer, or pins a node; the arrows at a pin drag it. The page can
+only be opened on this machine, unless --host is given. Ctrl-C stops the server. Needs viser:
+scripts/setup.sh --view.
 
 For example:
   cloth_sim view
@@ -37,23 +37,22 @@ def add_arguments(parser: ArgumentParser) -> None:
     """Add the arguments of this verb."""
     parser.add_argument(
         'shown', nargs='?', metavar='SHOWN',
-        help='a scene file (.yaml), or a recording (default: the running node)')
+        help='scene file (.yaml) or recording (default: the running node)')
     parser.add_argument(
         '--set', action='append', default=[], metavar='name=value', dest='changes',
-        help='change a parameter of the scene; can be given several times')
+        help='set a parameter of the scene; can be given several times')
     parser.add_argument(
-        '--paused', action='store_true', help='begin with the time of a scene or recording '
-        'standing still')
+        '--paused', action='store_true', help='start a scene or recording paused')
     parser.add_argument(
         '--port', type=int, default=_PORT, metavar='N',
-        help='that the page is served at (default: %(default)s)')
+        help='port of the page (default: %(default)s)')
     parser.add_argument(
         '--host', default=_LOOPBACK, metavar='ADDRESS',
-        help='that it is served at; 0.0.0.0 lets every machine of the network see and steer the '
-             'cloth (default: %(default)s)')
+        help='address to serve the page on; 0.0.0.0 lets every machine on the network view and '
+             'control the cloth (default: %(default)s)')
     parser.add_argument(
         '--fps', type=float, default=20.0, metavar='F',
-        help='most images a second (default: %(default)s)')
+        help='maximum frame rate [Hz] (default: %(default)s)')
     add_node_arguments(parser)
 
 

@@ -80,7 +80,7 @@ class SceneSource(Source):
         """Make ``count`` steps of dt while paused."""
         def make(simulation: Simulation) -> None:
             if self._run_state != PAUSED:
-                raise ClothSimError('steps are made while the time stands still: pause first')
+                raise ClothSimError('single steps need a paused simulation: pause first')
             self._advance(lambda: simulation.step(count))
         self._ask(make)
 

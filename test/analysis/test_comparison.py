@@ -91,7 +91,7 @@ def test_differences_are_second_minus_first(recorded):
     assert result.times.tolist() == [0.5]
     assert result.energy_difference[0] == 0.0
     assert comparison_lines(result)['matched'] == (
-        '1 frames from 0.5 to 0.5 s; 1 and 1 are in one of them only')
+        '1 frames from 0.5 to 0.5 s; 1 and 1 are in only one of them')
 
 
 @pytest.mark.parametrize('keys', [('points',), ('stats',)])
@@ -111,7 +111,7 @@ def test_what_cannot_be_compared_is_refused(recorded):
     a = recorded('a', [0.0, 0.5])
     with pytest.raises(ClothSimError, match='4 x 3 nodes and .*b has 5 x 3 nodes.*give'):
         compare(a, recorded('b', [0.0], rows=5))
-    with pytest.raises(ClothSimError, match='no frame at the same simulated time: record'):
+    with pytest.raises(ClothSimError, match='no frames at common simulated times: record'):
         compare(a, recorded('c', [0.25, 0.75]))
 
 

@@ -68,5 +68,5 @@ def test_default_times_show_each_push(known):
 def test_a_recording_without_frames_is_refused(tmp_path, read):
     """A user would get an empty picture and no reason."""
     Recorder(tmp_path, 'empty', 'cloth_sim').close()
-    with pytest.raises(ClothSimError, match='holds no message: give'):
+    with pytest.raises(ClothSimError, match='contains no messages: give'):
         read(Recording(tmp_path / 'empty'))

@@ -25,14 +25,14 @@ def test_a_whole_message_is_taken():
 
 
 @pytest.mark.parametrize(('key', 'fields', 'rule'), [
-    ('inputs/push', {**PUSH, 'start': 'x'}, "has 'x' as its start, where a number belongs"),
+    ('inputs/push', {**PUSH, 'start': 'x'}, "has 'x' as its start, where a number is expected"),
     ('inputs/push', {**PUSH, 'force': 3.0}, 'has None as its force.x'),
-    ('inputs/push', {**PUSH, 'region': np.zeros(3)}, 'as its region, where a word belongs'),
+    ('inputs/push', {**PUSH, 'region': np.zeros(3)}, 'as its region, where a word is expected'),
     ('stats', {'header': HEADER, 'dt': 'x'}, "has 'x' as its dt"),
     ('stats', {'header': HEADER, 'max_strain': np.zeros(2)}, 'as its max_strain'),
     ('stats', {'header': SimpleNamespace()}, 'as its header.stamp.sec'),
     ('stats', {'header': SimpleNamespace(stamp=SimpleNamespace(sec=np.zeros(3), nanosec=0))},
-     'as its header.stamp.sec, where a whole number belongs'),
+     'as its header.stamp.sec, where a whole number is expected'),
     ('inputs/mode', {'header': HEADER, 'mode': 'adaptive', 'previous_mode': 3}, 'previous_mode'),
     ('inputs/parameters', {
         'stamp': HEADER.stamp, 'new_parameters': [SimpleNamespace(name=3)],

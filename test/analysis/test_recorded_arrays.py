@@ -80,7 +80,7 @@ def test_clouds_of_two_sizes_are_refused(tmp_path):
     """They have no common array."""
     clouds = [deserialize_message(make_cloud(rows, 3, 0)[0], PointCloud2) for rows in (2, 4)]
     bag = write_bag(tmp_path / 'bag', [('/cloth_sim/points', cloud) for cloud in clouds])
-    with pytest.raises(ClothSimError, match='4 x 3 nodes at 0 s comes after one of 2 x 3'):
+    with pytest.raises(ClothSimError, match='4 x 3 nodes at 0 s follows one of 2 x 3'):
         Recording(bag).arrays('points')
 
 

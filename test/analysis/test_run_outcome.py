@@ -70,7 +70,7 @@ def test_a_stop_is_told(recording):
 def test_a_recording_without_frames_is_refused(tmp_path):
     """A row of zeros would stand in the table."""
     Recorder(tmp_path, 'empty', 'cloth_sim').close()
-    with pytest.raises(ClothSimError, match='holds no message'):
+    with pytest.raises(ClothSimError, match='contains no messages'):
         Run(Recording(tmp_path / 'empty'))
 
 

@@ -82,7 +82,7 @@ def test_axes_tell_what_they_show_and_in_which_unit(figures):
     assert labels == {
         'energy [J]', 'strain [%]', 'active constraints', 'switches in the last step',
         'iterations, most of a solve', 'relative residual, worst solve',
-        'wall time of a step [ms]', 'real-time factor', 'share of the nodes in each of 50 bins'}
+        'wall time of a step [ms]', 'real-time factor', 'fraction of the nodes in each of 50 bins'}
     assert {figure.axes[-1].get_xlabel() for figure in figures.values()} == {
         'simulated time [s]', 'strain, largest of the springs at a node [%]'}
     assert figures['solver'].axes[1].get_yscale() == 'log'

@@ -86,5 +86,5 @@ def test_a_run_that_stopped_before_it_blew_up_is_told(tmp_path):
 def test_a_recording_without_frames_is_refused(tmp_path):
     """A user would get a summary full of zeros."""
     Recorder(tmp_path, 'empty', 'cloth_sim').close()
-    with pytest.raises(ClothSimError, match='holds no message'):
+    with pytest.raises(ClothSimError, match='contains no messages'):
         summarise(Recording(tmp_path / 'empty'))

@@ -115,7 +115,7 @@ def check_recording(path: Path, safe: int, story: str) -> None:
             reader.decode(raw).steps for raw in reader.messages([f'{NODE}/stats'])]
         check_recovery(path, sum(1 for _ in reader.messages()))
     except ClothSimError as error:
-        assert 'cut off before anything was flushed' in str(error)
+        assert 'truncated before the first flush' in str(error)
         found = []
     assert found == sorted(found)
     assert max(found, default=-1) >= safe, (

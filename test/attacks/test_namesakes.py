@@ -12,7 +12,7 @@ from std_srvs.srv import SetBool
 
 SCENE = {'rows': 4, 'cols': 4}
 NAME = '/twice/cloth_sim'
-TOLD = f'there is another node {NAME}: both carry out each request'
+TOLD = f'another node is also named {NAME}: both execute each request'
 
 
 def test_both_warn_and_every_request_is_answered(tmp_path):

@@ -167,7 +167,7 @@ def test_a_fault_is_reported_soon_and_the_simulation_goes_on(cloth, node, fault,
 
 def is_told(cloth: ClothUnderTest, node: NodeProcess, path: Path, reason: str) -> bool:
     """Return whether ~/state, /diagnostics and the log give the end and its reason."""
-    said = f'recording to {path} has ended ('
+    said = f'recording to {path} has stopped ('
     in_diagnostics = any(
         status.level == DiagnosticStatus.ERROR and status.message.startswith(said)
         and reason in status.message
@@ -218,7 +218,7 @@ def test_a_read_only_directory_refuses_a_start(cloth, node):
     finally:
         bags.chmod(0o755)
     assert not answer.success
-    assert 'Permission denied): set recording.directory to a folder that can' in answer.message
+    assert 'Permission denied): set recording.directory to a writable folder' in answer.message
 
 
 def test_a_recording_that_has_its_size_is_complete(client, tmp_path):

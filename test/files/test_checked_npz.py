@@ -62,7 +62,8 @@ HOSTILE = {
 def test_what_is_no_npz_is_refused_in_one_sentence(tmp_path, content):
     """A user would get a traceback, or the memory would be full."""
     (tmp_path / 'state.npz').write_bytes(content)
-    with pytest.raises(ClothSimError, match=r'state\.npz is no state file \(.+\): try') as error:
+    with pytest.raises(
+            ClothSimError, match=r'state\.npz is not a state file \(.+\): try') as error:
         load_arrays(tmp_path / 'state.npz', 'state file', 'try another')
     assert len(str(error.value).splitlines()) == 1
 
@@ -76,7 +77,7 @@ def test_a_wrong_byte_is_noticed(tmp_path, compression):
     data = bytearray(packed(stream.getvalue(), compression))
     data[len(data) // 2] ^= 16
     (tmp_path / 'state.npz').write_bytes(data)
-    with pytest.raises(ClothSimError, match='is no state file'):
+    with pytest.raises(ClothSimError, match='is not a state file'):
         load_arrays(tmp_path / 'state.npz', 'state file', 'try another')
 
 

@@ -95,10 +95,10 @@ def test_a_large_file_is_refused_without_reading_it(tmp_path):
     """A file of the size of the disk would be read into memory."""
     with (tmp_path / 'large').open('wb') as file:
         file.truncate(1 << 40)
-    with pytest.raises(ClothSimError, match=f'{1 << 40} bytes.* at most 1000'):
+    with pytest.raises(ClothSimError, match=f'{1 << 40} bytes.* the limit for its kind is 1000'):
         read_regular(tmp_path / 'large', 1000)
     # The kernel gives no size for its own.
-    with pytest.raises(ClothSimError, match='bytes.* at most 10'):
+    with pytest.raises(ClothSimError, match='bytes.* the limit for its kind is 10'):
         read_regular('/proc/self/maps', 10)
 
 

@@ -68,7 +68,7 @@ def test_a_healthy_run_is_ok_in_all_parts():
     ('stability', ERROR, 'auto_substeps', {'stability_margin': 1.1}, {}),
     ('stability', ERROR, 'lost at node (1, 2)', {}, {'problem': 'lost at node (1, 2)'}),
     ('stability', WARN, 'edges are off', {'strain_bound': 0.0}, {}),
-    ('stability', OK, 'edges turn', {'solves': 2, 'stability_margin': 1.0}, {}),
+    ('stability', OK, 'edges rotate', {'solves': 2, 'stability_margin': 1.0}, {}),
     ('stability', WARN, 'constraint.max_substeps', {'solves': 2, 'stability_margin': 1.2}, {}),
     ('pins', OK, 'no pin', {}, {}),
     ('pins', WARN, 'nearer targets', {'stalled_pins': 2}, {}),

@@ -24,5 +24,5 @@ import pytest
 def test_a_longer_dt_is_advised_where_it_helps(substeps, automatic, faster, useless):
     """A user would take a longer dt, which then has more substeps of the same length."""
     advice = slow_pace(0.5, 1.0, substeps=substeps, automatic=automatic)
-    assert advice.startswith('0.5 x real time, below the desired 1: use fewer nodes, ')
+    assert advice.startswith('0.5 x real time, below the target 1: use fewer nodes, ')
     assert faster in advice and useless not in advice

@@ -90,5 +90,5 @@ def test_a_state_that_is_not_finite_is_not_dense():
 
 def test_another_grid_is_refused():
     """The cloud would claim a size its bytes don't have."""
-    with pytest.raises(ValueError, match='make a PointsMessage for this cloth'):
+    with pytest.raises(ValueError, match='create a PointsMessage for this cloth'):
         PointsMessage(3, 4, 'world').serialise(make_snapshot(4, 3))

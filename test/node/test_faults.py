@@ -21,7 +21,7 @@ def test_a_fault_is_counted_and_logged_with_its_trace():
     line = faults.note(fault(), '~/reset')
     assert faults.count == 1
     assert line == faults.latest and line.startswith('~/reset: KeyError') and '\n' not in line
-    assert 'raise KeyError' in logged[0] and 'the node goes on' in logged[0]
+    assert 'raise KeyError' in logged[0] and 'the node continues' in logged[0]
 
 
 def test_a_fault_of_every_frame_does_not_fill_the_disk():

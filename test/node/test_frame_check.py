@@ -28,5 +28,6 @@ def test_takes_its_own_frame(frame: str):
 
 def test_refuses_another():
     """A point would be taken for another one, far away."""
-    with pytest.raises(ClothSimError, match="is 'tool0' and the cloth is in 'world': transform"):
+    with pytest.raises(
+            ClothSimError, match="is 'tool0' but the frame of the cloth is 'world': transform"):
         check_frame('tool0', 'world')

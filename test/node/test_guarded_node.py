@@ -95,7 +95,7 @@ def test_a_step_that_fails_stops_the_run(client, tmp_path):
     with NodeProcess(tmp_path, SCENE, '-r', '__ns:=/step', start=start) as node:
         cloth = ClothUnderTest(client, SCENE, '/step/cloth_sim')
         cloth.wait_for('state', lambda state: state.run_state == 'stopped')
-        assert 'the run has failed unexpectedly' in node.output and 'Traceback' in node.output
+        assert 'the run failed unexpectedly' in node.output and 'Traceback' in node.output
         assert status_of(cloth)
         assert cloth.call(SetBool, 'pause', data=False).success
         cloth.wait_for('stats', lambda stats: stats.steps > 40)

@@ -97,7 +97,8 @@ def test_the_profiles_differ_in_their_memory_alone():
 
 @pytest.mark.parametrize('environment, lack', [
     ({}, '/dev/shm has 2 MiB free and 64 MiB are needed'),
-    ({'RMW_IMPLEMENTATION': 'rmw_cyclonedds_cpp'}, 'rmw_cyclonedds_cpp takes no profile'),
+    ({'RMW_IMPLEMENTATION': 'rmw_cyclonedds_cpp'},
+     'rmw_cyclonedds_cpp does not use Fast DDS profiles'),
     ({'RMW_IMPLEMENTATION': 'rmw_fastrtps_cpp', VARIABLE: ''}, f'{VARIABLE} is empty'),
     ({VARIABLE: str(quick_discovery.PROFILE)}, 'which has no segment_size'),
     ({VARIABLE: '/nowhere.xml'}, 'which has no segment_size'),
@@ -123,7 +124,7 @@ def test_a_small_profile_of_the_user_is_told(tmp_path):
 
 @pytest.mark.parametrize('cloud, memory, told', [
     (524_288, SharedMemory(524_288, 'too little'), ''),
-    (524_289, SharedMemory(524_288, 'too little'), 'subscribe reliably, or mend this: too little'),
+    (524_289, SharedMemory(524_288, 'too little'), 'subscribe reliably, or fix this: too little'),
     (1, SharedMemory(524_288, 'too little', is_full=True), 'too little'),
     (44_000_000, SharedMemory(524_288), '')])
 def test_only_what_matters_is_spoken_of(cloud, memory, told):
@@ -136,7 +137,7 @@ def test_a_full_memory_is_told_with_numbers(free):
     """The profile would be dropped in silence, and the clouds of a large cloth be lost."""
     told = use_profile(frame_bytes(256, 256), {}, free).warning(cloud_bytes(256**2))
     assert f'/dev/shm has {free / MIB:.0f} MiB free and 64 MiB are needed' in told
-    assert 'make room, in a container with --shm-size' in told
+    assert 'free some, or raise --shm-size of a container' in told
 
 
 @pytest.mark.parametrize('points', [True, False])
@@ -146,7 +147,7 @@ def test_the_node_warns(points, client, tmp_path):
     with NodeProcess(tmp_path, scene, '-r', f'__ns:=/warns_{points}') as node:
         # It serves only after it has said what there is to say.
         client.call(SetBool, f'/warns_{points}/cloth_sim/pause', data=True)
-    told = 'a cloud has 0.72 MB and Fast DDS 0.52 MB of shared memory' in node.output
+    told = 'a point cloud has 0.72 MB but Fast DDS only 0.52 MB of shared memory' in node.output
     assert told == points, node.output
 
 

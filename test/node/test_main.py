@@ -33,7 +33,7 @@ BAD_PARAMETERS = {
     'unstable': ({'dt': 0.5, 'auto_substeps': False}, 'or auto_substeps: true'),
     'too large for the device': ({'rows': 8192, 'cols': 8192}, 'use up to about'),
     'two weights': ({'total_mass': 0.3, 'areal_density': 0.2}, 'total_mass 0.3 and areal_density '
-                    '0.2 each say what the cloth weighs: give one of them'),
+                    '0.2 each set the mass of the cloth: give one of them'),
     'pin off the cloth': ({'pin_points.positions': [0.0, 0.0, 1.4]}, 'no node is within'),
     'mixed list': ({'gravity': [0, 0, -9.81]}, 'write lists of numbers alike'),
 }
@@ -113,7 +113,8 @@ def test_says_what_ros_refuses(tmp_path):
         'ROS_SECURITY_ENABLE': 'true', 'ROS_SECURITY_STRATEGY': 'Enforce',
         'ROS_SECURITY_KEYSTORE': str(tmp_path / 'nowhere')}
     text = refusal(NodeProcess(tmp_path, environment=secured))
-    assert 'ROS makes no node: SECURITY ERROR' in text and 'unset ROS_SECURITY_ENABLE' in text
+    assert 'ROS cannot create a node: SECURITY ERROR' in text
+    assert 'unset ROS_SECURITY_ENABLE' in text
     verb = cloth_sim('pause', env={**os.environ, **secured})
     assert verb.returncode == 1 and len(verb.stderr.splitlines()) == 1
-    assert 'ROS makes no node: SECURITY ERROR' in verb.stderr
+    assert 'ROS cannot create a node: SECURITY ERROR' in verb.stderr

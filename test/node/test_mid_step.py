@@ -57,7 +57,7 @@ def test_what_is_asked_within_steps_is_made_again_to_the_bit(
         assert cloth.call(Trigger, 'stop_recording').success
     frames = len(list(Recording(tmp_path / 'bags' / 'slow').entries('points')))
     done = cloth_sim('resimulate', str(tmp_path / 'bags' / 'slow'))
-    assert f'{frames} of {frames} frames equal to the bit' in done.stdout, (
+    assert f'{frames} of {frames} frames bitwise identical' in done.stdout, (
         done.stdout + done.stderr)
 
 

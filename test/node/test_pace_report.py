@@ -63,7 +63,7 @@ def test_a_slow_run_is_warned_of_once(run):
     (time, level, text), = run((600.0, 0.5))
     assert level == 'warning' and time < 2.0
     assert text == (
-        '0.5 x real time, below the desired 1: use fewer nodes, softer springs, another mode or a '
+        '0.5 x real time, below the target 1: use fewer nodes, softer springs, another mode or a '
         'lower real_time_factor')
 
 

@@ -13,9 +13,9 @@ from rcl_interfaces.srv import SetParametersAtomically
 GOOD = Parameter(name='clicked_point.radius', value=ParameterValue(type=3, double_value=0.5))
 BAD = {
     'no such type': (Parameter(
-        name='real_time_factor', value=ParameterValue(type=99)), 'type 99, which is none'),
-    'unset': (Parameter(name='real_time_factor'), 'type 0, which is none'),
-    'unset, of rclpy': (Parameter(name='use_sim_time'), 'type 0, which is none'),
+        name='real_time_factor', value=ParameterValue(type=99)), 'type 99, which does not exist'),
+    'unset': (Parameter(name='real_time_factor'), 'type 0, which does not exist'),
+    'unset, of rclpy': (Parameter(name='use_sim_time'), 'type 0, which does not exist'),
     'another type, of rclpy': (Parameter(
         name='use_sim_time', value=ParameterValue(type=7)), 'holds bool, got integer array'),
     'no name': (Parameter(value=ParameterValue(type=3)), 'there is no parameter'),

@@ -37,9 +37,9 @@ BAD = {
     'a node outside': ({'row': 2**32 - 1}, '0 to 7'),
     'a target that is no number': ({'target': Point(x=NAN)}, '3 finite numbers'),
     'an infinite target': ({'target': Point(z=-INF)}, '3 finite numbers'),
-    'a negative speed': ({'speed': -0.5}, 'speed of a pin is from 1e-06'),
-    'a speed that is no number': ({'speed': NAN}, 'speed of a pin is from 1e-06'),
-    'an infinite speed': ({'speed': INF}, 'speed of a pin is from 1e-06'),
+    'a negative speed': ({'speed': -0.5}, 'speed of a pin must be from 1e-06'),
+    'a speed that is no number': ({'speed': NAN}, 'speed of a pin must be from 1e-06'),
+    'an infinite speed': ({'speed': INF}, 'speed of a pin must be from 1e-06'),
 }
 
 

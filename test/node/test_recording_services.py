@@ -172,7 +172,7 @@ def test_refuses_to_overwrite(cloth):
     cloth.call(Trigger, 'stop_recording')
     response = start(cloth, 'once')
     assert not response.success
-    assert 'is there already' in response.message
+    assert 'already exists' in response.message
 
 
 def test_refuses_a_second_recording(cloth):
@@ -181,14 +181,14 @@ def test_refuses_a_second_recording(cloth):
     response = start(cloth)
     assert not response.success
     assert path in response.message
-    assert 'stop it first, by ~/stop_recording or `cloth_sim' in response.message
+    assert 'stop it first, with ~/stop_recording or `cloth_sim' in response.message
 
 
 def test_refuses_to_stop_nothing(cloth):
     """A script would believe that it has recorded something."""
     response = cloth.call(Trigger, 'stop_recording')
     assert not response.success
-    assert 'start one first, by ~/start_recording or `cloth_sim' in response.message
+    assert 'start one first, with ~/start_recording or `cloth_sim' in response.message
 
 
 def test_an_unwritable_directory_is_no_end(cloth, shared_node):

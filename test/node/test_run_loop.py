@@ -138,4 +138,4 @@ def test_a_run_stops_where_stamps_end(client, tmp_path):
             assert not answer.success and 'reset it' in answer.message
         assert cloth.call(Trigger, 'reset').success
         assert cloth.call(SetBool, 'pause', data=True).success
-        assert cloth.call(Step, 'step', steps=1).message.startswith('1 steps made')
+        assert cloth.call(Step, 'step', steps=1).message.startswith('1 steps done')

@@ -35,7 +35,7 @@ def test_step_is_refused_while_running(cloth):
     cloth.call(SetBool, 'pause', data=False)
     response = cloth.call(Step, 'step', steps=1)
     assert not response.success
-    assert 'pause it first, by ~/pause with data: true or' in response.message
+    assert 'pause it first, with ~/pause with data: true or' in response.message
 
 
 @pytest.mark.parametrize('steps', [0, 100001, 2**32 - 1])

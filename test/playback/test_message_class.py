@@ -43,7 +43,7 @@ def test_a_type_that_has_changed_is_refused(change):
     """Readers would get the bytes of one type as another: numbers without sense."""
     text = message_definition(NAME)
     assert change[0] in text
-    with pytest.raises(ClothSimError, match='was another one when this was recorded'):
+    with pytest.raises(ClothSimError, match='had another definition when this was recorded'):
         message_class(NAME, definition(text.replace(*change)))
 
 
@@ -58,5 +58,5 @@ def test_what_is_not_installed_is_named(name):
 @pytest.mark.parametrize('name', ['', 'Header', 'std_msgs/Header', 'std_msgs/srv/Set', '../msg/A'])
 def test_what_is_no_type_is_said(name):
     """A broken recording would make Python import something else."""
-    with pytest.raises(ClothSimError, match='is no message type'):
+    with pytest.raises(ClothSimError, match='is not a message type'):
         message_class(name, UNKNOWN)

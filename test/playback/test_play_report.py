@@ -29,10 +29,10 @@ def test_lateness_is_told():
         messages=7, rounds=3, furthest_behind=60.0, slipped=59.5).sentences()
     assert told == 'played 7 messages in 3 rounds, at most 60 s late'
     assert 'this took 60 s longer' in problem
-    assert 'nothing was left out' in problem
+    assert 'nothing was dropped' in problem
 
 
 def test_messages_that_a_reader_may_lack_are_told():
     """A recording of what was played would have gaps, and nobody would know."""
     _, problem = PlayReport(messages=7, rounds=1, overruns={'/a/points': 3}).sentences()
-    assert 'a reader of /a/points may have lost up to 3 messages' in problem
+    assert 'a subscriber of /a/points may have lost up to 3 messages' in problem

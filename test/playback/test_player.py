@@ -193,7 +193,7 @@ def test_what_was_cut_off_is_played_to_its_end(bag, client, player, tmp_path):
     process.resume(client)
     assert process.wait(client) == 0, process.problems
     assert heard == expected
-    assert 'cut off' in process.problems
+    assert 'truncated' in process.problems
 
 
 def test_the_clock_tells_the_stamps_where_none_is_recorded(bag, client, player):

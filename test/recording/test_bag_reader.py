@@ -150,7 +150,7 @@ def test_a_file_cut_anywhere_gives_what_is_whole_or_a_reason(recorded, tmp_path,
         read = contents(reader)
         assert read == expected[:len(read)]
         assert len(read) == sum(topic.count for topic in reader.topics)
-        assert len(reader.problems) == 1 and 'cut off' in reader.problems[0]
+        assert len(reader.problems) == 1 and 'is truncated' in reader.problems[0]
         lengths.append(len(read))
     assert lengths == sorted(lengths) and lengths[-1] > len(expected) / 2
 
@@ -177,7 +177,7 @@ def test_a_cut_sqlite3_file_is_told_with_the_way_out(recorded, tmp_path):
     generator = random.Random(5)
     for size in sorted(generator.randrange(len(content)) for _ in range(20)):
         file.write_bytes(content[:size])
-        with pytest.raises(ClothSimError, match=r'no whole sqlite3 bag.*\.recover'):
+        with pytest.raises(ClothSimError, match=r'not an intact sqlite3 bag.*\.recover'):
             contents(BagReader(folder))
 
 
@@ -202,8 +202,8 @@ def test_compressed_bags_of_rosbag2_are_read(recorded, tmp_path, expected, compr
 
 
 @pytest.mark.parametrize('content, reason', [
-    (b'', 'is empty'), (b'\x89MCAP', 'has 5 bytes, as it is cut off'),
-    (b'nothing of the kind', 'no mcap file')])
+    (b'', 'is empty'), (b'\x89MCAP', 'has 5 bytes, as it was truncated'),
+    (b'nothing of the kind', 'not an mcap file')])
 def test_what_is_no_bag_is_refused(tmp_path, content, reason):
     """A wrong file would end in a traceback."""
     file = tmp_path / 'bag.mcap'

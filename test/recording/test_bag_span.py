@@ -63,5 +63,5 @@ def test_a_part_is_what_lies_between_its_times(names, bag):
 def test_an_empty_bag_has_no_span(tmp_path):
     """A recording that was only begun would seem to be from 1970."""
     Recorder(tmp_path, 'run').close()
-    with pytest.raises(ClothSimError, match='holds no message'):
+    with pytest.raises(ClothSimError, match='contains no messages'):
         assert BagReader(tmp_path / 'run').span

@@ -111,7 +111,7 @@ def test_a_change_is_reported_though_nothing_more_is_written(recorder, change):
     change(recorder.path / 'run_0.mcap')
     reason = end_of(recorder)
     assert CHANGES[change] in reason
-    assert reason.startswith(f'recording to {recorder.path} has ended (')
+    assert reason.startswith(f'recording to {recorder.path} has stopped (')
     assert 'leave the folder of a recording alone' in reason and 'start a new one' in reason
 
 

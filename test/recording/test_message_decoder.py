@@ -69,7 +69,7 @@ def test_definitions_in_idl_are_read():
     (STATS, b'\x00\x01\x00\x00\x01'), ('other/msg/Unknown', b'\x00\x01\x00\x00'), ('', b'text')])
 def test_what_makes_no_sense_is_refused(type_name, data):
     """A damaged message, or one of another program, would end in a traceback."""
-    with pytest.raises(ClothSimError, match=f'/topic is no {type_name} .*: give'):
+    with pytest.raises(ClothSimError, match=f'/topic is not a valid {type_name} .*: give'):
         MessageDecoder([]).decode(RawMessage('/topic', type_name, 0, data))
 
 

@@ -78,7 +78,7 @@ def test_a_full_disk_ends_the_recording_and_nothing_else(start, tmp_path):
     output, _ = start('full_disk').communicate()
     count, error = output.splitlines()
     assert count == '1'
-    assert error.startswith(f'recording to {tmp_path / "run"} has ended (File too large): ')
+    assert error.startswith(f'recording to {tmp_path / "run"} has stopped (File too large): ')
     entries = read_broken(tmp_path / 'run' / 'run_0.mcap')
     assert entries[0][0] == '/cloth_sim/stats' and entries[0][1].steps == 1
     metadata = yaml.safe_load((tmp_path / 'run' / 'metadata.yaml').read_text())

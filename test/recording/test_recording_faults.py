@@ -13,14 +13,14 @@ from cloth_sim_ros.recording.watched_file import FileChangedError
 import pytest
 
 WAYS_OUT = {
-    errno.ENOSPC: 'make room, or set recording.directory to another disk',
-    errno.EDQUOT: 'make room, or set recording.directory to another disk',
-    errno.EFBIG: 'make room, or set recording.directory to another disk',
+    errno.ENOSPC: 'free disk space, or set recording.directory to another disk',
+    errno.EDQUOT: 'free disk space, or set recording.directory to another disk',
+    errno.EFBIG: 'free disk space, or set recording.directory to another disk',
     errno.EMFILE: 'raise the limit of open files (ulimit -n), or close some',
     errno.ENFILE: 'raise the limit of open files (ulimit -n), or close some',
-    errno.EROFS: 'set recording.directory to a folder that can be written to',
-    errno.EACCES: 'set recording.directory to a folder that can be written to',
-    errno.EIO: 'set recording.directory to a folder that can be written to',
+    errno.EROFS: 'set recording.directory to a writable folder',
+    errno.EACCES: 'set recording.directory to a writable folder',
+    errno.EIO: 'set recording.directory to a writable folder',
 }
 
 
@@ -30,10 +30,10 @@ def test_each_fault_has_its_way_out(number):
     error = OSError(number, os.strerror(number))
     refused = str(refusal(Path('/bags'), error, 'recording.directory'))
     assert refused == (
-        f'nothing can be recorded into /bags ({os.strerror(number)}): {WAYS_OUT[number]}')
+        f'cannot record into /bags ({os.strerror(number)}): {WAYS_OUT[number]}')
     ended = str(ending(Path('/bags/run'), error, 'recording.directory'))
     assert ended == (
-        f'recording to /bags/run has ended ({os.strerror(number)}): {WAYS_OUT[number]}, and '
+        f'recording to /bags/run has stopped ({os.strerror(number)}): {WAYS_OUT[number]}, and '
         'start a new one')
 
 
@@ -46,4 +46,4 @@ def test_a_file_that_was_changed_is_no_matter_of_the_folder():
 def test_a_thread_that_cannot_start_has_its_way_out():
     """A user would look for a fault of the disk."""
     refused = str(refusal(Path('/bags'), RuntimeError("can't start new thread"), '--record'))
-    assert "(can't start new thread): end other programs, or raise the limits" in refused
+    assert "(can't start new thread): close other programs, or raise the limits" in refused

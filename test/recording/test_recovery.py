@@ -41,7 +41,7 @@ def test_other_tools_read_what_was_whole(cut, recorded, tmp_path):
         contents(cut)
     before = (cut / 'run_0.mcap').read_bytes()
     recovery = Recovery(cut)
-    assert 'run_0.mcap lacks all behind its first ' in recovery.problems[0]
+    assert 'run_0.mcap lacks everything after its first ' in recovery.problems[0]
     recovery.write(tmp_path / 'whole', '--out')
     found = contents(tmp_path / 'whole')
     assert found == contents(recorded)[:len(found)]
@@ -83,7 +83,7 @@ def test_cut_anywhere_all_whole_messages_are_kept(recorded, tmp_path):
         file.write_bytes(content[:size])
         expected = read_or_none(file)
         if not expected:
-            with pytest.raises(ClothSimError, match='cut off before anything was flushed'):
+            with pytest.raises(ClothSimError, match='truncated before the first flush'):
                 Recovery(file)
             continue
         Recovery(file).write(tmp_path / f'whole_{number}', '--out')
@@ -106,7 +106,7 @@ def test_what_comes_after_a_damaged_byte_is_kept(recorded, tmp_path, place):
     content[int(place * len(content))] ^= 0xff
     (folder / 'run_0.mcap').write_bytes(content)
     recovery = Recovery(folder)
-    assert 'run_0.mcap lacks what stood in 1 damaged records' in recovery.problems
+    assert 'run_0.mcap lacks the contents of 1 damaged records' in recovery.problems
     recovery.write(tmp_path / 'whole', '--out')
     whole, found = contents(recorded), contents(tmp_path / 'whole')
     assert set(found) < set(whole) and found[-1] == whole[-1]
@@ -152,7 +152,7 @@ def test_a_split_recording_keeps_its_files(recorded, tmp_path):
 def test_nothing_is_overwritten(cut, tmp_path):
     """A recording that is there would be lost for one that is broken."""
     (tmp_path / 'there').mkdir()
-    with pytest.raises(ClothSimError, match='is there already'):
+    with pytest.raises(ClothSimError, match='already exists'):
         Recovery(cut).write(tmp_path / 'there', '--out')
     assert list((tmp_path / 'there').iterdir()) == []
 
@@ -160,7 +160,7 @@ def test_nothing_is_overwritten(cut, tmp_path):
 def test_what_cannot_be_recovered_is_refused(recorded, tmp_path):
     """A traceback would be shown, or a bag without messages be written."""
     database = copy_bag(recorded, tmp_path / 'database', 'sqlite3')
-    with pytest.raises(ClothSimError, match=r'mcap files alone can be recovered: .*\.recover'):
+    with pytest.raises(ClothSimError, match=r'only mcap files can be recovered: .*\.recover'):
         Recovery(database)
     compressed = copy_bag(recorded, tmp_path / 'compressed', compression='FILE')
     with pytest.raises(ClothSimError, match='decompress its files first'):

@@ -175,7 +175,7 @@ def test_a_recording_stays_within_its_size_and_is_whole(tmp_path, most, options)
     size = sum(file.stat().st_size for file in path.iterdir())
     assert 0.5 * most < size <= most
     assert f'the recording {path} is complete up to ' in str(full)
-    assert f'recording.max_size {most} bytes: set a larger one' in str(full)
+    assert f'recording.max_size {most} bytes: set a larger limit' in str(full)
     found = steps([path])
     assert found == list(range(len(found)))
     reader = BagReader(path)

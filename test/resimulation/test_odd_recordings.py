@@ -126,6 +126,6 @@ def test_the_middle_of_a_run_cannot_change_its_nodes(tmp_path):
     """Nodes would begin at positions of others."""
     with Director(tmp_path, {'rows': 8, 'cols': 9}, lambda cloth: cloth.step(3)) as director:
         director.step(1)
-    with pytest.raises(ClothSimError, match='8 x 9 nodes, from which 5 x 9 cannot go on'):
+    with pytest.raises(ClothSimError, match='8 x 9 nodes, from which 5 x 9 cannot continue'):
         with made_again(director.path, rows=5):
             pass

@@ -149,8 +149,8 @@ def test_what_the_middle_of_a_run_does_not_tell_is_named(tmp_path):
         director.step(9)
     with made_again(director.path) as rerun:
         assert rerun.unknown == (
-            'what mode adaptive kept from earlier steps', 'where the pins under way set off',
-            'which nodes a push under way took as it began')
+            'what mode adaptive carried over from earlier steps', 'where the moving pins started',
+            'which nodes an active push selected when it began')
         assert rerun.check.frames == 2
         # At first only the pins differ, which have no velocity before they set off.
         assert rerun.check.first.fields == ('vx', 'vz')

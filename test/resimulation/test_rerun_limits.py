@@ -46,7 +46,7 @@ def test_a_stamp_far_ahead_is_refused(tmp_path, key, message):
         director.step(4)
         director.send(key, message)
     assert f'has a message on ~/{key} of ' in (words := refusal_of(director.path))
-    assert 'after one of 0.02 s, and at 50 frames a second' in words
+    assert 'after one of 0.02 s, and at 50 frames per second' in words
 
 
 def test_the_longest_gap_that_frames_may_have_is_made(tmp_path):
@@ -94,7 +94,7 @@ def test_many_nodes_without_a_cloud_have_to_be_asked_for(tmp_path):
     """A few bytes would take gigabytes of the device."""
     stats = serialize_message(ClothStats())
     path = recorded(tmp_path, {'rows': 8192, 'cols': 8192}, ('stats', stats))
-    assert '8192 x 8192 nodes and no cloud' in refusal_of(path)
+    assert '8192 x 8192 nodes but no cloud' in refusal_of(path)
 
 
 def test_a_beginning_before_zero_is_refused(tmp_path):

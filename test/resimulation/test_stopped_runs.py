@@ -74,7 +74,7 @@ def test_what_began_anew_at_a_stop_is_named(tmp_path):
     with Director(tmp_path, {'rows': 8, 'cols': 9, 'mode': 'adaptive'}) as director:
         stop_and_go_on(director)
     with made_again(director.path) as rerun:
-        assert rerun.unknown == ('with which step mode adaptive began anew as the run stopped',)
+        assert rerun.unknown == ('at which step mode adaptive restarted when the run stopped',)
         assert (rerun.problem, rerun.check.frames) == ('', 3)
 
 

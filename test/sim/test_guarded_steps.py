@@ -242,7 +242,8 @@ def test_a_blow_up_by_memory_alone_is_told():
     def step(number: int) -> Pieces:
         return mode.step(state, number * scene['dt'], loads)
 
-    with pytest.raises(NonFiniteStateError, match='without what the mode had kept') as caught:
+    with pytest.raises(
+            NonFiniteStateError, match='without what the mode had carried over') as caught:
         list(guard.make(0, 3, step, mode, loads))
     assert caught.value.steps == 3
     assert observer.measure(state, loads.still, None).finite

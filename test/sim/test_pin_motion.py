@@ -181,10 +181,11 @@ def test_a_reset_ends_the_moves(simulation: Simulation):
     ((0, 0), (0.0, INF, 0.0), 1.0, 'target of a pin must be 3 finite numbers'),
     ((0, 0), (0.0, 0.0), 1.0, 'target of a pin must be 3 finite numbers'),
     ((0, 0), (0.0, 0.0, 1e7), 1.0, r'at most 1e\+06 m along each axis, got .*: keep the cloth'),
-    ((0, 0), (0.0, 0.0, 0.0), 0.0, 'speed of a pin is from 1e-06 to 1e[+]06 m/s, got 0.0 m/s'),
-    ((0, 0), (0.0, 0.0, 0.0), -1.0, 'speed of a pin is from 1e-06'),
-    ((0, 0), (0.0, 0.0, 0.0), NAN, 'speed of a pin is from 1e-06'),
-    ((0, 0), (0.0, 0.0, 0.0), INF, 'speed of a pin is from 1e-06'),
+    ((0, 0), (0.0, 0.0, 0.0), 0.0,
+     'speed of a pin must be from 1e-06 to 1e[+]06 m/s, got 0.0 m/s'),
+    ((0, 0), (0.0, 0.0, 0.0), -1.0, 'speed of a pin must be from 1e-06'),
+    ((0, 0), (0.0, 0.0, 0.0), NAN, 'speed of a pin must be from 1e-06'),
+    ((0, 0), (0.0, 0.0, 0.0), INF, 'speed of a pin must be from 1e-06'),
 ])
 def test_nonsense_is_refused(simulation: Simulation, node, target, speed, message: str):
     """A bad target would tear the cloth, or make it NaN; or end a move under way."""

@@ -133,7 +133,7 @@ def test_a_push_in_the_past_is_refused(context):
     """It would be accepted and give less than the impulse it answers with."""
     simulation = Simulation(Scene(_FREE), context=context)
     simulation.advance(1.0)
-    with pytest.raises(ClothSimError, match='the start of the push, 0.5 s, lies in the past'):
+    with pytest.raises(ClothSimError, match='the start of the push, 0.5 s, is in the past'):
         simulation.push((0.0, 0.0, 1.0), duration=1.0, start=0.5)
 
 
@@ -198,7 +198,7 @@ def test_the_number_of_pushes_is_bounded(context):
     for _ in range(MOST_PUSHES):
         simulation.push((0.0, 0.0, 1e-3), duration=0.02)
     for start in (None, 1.0):
-        with pytest.raises(ClothSimError, match='1000 pushes act or are to come.*clear them'):
+        with pytest.raises(ClothSimError, match='1000 pushes are active or scheduled.*clear them'):
             simulation.push((0.0, 0.0, 1e-3), duration=0.02, start=start)
     assert len(simulation.pushes) == MOST_PUSHES
     simulation.advance(0.1)

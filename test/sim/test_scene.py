@@ -48,7 +48,7 @@ def test_one_parameter_alone_says_what_the_cloth_weighs(others: dict, named: str
     with pytest.raises(ClothSimError) as caught:
         Scene({'total_mass': 0.3, **others})
     assert str(caught.value) == (
-        f'{named} each say what the cloth weighs: give one of them, and set the others to 0')
+        f'{named} each set the mass of the cloth: give one of them, and set the others to 0')
     assert Scene({'total_mass': 0.3, **dict.fromkeys(others, 0.0)})['total_mass'] == 0.3
 
 
@@ -155,9 +155,9 @@ def test_the_name_of_a_group_gets_its_members(name: str, hint: str):
     ({'pushes.start': [1.0], 'pushes.duration': [0.1], 'pushes.force': [1.0, 2.0]},
      'pushes.force needs 3 per push, 3 for the 1'),
     ({'pushes.start': [1.0], 'pushes.duration': [0.0], 'pushes.force': [1.0, 2.0, 3.0]},
-     'the duration of a push is above 0 and at most'),
+     'the duration of a push must be above 0 and at most'),
     ({'air.wind': [1.0, 2.0]}, 'air.wind needs 3 components, got 2'),
-    ({'air.density': 1.225, 'rows': 1}, 'a chain of rows 1 x cols 32 has none: give it 2 or more'),
+    ({'air.density': 1.225, 'rows': 1}, 'a chain of rows 1 x cols 32 has none: give 2 or more'),
     ({'gusts.start': [1.0]}, 'gusts.duration needs 1 per gust, 1 for the 1 in gusts.start'),
     ({'gusts.start': [1.0], 'gusts.duration': [0.5], 'gusts.wind': [1.0]},
      'gusts.wind needs 3 per gust, 3 for the 1'),

@@ -250,7 +250,7 @@ def test_a_block_closes_it():
         simulation.step()
     simulation.close()
     for use in (simulation.step, simulation.positions, simulation.snapshot):
-        with pytest.raises(DeviceError, match='is closed: make a new one'):
+        with pytest.raises(DeviceError, match='is closed: create a new Simulation'):
             use()
 
 

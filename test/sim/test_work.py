@@ -181,7 +181,7 @@ def test_what_needs_a_whole_step_is_refused_within_one(simulate):
     work = into_a_step(simulation)
     for change in (simulation.reset, lambda: simulation.step(1),
                    lambda: simulation.set_mode('mass_spring')):
-        with pytest.raises(RuntimeError, match='step under way'):
+        with pytest.raises(RuntimeError, match='needs the current step to end'):
             change()
     finish(work)
     simulation.step(1)

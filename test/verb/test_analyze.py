@@ -218,7 +218,8 @@ def test_a_bag_cut_at_fifty_places_gives_a_report_or_a_reason(swinging, tmp_path
     for size in sorted(generator.randrange(len(content)) for _ in range(50)):
         cut.write_bytes(content[:size])
         outcomes.append(outcome(cut, capsys))
-    reports = [text for text in outcomes if 'cut off: read up to its last whole record' in text]
+    reports = [
+        text for text in outcomes if 'truncated: read up to its last complete record' in text]
     assert len(reports) > 20
     assert all('give' in text for text in outcomes if text not in reports)
     # More is never read of less.
@@ -260,15 +261,15 @@ NO_STAMP = made(
     header={'frame_id': 'world'})
 FOREIGN = {
     'other topics': ([('/chatter', String(data='text'))], 'no frame of a cloth_sim node'),
-    'no message': ([('/cloth_sim/stats', ClothStats)], 'bag holds no message: give another'),
+    'no message': ([('/cloth_sim/stats', ClothStats)], 'bag contains no messages: give another'),
     'another cloud': ([('/scan/points', SCAN)], 'no field normal_x'),
     'two sizes': ([('/cloth_sim/points', cloud()), ('/cloth_sim/points', cloud(4, 3))],
                   '4 x 3 nodes at 0 s after clouds of 2 x 3'),
-    'too short': ([('/cloth_sim/points', cloud(data=bytes(100)))], 'not as long as it says'),
+    'too short': ([('/cloth_sim/points', cloud(data=bytes(100)))], 'not have its declared length'),
     'unknown field': (
         [('/cloth_sim/points', cloud(fields=[
             PointField(name=field.name, offset=field.offset, datatype=77, count=1)
-            for field in cloud().fields]))], 'of unknown fields'),
+            for field in cloud().fields]))], 'has unknown fields'),
     'no points': ([('/cloth_sim/points', cloud(height=0, data=b''))], 'has no point'),
     'no stamp': ([('/cloth_sim/stats', NO_STAMP)], 'has None as its header.stamp.sec'),
 }
@@ -328,7 +329,7 @@ def test_bags_are_compared_with_the_first(tmp_path, capsys):
     assert main(['analyze', str(first), str(other), str(first), '--out', str(out)]) == 0
     shown = capsys.readouterr().out
     assert 'first_2 with first' in shown
-    assert 'all positions are equal, bit for bit' in shown
+    assert 'all positions are bitwise identical' in shown
     far, same = json.loads((out / 'comparison.json').read_text())
     assert same['identical'] and same['matched_frames'] == 21
     assert far['rms_distance_at_most'] > 1e-3 and not far['identical']

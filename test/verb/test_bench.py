@@ -108,7 +108,7 @@ def test_some_modes_can_be_compared_alone():
 
 
 @pytest.mark.parametrize(('arguments', 'reason'), [
-    (['--grids', '6,ten'], "'6,ten' is no list of whole numbers: give some as 32,64"),
+    (['--grids', '6,ten'], "'6,ten' is not a list of integers: write it as in 32,64"),
     (['--grids', '6', '--only', 'magic'], 'mass_spring'),
     (['--grids', '1'], 'at least 2'), (['--grids', '6', '--seconds', 'nan'], 'nan s')])
 def test_a_comparison_that_makes_no_sense_is_refused(arguments, reason):

@@ -62,7 +62,7 @@ def test_a_recording_cut_off_in_its_first_chunk_is_told_so(
     capsys.readouterr()
     assert main([arguments[0], 'cut.mcap', *arguments[1:]]) == 1
     said = capsys.readouterr().err
-    assert 'as it is cut off before anything was flushed' in said
+    assert 'as it was truncated before the first flush' in said
     assert 'publish.points' not in said and 'Traceback' not in said
 
 
@@ -77,7 +77,7 @@ def test_the_folder_of_a_recording_that_never_got_anything_is_told_so(
         (tmp_path / 'small' / name).touch()
     arguments = {'render': ('--out', 'picture.png')}.get(verb, ())
     assert main([verb, 'small', *arguments]) == 1
-    assert 'as it is cut off before anything was flushed' in capsys.readouterr().err
+    assert 'as it was truncated before the first flush' in capsys.readouterr().err
 
 
 def test_says_what_is_wrong_with_a_recording(tmp_path, capsys):

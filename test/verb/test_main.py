@@ -93,4 +93,4 @@ def test_refuses_what_is_no_name_of_a_node(name):
     result = cloth_sim('pause', f'--node={name}', '--timeout', '0.1')
     assert result.returncode == 1
     assert len(result.stderr.splitlines()) == 1, result.stderr
-    assert f'{name!r} is no name of a node: give its name' in result.stderr
+    assert f'{name!r} is not a node name: give the name' in result.stderr

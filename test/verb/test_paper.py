@@ -94,7 +94,7 @@ def test_a_run_beyond_the_limit_can_be_made_again(made, capsys, figure, name):
     """A blow-up could be looked at, but not be made again, as its step is refused elsewhere."""
     assert main(['resimulate', str(made[figure] / name)]) == 0
     out = capsys.readouterr().out
-    assert 'frames equal to the bit' in out
+    assert 'frames bitwise identical' in out
     assert ('as the recorded one did' in out) == (name == 'stiff_paper')
 
 

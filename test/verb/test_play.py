@@ -89,9 +89,9 @@ def test_large_clouds_get_shared_memory(bag, tmp_path, monkeypatch):
 
 @pytest.mark.parametrize(('arguments', 'message'), [
     (('--rate', 0), '--rate 0 is outside its range: give a value from 1e-06'),
-    (('--start', 2.5), '--start 2.5 is behind the end of the recording: give a time from 0 to 2'),
-    (('--topics', '/nothing'), 'has no topic /nothing: give some of /cloth_sim/stats'),
-    (('--as', 'no name'), '/no name/stats is no name of a topic'),
+    (('--start', 2.5), '--start 2.5 is after the end of the recording: give a time from 0 to 2'),
+    (('--topics', '/nothing'), 'has no topic /nothing: choose from /cloth_sim/stats'),
+    (('--as', 'no name'), '/no name/stats is not a valid topic name'),
 ])
 def test_what_is_wrong_is_said_in_one_line(arguments, message, bag, capsys):
     """The user would get a traceback, or nothing would be played and nobody told."""
@@ -108,7 +108,7 @@ def test_a_recording_without_messages_is_told(tmp_path, capsys):
     recorder.close()
     code, _, errors = play(capsys, recorder.path)
     assert code == 1
-    assert 'holds no message' in errors
+    assert 'contains no messages' in errors
 
 
 def test_topics_of_unknown_types_are_named_and_left_out(foreign, capsys):

@@ -117,7 +117,7 @@ def test_everything_that_can_be_done_is_done_again(cloth, recorded, mode, capsys
     step(cloth, 15)
     path = recorded()
     assert main(['resimulate', str(path), '--node', cloth.name]) == 0
-    assert capsys.readouterr().out.splitlines() == ['9 of 9 frames equal to the bit']
+    assert capsys.readouterr().out.splitlines() == ['9 of 9 frames bitwise identical']
     for publisher in (pushes, targets):
         node.destroy_publisher(publisher)
 
@@ -185,8 +185,8 @@ def test_a_recording_that_begins_late_says_what_it_lacks(cloth, mode, capsys):
     step(cloth, 50)
     cloth.call(Trigger, 'stop_recording')
     with made_again(path, cloth.name) as rerun:
-        assert rerun.unknown[0] == f'what mode {mode} kept from earlier steps'
-        assert 'the pins under way' in rerun.unknown[1]
+        assert rerun.unknown[0] == f'what mode {mode} carried over from earlier steps'
+        assert 'the moving pins' in rerun.unknown[1]
         # The reset and what came after it.
         assert rerun.check.equal >= 2
         assert rerun.check.largest is None or rerun.check.largest.distance < 1e-3

@@ -71,7 +71,7 @@ def test_a_cloth_by_weight_and_points_is_made_again(tmp_path, again):
         str(tmp_path / 'state.npz')]) == 0
     with np.load(tmp_path / 'state.npz') as state:
         assert np.argwhere(state['flags'] & FLAG_PINNED).tolist() == [[0, 0], [4, 5]]
-    assert again(tmp_path / 'towel')[:2] == (0, ['6 of 6 frames equal to the bit'])
+    assert again(tmp_path / 'towel')[:2] == (0, ['6 of 6 frames bitwise identical'])
 
 
 def test_a_batch_run_is_made_again(tmp_path, again):
@@ -80,19 +80,20 @@ def test_a_batch_run_is_made_again(tmp_path, again):
     assert main([
         'run', str(scene), '--set', 'rows=12', '--set', 'pushes.start=[0.1, 0.22]', '--seconds',
         '0.3', '--record', str(tmp_path), '--set', 'recording.name=batch']) == 0
-    assert again(tmp_path / 'batch')[:2] == (0, ['16 of 16 frames equal to the bit'])
+    assert again(tmp_path / 'batch')[:2] == (0, ['16 of 16 frames bitwise identical'])
     blocked = (
         'import sys\n'
         'for name in ("rclpy", "cloth_sim_interfaces", "sensor_msgs"): sys.modules[name] = None')
     done = cloth_sim('resimulate', str(tmp_path / 'batch'), before=blocked)
-    assert (done.returncode, done.stdout) == (0, '16 of 16 frames equal to the bit\n'), done.stderr
+    assert (done.returncode, done.stdout) == (
+        0, '16 of 16 frames bitwise identical\n'), done.stderr
 
 
 def test_other_settings_are_said_and_recorded(bag, again, tmp_path):
     """A user would take another experiment for the recorded one, or not find the new run."""
     code, lines, _ = again(bag, '--set', 'mode=constraint', '--out', tmp_path / 'new')
     assert code == 0
-    assert lines[0] == '1 of 3 frames equal to the bit'
+    assert lines[0] == '1 of 3 frames bitwise identical'
     assert lines[1].startswith('first difference: frame 2 (t = 0.02 s), node (')
     assert 'bits may differ: mode set to other values' in lines
     assert lines[-2].startswith('left out: 1 recorded switches of the mode, because --set mode')
@@ -114,9 +115,9 @@ def test_a_run_that_does_not_come_out_again_is_a_failure(tmp_path, again):
         director.step(0)
     code, lines, _ = again(director.path)
     assert code == 1
-    assert lines[0] == '2 of 3 frames equal to the bit'
+    assert lines[0] == '2 of 3 frames bitwise identical'
     assert lines[1].startswith('first difference: frame 3 (t = 0.02 s), node (2, 3), 1 m apart; y')
-    assert lines[-1].startswith('this run should have the same bits')
+    assert lines[-1].startswith('this run should be bitwise identical')
 
 
 def test_both_runs_are_compared(bag, again, tmp_path):
@@ -139,7 +140,7 @@ def test_clouds_of_other_sizes_are_compared_by_their_figures(bag, again):
     """A comparison of two resolutions would end as an error, or compare other nodes."""
     code, lines, _ = again(bag, '--set', 'rows=9', '--compare')
     assert code == 0
-    assert lines[0].startswith('3 frames have other nodes than the 9 x 7 of this run')
+    assert lines[0].startswith('3 frames have another grid than the 9 x 7 of this run')
     assert sum('max strain' in line for line in lines) == 2
     assert 'cannot be compared node by node' in lines[-1]
 
@@ -157,7 +158,7 @@ def test_another_version_is_named(bag, again):
         'bits may differ: recorded by version 9.9.9 of cloth_sim_ros, this is version '
         f'{project_version()}')
     assert named in lines
-    assert again(bag)[1] == ['3 of 3 frames equal to the bit', named]
+    assert again(bag)[1] == ['3 of 3 frames bitwise identical', named]
 
 
 def rewritten(bag: Path, change: Callable[[str, bytes], bytes | None]) -> Path:
@@ -186,8 +187,8 @@ def test_what_another_version_lacks_is_named(bag, again):
     path = rewritten(bag, change)
     code, lines, _ = again(path)
     assert (code, lines) == (0, [
-        '3 of 3 frames equal to the bit',
-        "not recorded, so the default is taken: adaptive.scheme 'constraint'",
+        '3 of 3 frames bitwise identical',
+        "not recorded, so the default is used: adaptive.scheme 'constraint'",
         'recorded, but unknown here and left out: air.drag'])
     assert 'not recorded' not in ''.join(again(path, '--set', 'adaptive.scheme=constraint')[1])
 
@@ -218,7 +219,7 @@ def test_a_recording_without_points_is_made_again(bag, again, tmp_path):
 @pytest.mark.parametrize(('arguments', 'message'), [
     (['--set', 'rwos=3'], 'there is no parameter rwos: did you mean rows?'),
     (['--set', 'dt=0.0'], 'dt 0.0 is outside its range'),
-    (['--set', 'publish.rate=10.0'], 'publish.rate is no parameter of the scene'),
+    (['--set', 'publish.rate=10.0'], 'publish.rate is not a scene parameter'),
     (['--node', 'other'], 'holds no frame of the node /other'),
     (['--out', '/proc/nothing'], '/proc/nothing'),
     (['--set', 'rows=9000'], 'rows 9000 is outside its range'),

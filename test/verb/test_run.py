@@ -186,7 +186,7 @@ def test_a_signal_completes_the_recording(
     (['--set', 'rows=5000', '--set', 'cols=5000'], 'the buffers of'),
     (['--seconds', 'nan'], '--seconds must be a finite time'),
     (['--out', '/proc/nothing/state.npz'], 'cannot be written'),
-    (['--record', '/proc/nothing'], 'set --record to a folder that can be written to'),
+    (['--record', '/proc/nothing'], 'set --record to a writable folder'),
 ])
 def test_what_is_wrong_is_said_in_one_line(scene: Path, arguments: list[str], message: str):
     """The user would get a traceback."""

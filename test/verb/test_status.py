@@ -43,7 +43,7 @@ def test_a_time_that_does_not_come_is_told(verb, cloth):
     """A script would wait for ever for a node that is paused."""
     result = verb('status', '--until', '1e9')
     assert result.returncode == 1
-    assert 'the node is paused at 0 s and does not come to 1e+09 s' in result.stderr
+    assert 'the node is paused at 0 s and will not reach 1e+09 s' in result.stderr
 
 
 def test_prints_json(verb, cloth):

@@ -66,8 +66,8 @@ def test_a_recording_is_shown_without_ros():
     ([str(TOWEL), '--set', 'rows=0'], 'rows 0 is outside its range'),
     ([str(TOWEL), '--port', '0'], '--port must be from 1 to 65535'),
     ([str(TOWEL), '--fps', '0'], '--fps must be above 0'),
-    (['--node', 'nobody', '--timeout', '0.5'], 'nothing comes on /nobody/state within 0.5 s'),
-    (['--node', 'a b', '--timeout', '0.5'], 'is no name of a node'),
+    (['--node', 'nobody', '--timeout', '0.5'], 'no message arrives on /nobody/state within 0.5 s'),
+    (['--node', 'a b', '--timeout', '0.5'], 'is not a node name'),
 ], ids=lambda value: ' '.join(value)[-30:] if isinstance(value, list) else '')
 def test_what_is_wrong_is_told(capsys, arguments: list[str], told: str):
     """A mistake would end in a traceback, or in a page that stays empty."""
@@ -83,7 +83,7 @@ def test_without_viser_one_sentence_tells_the_way_out():
         'view', str(TOWEL), before='import sys; sys.modules["viser"] = None')
     assert done.returncode == 1
     assert done.stderr == (
-        'cloth_sim view: viser, which shows the cloth in a browser, is not here: run '
+        'cloth_sim view: viser, which shows the cloth in a browser, is missing: run '
         '`./scripts/setup.sh --view`, or `pip install viser`\n')
 
 
@@ -97,4 +97,4 @@ def test_scenes_and_recordings_need_no_ros(tmp_path: Path):
     assert 'nothing.yaml cannot be read' in done.stderr
     done = cloth_sim(
         'view', str(tmp_path), before=blocked, env={**os.environ, 'AMENT_PREFIX_PATH': ''})
-    assert done.returncode == 1 and 'ROS 2 is not here' not in done.stderr
+    assert done.returncode == 1 and 'ROS 2 was not found' not in done.stderr

@@ -44,12 +44,12 @@ class AvVideo:
         codec = next((name for name in _CODECS if _is_known(name)), None)
         if codec is None:
             raise ClothSimError(
-                'this PyAV encodes none of ' + ', '.join(_CODECS) + ': run `pip install av`')
+                'this PyAV can encode none of ' + ', '.join(_CODECS) + ': run `pip install av`')
         try:
             self._container = av.open(str(path), 'w')
         except ValueError as error:
             raise ClothSimError(
-                f'{path} has no ending that means a video: name it *.mp4') from error
+                f'{path} has no file extension of a video: name it *.mp4') from error
         rate = Fraction(fps).limit_denominator(_FINEST)
         try:
             self._stream = self._container.add_stream(codec, rate=rate, options=_CODECS[codec])

@@ -47,8 +47,8 @@ class NodeBuffer:
         rows, cols = frame.records.shape
         if 2 * rows * cols > self._most_texels:
             raise DeviceError(
-                f'a cloth of {rows} x {cols} nodes is too large to be drawn by this device: it '
-                f'draws at most {self._most_texels // 2} nodes')
+                f'a cloth of {rows} x {cols} nodes is too large for this device: it can render at '
+                f'most {self._most_texels // 2} nodes')
         packed = np.empty((rows, cols, _WORDS), np.float32)
         packed[..., :3] = frame.positions - middle
         packed[..., 3] = np.nan_to_num(frame.strain, nan=UNKNOWN_STRAIN)

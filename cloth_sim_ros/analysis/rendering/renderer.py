@@ -65,7 +65,7 @@ class Renderer:
         self._context = Context()
         if not self._context.max_texture_texels:
             raise DeviceError(
-                f'{self._context.device} lacks texture buffers, which drawing needs: draw it on '
+                f'{self._context.device} lacks texture buffers, which rendering needs: render on '
                 'another device')
         self._framebuffer = Framebuffer(view.width, view.height, detail)
         self._nodes = NodeBuffer(self._context.max_texture_texels)

@@ -61,7 +61,7 @@ class StateSource(Source):
         time = _checked(path, arrays, 'time', ()) if 'time' in arrays else 0.0
         if not np.isfinite(time):
             raise ClothSimError(
-                f'time in {path} is {time:g} s, and no finite number: {_WRITE_IT_ANEW}')
+                f'time in {path} is {time:g} s, not a finite number: {_WRITE_IT_ANEW}')
         self._frame = Frame(float(time), records)
 
     @property
@@ -131,6 +131,6 @@ def _positions(path: str | Path, arrays: dict[str, np.ndarray]) -> np.ndarray:
     positions = positions.astype(float) if is_number else positions
     if not is_number or not (np.abs(positions) <= _FARTHEST).all():
         raise ClothSimError(
-            f'positions in {path} are not all finite numbers up to {_FARTHEST:g} m: take a state '
-            'before the blow-up')
+            f'positions in {path} are not all finite numbers up to {_FARTHEST:g} m: use a state '
+            'from before the blow-up')
     return positions

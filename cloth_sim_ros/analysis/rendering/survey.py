@@ -79,8 +79,8 @@ class Survey:
         cloth = self._cloth.points
         if not len(cloth):
             raise ClothSimError(
-                'no node that is to be drawn has a finite position: choose moments before the '
-                'run was lost, with --at')
+                'no node to render has a finite position: choose times before the run became '
+                'non-finite, with --at')
         room = _WITH_WORDS * self.arrow_length / self._largest_force if self._arrows else 0.0
         tips = [tail + room * force for tail, force in self._arrows]
         # A region larger than the cloth is not worth a small picture.

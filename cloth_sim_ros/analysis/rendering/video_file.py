@@ -60,7 +60,7 @@ def _make_video(path: str | Path, size: tuple[int, int], fps: float) -> VideoWri
         program = shutil.which('ffmpeg')
         if program is None:
             raise ClothSimError(
-                'nothing here encodes video: run `pip install av`, or install the program ffmpeg')
+                'no video encoder was found: run `pip install av`, or install ffmpeg')
         from cloth_sim_ros.analysis.rendering.ffmpeg_video import FfmpegVideo
         return FfmpegVideo(program, path, size, fps)
     return AvVideo(path, size, fps)

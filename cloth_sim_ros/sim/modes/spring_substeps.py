@@ -28,7 +28,7 @@ from cloth_sim_ros.sim.stability import stability_limit
 
 _SHORTEST_DT = next(field.low for field in SCENE_FIELDS if field.name == 'dt')
 _AUTOMATIC = 'auto_substeps: true'
-_OTHER_SPRINGS = 'take softer springs, less damping or a larger node mass'
+_OTHER_SPRINGS = 'use softer springs, less damping or a larger node mass'
 
 
 def spring_substeps(scene: Scene, mode: str, *, check_stability: bool = True) -> int:

@@ -24,11 +24,11 @@ from cloth_sim_ros.study.runs.workers import Workers
 def add_run_arguments(parser: ArgumentParser, folder: str) -> None:
     """Add --jobs, --scheduler and --out; ``folder`` is the default of the last."""
     parser.add_argument('--jobs', type=int, metavar='N',
-                        help='processes that make runs (default: one a processor)')
+                        help='number of worker processes (default: one per CPU core)')
     parser.add_argument('--scheduler', default='', metavar='tcp://HOST:PORT',
-                        help='have the runs made by the workers of this Dask scheduler instead')
+                        help='use the workers of this Dask scheduler instead')
     parser.add_argument('--out', default=folder, metavar='DIR',
-                        help='folder of the results; runs that are there are not made again '
+                        help='folder of the results; existing runs are not repeated '
                              '(default: %(default)s)')
 
 

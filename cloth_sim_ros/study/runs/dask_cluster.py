@@ -34,14 +34,14 @@ def dask_executor(address: str) -> Iterator[tuple[Executor, int]]:
         from distributed import Client
     except ImportError as error:
         raise ClothSimError(
-            f'--scheduler needs Dask, and {error.name} is not here: pip install distributed, or '
+            f'--scheduler needs Dask, and {error.name} is missing: pip install distributed, or '
             'leave --scheduler out to use the processes of this machine') from error
     try:
         client = Client(address, timeout=_TIMEOUT)
     except (OSError, ValueError) as error:
         raise ClothSimError(
-            f'no Dask scheduler answers at {address}: start one with `dask scheduler`, and give '
-            'the address it tells') from error
+            f'no Dask scheduler responds at {address}: start one with `dask scheduler`, and give '
+            'the address it prints') from error
     with client:
         threads = client.nthreads()
         if not threads:

@@ -97,8 +97,8 @@ def _make_alone(runs: Iterable[Run]) -> Iterator[Result]:
         with Workers().executor(1) as (executor, _):
             for _, result in _ended(executor, [run], 1):
                 yield result or unmade(
-                    run, FAILED, 'its process ended without a result, as one does that runs out '
-                    'of memory')
+                    run, FAILED, 'its process ended without a result, as happens when memory runs '
+                    'out')
 
 
 def _ended(
@@ -121,8 +121,8 @@ def _ended(
             run = under_way.pop(future)
             if future.cancelled():
                 raise ClothSimError(
-                    'the Dask scheduler is gone: start it again, and the study, which goes on '
-                    'where it was')
+                    'the Dask scheduler is gone: restart it and the study, which resumes where it '
+                    'stopped')
             error = future.exception()
             if isinstance(error, BrokenExecutor):
                 is_broken = True

@@ -91,8 +91,8 @@ class ResultsFolder:
             self._file.flush()
         except OSError as error:
             raise ClothSimError(
-                f'{self.folder} cannot be written: {error}: make room, and start the study again '
-                'to go on with it') from error
+                f'{self.folder} cannot be written: {error}: free disk space, and restart the '
+                'study to resume it') from error
         self._lines[result.key] = json.loads(result.line())
 
     def _read_lines(self) -> None:
@@ -108,8 +108,8 @@ class ResultsFolder:
                 self._lines[values['key']] = values
             except (ValueError, TypeError, KeyError, RecursionError) as error:
                 raise ClothSimError(
-                    f'line {number} of {self.folder / LINES} is no result of a study: take it '
-                    'out, or give another --out') from error
+                    f'line {number} of {self.folder / LINES} is not a study result: remove it, or '
+                    'give another --out') from error
         self._file.truncate(whole)
 
     def _write_arrays(self, result: Result) -> None:

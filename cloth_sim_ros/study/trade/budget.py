@@ -78,7 +78,7 @@ class SpeedBudget:
 
     def in_words(self) -> str:
         """Return what was chosen by."""
-        return f'the most exact setting with a real-time factor of {self.limit:g} or more'
+        return f'the most accurate setting with a real-time factor of {self.limit:g} or more'
 
 
 @dataclass(frozen=True)

@@ -79,5 +79,5 @@ def read_choice(path: Path) -> tuple[dict[str, Any], Budget, str]:
             except ValueError:
                 break  # a word where a number should be tells no more than nothing
     raise ClothSimError(
-        f'{path} does not tell what it was chosen by: give a file that '
+        f'{path} does not state its budget: give a file that '
         f'{" or ".join(f"--{budget.option}" for budget in BUDGETS)} wrote')

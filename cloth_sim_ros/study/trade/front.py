@@ -46,7 +46,7 @@ def fastest_within(rows: Iterable[Row], error: float) -> Row:
     if not fitting:
         least = min((row.error(True) for row in timed), default=float('nan'))
         raise ClothSimError(
-            f'no setting keeps to an error of {error:g} of the side, the least is {least:.2g}: '
+            f'no setting has an error of at most {error:g} of the side, the least is {least:.2g}: '
             'give a larger --budget-error, or finer settings in a --grid')
     return min(fitting, key=lambda row: row.cost)
 
@@ -59,7 +59,7 @@ def most_accurate_at(rows: Iterable[Row], real_time_factor: float) -> Row:
         most = max((1.0 / row.cost for row in timed), default=float('nan'))
         raise ClothSimError(
             f'no setting has a real-time factor of {real_time_factor:g}, the largest is '
-            f'{most:.2g}: give a smaller --budget-rtf, or take fewer nodes')
+            f'{most:.2g}: give a smaller --budget-rtf, or use fewer nodes')
     return min(fitting, key=lambda row: row.error(True))
 
 
@@ -78,8 +78,8 @@ def cheapest_within_strain(rows: Iterable[Row], strain: float) -> Row:
         least = min(
             (row.peak_strain for row in rows if row.shows_its_model), default=float('nan'))
         raise ClothSimError(
-            f'no setting keeps to a strain of {strain:g}, the least is {least:.2g}: give a larger '
-            '--budget-strain, or settings with hard edges or a smaller limit in a --grid')
+            f'no setting has a strain of at most {strain:g}, the least is {least:.2g}: give a '
+            'larger --budget-strain, or settings with hard edges or a smaller limit in a --grid')
     return fitting[0]
 
 

@@ -100,8 +100,8 @@ def grid_of(given: Any, name: str = 'the grid') -> Grid:
         ) from error
     if len(grid.reference_refine) < 3:
         raise ClothSimError(
-            f'reference.refine of {name} has {len(grid.reference_refine)} entries, and it takes '
-            '3 to tell how far the reference has converged: give [1, 2, 4] or more')
+            f'reference.refine of {name} has {len(grid.reference_refine)} entries, and 3 are '
+            'needed to measure how far the reference has converged: give [1, 2, 4] or more')
     return grid
 
 

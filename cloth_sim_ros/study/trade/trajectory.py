@@ -43,7 +43,7 @@ def trajectory(
         if abs(moment / simulation.dt - round(moment / simulation.dt)) > 1e-6:
             raise ClothSimError(
                 f'dt {simulation.dt:g} s does not divide {moment:g} s, at which runs are '
-                'compared: take another dt, or other times in the grid')
+                'compared: choose another dt, or other times in the grid')
     # The first step compiles what the device puts off until then.
     simulation.step()
     simulation.reset()

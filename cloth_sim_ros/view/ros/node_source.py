@@ -60,8 +60,8 @@ class NodeSource(Source):
             validate_full_topic_name(self.name)
         except InvalidTopicNameException as error:
             raise ClothSimError(
-                f'{self.name} is no name of a node: give its name with its namespace by --node, '
-                'as in left/cloth_sim') from error
+                f'{self.name} is not a node name: give the name with its namespace, as in --node '
+                'left/cloth_sim') from error
         self._timeout = timeout
         self._cloud: PointCloud2 | None = None
         self._state: ClothState | None = None
@@ -89,7 +89,7 @@ class NodeSource(Source):
         if not self._told.wait(timeout):
             self.close()
             raise ClothSimError(
-                f'nothing comes on {self.name}/state within {timeout:g} s: start a node with '
+                f'no message arrives on {self.name}/state within {timeout:g} s: start a node with '
                 '`cloth_sim_node`, or name it with --node')
         self.modes = tuple(self._state.available_modes)
 
@@ -176,8 +176,8 @@ class NodeSource(Source):
         if not answered.wait(self._timeout):
             client.remove_pending_request(future)
             raise ClothSimError(
-                f'{self.name}/{name} does not answer within {self._timeout:g} s: it may be busy, '
-                'so give more time with --timeout')
+                f'{self.name}/{name} does not respond within {self._timeout:g} s: it may be busy, '
+                'so raise --timeout')
         response = future.result()
         if not response.success:
             raise ClothSimError(response.message)

@@ -34,5 +34,5 @@ def test_it_tells_what_was_recorded(known):
 def test_a_recording_without_frames_is_refused(tmp_path):
     """A video would be empty, and nobody told why."""
     Recorder(tmp_path, 'empty', 'cloth_sim').close()
-    with pytest.raises(ClothSimError, match='holds no message'):
+    with pytest.raises(ClothSimError, match='contains no messages'):
         list(RecordingSource(Recording(tmp_path / 'empty')).frames())

@@ -76,7 +76,7 @@ def test_other_files_are_refused(tmp_path):
     np.save(tmp_path / 'array.npy', np.zeros(3))
     (tmp_path / 'array.npy').rename(tmp_path / 'array.npz')
     for name, rule in (
-            ('other', 'holds no positions'), ('text', 'is no state file'),
-            ('array', 'is no state file'), ('none', 'there is no state file')):
+            ('other', 'holds no positions'), ('text', 'is not a state file'),
+            ('array', 'is not a state file'), ('none', 'there is no state file')):
         with pytest.raises(ClothSimError, match=rule):
             StateSource(tmp_path / f'{name}.npz')

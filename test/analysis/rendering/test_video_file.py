@@ -90,7 +90,7 @@ def test_without_an_encoder_the_way_out_is_told(tmp_path):
     """A user would get an ImportError."""
     done = write_without_av(tmp_path / 'run.mp4', tmp_path)
     assert done.stderr.splitlines()[-1].endswith(
-        'nothing here encodes video: run `pip install av`, or install the program ffmpeg')
+        'no video encoder was found: run `pip install av`, or install ffmpeg')
 
 
 @pytest.mark.long

@@ -96,5 +96,5 @@ def test_the_usual_numbers():
     """The user would be shown a substep that twice as many would be made of."""
     assert refusal({**_STIFF, 'dt': 1.0}) == (
         'dt 1 s would take 1.41e+06 substeps of the 7.07e-07 s that are safe in any shape, more '
-        'than 100000: set dt <= 0.0707, or take softer springs, less damping or a larger node '
+        'than 100000: set dt <= 0.0707, or use softer springs, less damping or a larger node '
         'mass')

@@ -53,7 +53,7 @@ def test_each_combination_is_one_setting():
     ({'extra': 1}, 'start from'),
     ({'times': 'soon'}, 'is not written as'),
     ({'variants': [{'length': 2.0}]}, 'is not written as'),
-    ({'reference': {**GRID['reference'], 'refine': [1, 2]}}, 'it takes 3'),
+    ({'reference': {**GRID['reference'], 'refine': [1, 2]}}, '3 are needed'),
     ({'methods': {'a': {'model': 'rope', 'set': {}, 'over': {}}}}, 'springs, hard, limited'),
     ({'methods': {'a': {'model': 'springs', 'set': {'dtt': 1}, 'over': {}}}}, 'did you mean dt'),
 ])

@@ -88,5 +88,5 @@ def test_a_view_leaves_the_node_as_it_is(node: NodeProcess, source: NodeSource):
 
 def test_without_a_node_it_is_told(tmp_path: Path):
     """A page would wait for ever."""
-    with pytest.raises(ClothSimError, match='nothing comes on /nobody/state within 0.2 s'):
+    with pytest.raises(ClothSimError, match='no message arrives on /nobody/state within 0.2 s'):
         NodeSource('nobody', 0.2)
