@@ -118,7 +118,7 @@ def test_cleared_pushes_do_no_more(context):
     ({'duration': -1.0}, 'the duration of a push'),
     ({'force': (float('nan'), 0.0, 0.0)}, 'the force of a push'),
     ({'start': -1.0}, 'the start of a push'),
-    ({'force': (0.0, 0.0, 1e31)}, 'is at most 1e[+]30 N along each axis'),
+    ({'force': (0.0, 0.0, 1e31)}, 'must be at most 1e[+]30 N along each axis'),
 ])
 def test_a_refused_push_leaves_nothing_behind(context, changed: dict, message: str):
     """Half a push would act on."""
