@@ -38,8 +38,8 @@ class Controls:
         self._add_time()
         self._add_mode()
         self._strain = self._gui.add_number(
-            'Colour scale ends at strain '
-            '[%]', 100.0 * FULL_STRAIN, min=0.01, max=1000.0, step=0.01)
+            'Colour scale ends at strain [%]', 100.0 * FULL_STRAIN, min=0.01, max=1000.0,
+            step=0.01)
         self._gui.add_html(_legend())
         if source.can_act:
             self._add_actions()
