@@ -37,5 +37,6 @@ class BoundsCheck:
         return bool(self._strips.largest()[0] == 0.0)
 
     def delete(self) -> None:
-        """Give the result's buffer back."""
+        """Give pass and result back."""
         self._strips.delete()
+        self._program.delete()

@@ -86,7 +86,9 @@ class Observer:
         return self._observe(state, forcing, law, records, limit_marks), records
 
     def delete(self) -> None:
-        """Give the buffers back."""
+        """Give passes and buffers back."""
+        for program in self._programs.values():
+            program.delete()
         self._sums_buffer.delete()
         if self._records_buffer is not None:
             self._records_buffer.delete()

@@ -31,6 +31,9 @@ import numpy as np
 
 # What float32 rounds of a number, twice.
 _ROUNDING = 2e-7
+# Of a step: times that are sums of dt are rounded, and a push that acts in all of it does not act
+# in less by that.
+_WHOLE = 1.0 - 1e-9
 
 
 class EnergyAccount:
@@ -108,7 +111,7 @@ class EnergyAccount:
         mean_velocities = 0.5 * (now.velocities.astype(float) + before.velocities)
         for nodes, force, share in shares:
             # A push that begins or ends within a step changes velocities while it acts.
-            way = moved if share == 1.0 else share * (end - begin) * mean_velocities
+            way = moved if share > _WHOLE else share * (end - begin) * mean_velocities
             self._work += float(force @ way[nodes].mean(axis=0))
         if self._has_pin_moves and now.pin_forces is not None:
             rows, cols = now.pin_forces.nodes.T

@@ -80,8 +80,10 @@ class FreeMotion:
             self._centre = (self._centre + offset).astype(np.float32)
 
     def delete(self) -> None:
-        """Give the room back."""
+        """Give passes and room back."""
         self._strips.delete()
+        self._sums.delete()
+        self._add.delete()
 
     def _about_origin(self, sums: np.ndarray) -> np.ndarray:
         return sums[6:9] + np.cross(self._centre, sums[:3])

@@ -95,8 +95,9 @@ class LimitMarks:
         self._clear()
 
     def delete(self) -> None:
-        """Give the marks back."""
+        """Give pass and marks back."""
         self.buffer.delete()
+        self._program.delete()
 
     def _clear(self) -> None:
         self.buffer.write(np.zeros_like(self._marks))

@@ -99,5 +99,5 @@ class MassSpring:
         return spring_tension(self._scene, positions, velocities, nodes)
 
     def delete(self) -> None:
-        """Give back what the passes allocated."""
+        """Give the passes back, with what they allocated."""
         self._passes.delete()

@@ -58,4 +58,5 @@ class OnePass:
         shader_writes_visible()
 
     def delete(self) -> None:
-        """Give nothing back: the pass allocates nothing."""
+        """Give the pass back."""
+        self._step.delete()

@@ -109,5 +109,6 @@ class PaperLimit:
         self.last_length = 0.0
 
     def delete(self) -> None:
-        """Give the buffers back."""
+        """Give passes and buffers back."""
+        self._springs.delete()
         self._sweeps.delete()

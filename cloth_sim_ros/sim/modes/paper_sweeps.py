@@ -95,5 +95,7 @@ class PaperSweeps:
         self.tensions.write(np.zeros(self.tensions.bytes, dtype=np.uint8))
 
     def delete(self) -> None:
-        """Give the buffers back."""
+        """Give passes and tensions back."""
         self.tensions.delete()
+        self._sweep.delete()
+        self._finish.delete()

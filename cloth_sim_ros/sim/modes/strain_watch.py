@@ -73,8 +73,9 @@ class StrainWatch:
         return float(now), float(then)
 
     def delete(self) -> None:
-        """Give the result's buffer back."""
+        """Give pass and result back."""
         self._strips.delete()
+        self._program.delete()
 
     def _holds(self, state: State, now: float, loads: Loads) -> bool:
         return state.edits == self._edits and loads.quiet_until(now) >= self._until

@@ -57,5 +57,6 @@ class TurnWatch:
         return math.sqrt(2.0 * _TURN / turns) if turns > 0.0 else math.inf, strain
 
     def delete(self) -> None:
-        """Give the room back."""
+        """Give pass and room back."""
         self._strips.delete()
+        self._program.delete()

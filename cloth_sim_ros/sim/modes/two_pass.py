@@ -56,6 +56,8 @@ class TwoPass:
         shader_writes_visible()
 
     def delete(self) -> None:
-        """Give the force and mass buffers back."""
+        """Give the passes and their buffers back."""
+        self._force.delete()
+        self._update.delete()
         self._forces.delete()
         self._masses.delete()

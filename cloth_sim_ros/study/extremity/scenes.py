@@ -16,6 +16,7 @@
 
 from itertools import product
 
+from cloth_sim_ros.sim.modes import AVAILABLE
 from cloth_sim_ros.study.extremity.extreme import Extreme
 from cloth_sim_ros.study.extremity.extreme import of_all
 from cloth_sim_ros.study.extremity.extreme import OUTCOMES
@@ -27,7 +28,7 @@ import numpy as np
 
 # Steps of what takes thousands of substeps.
 _FEW = 3
-_SPRINGS = ('mass_spring', 'adaptive')
+_SPRINGS = tuple(name for name, mode in AVAILABLE.items() if not mode.is_implicit)
 _JAMMED = {'start.jitter': 0.5}
 
 _SHAPES = {

@@ -17,6 +17,8 @@
 from collections.abc import Mapping
 from typing import Any
 
+from cloth_sim_ros.sim.modes import AVAILABLE
+from cloth_sim_ros.sim.modes.mass_spring import MassSpring
 from cloth_sim_ros.sim.scene import Scene
 
 # What a frame makes for others, besides the steps.
@@ -36,7 +38,7 @@ def has_feature(values: Mapping[str, Any], feature: str) -> bool:
         return _has_edges(scene, feature.split()[0])
     return {
         _DAMPING: any(scene.damping(family) > 0.0 for family in ('structural', 'shear', 'bend')),
-        _MODE: scene['mode'] != 'mass_spring',
+        _MODE: scene['mode'] != MassSpring.name,
         _AIR: scene.has_air,
         _PUSHES: bool(scene['pushes.start']),
         _PIN_MOVES: bool(scene['pin_moves.start']),
@@ -51,16 +53,13 @@ def without(values: Mapping[str, Any], feature: str) -> dict[str, Any]:
         return {**values, **{f'damping.{family}': 0.0
                              for family in ('structural', 'shear', 'bend')}}
     if feature == _MODE:
-        return {**values, 'mode': 'mass_spring'}
+        return {**values, 'mode': MassSpring.name}
     prefixes = _PREFIXES[feature]
     return {name: value for name, value in values.items() if not name.startswith(prefixes)}
 
 
 def _has_edges(scene: Scene, family: str) -> bool:
-    if scene['mode'] != 'constraint':
-        return scene.models(family)
-    return family in scene['constraint.hard'] or (
-        family in scene['constraint.springs'] and scene.models(family))
+    return family in AVAILABLE[scene['mode']].edge_families(scene)
 
 
 def _without_family(values: Mapping[str, Any], family: str) -> dict[str, Any]:

@@ -17,6 +17,7 @@
 from collections import Counter
 from collections.abc import Sequence
 
+from cloth_sim_ros.sim.modes import AVAILABLE
 from cloth_sim_ros.sim.scene_fields import MODES
 from cloth_sim_ros.study.runs.result import Result
 from cloth_sim_ros.study.stable.probe_outcome import REFUSED
@@ -68,7 +69,7 @@ def steps_of(mode: str, forced: bool) -> str:
     """Return how the steps of a map are made, and what its cloth does."""
     if not forced:
         return 'by default, moving'
-    return f'one step a dt, {"hanging" if mode == "constraint" else "at rest"}'
+    return f'one step a dt, {"hanging" if AVAILABLE[mode].is_implicit else "at rest"}'
 
 
 def points_of(results: Sequence[Result], mode: str, forced: bool) -> list[Result]:

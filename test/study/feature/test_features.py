@@ -15,6 +15,8 @@
 """A scene without a feature is the same scene otherwise, and compiles nothing of it."""
 
 from cloth_sim_ros.gl.context import Context
+from cloth_sim_ros.sim.modes import AVAILABLE
+from cloth_sim_ros.sim.modes.mass_spring import MassSpring
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.study.feature.features import has_feature
 from cloth_sim_ros.study.feature.features import SCENE_FEATURES
@@ -46,6 +48,23 @@ def context():
 def words(listed):
     """Return shader and choices of each pass."""
     return {(each['shader'], modelled(each['defines'])) for each in listed['passes']}
+
+
+class OnlyShear(MassSpring):
+    """A mode that takes shear edges alone, whatever the scene has."""
+
+    @staticmethod
+    def edge_families(scene):
+        """Return those."""
+        return {'shear'}
+
+
+def test_edges_are_those_that_the_mode_takes(monkeypatch):
+    """A mode that nobody has thought of here would be measured without edges that it has."""
+    monkeypatch.setitem(AVAILABLE, 'mass_spring', OnlyShear)
+    no_springs = {**PLAIN, 'stiffness.shear': 0.0, 'damping.shear': 0.0}
+    assert has_feature(no_springs, 'shear springs')
+    assert not has_feature({**PLAIN, 'stiffness.bend': 10.0}, 'bend springs')
 
 
 @pytest.mark.parametrize('feature', SCENE_FEATURES)
