@@ -38,14 +38,22 @@ SCENE_FIELDS = (
           '0 derives it from areal_density', 'kg', low=0.0, high=1e12),
     Field('node_mass', float, 0.0, 'mass of each node; 0 derives it from total_mass or '
           'areal_density', 'kg', low=0.0, high=1e6),
-    Field('stiffness.structural', float, 100.0, 'stiffness of the springs to the 4 nearest nodes',
-          'N/m', low=0.0, high=1e9),
+    Field('material.warp', float, 0.0, 'stiffness to stretch along the rows at unchanged width; '
+          'with it the springs follow for any grid, 0 leaves them to stiffness.structural and '
+          'stiffness.shear', 'N/m', low=0.0, high=1e9),
+    Field('material.weft', float, 0.0, 'stiffness to stretch along the columns at unchanged '
+          'width; 0 takes material.warp', 'N/m', low=0.0, high=1e9),
+    Field('material.shear', float, 0.0, 'stiffness to shear, beside material.warp', 'N/m',
+          low=0.0, high=1e9),
+    Field('stiffness.structural', float, 100.0, 'stiffness of the springs to the 4 nearest nodes, '
+          'or [warp, weft] of those along rows and along columns', 'N/m', low=0.0, high=1e9,
+          is_pair=True),
     Field('stiffness.shear', float, 100.0, 'stiffness of the springs to the 4 diagonal nodes',
           'N/m', low=0.0, high=1e9),
     Field('stiffness.bend', float, 10.0, 'stiffness of the springs to the 4 nodes two places away',
           'N/m', low=0.0, high=1e9),
-    Field('damping.structural', float, 0.01, 'damping of the structural springs', 'N s/m',
-          low=0.0, high=1e6),
+    Field('damping.structural', float, 0.01, 'damping of the structural springs, or [warp, weft]',
+          'N s/m', low=0.0, high=1e6, is_pair=True),
     Field('damping.shear', float, 0.01, 'damping of the shear springs', 'N s/m',
           low=0.0, high=1e6),
     Field('damping.bend', float, 0.001, 'damping of the bend springs', 'N s/m',

@@ -87,8 +87,8 @@ def _wave_matrices(scene: Scene) -> tuple[np.ndarray, np.ndarray]:
         nx, ny = direction / np.linalg.norm(direction)
         bend = 2.0 * (1.0 - np.cos(p * kind.dcol + q * kind.drow))
         outer = np.array([nx * nx, nx * ny, ny * ny])[:, None, None]
-        totals[0] += scene.stiffness(kind.family) * outer * bend
-        totals[1] += scene.damping(kind.family) * outer * bend
+        totals[0] += kind.stiffness(scene) * outer * bend
+        totals[1] += kind.damping(scene) * outer * bend
     return tuple(totals)
 
 

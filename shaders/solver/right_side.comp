@@ -88,7 +88,7 @@ void add_edge(int row, int col, int drow, int dcol, int edge, int family, int re
 #endif
     float sideways =
         moves * geometric * substep * substep * max(found, 0.0) * inverse_length;
-    float weight = moves * substep * (substep * pull.slope + edge_damping[family]);
+    float weight = moves * substep * (substep * pull.slope + edge_damping[rest]);
     if (is_in_block(row, col)) {
         keep(row, col, edge, tension_here, (weight - sideways) / square, sideways);
     }

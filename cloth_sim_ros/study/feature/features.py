@@ -67,5 +67,6 @@ def _without_family(values: Mapping[str, Any], family: str) -> dict[str, Any]:
     scene = Scene(values)
     return {
         **values, f'stiffness.{family}': 0.0, f'damping.{family}': 0.0,
+        **({'material.shear': 0.0} if family == 'shear' else {}),
         **{name: [other for other in scene[name] if other != family]
            for name in ('constraint.hard', 'constraint.springs')}}
