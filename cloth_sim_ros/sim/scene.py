@@ -36,6 +36,8 @@ from cloth_sim_ros.sim.scene_fields import FAMILIES
 from cloth_sim_ros.sim.scene_fields import SCENE_FIELDS
 from cloth_sim_ros.sim.springs import of_direction
 from cloth_sim_ros.sim.springs import spring_stiffness
+from cloth_sim_ros.sim.springs import WARP
+from cloth_sim_ros.sim.springs import WEFT
 from cloth_sim_ros.sim.wind import Gust
 import numpy as np
 
@@ -124,6 +126,19 @@ class Scene:
     def damping(self, family: str, direction: int | None = None) -> float:
         """Return the damping of the springs of a family [N s/m]; as ``stiffness``."""
         return of_direction(self[f'damping.{family}'], direction)
+
+    @property
+    def has_rigidity(self) -> bool:
+        """Tell whether the cloth resists bending by its rigidity."""
+        return max(self.bending) > 0.0
+
+    @property
+    def bending(self) -> tuple[float, float]:
+        """Return what bending along a row and along a column resists [N/m], sim/bending.py."""
+        (dx, dy), rigidity = self.spacing, self['bending.rigidity']
+        return (
+            of_direction(rigidity, WARP) * dy / dx**3 if self.cols > 2 else 0.0,
+            of_direction(rigidity, WEFT) * dx / dy**3 if self.rows > 2 else 0.0)
 
     def models(self, family: str) -> bool:
         """Tell whether springs of ``family`` do anything in this scene."""

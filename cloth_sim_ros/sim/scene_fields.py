@@ -52,6 +52,9 @@ SCENE_FIELDS = (
           'N/m', low=0.0, high=1e9),
     Field('stiffness.bend', float, 10.0, 'stiffness of the springs to the 4 nodes two places away',
           'N/m', low=0.0, high=1e9),
+    Field('bending.rigidity', float, 0.0, 'bending rigidity of the cloth, or [warp, weft] of '
+          'bends along rows and along columns; the same for any grid, unlike stiffness.bend', 'N m',
+          low=0.0, high=1e6, is_pair=True),
     Field('damping.structural', float, 0.01, 'damping of the structural springs, or [warp, weft]',
           'N s/m', low=0.0, high=1e6, is_pair=True),
     Field('damping.shear', float, 0.01, 'damping of the shear springs', 'N s/m',

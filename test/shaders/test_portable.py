@@ -33,6 +33,7 @@ import pytest
 _SCENES = {
     'all': {},
     'no_bend': {'stiffness.bend': 0.0, 'damping.bend': 0.0},
+    'rigid': {'bending.rigidity': 1e-4, 'stiffness.bend': 0.0, 'damping.bend': 0.0},
     'structural_undamped': {
         'stiffness.shear': 0.0, 'stiffness.bend': 0.0, 'damping.structural': 0.0,
         'damping.shear': 0.0, 'damping.bend': 0.0},
@@ -86,7 +87,8 @@ def test_glslang_accepts_the_shader(
     if name.startswith('solver/'):
         families = [family for family in FAMILIES if model.models(family)]
         levels = Levels(layout, coarsen=True, has_bend='bend' in families)
-        defines.update(solver_defines(layout, levels, families, is_multigrid=multigrid))
+        defines.update(solver_defines(
+            layout, levels, families, is_multigrid=multigrid, has_rigidity=model.has_rigidity))
     path = tmp_path / Path(name).name
     path.write_text(ShaderSource(name, defines).text)
     done = subprocess.run(

@@ -46,6 +46,7 @@ class EdgeLaw:
     :param longest: l_max of each family [rest lengths]
     :param limit_stiffness: 1 / E of the same as k [1/s2]
     :param geometric: beta of the geometric mass term; 0 leaves it out
+    :param bending: what bending along a row and along a column resists [1/s2]
     """
 
     length: float
@@ -55,6 +56,12 @@ class EdgeLaw:
     longest: tuple[float, ...]
     limit_stiffness: tuple[float, ...]
     geometric: float = 0.0
+    bending: tuple[float, float] = (0.0, 0.0)
+
+    @property
+    def bending_weights(self) -> tuple[float, float]:
+        """Return what bending along a row and along a column weighs in the matrix."""
+        return tuple(BETA * self.length**2 * value for value in self.bending)
 
     @property
     def weights(self) -> tuple[float, ...]:
@@ -69,7 +76,7 @@ class EdgeLaw:
         """Return the law with forces in N, of nodes of ``mass`` [kg]."""
         return replace(self, **{
             name: tuple(mass * value for value in getattr(self, name))
-            for name in ('stiffness', 'damping', 'limit_stiffness')})
+            for name in ('stiffness', 'damping', 'limit_stiffness', 'bending')})
 
     @property
     def largest_weight(self) -> float:
@@ -138,7 +145,7 @@ def edge_law(
         tuple(kind.damping(scene) / mass * is_spring[family]
               for family, kind in zip(_FAMILY_OF, REST_KINDS)),
         tuple(shortest), tuple(longest),
-        limits, geometric)
+        limits, geometric, tuple(value / mass for value in scene.bending))
 
 
 def set_law(program: Program, law: EdgeLaw) -> None:
@@ -148,6 +155,8 @@ def set_law(program: Program, law: EdgeLaw) -> None:
     program.set_floats('shortest', law.shortest)
     program.set_floats('longest', law.longest)
     program.set_floats('limit_stiffness', law.limit_stiffness)
+    program.set_floats('bending_rate', law.bending)
+    program.set_floats('bending_weight', law.bending_weights)
 
 
 def full_pull(scene: Scene, strain: float) -> float:
