@@ -81,7 +81,7 @@ def parameter_cells(field: Field) -> list[str]:
     live = '; can be changed while the node runs' if field.live else ''
     return [
         f'`{field.name}`',
-        _WORDS[field.kind] + ('[]' if field.is_array else ''),
+        _WORDS[field.kind] + ('[]' if field.is_array else ' or two' if field.is_pair else ''),
         f'`{value(field.default)}`',
         range_of(field),
         f'{field.text}{unit}{live}']

@@ -27,6 +27,11 @@
 #include "strain_limit.glsl"
 #include "applied_acceleration.glsl"
 #include "symplectic_euler.glsl"
+#if HAS_RIGIDITY
+#include "bending.glsl"
+
+uniform float bending[2];  // [N/m] along a row, along a column
+#endif
 
 layout(local_size_x = LOCAL_X, local_size_y = LOCAL_Y) in;
 
@@ -88,6 +93,13 @@ void main() {
         }
     }
     EACH_EDGE(ADD_SPRINGS, first)
+#if HAS_RIGIDITY
+    vec3 resisted[TILE][TILE];
+    FIND_BENDING(resisted, position, position, bending)
+    FOR_BENT(0, 0) {
+        force[row][col] -= resisted[row][col];
+    }
+#endif
     for (int row = HALO; row < HALO + BLOCK; ++row) {
         for (int col = HALO; col < HALO + BLOCK; ++col) {
             int index = node_index(first.y + row - HALO, first.x + col - HALO);

@@ -23,6 +23,11 @@
 #include "solver/edge_law.glsl"
 #include "applied_acceleration.glsl"
 #include "bounded.glsl"
+#if HAS_RIGIDITY
+#include "bending.glsl"
+
+uniform float bending[2];  // [N/m] along a row, along a column
+#endif
 
 layout(local_size_x = LOCAL_X, local_size_y = LOCAL_Y) in;
 
@@ -48,7 +53,7 @@ layout(std430, binding = RECORDS) writeonly buffer Records { uint records[]; };
 layout(std430, binding = PARTIAL_SUMS) writeonly buffer PartialSums { float partial_sums[]; };
 
 struct Edges {
-    float energy;  // [m2/s2] half of each edge's, the other half is the other end's
+    float energy;  // [J] half of each edge's, the other half is the other end's; and of bending
     float strain;  // largest |l / L0 - 1| of structural and shear edges
 };
 
@@ -62,6 +67,16 @@ void look_at_edge(
     }
 }
 
+#if HAS_RIGIDITY
+// What the line of three nodes around this one stores, over c / 2.
+float bent_square(vec4 here, int row, int col, int drow, int dcol) {
+    vec4 behind = load_position(node_index(row - drow, col - dcol));
+    vec4 ahead = load_position(node_index(row + drow, col + dcol));
+    vec3 bent = second_difference(behind.w * ahead.w, behind.xyz, here.xyz, ahead.xyz);
+    return dot(bent, bent);
+}
+#endif
+
 #define LOOK_BOTH_WAYS(EDGES, EDGE, DROW, DCOL, FAMILY, REST) \
     look_at_edge(EDGES, from, row, col, DROW, DCOL, FAMILY, REST); \
     look_at_edge(EDGES, from, row, col, -(DROW), -(DCOL), FAMILY, REST);
@@ -69,6 +84,10 @@ void look_at_edge(
 Edges look_at_edges(vec4 from, int row, int col) {
     Edges edges = Edges(0.0, 0.0);
     EACH_EDGE(LOOK_BOTH_WAYS, edges)
+#if HAS_RIGIDITY
+    edges.energy += 0.5 * (bending[0] * bent_square(from, row, col, 0, 1)
+        + bending[1] * bent_square(from, row, col, 1, 0));
+#endif
     return edges;
 }
 

@@ -42,6 +42,25 @@ vec3 both_ways(int row, int col, int drow, int dcol, int family, int rest) {
         + compute_force(row, col, -drow, -dcol, family, rest);
 }
 
+#if HAS_RIGIDITY
+#include "bending.glsl"
+
+uniform float bending[2];  // [N/m] along a row, along a column
+
+vec3 bent(int row, int col, int drow, int dcol) {
+    vec4 behind = load_position(node_index(row - drow, col - dcol));
+    vec4 here = load_position(node_index(row, col));
+    vec4 ahead = load_position(node_index(row + drow, col + dcol));
+    return second_difference(behind.w * here.w * ahead.w, behind.xyz, here.xyz, ahead.xyz);
+}
+
+vec3 bending_along(int row, int col, int drow, int dcol) {
+    return unbent(
+        bent(row - drow, col - dcol, drow, dcol), bent(row, col, drow, dcol),
+        bent(row + drow, col + dcol, drow, dcol));
+}
+#endif
+
 #define ADD_BOTH_WAYS(FORCE, EDGE, DROW, DCOL, FAMILY, REST) \
     FORCE += both_ways(row, col, DROW, DCOL, FAMILY, REST);
 
@@ -53,5 +72,9 @@ void main() {
     }
     vec3 force = vec3(0.0);
     EACH_EDGE(ADD_BOTH_WAYS, force)
+#if HAS_RIGIDITY
+    force -= bending[0] * bending_along(row, col, 0, 1)
+        + bending[1] * bending_along(row, col, 1, 0);
+#endif
     force_out[node_index(row, col)] = vec4(force, 0.0);
 }

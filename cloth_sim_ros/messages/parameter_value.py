@@ -34,6 +34,7 @@ _SLOTS = {
 
 def parameter_value(field: Field, value: Any) -> ParameterValue:
     """Return ``value`` with the type of ``field``: an empty list alone does not tell its type."""
-    kind, slot = _SLOTS[field.kind, field.is_array]
-    content = [field.kind(part) for part in value] if field.is_array else field.kind(value)
+    is_list = field.is_array or (field.is_pair and isinstance(value, tuple))
+    kind, slot = _SLOTS[field.kind, is_list]
+    content = [field.kind(part) for part in value] if is_list else field.kind(value)
     return ParameterValue(type=kind, **{slot: content})

@@ -62,11 +62,12 @@ def declare_fields(node: Node, overrides: Mapping[str, Parameter]) -> dict[str, 
     # then, and only then can the parameter become read-only.
     for field in FIELDS:
         node.declare_parameter(
-            field.name, _type(field), ParameterDescriptor(), ignore_override=True)
+            field.name, _type(field, values[field.name]), ParameterDescriptor(),
+            ignore_override=True)
     node.set_parameters_atomically(
         [as_parameter(field, values[field.name]) for field in FIELDS])
     for field in FIELDS:
-        node.set_descriptor(field.name, descriptor(field))
+        node.set_descriptor(field.name, descriptor(field, values[field.name]))
     return values
 
 
@@ -87,21 +88,22 @@ def as_field_type(parameter: Parameter) -> Parameter:
     return as_parameter(field, plain_value(parameter))
 
 
-def descriptor(field: Field) -> ParameterDescriptor:
-    """Describe ``field`` for ROS tools."""
+def descriptor(field: Field, value: Any) -> ParameterDescriptor:
+    """Describe ``field``, which has ``value``, for ROS tools."""
     bounded = field.low is not None and field.high is not None
+    is_list = isinstance(value, tuple)
     unit = f' [{field.unit}]' if field.unit else ''
     constraints = f'one of {", ".join(field.choices)}' if field.choices else ''
-    if bounded and field.is_array:
+    if bounded and is_list:
         constraints = f'each from {field.low:g} to {field.high:g}'
     described = ParameterDescriptor(
-        name=field.name, type=_type(field).value,
+        name=field.name, type=_type(field, value).value,
         description=f'{field.text}{unit}', additional_constraints=constraints,
         read_only=not field.live)
     if bounded and field.kind is int:
         described.integer_range = [
             IntegerRange(from_value=int(field.low), to_value=int(field.high))]
-    if bounded and field.kind is float and not field.is_array:
+    if bounded and field.kind is float and not is_list:
         described.floating_point_range = [
             FloatingPointRange(from_value=float(field.low), to_value=float(field.high))]
     return described
@@ -113,5 +115,5 @@ def plain_value(parameter: Parameter) -> Any:
     return value if value is None or isinstance(value, (str, int, float)) else list(value)
 
 
-def _type(field: Field) -> Parameter.Type:
-    return Parameter.Type(parameter_value(field, field.default).type)
+def _type(field: Field, value: Any) -> Parameter.Type:
+    return Parameter.Type(parameter_value(field, value).type)

@@ -19,6 +19,7 @@ from abc import abstractmethod
 
 from cloth_sim_ros.reference.air_force import air_forces
 from cloth_sim_ros.reference.air_force import wind_at
+from cloth_sim_ros.reference.bending import Bending
 from cloth_sim_ros.reference.energy import elastic_energy
 from cloth_sim_ros.reference.energy import Energies
 from cloth_sim_ros.reference.energy import gravitational_energy
@@ -47,6 +48,7 @@ class ReferenceCloth(ABC):
         self.scene = scene
         self.dt: float = scene['dt']
         self.springs = spring_sets(scene)
+        self.bending = Bending(scene)
         # Those that hold elastic energy: a mode that holds edges otherwise takes them out.
         self.elastic_springs = self.springs
         self.gravity = np.array(scene['gravity'])
@@ -89,7 +91,8 @@ class ReferenceCloth(ABC):
         """Return the energies of the present state."""
         return Energies(
             kinetic_energy(self.velocities, self.free, self.scene.node_mass),
-            elastic_energy(self.elastic_springs, self.positions),
+            elastic_energy(self.elastic_springs, self.positions)
+            + self.bending.energy(self.positions),
             gravitational_energy(self.positions, self.scene.node_mass, self.gravity))
 
     def node_strain(self) -> np.ndarray:

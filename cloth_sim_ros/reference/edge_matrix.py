@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-"""The matrix of an implicit step: a mass at each free node and a 3 x 3 block for each edge."""
+"""The matrix of an implicit step: masses, a 3 x 3 block for each edge, and bending."""
 
 from cloth_sim_ros.reference.edges import Edges
 import numpy as np
@@ -19,9 +19,12 @@ class EdgeMatrix:
     :param edges: between nodes
     :param free: which nodes can move, bool (nodes,)
     :param node_mass: [kg]
+    :param bending: what it resists, (nodes, nodes), which counts the same in x, y and z
     """
 
-    def __init__(self, edges: Edges, free: np.ndarray, node_mass: float) -> None:
+    def __init__(
+            self, edges: Edges, free: np.ndarray, node_mass: float,
+            bending: sparse.spmatrix | None = None) -> None:
         """Find where each number of each block goes; only free nodes have unknowns."""
         self.free = free
         self.size = 3 * int(np.count_nonzero(free))
@@ -38,6 +41,12 @@ class EdgeMatrix:
             rows.append(row.ravel())
             cols.append(col.ravel())
             self._parts.append((used, sign))
+        tied = sparse.coo_matrix((0, 0)) if bending is None else (
+            bending.tocsr()[free][:, free].tocoo())
+        for axis in range(3):
+            rows.append(3 * tied.row.astype(int) + axis)
+            cols.append(3 * tied.col.astype(int) + axis)
+        self._bending = np.tile(tied.data, 3)
         # Column by column, as the solver wants them; several numbers share a place.
         places, self._place = np.unique(
             np.concatenate(cols) * self.size + np.concatenate(rows), return_inverse=True)
@@ -45,19 +54,21 @@ class EdgeMatrix:
         self._indices = places % max(self.size, 1)
         self._starts = np.searchsorted(places // max(self.size, 1), np.arange(self.size + 1))
 
-    def solve(self, blocks: np.ndarray, right: np.ndarray) -> np.ndarray:
+    def solve(self, blocks: np.ndarray, right: np.ndarray, share: float = 0.0) -> np.ndarray:
         """
-        Return what solves (M + K) dv = ``right``, 0 at nodes that are not free.
+        Return what solves (M + K + K_bend) dv = ``right``, 0 at nodes that are not free.
 
         :param blocks: K of each edge, symmetric, (edges, 3, 3) [kg]
         :param right: (nodes, 3) [kg m/s]
+        :param share: of the matrix of bending in K_bend [s2]
         :return: dv (nodes, 3) [m/s]
         """
         change = np.zeros_like(right)
         if not self.size:
             return change
         numbers = np.concatenate(
-            [self._masses, *(sign * blocks[used].ravel() for used, sign in self._parts)])
+            [self._masses, *(sign * blocks[used].ravel() for used, sign in self._parts),
+             share * self._bending])
         data = np.bincount(self._place, numbers, len(self._flat))
         if self.size <= DENSE:
             dense = np.zeros(self.size**2)

@@ -74,7 +74,8 @@ class ImplicitCloth(ReferenceCloth):
         self.reactions = np.zeros_like(self.positions)
         self.report = Report(0, 0, True, np.zeros_like(self.free))
         self._make = ImplicitStep(
-            self.law, self.free.ravel(), scene.node_mass, passes or passes_of(scene))
+            self.law, self.free.ravel(), scene.node_mass, passes or passes_of(scene),
+            self.bending)
         self._asked = np.zeros_like(self.positions)
         # Of the last substep, 0 before the first [s].
         self._before = 0.0
@@ -87,7 +88,8 @@ class ImplicitCloth(ReferenceCloth):
         """Return the energies of the present state; the elastic one is that of the law."""
         return Energies(
             kinetic_energy(self.velocities, self.free, self.scene.node_mass),
-            self.law.energy(self.law.edges.lengths(self.positions.reshape(-1, 3))),
+            self.law.energy(self.law.edges.lengths(self.positions.reshape(-1, 3)))
+            + self.bending.energy(self.positions),
             gravitational_energy(self.positions, self.scene.node_mass, self.gravity))
 
     def excess(self) -> float:
@@ -127,8 +129,10 @@ class ImplicitCloth(ReferenceCloth):
         # A velocity belongs to the middle of its substep: gravity acts from the middle of the one
         # before. A push keeps its impulse.
         share = 0.5 * ((self._before or h) + h) / h
-        applied = share * (self.gravity * self.free[..., None] + self._air_accelerations(
-            now, now + h)) + self._push_accelerations(now, now + h)
+        bending = self.free[..., None] * self.bending.forces(self.positions)
+        applied = share * (
+            self.gravity * self.free[..., None] + self._air_accelerations(now, now + h)
+            + bending / self.scene.node_mass) + self._push_accelerations(now, now + h)
         held, solves = np.zeros_like(self.free), 0
         while True:
             step = self._make(

@@ -6,10 +6,11 @@ One implicit step of a cloth whose edges follow an ``EdgeLaw``.
 
 A pass finds the change of the velocities dv that meets
 
-    (M + beta h^2 K_geo) dv + h J^T lambda(l + h J dv, ...) = h F
+    (M + beta h^2 (K_geo + K_bend)) dv + h J^T lambda(l + h J dv, ...) = h F
     K_geo = sum over edges of (lambda+ / l) (I - n n^T)
 
-with the directions n in J and K_geo frozen. It is the minimum of a convex function, smooth but for
+with the directions n in J and K_geo frozen, and bending as at the start of the step in F. It is
+the minimum of a convex function, smooth but for
 kinks where limits come into force, and Newton's method with a line search finds it. First come
 ``start`` passes with the directions that edges have at the start of the step, then ``end`` passes
 with those that they have come to. docs/explanation/implicit_step.md derives it.
@@ -17,12 +18,19 @@ with those that they have come to. docs/explanation/implicit_step.md derives it.
 
 from dataclasses import dataclass
 
+from cloth_sim_ros.reference.bending import Bending
 from cloth_sim_ros.reference.edge_law import EdgeLaw
 from cloth_sim_ros.reference.edge_matrix import EdgeMatrix
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.scene import Scene
 import numpy as np
+from scipy import sparse
 from scipy.optimize import brentq
+
+# Of the matrix of bending, over the square of the step: with what acts at its start, the force is
+# that of the mean of the positions before and after, which is stable at any length and takes no
+# energy.
+_BENDING = 0.5
 
 
 @dataclass(frozen=True)
@@ -112,17 +120,21 @@ class ImplicitStep:
     :param law: of the edges
     :param free: which nodes can move, bool (nodes,); the others keep their velocity
     :param node_mass: [kg]
+    :param bending: of the cloth, if it resists
     """
 
     def __init__(
-            self, law: EdgeLaw, free: np.ndarray, node_mass: float, passes: Passes) -> None:
+            self, law: EdgeLaw, free: np.ndarray, node_mass: float, passes: Passes,
+            bending: Bending | None = None) -> None:
         """Lay out the matrix."""
         self.law = law
         self.passes = passes
         self._mass = node_mass
         self._free = free[:, None]
         self._moves = free[law.edges.first] | free[law.edges.second]
-        self._matrix = EdgeMatrix(law.edges, free, node_mass)
+        self._bending = (
+            sparse.csr_matrix((len(free), len(free))) if bending is None else bending.matrix)
+        self._matrix = EdgeMatrix(law.edges, free, node_mass, self._bending)
 
     def __call__(
             self, positions: np.ndarray, velocities: np.ndarray, applied: np.ndarray,
@@ -191,7 +203,8 @@ class ImplicitStep:
             outer = one.directions[:, :, None] * one.directions[:, None, :]
             added = self._matrix.solve(
                 slope[:, None, None] * outer
-                + one.across[:, None, None] * (np.eye(3) - outer), right)
+                + one.across[:, None, None] * (np.eye(3) - outer), right,
+                _BENDING * h**2)
             lengths = one.lengths + h * edges.along(change + added, one.directions)
             if np.array_equal(law.side(lengths), side):
                 # No kink on the way: Newton's step goes to the minimum of a parabola.
@@ -212,6 +225,7 @@ class ImplicitStep:
         tension = self._law(one, change)
         return self._free * (
             self._mass * (one.driven - change)
+            - _BENDING * one.h**2 * (self._bending @ change)
             - self.law.edges.scatter(self._impulse(one, change, tension), len(change)))
 
     def _impulse(self, one: _Pass, change: np.ndarray, tension: np.ndarray) -> np.ndarray:

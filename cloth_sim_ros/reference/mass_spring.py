@@ -38,8 +38,9 @@ class MassSpringReference(ReferenceCloth):
         self.substeps = substeps or self._substeps_of_scene()
 
     def accelerations(self, positions: np.ndarray, velocities: np.ndarray) -> np.ndarray:
-        """Return g + F / m of the springs, 0 at pinned nodes [m/s2]; no pushes and no air."""
+        """Return g + F / m, 0 at pinned nodes [m/s2]; no pushes and no air."""
         forces = total_forces(self.springs, positions, velocities)
+        forces += self.bending.forces(positions)
         return (self.gravity + forces / self.scene.node_mass) * self.free[..., None]
 
     def right_hand_side(self, t: float, state: np.ndarray) -> np.ndarray:

@@ -18,6 +18,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from cloth_sim_ros.sim.scene import Scene
+from cloth_sim_ros.sim.springs import WARP
+from cloth_sim_ros.sim.springs import WEFT
 import numpy as np
 
 
@@ -88,7 +90,8 @@ def spring_sets(scene: Scene, always: Sequence[str] = ()) -> tuple[SpringSet, ..
     )
     return tuple(
         SpringSet(family, down, right, rest_length,
-                  scene.stiffness(family), scene.damping(family))
+                  scene.stiffness(family, WARP if right else WEFT),
+                  scene.damping(family, WARP if right else WEFT))
         for family, down, right, rest_length in directions
         if (scene.models(family) or family in always)
         and down < scene.rows and abs(right) < scene.cols)

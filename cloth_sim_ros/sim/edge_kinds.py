@@ -23,6 +23,8 @@ from dataclasses import dataclass
 
 from cloth_sim_ros.sim.scene import FAMILIES
 from cloth_sim_ros.sim.scene import Scene
+from cloth_sim_ros.sim.springs import WARP
+from cloth_sim_ros.sim.springs import WEFT
 import numpy as np
 
 # Row and column of some nodes, as slices or as arrays of integers: what NumPy indexes by.
@@ -51,6 +53,19 @@ class EdgeKind:
         """Return the length at rest [m]."""
         dx, dy = scene.spacing
         return float(np.hypot(self.dcol * dx, self.drow * dy))
+
+    @property
+    def direction(self) -> int:
+        """Return which of two values, of warp and weft, is that of these edges."""
+        return WEFT if self.dcol == 0 else WARP
+
+    def stiffness(self, scene: Scene) -> float:
+        """Return that of the springs of ``scene`` [N/m]."""
+        return scene.stiffness(self.family, self.direction)
+
+    def damping(self, scene: Scene) -> float:
+        """Return that of the springs of ``scene`` [N s/m]."""
+        return scene.damping(self.family, self.direction)
 
     def everywhere(self, rows: int, cols: int) -> tuple[Index, Index]:
         """Return the starts and the ends of all edges of a cloth."""

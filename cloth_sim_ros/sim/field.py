@@ -45,6 +45,7 @@ class Field:
     :param choices: the values allowed, for words
     :param words: what may be given, for words that cannot be counted
     :param is_array: True for a list of ``kind``
+    :param is_pair: True for one value, or a list of two: of warp and of weft
     :param live: True when a running node accepts a new value
     """
 
@@ -58,10 +59,13 @@ class Field:
     choices: tuple[str, ...] = ()
     words: str = ''
     is_array: bool = False
+    is_pair: bool = False
     live: bool = False
 
     def check(self, value: Any) -> Any:
         """Return ``value`` in this field's type; ClothSimError says what is wrong with it."""
+        if self.is_pair and isinstance(value, Sequence) and not isinstance(value, str):
+            return self._check_pair(value)
         if not self.is_array:
             return self._check_one(value)
         if isinstance(value, str) or not isinstance(value, Sequence):
@@ -71,6 +75,13 @@ class Field:
             raise ClothSimError(
                 f'{self.name} has {len(value)} elements: give at most {MOST_ELEMENTS}')
         return tuple(self._check_one(element) for element in value)
+
+    def _check_pair(self, values: Sequence[Any]) -> tuple[Any, ...]:
+        if len(values) != 2:
+            raise ClothSimError(
+                f'{self.name} takes one value, or one for warp and one for weft, got '
+                f'{len(values)}: write a number or [warp, weft]')
+        return tuple(self._check_one(value) for value in values)
 
     def _check_one(self, value: Any) -> Any:
         is_number = isinstance(value, (int, float)) and not isinstance(value, bool)

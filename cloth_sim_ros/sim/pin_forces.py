@@ -16,6 +16,7 @@
 
 from dataclasses import dataclass
 
+from cloth_sim_ros.sim.bending import bending_pulls
 from cloth_sim_ros.sim.edge_kinds import EDGE_KINDS
 from cloth_sim_ros.sim.scene import Scene
 import numpy as np
@@ -38,7 +39,7 @@ def pin_forces(
         scene: Scene, positions: np.ndarray, tension: np.ndarray, nodes: np.ndarray,
         accelerations: np.ndarray | None = None, loads: np.ndarray | None = None) -> PinForces:
     """
-    Return R = m (a - g) - (what the edges of a node pull it with) for each of ``nodes``.
+    Return R = m (a - g) - (what edges and bending pull a node with) for each of ``nodes``.
 
     Other loads count with gravity.
 
@@ -59,8 +60,10 @@ def pin_forces(
 def edge_pulls(
         scene: Scene, positions: np.ndarray, tension: np.ndarray,
         nodes: np.ndarray) -> np.ndarray:
-    """Return what the edges of each of ``nodes`` pull it with [N], (n, 3); as in pin_forces."""
-    pulls = np.zeros((len(nodes), 3))
+    """Return what edges and bending pull each of ``nodes`` with [N], (n, 3); as in pin_forces."""
+    pulls = (
+        bending_pulls(scene, positions, nodes) if scene.has_rigidity
+        else np.zeros((len(nodes), 3)))
     here = positions[tuple(nodes.T)].astype(float)
     for kind in EDGE_KINDS:
         offset = np.array((kind.drow, kind.dcol))

@@ -34,6 +34,10 @@ from cloth_sim_ros.sim.pins import pinned_nodes
 from cloth_sim_ros.sim.push import Push
 from cloth_sim_ros.sim.scene_fields import FAMILIES
 from cloth_sim_ros.sim.scene_fields import SCENE_FIELDS
+from cloth_sim_ros.sim.springs import of_direction
+from cloth_sim_ros.sim.springs import spring_stiffness
+from cloth_sim_ros.sim.springs import WARP
+from cloth_sim_ros.sim.springs import WEFT
 from cloth_sim_ros.sim.wind import Gust
 import numpy as np
 
@@ -65,6 +69,7 @@ class Scene:
             raise ClothSimError(
                 f'air acts on areas, and a chain of rows {self.rows} x cols {self.cols} has none: '
                 'give 2 or more of both, or set air.density: 0')
+        self._stiffness = spring_stiffness(self.values, self.spacing, (self.rows, self.cols))
         for family in FAMILIES:
             if family in self['constraint.hard'] and family in self['constraint.springs']:
                 raise ClothSimError(
@@ -108,13 +113,32 @@ class Scene:
         total = self['total_mass'] or self['areal_density'] * self['width'] * self['height']
         return total / self.node_count
 
-    def stiffness(self, family: str) -> float:
-        """Stiffness of ``family`` [N/m]: structural, shear or bend."""
-        return self[f'stiffness.{family}']
+    def stiffness(self, family: str, direction: int | None = None) -> float:
+        """
+        Return the stiffness of the springs of a family [N/m].
 
-    def damping(self, family: str) -> float:
-        """Damping of ``family`` [N s/m]."""
-        return self[f'damping.{family}']
+        :param family: structural, shear or bend
+        :param direction: WARP for those along rows, WEFT for those along columns; None for the
+            larger of both
+        """
+        return of_direction(self._stiffness[family], direction)
+
+    def damping(self, family: str, direction: int | None = None) -> float:
+        """Return the damping of the springs of a family [N s/m]; as ``stiffness``."""
+        return of_direction(self[f'damping.{family}'], direction)
+
+    @property
+    def has_rigidity(self) -> bool:
+        """Tell whether the cloth resists bending by its rigidity."""
+        return max(self.bending) > 0.0
+
+    @property
+    def bending(self) -> tuple[float, float]:
+        """Return what bending along a row and along a column resists [N/m], sim/bending.py."""
+        (dx, dy), rigidity = self.spacing, self['bending.rigidity']
+        return (
+            of_direction(rigidity, WARP) * dy / dx**3 if self.cols > 2 else 0.0,
+            of_direction(rigidity, WEFT) * dx / dy**3 if self.rows > 2 else 0.0)
 
     def models(self, family: str) -> bool:
         """Tell whether springs of ``family`` do anything in this scene."""

@@ -38,14 +38,25 @@ SCENE_FIELDS = (
           '0 to derive it from areal_density', 'kg', low=0.0, high=1e12),
     Field('node_mass', float, 0.0, 'mass of each node; 0 to derive it from total_mass or '
           'areal_density', 'kg', low=0.0, high=1e6),
-    Field('stiffness.structural', float, 100.0, 'stiffness of the springs to the 4 adjacent nodes',
-          'N/m', low=0.0, high=1e9),
+    Field('material.warp', float, 0.0, 'stiffness to stretch along the rows at unchanged width, '
+          'from which the springs follow for any grid; 0 to give stiffness.structural and '
+          'stiffness.shear instead', 'N/m', low=0.0, high=1e9),
+    Field('material.weft', float, 0.0, 'stiffness to stretch along the columns at unchanged '
+          'width; 0 for that of material.warp', 'N/m', low=0.0, high=1e9),
+    Field('material.shear', float, 0.0, 'shear stiffness, used with material.warp', 'N/m',
+          low=0.0, high=1e9),
+    Field('stiffness.structural', float, 100.0, 'stiffness of the springs to the 4 adjacent nodes '
+          'or, as [warp, weft], along rows and along columns', 'N/m', low=0.0, high=1e9,
+          is_pair=True),
     Field('stiffness.shear', float, 100.0, 'stiffness of the springs to the 4 diagonal neighbours',
           'N/m', low=0.0, high=1e9),
     Field('stiffness.bend', float, 10.0, 'stiffness of the springs to the 4 nodes two steps away',
           'N/m', low=0.0, high=1e9),
-    Field('damping.structural', float, 0.01, 'damping coefficient of the structural springs',
-          'N s/m', low=0.0, high=1e6),
+    Field('bending.rigidity', float, 0.0, 'bending rigidity of the cloth, or [warp, weft] for '
+          'bending along rows and along columns; independent of the grid, unlike stiffness.bend',
+          'N m', low=0.0, high=1e6, is_pair=True),
+    Field('damping.structural', float, 0.01, 'damping coefficient of the structural springs, or '
+          '[warp, weft]', 'N s/m', low=0.0, high=1e6, is_pair=True),
     Field('damping.shear', float, 0.01, 'damping coefficient of the shear springs', 'N s/m',
           low=0.0, high=1e6),
     Field('damping.bend', float, 0.001, 'damping coefficient of the bend springs', 'N s/m',

@@ -17,6 +17,7 @@
 from cloth_sim_ros.gl.program import Program
 from cloth_sim_ros.gl.shader_source import ShaderSource
 from cloth_sim_ros.sim.edge_kinds import edge_defines
+from cloth_sim_ros.sim.edge_kinds import REST_KINDS
 from cloth_sim_ros.sim.edge_kinds import rest_lengths
 from cloth_sim_ros.sim.forcing import Forcing
 from cloth_sim_ros.sim.layout import Layout
@@ -90,14 +91,16 @@ def scene_defines(scene: Scene) -> dict[str, object]:
         'STRAIN_LIMIT': 'NO_LIMIT',
         'MOST_MAGNITUDE': f'{MOST_MAGNITUDE:e}',
         'HAS_DAMPING': int(has_damping),
+        'HAS_RIGIDITY': int(scene.has_rigidity),
         **edge_defines(scene.families),
     }
 
 
 def _set_springs(program: Program, scene: Scene) -> None:
-    program.set_floats('stiffness', [scene.stiffness(family) for family in FAMILIES])
-    program.set_floats('damping', [scene.damping(family) for family in FAMILIES])
+    program.set_floats('stiffness', [kind.stiffness(scene) for kind in REST_KINDS])
+    program.set_floats('damping', [kind.damping(scene) for kind in REST_KINDS])
     program.set_floats('rest_length', rest_lengths(scene))
+    program.set_floats('bending', scene.bending)
     program.set_float('inverse_mass', 1.0 / scene.node_mass)
     program.set_float('limit', scene['adaptive.threshold'])
     program.set_vectors('gravity', scene['gravity'])

@@ -45,9 +45,9 @@ def spring_tension(
         length = np.maximum(np.linalg.norm(d, axis=-1), _LEAST_LENGTH)
         rest = kind.rest_length(scene)
         stretch = length - rest
-        pull = scene.stiffness(kind.family) * stretch
-        if scene.damping(kind.family) > 0.0:
+        pull = kind.stiffness(scene) * stretch
+        if kind.damping(scene) > 0.0:
             dv = velocities[ends].astype(float) - velocities[starts]
-            pull += scene.damping(kind.family) * np.sum(dv * d, axis=-1) / length
+            pull += kind.damping(scene) * np.sum(dv * d, axis=-1) / length
         tension[(*starts, kind.number)] = pull
     return tension

@@ -33,11 +33,13 @@ def stability_limit(scene: Scene) -> float:
 
     A plane wave with wave numbers (p, q) on the lattice feels the stiffness
     K(p, q) = sum over springs of 2 k n n^T (1 - cos(p dcol + q drow)), n the spring's
-    direction, and a damping C of the same form. One wave with eigenvalues kappa and gamma of
+    direction, that of bending, and a damping C of the form of the former. One wave with
+    eigenvalues kappa and gamma of
     these is stable while h^2 kappa + 2 h gamma < 4 m. The limit is the least such h over all
     waves. For a square lattice this is the closed form of docs/explanation/numerics.md.
     """
-    return _least_limit(scene, *(_largest_eigenvalue(k) for k in _wave_matrices(scene)))
+    kappa, gamma = (_largest_eigenvalue(k) for k in _wave_matrices(scene))
+    return _least_limit(scene, kappa + _bending_of_waves(scene), gamma)
 
 
 @lru_cache(maxsize=16)
@@ -48,7 +50,9 @@ def any_shape_limit(scene: Scene) -> float:
     No spring is stiffer than k in any direction. So whatever the directions n, no eigenvalue
     is above that of the springs' graph: the trace of K, as n n^T has the trace 1.
     """
-    return _least_limit(scene, *(k[0] + k[2] for k in _wave_matrices(scene)))
+    kappa, gamma = (k[0] + k[2] for k in _wave_matrices(scene))
+    # Bending is the same in all directions: it has no shape to depend on.
+    return _least_limit(scene, kappa + _bending_of_waves(scene), gamma)
 
 
 def safe_substep(scene: Scene) -> float:
@@ -76,11 +80,22 @@ def _least_limit(scene: Scene, kappa: np.ndarray, gamma: np.ndarray) -> float:
     return float(np.min(4.0 * scene.node_mass / (gamma + root)))
 
 
-def _wave_matrices(scene: Scene) -> tuple[np.ndarray, np.ndarray]:
-    """Return K and C over the waves (p, q), each as its entries xx, xy, yy."""
+def _waves(scene: Scene) -> tuple[np.ndarray, np.ndarray]:
+    """Return the wave numbers p along a row, (n, 1), and q along a column, (1, n)."""
     # A lattice one node wide carries no waves across.
     p = np.linspace(0.0, np.pi, _SAMPLES if scene.cols > 1 else 1)[:, None]
     q = np.linspace(0.0, np.pi, _SAMPLES if scene.rows > 1 else 1)[None, :]
+    return p, q
+
+
+def _bending_of_waves(scene: Scene) -> np.ndarray:
+    """Return the stiffness of bending over the waves [N/m]: the square of what edges have."""
+    return sum(c * (2.0 - 2.0 * np.cos(wave))**2 for c, wave in zip(scene.bending, _waves(scene)))
+
+
+def _wave_matrices(scene: Scene) -> tuple[np.ndarray, np.ndarray]:
+    """Return K and C over the waves (p, q), each as its entries xx, xy, yy."""
+    p, q = _waves(scene)
     dx, dy = scene.spacing
     totals = [np.zeros((3, p.size, q.size)) for _ in range(2)]
     for kind in EDGE_KINDS:
@@ -90,8 +105,8 @@ def _wave_matrices(scene: Scene) -> tuple[np.ndarray, np.ndarray]:
         nx, ny = direction / np.linalg.norm(direction)
         bend = 2.0 * (1.0 - np.cos(p * kind.dcol + q * kind.drow))
         outer = np.array([nx * nx, nx * ny, ny * ny])[:, None, None]
-        totals[0] += scene.stiffness(kind.family) * outer * bend
-        totals[1] += scene.damping(kind.family) * outer * bend
+        totals[0] += kind.stiffness(scene) * outer * bend
+        totals[1] += kind.damping(scene) * outer * bend
     return tuple(totals)
 
 

@@ -12,7 +12,7 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""The parameters of a scene that are not the defaults."""
+"""The parameters of a scene: those that are not the defaults, and springs times a factor."""
 
 from typing import Any
 
@@ -31,3 +31,22 @@ def given_values(scene: Scene) -> dict[str, Any]:
         if field.name != 'preset' and scene[field.name] != field.check(field.default)}
     return {name: list(value) if isinstance(value, tuple) else value
             for name, value in values.items()}
+
+
+def scaled_stiffness(scene: Scene, factor: float) -> dict[str, Any]:
+    """Return the parameters of ``scene`` that say how stiff its springs are, times ``factor``."""
+    return _scaled(scene, ('stiffness.', 'material.'), factor)
+
+
+def scaled_damping(scene: Scene, factor: float) -> dict[str, Any]:
+    """Return the parameters of ``scene`` that say how its springs are damped, times ``factor``."""
+    return _scaled(scene, ('damping.',), factor)
+
+
+def _scaled(scene: Scene, groups: tuple[str, ...], factor: float) -> dict[str, Any]:
+    given = {
+        name: value for name, value in scene.values.items()
+        if name.startswith(groups) and not isinstance(value, str)}
+    return {
+        name: [factor * part for part in value] if isinstance(value, tuple) else factor * value
+        for name, value in given.items()}

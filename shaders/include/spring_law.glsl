@@ -15,9 +15,10 @@
 // The three spring families and Hooke's law with damping along the spring (paper, Eq. 1).
 // Families and rest lengths are numbered by sim/edge_kinds.py.
 
-uniform float stiffness[3];    // [N/m] structural, shear, bend
-uniform float damping[3];      // [N s/m]
-uniform float rest_length[5];  // [m] along a row, along a column, diagonal, two along each
+// Along a row, along a column, diagonal, two along each:
+uniform float stiffness[5];    // [N/m]
+uniform float damping[5];      // [N s/m]
+uniform float rest_length[5];  // [m]
 
 // Length of d and its inverse, finite for two nodes in one place.
 vec2 length_and_inverse(vec3 d) {
@@ -30,9 +31,9 @@ vec2 length_and_inverse(vec3 d) {
 // present is 1, or 0 when one of the ends is a ghost.
 vec3 spring_force(vec3 d, vec3 dv, float present, int family, int rest) {
     vec2 l = length_and_inverse(d);
-    float pull = stiffness[family] * (l.x - rest_length[rest]);
+    float pull = stiffness[rest] * (l.x - rest_length[rest]);
 #if HAS_DAMPING
-    pull += damping[family] * dot(dv, d) * l.y;
+    pull += damping[rest] * dot(dv, d) * l.y;
 #endif
     return (present * pull * l.y) * d;
 }

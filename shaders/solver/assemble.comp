@@ -7,12 +7,28 @@
 #include "solver/levels.glsl"
 #include "solver/system.glsl"
 #include "solver/cloth_edge_block.glsl"
+#if HAS_RIGIDITY
+
+uniform float bending_weight[2];
+#endif
 
 layout(local_size_x = LOCAL_X, local_size_y = LOCAL_Y) in;
 
 // The two kinds of a family are added to each other first: a mirrored cloth rounds alike.
 #define ADD_BLOCKS(SUMS, EDGE, DROW, DCOL, FAMILY, REST) \
     SUMS[FAMILY] += edge_blocks(at, ivec2(DROW, DCOL), EDGE);
+
+#if HAS_RIGIDITY
+float is_line(ivec2 centre, ivec2 by) {
+    return load_node(centre - by).w * load_node(centre).w * load_node(centre + by).w != 0.0
+        ? 1.0 : 0.0;
+}
+
+// The squares of a node's parts in the lines of three that it is in.
+float bending_at(ivec2 at, ivec2 by) {
+    return is_line(at - by, by) + 4.0 * is_line(at, by) + is_line(at + by, by);
+}
+#endif
 
 void main() {
     ivec2 at = ivec2(gl_GlobalInvocationID.yx);
@@ -26,6 +42,11 @@ void main() {
     diagonal += of_family[STRUCTURAL];
     diagonal += of_family[SHEAR];
     diagonal += of_family[BEND];
+#if HAS_RIGIDITY
+    diagonal += scaled_identity(
+        bending_weight[0] * bending_at(at, ivec2(0, 1))
+        + bending_weight[1] * bending_at(at, ivec2(1, 0)));
+#endif
     float moves = load_node(at).w > 0.0 ? 1.0 : 0.0;
     Symmetric inverse_block = moves * inverse_above(diagonal, 1.0);
     int index = node_index(at.x, at.y);

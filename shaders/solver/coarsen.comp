@@ -18,11 +18,21 @@
 #include "solver/levels.glsl"
 #include "solver/system.glsl"
 #include "solver/edge_tensors.glsl"
+#if HAS_RIGIDITY
+#include "solver/coarse_bending.glsl"
+#endif
 
 layout(local_size_x = LOCAL_X, local_size_y = LOCAL_Y) in;
 
 Symmetric finer_edge(ivec2 at, int direction) {
-    return load_edge(level - 1, level_index(level - 1, at.x, at.y), direction);
+    Symmetric edge = load_edge(level - 1, level_index(level - 1, at.x, at.y), direction);
+#if HAS_RIGIDITY
+    ivec2 end = at + TOWARDS[direction];
+    if (end.y >= 0 && inside(level - 1, at.x, at.y) && inside(level - 1, end.x, end.y)) {
+        edge -= bending_edge(level - 1, direction);
+    }
+#endif
+    return edge;
 }
 
 #include "solver/average_edges.glsl"
@@ -42,6 +52,11 @@ void main() {
     for (int i = 0; i < DIRECTIONS; ++i) {
         edges[i] = stays_inside(row, col, i)
             ? average_edge(2 * ivec2(row, col), i) : Symmetric(0.0);
+#if HAS_RIGIDITY
+        if (stays_inside(row, col, i)) {
+            edges[i] += bending_edge(level, i);
+        }
+#endif
     }
     store_edges(level, index, edges);
     store_symmetric(

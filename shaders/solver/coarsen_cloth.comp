@@ -19,6 +19,9 @@
 #include "solver/system.glsl"
 #include "solver/edge_tensors.glsl"
 #include "solver/cloth_edge_block.glsl"
+#if HAS_RIGIDITY
+#include "solver/coarse_bending.glsl"
+#endif
 
 #if HAS_BEND
 #define REACH 2
@@ -82,6 +85,9 @@ Symmetric coarse_edge(int row, int col, int direction) {
             + edge_block(first + ivec2(1, 0), by, bend)
             + edge_block(first + ivec2(1, 1), by, bend);
     }
+#endif
+#if HAS_RIGIDITY
+    edge += bending_edge(level, direction);
 #endif
     return edge;
 }

@@ -16,6 +16,11 @@
 #include "solver/cloth_edges.glsl"
 #include "solver/edge_law.glsl"
 #include "solver/foreseen_length.glsl"
+#if HAS_RIGIDITY
+#include "bending.glsl"
+
+uniform float bending_weight[2];
+#endif
 
 layout(local_size_x = LOCAL_X, local_size_y = LOCAL_Y) in;
 
@@ -72,6 +77,12 @@ void main() {
         FOR_CLOTH_EDGES(look)
         FOR_BLOCK {
             sums.x += dot(way[row][col], way[row][col]);
+#if HAS_RIGIDITY
+            vec3 along_row = BENT(way, node, row, col, 0, 1);
+            vec3 along_column = BENT(way, node, row, col, 1, 0);
+            sums.x += bending_weight[0] * dot(along_row, along_row)
+                + bending_weight[1] * dot(along_column, along_column);
+#endif
         }
     }
     store_sums(sums);

@@ -20,6 +20,11 @@
 #include "solver/foreseen_length.glsl"
 #if !IS_FURTHER
 #include "applied_acceleration.glsl"
+#if HAS_RIGIDITY
+#include "bending.glsl"
+
+uniform float bending_rate[2];  // [1/s2] c along a row and along a column, over the node mass
+#endif
 #endif
 
 layout(local_size_x = LOCAL_X, local_size_y = LOCAL_Y) in;
@@ -88,7 +93,7 @@ void add_edge(int row, int col, int drow, int dcol, int edge, int family, int re
 #endif
     float sideways =
         moves * geometric * substep * substep * max(found, 0.0) * inverse_length;
-    float weight = moves * substep * (substep * pull.slope + edge_damping[family]);
+    float weight = moves * substep * (substep * pull.slope + edge_damping[rest]);
     if (is_in_block(row, col)) {
         keep(row, col, edge, tension_here, (weight - sideways) / square, sideways);
     }
@@ -119,6 +124,10 @@ void main() {
 #endif
     }
     FOR_CLOTH_EDGES(add_edge)
+#if HAS_RIGIDITY && !IS_FURTHER
+    vec3 resisted[TILE][TILE];
+    FIND_BENDING(resisted, node, node, bending_rate)
+#endif
     FOR_BLOCK {
         ivec2 at = first + ivec2(col, row) - REACH;
         int entry = tile_index(first, row, col);
@@ -127,6 +136,10 @@ void main() {
             total = change[row][col];
 #if !IS_FURTHER
             total += kick * applied_acceleration(state_index(at.y, at.x));
+#if HAS_RIGIDITY
+            // As where the step begins; the matrix makes it the mean of before and after.
+            total -= kick * resisted[row][col];
+#endif
 #endif
         }
         store_vector(cloth_entry(RESIDUAL, entry), total);

@@ -13,6 +13,7 @@ from std_srvs.srv import Trigger
 GIVEN = {
     'rows': 5, 'cols': 7, 'width': 0.6, 'height': 0.4, 'total_mass': 0.3,
     'pin_points.positions': [-0.31, 0.2, 1.0, 0.2, -0.19, 1.01],
+    'stiffness.structural': [150.0, 80.0],
     'dt': 0.005, 'start_paused': True}
 
 
@@ -20,12 +21,14 @@ def test_a_cloth_by_weight_and_points_shows_in_parameters_and_pins(client, tmp_p
     """The node would add the default weight or pins, which the commands leave out."""
     with NodeProcess(tmp_path, GIVEN, '-r', '__ns:=/given'):
         cloth = ClothUnderTest(client, GIVEN, '/given/cloth_sim')
-        names = ['total_mass', 'areal_density', 'pins', 'pin_points.positions']
-        total, density, pins, points = cloth.call(
+        names = [
+            'total_mass', 'areal_density', 'pins', 'pin_points.positions', 'stiffness.structural']
+        total, density, pins, points, structural = cloth.call(
             GetParameters, 'get_parameters', names=names).values
         cloth.call(Trigger, 'reset')
         flags = cloth.frame(0)['flags']
     assert (total.double_value, density.double_value) == (0.3, 0.0)
     assert list(pins.string_array_value) == ['none']
+    assert list(structural.double_array_value) == GIVEN['stiffness.structural']
     np.testing.assert_array_equal(points.double_array_value, GIVEN['pin_points.positions'])
     assert np.argwhere(flags & FLAG_PINNED).tolist() == [[0, 0], [4, 5]]

@@ -31,10 +31,12 @@ from cloth_sim_ros.sim.solver.solver_programs import solver_defines
 from cloth_sim_ros.study.paper_solver import paper_solver_defines
 import pytest
 
-_DEFINE = re.compile(r'#define\s+(\w+)')
+# A macro with the lines that it goes on in.
+_DEFINE = re.compile(r'^#define\s+(\w+)(?:[^\n]*\\\n)*[^\n]*\n', re.MULTILINE)
 _SCENES = {
     'all': {},
     'no_bend': {'stiffness.bend': 0.0, 'damping.bend': 0.0},
+    'rigid': {'bending.rigidity': 1e-4, 'stiffness.bend': 0.0, 'damping.bend': 0.0},
     'structural_undamped': {
         'stiffness.shear': 0.0, 'stiffness.bend': 0.0, 'damping.structural': 0.0,
         'damping.shear': 0.0, 'damping.bend': 0.0},
@@ -81,7 +83,9 @@ def variants(form: str) -> dict[str, str]:
         if is_solver:
             families = [family for family in FAMILIES if model.models(family)]
             levels = Levels(layout, coarsen=True, has_bend='bend' in families)
-            defines.update(solver_defines(layout, levels, families, is_multigrid=multigrid))
+            defines.update(solver_defines(
+                layout, levels, families, is_multigrid=multigrid,
+                has_rigidity=model.has_rigidity))
         text = without_idle_defines(ShaderSource(name, defines).text)
         found.setdefault(text, f'{scene}, texture {texture}, multigrid {multigrid}, {block}')
     return found
@@ -91,9 +95,7 @@ def without_idle_defines(text: str) -> str:
     """Return ``text`` without the macros that nothing in it asks for: they change nothing."""
     while True:
         words = Counter(re.findall(r'\w+', text))
-        kept = ''.join(
-            line for line in text.splitlines(keepends=True)
-            if not (define := _DEFINE.match(line)) or words[define[1]] > 1)
+        kept = _DEFINE.sub(lambda define: define[0] if words[define[1]] > 1 else '', text)
         if kept == text:
             return text
         text = kept
@@ -112,7 +114,7 @@ def test_glslang_accepts_the_shader(tmp_path: Path, form: str):
 
 def test_an_idle_define_changes_nothing():
     """A variant would be left out that compiles to something else."""
-    text = '#define ONE 1\n#define TWO ONE\n#define CALL(x) x\nint a = {};\n'
+    text = '#define ONE 1\n#define TWO ONE\n#define CALL(x) \\\n    x\nint a = {};\n'
     assert without_idle_defines(text.format('3')) == 'int a = 3;\n'
     assert without_idle_defines(text.format('TWO')) == (
         '#define ONE 1\n#define TWO ONE\nint a = TWO;\n')

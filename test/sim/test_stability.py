@@ -58,6 +58,25 @@ def test_different_springs(ks: float, ksh: float, kb: float):
     assert stability_limit(scene((ks, ksh, kb))) == pytest.approx(closed, rel=1e-3)
 
 
+def test_warp_and_weft():
+    """The stiffer of both directions would not bound the step, or both would be added up."""
+    cloth = scene((0.0, 0.0, 0.0), **{'stiffness.structural': [100.0, 300.0]})
+    assert stability_limit(cloth) == pytest.approx(2.0 * math.sqrt(_NODE_MASS / 1200.0), rel=1e-6)
+    assert any_shape_limit(cloth) == pytest.approx(2.0 * math.sqrt(_NODE_MASS / 1600.0), rel=1e-6)
+
+
+def test_rigidity():
+    """A stiff fabric would blow up, or be stepped as if folds made it stiffer."""
+    cloth = scene((0.0, 0.0, 0.0), **{'bending.rigidity': 0.02, 'rows': 11, 'cols': 11})
+    closed = 2.0 * math.sqrt(_NODE_MASS / (32.0 * 0.02 / 0.1**2))
+    assert stability_limit(cloth) == pytest.approx(closed, rel=1e-6)
+    assert any_shape_limit(cloth) == pytest.approx(closed, rel=1e-6)
+    oblong = scene((0.0, 0.0, 0.0), **{
+        'bending.rigidity': [0.03, 0.02], 'rows': 21, 'cols': 11})
+    most = 16.0 * (0.03 * 0.05 / 0.1**3 + 0.02 * 0.1 / 0.05**3)
+    assert stability_limit(oblong) == pytest.approx(2.0 * math.sqrt(_NODE_MASS / most), rel=1e-6)
+
+
 def test_a_chain_has_only_its_own_springs():
     """A chain would be stepped as finely as a sheet with shear and springs across."""
     chain = scene((100.0, 100.0, 0.0), rows=50, cols=1)

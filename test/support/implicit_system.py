@@ -188,7 +188,7 @@ class ImplicitSystem:
         return _Edges(
             place, first, second, length, direction, tension,
             tension - before if solve.is_further else tension,
-            h * slope + self._law.damping[kind[0]],
+            h * slope + self._law.damping[kind[1]],
             self._law.geometric * h**2 * np.maximum(before, 0.0) / length)
 
     def _pull(
@@ -209,9 +209,9 @@ class ImplicitSystem:
         limit = law.limit_stiffness[rest] * (above | below)
         bound = np.where(above, longest, shortest)
         tension = (
-            law.stiffness[family] * (length - rest_length) + law.damping[family] * rate
+            law.stiffness[rest] * (length - rest_length) + law.damping[rest] * rate
             + limit * (length - bound))
-        return tension, law.stiffness[family] + limit
+        return tension, law.stiffness[rest] + limit
 
     def _add_up(self) -> tuple[np.ndarray, csc_matrix]:
         """Return the diagonal blocks (nodes, 3, 3) and the matrix."""

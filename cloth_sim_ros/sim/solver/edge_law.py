@@ -40,12 +40,13 @@ class EdgeLaw:
     The edges of one implicit step. Forces are over the node mass.
 
     :param length: of the step [s]
-    :param stiffness: k of each family [1/s2]
-    :param damping: k_d of each family [1/s]
+    :param stiffness: k [1/s2] along a row, a column, the diagonal, and two along each
+    :param damping: k_d of the same [1/s]
     :param shortest: l_min of each family [rest lengths]; far below 0 where there is none
     :param longest: l_max of each family [rest lengths]
-    :param limit_stiffness: 1 / E [1/s2] along a row, a column, the diagonal, and two along each
+    :param limit_stiffness: 1 / E of the same as k [1/s2]
     :param geometric: beta of the geometric mass term; 0 leaves it out
+    :param bending: what bending along a row and along a column resists [1/s2]
     """
 
     length: float
@@ -55,21 +56,27 @@ class EdgeLaw:
     longest: tuple[float, ...]
     limit_stiffness: tuple[float, ...]
     geometric: float = 0.0
+    bending: tuple[float, float] = (0.0, 0.0)
+
+    @property
+    def bending_weights(self) -> tuple[float, float]:
+        """Return what bending along a row and along a column weighs in the matrix."""
+        return tuple(BETA * self.length**2 * value for value in self.bending)
 
     @property
     def weights(self) -> tuple[float, ...]:
         """Return what edges weigh in the matrix along their direction, in order of rest length."""
         return tuple(
             self.length * (self.length * (
-                self.stiffness[family] + (limit if self._has_limit(family) else 0.0))
-                + self.damping[family])
-            for family, limit in zip(_FAMILY_OF, self.limit_stiffness))
+                stiffness + (limit if self._has_limit(family) else 0.0)) + damping)
+            for family, stiffness, damping, limit in zip(
+                _FAMILY_OF, self.stiffness, self.damping, self.limit_stiffness))
 
     def times(self, mass: float) -> 'EdgeLaw':
         """Return the law with forces in N, of nodes of ``mass`` [kg]."""
         return replace(self, **{
             name: tuple(mass * value for value in getattr(self, name))
-            for name in ('stiffness', 'damping', 'limit_stiffness')})
+            for name in ('stiffness', 'damping', 'limit_stiffness', 'bending')})
 
     @property
     def largest_weight(self) -> float:
@@ -133,12 +140,12 @@ def edge_law(
     limits = tuple(pull / (rest * mass) for rest in rest_lengths(scene))
     return EdgeLaw(
         length,
-        tuple(scene.stiffness(family) / mass * spring
-              for family, spring in zip(FAMILIES, is_spring)),
-        tuple(scene.damping(family) / mass * spring
-              for family, spring in zip(FAMILIES, is_spring)),
+        tuple(kind.stiffness(scene) / mass * is_spring[family]
+              for family, kind in zip(_FAMILY_OF, REST_KINDS)),
+        tuple(kind.damping(scene) / mass * is_spring[family]
+              for family, kind in zip(_FAMILY_OF, REST_KINDS)),
         tuple(shortest), tuple(longest),
-        limits, geometric)
+        limits, geometric, tuple(value / mass for value in scene.bending))
 
 
 def set_law(program: Program, law: EdgeLaw) -> None:
@@ -148,6 +155,8 @@ def set_law(program: Program, law: EdgeLaw) -> None:
     program.set_floats('shortest', law.shortest)
     program.set_floats('longest', law.longest)
     program.set_floats('limit_stiffness', law.limit_stiffness)
+    program.set_floats('bending_rate', law.bending)
+    program.set_floats('bending_weight', law.bending_weights)
 
 
 def full_pull(scene: Scene, strain: float) -> float:

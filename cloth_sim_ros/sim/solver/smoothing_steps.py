@@ -21,6 +21,8 @@ from cloth_sim_ros.sim.solver.edge_law import EdgeLaw
 _LEAST = 0.25
 # On coarse levels a bend edge counts with those of four nodes.
 _EDGES_OF_A_NODE = (2.0, 2.0, 4.0, 8.0, 8.0)
+# The squares of a node's parts in the three lines around it: 1, 2 and 1.
+_LINES_OF_A_NODE = 6.0
 
 
 def smoothing_steps(law: EdgeLaw) -> tuple[float, float]:
@@ -29,10 +31,13 @@ def smoothing_steps(law: EdgeLaw) -> tuple[float, float]:
 
     They are made for the eigenvalues of the system over its diagonal blocks. With edges that
     weigh d around a node of mass 1 none is below 1 / (1 + d) nor, as an edge ties two nodes, above
-    (1 + 2 d) / (1 + d). Without edges both steps are whole ones, and the first is exact.
+    (1 + 2 d) / (1 + d). Bending of the weight b around a node has up to 3 b there, as it ties
+    three nodes. Without either both steps are whole ones, and the first is exact.
     """
-    around = sum(count * weight for count, weight in zip(_EDGES_OF_A_NODE, law.weights))
+    edges = sum(count * weight for count, weight in zip(_EDGES_OF_A_NODE, law.weights))
+    bending = _LINES_OF_A_NODE * sum(law.bending_weights)
+    around = edges + bending
     least = max(_LEAST, 1.0 / (1.0 + around))
-    most = (1.0 + 2.0 * around) / (1.0 + around)
+    most = (1.0 + 2.0 * edges + 3.0 * bending) / (1.0 + around)
     middle, reach = 0.5 * (most + least), 0.5 * (most - least) * 0.5**0.5
     return 1.0 / (middle + reach), 1.0 / (middle - reach)

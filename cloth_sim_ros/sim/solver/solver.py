@@ -71,7 +71,7 @@ _MOST_GROUPS_COUNTS = 3 * MOST_LEVELS
 
 class Solver:
     """
-    Solves (M + J^T a J + beta h^2 K_geo) dv = b for the free nodes of a cloth.
+    Solves (M + J^T a J + beta h^2 (K_geo + K_bend)) dv = b for the free nodes of a cloth.
 
     Tensions stay from solve to solve: K_geo has those found last.
 
@@ -94,7 +94,8 @@ class Solver:
         self._cloth = state
         levels = Levels(state, coarsen=kind.is_multigrid, has_bend='bend' in families)
         self._programs = SolverPrograms(
-            state, levels, families, is_multigrid=kind.is_multigrid)
+            state, levels, families, is_multigrid=kind.is_multigrid,
+            has_rigidity=scene.has_rigidity)
         self._right_sides, self._searches = (
             {is_further: kind_of_pass(
                 scene, state, self._programs, levels, is_further=is_further,

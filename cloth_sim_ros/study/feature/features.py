@@ -26,7 +26,8 @@ OUTPUTS = ('points', 'markers', 'stats', 'wrenches', 'recording')
 _BEND, _SHEAR = 'bend springs', 'shear springs'
 _DAMPING, _MODE = 'damping', 'mode'
 _AIR, _PUSHES, _PIN_MOVES = 'air', 'pushes', 'pins that move'
-SCENE_FEATURES = (_BEND, _SHEAR, _DAMPING, _MODE, _AIR, _PUSHES, _PIN_MOVES)
+_RIGIDITY = 'bending rigidity'
+SCENE_FEATURES = (_BEND, _RIGIDITY, _SHEAR, _DAMPING, _MODE, _AIR, _PUSHES, _PIN_MOVES)
 # Of the parameters that a feature is left out with.
 _PREFIXES = {_AIR: ('air.', 'gusts.'), _PUSHES: ('pushes.',), _PIN_MOVES: ('pin_moves.',)}
 
@@ -40,6 +41,7 @@ def has_feature(values: Mapping[str, Any], feature: str) -> bool:
         _DAMPING: any(scene.damping(family) > 0.0 for family in ('structural', 'shear', 'bend')),
         _MODE: scene['mode'] != MassSpring.name,
         _AIR: scene.has_air,
+        _RIGIDITY: scene.has_rigidity,
         _PUSHES: bool(scene['pushes.start']),
         _PIN_MOVES: bool(scene['pin_moves.start']),
     }[feature]
@@ -52,6 +54,8 @@ def without(values: Mapping[str, Any], feature: str) -> dict[str, Any]:
     if feature == _DAMPING:
         return {**values, **{f'damping.{family}': 0.0
                              for family in ('structural', 'shear', 'bend')}}
+    if feature == _RIGIDITY:
+        return {**values, 'bending.rigidity': 0.0}
     if feature == _MODE:
         return {**values, 'mode': MassSpring.name}
     prefixes = _PREFIXES[feature]
@@ -66,5 +70,6 @@ def _without_family(values: Mapping[str, Any], family: str) -> dict[str, Any]:
     scene = Scene(values)
     return {
         **values, f'stiffness.{family}': 0.0, f'damping.{family}': 0.0,
+        **({'material.shear': 0.0} if family == 'shear' else {}),
         **{name: [other for other in scene[name] if other != family]
            for name in ('constraint.hard', 'constraint.springs')}}

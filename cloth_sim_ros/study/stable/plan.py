@@ -17,10 +17,10 @@
 from collections.abc import Mapping
 from typing import Any
 
-from cloth_sim_ros.sim.scene import FAMILIES
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.scene_fields import MODES
 from cloth_sim_ros.study.runs.run import Run
+from cloth_sim_ros.study.scene_values import scaled_damping
 from cloth_sim_ros.study.stable.runs import with_stiffness
 import numpy as np
 
@@ -98,9 +98,7 @@ def _of_size(values: Mapping[str, Any], size: int) -> dict[str, Any]:
 
 
 def _damped(values: Mapping[str, Any], factor: float) -> dict[str, Any]:
-    scene = Scene(values)
-    return {**values, **{
-        f'damping.{family}': factor * scene.damping(family) for family in FAMILIES}}
+    return {**values, **scaled_damping(Scene(values), factor)}
 
 
 def _heavier(values: Mapping[str, Any], factor: float) -> dict[str, Any]:

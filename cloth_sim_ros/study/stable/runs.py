@@ -22,11 +22,11 @@ from cloth_sim_ros.gl.context import Context
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.modes import AVAILABLE
 from cloth_sim_ros.sim.modes.spring_substeps import spring_substeps
-from cloth_sim_ros.sim.scene import FAMILIES
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.stability import any_shape_limit
 from cloth_sim_ros.sim.stability import stability_limit
 from cloth_sim_ros.study.process_context import process_context
+from cloth_sim_ros.study.scene_values import scaled_stiffness
 from cloth_sim_ros.study.stable.edge_bisection import bisect_edge
 from cloth_sim_ros.study.stable.hanging_cloth import hang
 from cloth_sim_ros.study.stable.hanging_cloth import hanging_scene
@@ -95,9 +95,7 @@ def run_edge(scene: Mapping[str, Any], *, probe: str, vary: str, value: float) -
 
 def with_stiffness(values: Mapping[str, Any], factor: float) -> dict[str, Any]:
     """Return the scene of ``values`` with all springs ``factor`` times as stiff."""
-    scene = Scene(values)
-    return {**values, **{
-        f'stiffness.{family}': factor * scene.stiffness(family) for family in FAMILIES}}
+    return {**values, **scaled_stiffness(Scene(values), factor)}
 
 
 def predicted_limit(values: Mapping[str, Any], mode: str) -> float:

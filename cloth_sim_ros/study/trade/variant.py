@@ -18,9 +18,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from cloth_sim_ros.sim.scene import FAMILIES
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.scene_fields import SCENE_FIELDS
+from cloth_sim_ros.study.scene_values import scaled_stiffness
 
 
 @dataclass(frozen=True)
@@ -54,8 +54,7 @@ class Variant:
         changed = {
             **scene.values, 'preset': 'none', 'rows': rows, 'cols': cols,
             'node_mass': scene['node_mass'] * scene.node_count / (rows * cols),
-            **{f'stiffness.{family}': self.stiffness * scene.stiffness(family)
-               for family in FAMILIES}}
+            **scaled_stiffness(scene, self.stiffness)}
         for name in ('pins', 'pin_moves.node'):
             # Two pins may come to be one.
             moved = [_moved(node, scene, rows, cols) for node in scene[name]]
@@ -65,10 +64,11 @@ class Variant:
 
 def without_defaults(values: Mapping[str, Any]) -> dict[str, Any]:
     """Return those of ``values`` that differ from their default, with lists for tuples."""
-    return {
-        field.name: list(values[field.name]) if field.is_array else values[field.name]
-        for field in SCENE_FIELDS
+    given = {
+        field.name: values[field.name] for field in SCENE_FIELDS
         if field.name in values and field.check(values[field.name]) != field.default}
+    return {name: list(value) if isinstance(value, tuple) else value
+            for name, value in given.items()}
 
 
 def _moved(node: str, scene: Scene, rows: int, cols: int) -> str:

@@ -7,6 +7,12 @@
 
 #include "solver/cloth_tile.glsl"
 #include "solver/cloth_edges.glsl"
+#if HAS_RIGIDITY
+#include "bending.glsl"
+
+// beta h^2 c along a row and along a column, over the node mass.
+uniform float bending_weight[2];
+#endif
 
 vec3 value[TILE][TILE];
 vec3 product[TILE][TILE];
@@ -31,6 +37,13 @@ void make_product() {
         product[row][col] = value[row][col];
     }
     FOR_CLOTH_EDGES(add_to_product)
+#if HAS_RIGIDITY
+    vec3 resisted[TILE][TILE];
+    FIND_BENDING(resisted, value, node, bending_weight)
+    FOR_BLOCK {
+        product[row][col] += resisted[row][col];
+    }
+#endif
     FOR_BLOCK {
         if (!is_free(node[row][col])) {
             product[row][col] = vec3(0.0);

@@ -6,7 +6,7 @@
 #include "block_edges.glsl"
 #include "solver/block_of_invocation.glsl"
 
-#if HAS_BEND
+#if HAS_BEND || HAS_RIGIDITY
 #define REACH 2
 #else
 #define REACH 1

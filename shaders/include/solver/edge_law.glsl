@@ -3,19 +3,21 @@
 
 // How hard an edge pulls, over the node mass: see sim/solver/edge_law.py.
 
-uniform float edge_stiffness[3];   // [1/s2] structural, shear, bend
-uniform float edge_damping[3];     // [1/s]
+// Structural, shear, bend:
 uniform float shortest[3];         // [rest lengths] below which the lower limit pulls
 uniform float longest[3];          // [rest lengths] above which the upper one does
-uniform float limit_stiffness[5];  // [1/s2] along a row, along a column, diagonal, two along each
-uniform float rest_length[5];      // [m] the same
+// Along a row, along a column, diagonal, two along each:
+uniform float edge_stiffness[5];   // [1/s2]
+uniform float edge_damping[5];     // [1/s]
+uniform float limit_stiffness[5];  // [1/s2]
+uniform float rest_length[5];      // [m]
 
 // The energy of an edge of length l, without damping [m2/s2].
 float stored_energy(float l, int family, int rest) {
     float rest_l = rest_length[rest];
     float stretch = l - rest_l;
     float beyond = l - clamp(l, shortest[family] * rest_l, longest[family] * rest_l);
-    return 0.5 * (edge_stiffness[family] * stretch * stretch
+    return 0.5 * (edge_stiffness[rest] * stretch * stretch
         + limit_stiffness[rest] * beyond * beyond);
 }
 
@@ -33,7 +35,7 @@ Pull pull_at(float l, float judged, float rate, int family, int rest) {
     bool in_force = bound != judged || shortest[family] == longest[family];
     float limit = in_force ? limit_stiffness[rest] : 0.0;
     return Pull(
-        edge_stiffness[family] * (l - rest_l) + edge_damping[family] * rate
+        edge_stiffness[rest] * (l - rest_l) + edge_damping[rest] * rate
             + limit * (l - bound),
-        edge_stiffness[family] + limit);
+        edge_stiffness[rest] + limit);
 }

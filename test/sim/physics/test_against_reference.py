@@ -73,6 +73,9 @@ def scene_values(draw):
         ratio = draw(strategies.just(0.0) | _numbers(0.001, 1.0))
         values[f'stiffness.{family}'] = stiffness
         values[f'damping.{family}'] = ratio * np.sqrt(max(stiffness, 1.0) * mass)
+    if draw(strategies.booleans()):
+        warp = values['stiffness.structural']
+        values['stiffness.structural'] = [warp, draw(_numbers(1.0, 1000.0))]
     node = f'{draw(strategies.integers(0, rows - 1))},{draw(strategies.integers(0, cols - 1))}'
     values['pins'] = draw(strategies.lists(strategies.sampled_from(
         ('none', 'top_left', 'top_right', 'bottom_edge', 'bottom_left', node)), min_size=1))

@@ -16,12 +16,13 @@
 
 from cloth_sim_ros.reference.edge_law import spring_law
 from cloth_sim_ros.reference.implicit_cloth import ImplicitCloth
+from cloth_sim_ros.sim.springs import WARP
 import numpy as np
 import pytest
 
 _STILL = {'gravity': [0.0, 0.0, 0.0], 'pins': ['none']}
 _STIFF = {
-    'stiffness.structural': 300.0, 'stiffness.shear': 70.0, 'stiffness.bend': 20.0}
+    'stiffness.structural': [300.0, 500.0], 'stiffness.shear': 70.0, 'stiffness.bend': 20.0}
 # What is hard, and what is a spring, in mode constraint.
 _EDGES = {
     'hard edges alone': (['structural', 'shear'], []),
@@ -41,7 +42,7 @@ def _energies_of_stretched(scene, factor):
         'bend': (rows * (cols - 2), 2.0 * (factor - 1.0) * dx),
     }
     return {
-        family: 0.5 * scene.stiffness(family) * count * extension**2
+        family: 0.5 * scene.stiffness(family, WARP) * count * extension**2
         for family, (count, extension) in longer.items()}
 
 
