@@ -16,6 +16,7 @@
 
 from cloth_sim_ros.reference.edges import Edges
 from cloth_sim_ros.reference.edges import edges_of
+from cloth_sim_ros.sim.edge_kinds import EDGE_KINDS
 from cloth_sim_ros.sim.edge_kinds import rest_lengths
 from cloth_sim_ros.sim.scene import FAMILIES
 from cloth_sim_ros.sim.scene import Scene
@@ -56,9 +57,9 @@ def _pull(
         rates: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Return the tension over the node mass [m/s2] and the weight in the matrix of each edge."""
     family = np.array([FAMILIES.index(name) for name in edges.family], dtype=int)
-    stiffness, damping, shortest, longest = (
-        np.array(values)[family]
-        for values in (law.stiffness, law.damping, law.shortest, law.longest))
+    kind = _rest_kinds(scene, edges)
+    stiffness, damping = (np.array(values)[kind] for values in (law.stiffness, law.damping))
+    shortest, longest = (np.array(values)[family] for values in (law.shortest, law.longest))
     rest = edges.rest_length
     # 1 / E goes with the inverse of the rest length.
     limit_stiffness = law.limit_stiffness[0] * rest_lengths(scene)[0] / rest
@@ -69,3 +70,14 @@ def _pull(
     tension = stiffness * (lengths - rest) + damping * rates + limit_stiffness * beyond
     slope = stiffness + in_force * limit_stiffness
     return tension, law.length * (law.length * slope + damping)
+
+
+def _rest_kinds(scene: Scene, edges: Edges) -> np.ndarray:
+    """Return the place of each edge in what has a value for every rest length."""
+    kinds = np.zeros(len(edges), dtype=int)
+    (first_row, first_col), (row, col) = (
+        np.divmod(nodes, scene.cols) for nodes in (edges.first, edges.second))
+    for kind in EDGE_KINDS:
+        kinds[(abs(row - first_row) == abs(kind.drow)) & (
+            abs(col - first_col) == abs(kind.dcol))] = kind.rest
+    return kinds

@@ -101,7 +101,7 @@ def test_texture_loads_are_refused_where_there_are_none(tmp_path):
      'ctypes.CDLL.__init__ = init', 'the EGL library cannot be loaded: install the GPU driver'),
     ('import sys; sys.modules["OpenGL"] = None', 'pip install PyOpenGL'),
     ('import os; os.environ["PYOPENGL_PLATFORM"] = "glx"\nimport OpenGL.platform', (
-        'OpenGL was imported for the platform OpenGL.platform.glx before'))],
+        'OpenGL was imported for the platform OpenGL.platform.glx already'))],
     ids=['no EGL', 'no PyOpenGL', 'another platform before'])
 def test_missing_libraries_are_told(before, reason, tmp_path):
     """A machine without them would give a traceback of an import."""

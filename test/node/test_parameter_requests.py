@@ -17,7 +17,7 @@ BAD = {
     'unset': (Parameter(name='real_time_factor'), 'type 0, which does not exist'),
     'unset, of rclpy': (Parameter(name='use_sim_time'), 'type 0, which does not exist'),
     'another type, of rclpy': (Parameter(
-        name='use_sim_time', value=ParameterValue(type=7)), 'holds bool, got integer array'),
+        name='use_sim_time', value=ParameterValue(type=7)), 'has the type bool, got integer array'),
     'no name': (Parameter(value=ParameterValue(type=3)), 'there is no parameter'),
     'typing error': (Parameter(
         name='real_time_facto', value=ParameterValue(type=3)), 'did you mean real_time_factor?'),
@@ -61,7 +61,7 @@ def test_a_request_sets_a_bounded_number(cloth):
     bad, _ = BAD['unset']
     results = cloth.call(SetParameters, 'set_parameters', parameters=[bad] * 1200).results
     assert len(results) == 1200
-    assert 'none' in results[999].reason and 'send several' in results[1000].reason
+    assert 'does not exist' in results[999].reason and 'send several' in results[1000].reason
     result = cloth.call(
         SetParametersAtomically, 'set_parameters_atomically', parameters=[GOOD] * 1200).result
     assert not result.successful and 'send several' in result.reason

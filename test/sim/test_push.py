@@ -42,7 +42,7 @@ _NAN, _INF = float('nan'), float('inf')
      'the radius of a push must be from 0 to 1e+06 m, got -0.1'),
     ({'region': 'sphere', 'radius': _NAN},
      'the radius of a push must be from 0 to 1e+06 m, got nan'),
-    ({'region': 'sphere', 'radius': 1e200}, 'is from 0 to 1e+06 m, got 1e+200 m: give it in'),
+    ({'region': 'sphere', 'radius': 1e200}, 'must be from 0 to 1e+06 m, got 1e+200 m: give it in'),
     ({'region': 'sphere', 'radius': 1.0, 'center': (0.0, 1e200, 0.0)},
      'the center of a push must be at most 1e+06 m along each axis'),
     ({'region': 'sphere'}, 'a push on a sphere needs a radius above 0'),

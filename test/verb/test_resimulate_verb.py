@@ -181,7 +181,7 @@ def test_what_another_version_lacks_is_named(bag, again):
         event = deserialize_message(data, ParameterEvent)
         event.new_parameters = [
             parameter for parameter in event.new_parameters
-            if parameter.name != 'adaptive.scheme'] + [Parameter(name='air.drag')]
+            if parameter.name != 'adaptive.scheme'] + [Parameter(name='fabric.colour')]
         return serialise_parameter_event(event)
 
     path = rewritten(bag, change)
@@ -189,7 +189,7 @@ def test_what_another_version_lacks_is_named(bag, again):
     assert (code, lines) == (0, [
         '3 of 3 frames bitwise identical',
         "not recorded, so the default is used: adaptive.scheme 'constraint'",
-        'recorded, but unknown here and left out: air.drag'])
+        'recorded, but unknown here and left out: fabric.colour'])
     assert 'not recorded' not in ''.join(again(path, '--set', 'adaptive.scheme=constraint')[1])
 
 
