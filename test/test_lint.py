@@ -1,16 +1,5 @@
-# Copyright 2026 the cloth_sim_ros authors
-#
-# Licensed under the Apache License, Version 2.0 (the "License");
-# you may not use this file except in compliance with the License.
-# You may obtain a copy of the License at
-#
-#     http://www.apache.org/licenses/LICENSE-2.0
-#
-# Unless required by applicable law or agreed to in writing, software
-# distributed under the License is distributed on an "AS IS" BASIS,
-# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
-# See the License for the specific language governing permissions and
-# limitations under the License.
+# SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
+# SPDX-License-Identifier: Apache-2.0
 
 """
 Hold the sources to ament's style.
@@ -38,11 +27,6 @@ COMMENT_OF = {
 # Keys of rosdep that pip installs, without saying so in their name.
 PIP_KEYS = {'mcap-ros2-support'}
 HEADER = (
-    'Copyright 2026 the cloth_sim_ros authors',
-    '',
-    'Licensed under the Apache License, Version 2.0 (the "License");',
-)
-SHORT_HEADER = (
     'SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors',
     'SPDX-License-Identifier: Apache-2.0',
 )
@@ -82,10 +66,7 @@ def test_license_header():
         lines = path.read_text(encoding='utf-8').splitlines()
         if lines and lines[0].startswith(('#!', '#version')):
             del lines[0]
-        headers = (
-            [f'{COMMENT_OF[path.suffix]} {line}'.rstrip() for line in header]
-            for header in (HEADER, SHORT_HEADER))
-        if not any(lines[:len(header)] == header for header in headers):
+        if lines[:2] != [f'{COMMENT_OF[path.suffix]} {line}' for line in HEADER]:
             without.append(str(path.relative_to(ROOT)))
     assert not without
 

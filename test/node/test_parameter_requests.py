@@ -17,7 +17,7 @@ BAD = {
     'unset': (Parameter(name='real_time_factor'), 'type 0, which does not exist'),
     'unset, of rclpy': (Parameter(name='use_sim_time'), 'type 0, which does not exist'),
     'another type, of rclpy': (Parameter(
-        name='use_sim_time', value=ParameterValue(type=7)), 'has the type bool, got integer array'),
+        name='use_sim_time', value=ParameterValue(type=7)), 'the type bool, got integer array'),
     'no name': (Parameter(value=ParameterValue(type=3)), 'there is no parameter'),
     'typing error': (Parameter(
         name='real_time_facto', value=ParameterValue(type=3)), 'did you mean real_time_factor?'),
