@@ -181,4 +181,4 @@ def test_a_recording_that_begins_late_says_what_it_lacks(cloth, mode, capsys):
         assert rerun.check.largest is None or rerun.check.largest.distance < 1e-3
         assert rerun.check.last_rms == 0.0
     assert main(['resimulate', str(path), '--node', cloth.name]) == 0
-    assert f'does not hold what mode {mode} kept' in capsys.readouterr().out
+    assert f'does not contain what mode {mode} carried over' in capsys.readouterr().out
