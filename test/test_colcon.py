@@ -35,7 +35,7 @@ def build(base: Path, *arguments: str) -> Path:
 @pytest.fixture(scope='module')
 def installed(tmp_path_factory) -> Path:
     """Build the package over the messages that the set-up has built with the same cmake files."""
-    return build(tmp_path_factory.mktemp('colcon'), '--packages-select', 'cloth_sim_ros')
+    return build(tmp_path_factory.mktemp('colcon'), '--packages-ignore', 'cloth_sim_interfaces')
 
 
 def test_both_packages_are_found():
@@ -97,7 +97,7 @@ def test_workspace_build(installed, tmp_path):
             (checkout / path.name).symlink_to(path)
     command = f'. {installed}/setup.bash; {BUILD_COMMAND}'
     printed = bash(
-        command.replace('colcon build', 'colcon build --packages-select cloth_sim_ros')
+        command.replace('colcon build', 'colcon build --packages-ignore cloth_sim_interfaces')
         + ' && python3 -c "import cloth_sim_ros.node as node; print(node.__file__)"', tmp_path)
     assert Path(printed.split()[-1]).is_relative_to(tmp_path / 'install')
     listed = bash(command.partition('&&')[0].replace('colcon build', 'colcon list'), tmp_path)
