@@ -62,11 +62,11 @@ def test_what_is_missing_takes_its_default():
 
 def test_what_is_unknown_is_named():
     """A parameter of a later version would be passed over without a word, or end it all."""
-    drag = Field('air.drag', float, 0.0, 'of the air')
-    parameters = [Parameter(name='air.drag', value=parameter_value(drag, 0.3)),
+    drag = Field('fabric.colour', float, 0.0, 'of the air')
+    parameters = [Parameter(name='fabric.colour', value=parameter_value(drag, 0.3)),
                   Parameter(name='nothing')]
     scene = RecordedScene.from_parameters(parameters)
-    assert scene.unknown(NODE_FIELDS) == ('air.drag', 'nothing')
+    assert scene.unknown(NODE_FIELDS) == ('fabric.colour', 'nothing')
     assert scene.scene().values == Scene().values
 
 

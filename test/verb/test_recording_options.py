@@ -127,5 +127,5 @@ def test_recover_leaves_a_whole_recording_alone(split, capsys):
     """A user would double a recording for nothing."""
     before = sorted(split.parent.iterdir())
     assert main(['recover', str(split)]) == 0
-    assert capsys.readouterr().out.startswith(f'{split}: ')
+    assert capsys.readouterr().out.startswith(f'{split} is complete: ')
     assert sorted(split.parent.iterdir()) == before
