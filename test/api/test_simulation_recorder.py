@@ -110,7 +110,7 @@ def test_a_new_state_is_refused_while_recording(cloth, tmp_path):
 def test_one_recorder_at_a_time(cloth, tmp_path):
     """The inputs of one would be missing from the other without a word."""
     with SimulationRecorder(cloth, tmp_path, 'first'):
-        with pytest.raises(ClothSimError, match='is being recorded'):
+        with pytest.raises(ClothSimError, match='is already being recorded'):
             SimulationRecorder(cloth, tmp_path, 'second')
     assert not (tmp_path / 'second').exists()
     with SimulationRecorder(cloth, tmp_path, 'second') as recorder:

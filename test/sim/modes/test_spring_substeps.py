@@ -16,7 +16,7 @@ import pytest
 _NUMBER = '([0-9.e+-]+)'
 _TOO_MANY = re.compile(
     f'dt {_NUMBER} s would take {_NUMBER} substeps of the {_NUMBER} s that are safe in any shape'
-    f'(?:, times refine {_NUMBER})?, more than 100000: (?:set dt <= {_NUMBER}, or )?take softer')
+    f'(?:, times refine {_NUMBER})?, more than 100000: (?:set dt <= {_NUMBER}, or )?use softer')
 _TOO_LONG = re.compile(
     f'dt {_NUMBER} s in {_NUMBER} substeps is above the stability limit {_NUMBER} s of a substep '
     f'in mode mass_spring [(]node mass {_NUMBER} kg[)], and {_NUMBER} s are safe in any shape: '
