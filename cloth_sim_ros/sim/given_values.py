@@ -7,26 +7,29 @@ from collections.abc import Mapping
 from collections.abc import Sequence
 from typing import Any
 
+from cloth_sim_ros.sim.materials import with_material
 from cloth_sim_ros.sim.presets import with_preset
 from cloth_sim_ros.sim.springs import MATERIAL
 from cloth_sim_ros.sim.springs import MATERIAL_SPRINGS
 
 NO_PINS = ('none',)
+# They stretch, too, which would add to what a material says.
+_BEND_SPRINGS = ('stiffness.bend', 'damping.bend')
 
 
 def completed(given: Mapping[str, Any]) -> dict[str, Any]:
     """
     Return ``given`` with the values that follow from it for what it leaves out.
 
-    A preset brings its values. A total mass takes the place of the default areal density, a
+    Presets bring their values. A total mass takes the place of the default areal density, a
     material that of the default springs, and pins given by points that of the default pins.
     Nothing is checked here.
     """
-    values = with_preset(given)
+    values = with_material(with_preset(given))
     if values.get('total_mass'):
         values.setdefault('areal_density', 0.0)
     if any(values.get(name) for name in MATERIAL):
-        values.update({name: 0.0 for name in MATERIAL_SPRINGS if name not in values})
+        values = {**dict.fromkeys((*MATERIAL_SPRINGS, *_BEND_SPRINGS), 0.0), **values}
     points = values.get('pin_points.positions')
     if isinstance(points, Sequence) and points:
         values.setdefault('pins', NO_PINS)

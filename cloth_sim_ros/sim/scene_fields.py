@@ -12,6 +12,9 @@ FAMILIES = ('structural', 'shear', 'bend')
 FASTEST_WIND = 1000.0
 NO_PRESET = 'none'
 PRESETS = ('fast', 'balanced', 'accurate')
+MATERIALS = (
+    't_shirt', 'underwear', 'denim', 'tablecloth', 'trousers', 'blanket', 'ponte_roma',
+    'polyester_jacket', 'sweater', 'swimsuit')
 
 SCENE_FIELDS = (
     Field('preset', str, NO_PRESET, 'measured values for time-stepping parameters that are not '
@@ -27,6 +30,9 @@ SCENE_FIELDS = (
           '0 to derive it from areal_density', 'kg', low=0.0, high=1e12),
     Field('node_mass', float, 0.0, 'mass of each node; 0 to derive it from total_mass or '
           'areal_density', 'kg', low=0.0, high=1e6),
+    Field('material.preset', str, NO_PRESET, 'measured fabric that gives mass, stretch and '
+          'bending where they are not set explicitly; see `cloth_sim materials`',
+          choices=(NO_PRESET, *MATERIALS)),
     Field('material.warp', float, 0.0, 'stiffness to stretch along the rows at unchanged width, '
           'from which the springs follow for any grid; 0 to give stiffness.structural and '
           'stiffness.shear instead', 'N/m', low=0.0, high=1e9),

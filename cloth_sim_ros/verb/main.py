@@ -24,6 +24,7 @@ from cloth_sim_ros.verb.termination import Terminated
 
 VERBS = {
     'run': 'simulate a scene file, without ROS',
+    'materials': 'list the measured fabrics that a scene can name',
     'bench': 'benchmark this device, without ROS',
     'mode': 'switch the simulation mode of a running node',
     'push': 'push the cloth of a running node, or cancel all pushes',

@@ -40,7 +40,9 @@ def test_square_cells_have_the_difference_of_both():
     assert scene.stiffness('structural', WEFT) == pytest.approx(40.0)
     assert scene.stiffness('structural') == pytest.approx(70.0)
     assert scene.stiffness('shear') == pytest.approx(20.0)
-    assert scene.stiffness('bend') == 10.0
+    # Bend springs stretch, too, unless the scene asks for them.
+    assert not scene.models('bend')
+    assert Scene({**MATERIAL, 'stiffness.bend': 5.0}).stiffness('bend') == 5.0
 
 
 def test_one_value_is_that_of_both_directions():

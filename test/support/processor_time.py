@@ -9,14 +9,29 @@ import re
 
 
 def processor_time(pid: int) -> float:
-    """Return the time that all threads of a process have run so far [s]."""
+    """
+    Return the time that the main thread of a process and those of its driver have run so far [s].
+
+    A thread that compiles a mode, or that writes a recording, holds no answer up.
+    """
     total = 0
     for task in Path(f'/proc/{pid}/task').iterdir():
         try:
-            total += int((task / 'schedstat').read_text(encoding='ascii').split()[0])
+            if int(task.name) == pid or (task / 'comm').read_text().startswith('llvmpipe'):
+                total += int(_schedule(task)[0])
         except (OSError, ValueError):
             pass  # the thread has ended meanwhile
     return total * 1e-9
+
+
+def waited_for_a_processor() -> float:
+    """Return how long the calling thread was ready to run, and did not, so far [s]."""
+    return int(_schedule(Path('/proc/thread-self'))[1]) * 1e-9
+
+
+def _schedule(task: Path) -> list[str]:
+    # How long it ran and waited to run [ns], and how often.
+    return (task / 'schedstat').read_text(encoding='ascii').split()
 
 
 def memory(pid: int) -> int:

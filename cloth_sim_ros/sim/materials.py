@@ -1,0 +1,113 @@
+# SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
+# SPDX-License-Identifier: Apache-2.0
+
+"""
+Fabrics that were measured: weight, stiffness and rigidity by name.
+
+The numbers are those of Wang, O'Brien and Ramamoorthi, "Data-driven elastic models for cloth:
+modeling and measurement", 2011, DOI 10.1145/2010324.1964966. They measured curves; a fabric here
+has one value of each. docs/how_to/choose_a_fabric.md says what that leaves out.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from cloth_sim_ros.sim.scene_fields import NO_PRESET
+from cloth_sim_ros.sim.springs import MATERIAL_SPRINGS
+
+SOURCE = "Wang, O'Brien, Ramamoorthi 2011, DOI 10.1145/2010324.1964966"
+_MICRO = 1e-6
+_CEILING = 'at least this stiff: the fit ends there'
+_STIFFENS = 'stiffens: value at the largest strain'
+
+
+@dataclass(frozen=True)
+class Fabric:
+    """
+    A fabric as a linear sheet.
+
+    :param fabric: what it is, and its name in the source
+    :param density: mass per area [kg/m2]
+    :param warp: stiffness along the rows [N/m]
+    :param weft: along the columns [N/m]
+    :param shear: in shear [N/m]
+    :param rigidity: of bends along warp and weft [N m]; measured at 45 degrees too
+    :param note: how to take the numbers
+    """
+
+    fabric: str
+    density: float
+    warp: float
+    weft: float
+    shear: float
+    rigidity: tuple[float, float]
+    note: str
+
+    @property
+    def values(self) -> dict[str, Any]:
+        """Return the parameters of a scene."""
+        return {
+            'areal_density': self.density, 'material.warp': self.warp,
+            'material.weft': self.weft, 'material.shear': self.shear,
+            'bending.rigidity': list(self.rigidity)}
+
+
+def _fabric(
+        fabric: str, density: float, stretch: tuple[float, float], shear: float,
+        bending: tuple[float, float], note: str) -> Fabric:
+    return Fabric(
+        fabric, density, *stretch, shear, tuple(_MICRO * value for value in bending), note)
+
+
+# Stretch is that of small strain in woven fabrics, and that of the largest strain measured in
+# those that stiffen several times over, as knits do.
+FABRICS: Mapping[str, Fabric] = {
+    't_shirt': _fabric(
+        't-shirt, 60/40 cotton-polyester (gray-interlock)', 0.187, (140.0, 414.0), 9.0,
+        (23.0, 14.0), f'{_STIFFENS}, from 17 and 34'),
+    'underwear': _fabric(
+        'underwear knit, 95 % cotton (ivory-rib-knit)', 0.276, (106.0, 255.0), 21.0,
+        (46.0, 32.0), f'{_STIFFENS}, from 43 and 65'),
+    'denim': _fabric(
+        'jeans, 11 oz denim', 0.324, (205.0, 1014.0), 13.0, (64.0, 97.0), 'woven'),
+    'tablecloth': _fabric(
+        'tablecloth, polyester (white-dots)', 0.128, (2002.0, 2027.0), 5.0, (52.0, 31.0),
+        _CEILING),
+    'trousers': _fabric(
+        'trousers, 65/35 cotton-polyester (royal-target)', 0.220, (2017.0, 2035.0), 26.0,
+        (125.0, 125.0), _CEILING),
+    'blanket': _fabric(
+        'blanket, polyester (pink-ribbon)', 0.228, (152.0, 245.0), 8.0, (117.0, 60.0),
+        'stiffens to 210 and 360'),
+    'ponte_roma': _fabric(
+        'jacket, ponte roma', 0.284, (144.0, 269.0), 8.0, (36.0, 37.0),
+        f'{_STIFFENS}, from 31 and 44'),
+    'polyester_jacket': _fabric(
+        'jacket, polyester (tango-red)', 0.113, (227.0, 405.0), 4.0, (14.0, 20.0),
+        f'{_STIFFENS}, from 43 and 171'),
+    'sweater': _fabric(
+        'sweater (navy-sparkle)', 0.224, (126.0, 305.0), 4.0, (59.0, 46.0),
+        f'{_STIFFENS}, from 12 and 3'),
+    'swimsuit': _fabric(
+        'swimsuit, nylon (white-swim)', 0.204, (69.0, 170.0), 15.0, (60.0, 51.0),
+        f'{_STIFFENS}, from 48 and 105'),
+}
+
+
+def with_material(given: Mapping[str, Any]) -> dict[str, Any]:
+    """
+    Return ``given`` with the values of its ``material.preset`` for what it leaves out.
+
+    A weight of the whole cloth takes the place of the fabric's, and springs that of its stretch.
+    """
+    name = given.get('material.preset', NO_PRESET)
+    # What is no fabric is left to the check of the field.
+    if not isinstance(name, str) or name not in FABRICS:
+        return dict(given)
+    values = FABRICS[name].values
+    if given.get('total_mass'):
+        del values['areal_density']
+    if any(given.get(spring) for spring in MATERIAL_SPRINGS):
+        values = {key: value for key, value in values.items() if not key.startswith('material.')}
+    return {**values, **given}
