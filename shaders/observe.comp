@@ -24,6 +24,7 @@ uniform int first_row;         // of the slab of rows this dispatch looks at
 uniform int slab_rows;
 uniform int pushed_everywhere; // 1 while a push on the whole cloth acts
 uniform int has_limit_marks;   // 1 while there are edges at their limit
+uniform int acts_between_pins; // 1 where an edge between two pins stores energy
 uniform vec3 gravity;          // [m/s2]
 
 // The body of sensor_msgs/PointCloud2: x y z vx vy vz normal_x normal_y normal_z strain flags.
@@ -47,10 +48,13 @@ struct Edges {
 };
 
 void look_at_edge(
-        inout Edges edges, vec4 from, int row, int col, int drow, int dcol, int family, int rest) {
-    vec4 to = load_position(node_index(row + drow, col + dcol));
+        inout Edges edges, vec4 from, bool needs_free_end, int row, int col, int drow, int dcol,
+        int family, int rest) {
+    int other = node_index(row + drow, col + dcol);
+    vec4 to = load_position(other);
     float l = length(to.xyz - from.xyz);
-    edges.energy += to.w * 0.5 * stored_energy(l, family, rest);
+    float counts = needs_free_end && load_velocity(other).w == 0.0 ? 0.0 : to.w;
+    edges.energy += counts * 0.5 * stored_energy(l, family, rest);
     if (family != BEND) {
         edges.strain = max(edges.strain, to.w * abs(l / rest_length[rest] - 1.0));
     }
@@ -67,10 +71,10 @@ float bent_square(vec4 here, int row, int col, int drow, int dcol) {
 #endif
 
 #define LOOK_BOTH_WAYS(EDGES, EDGE, DROW, DCOL, FAMILY, REST) \
-    look_at_edge(EDGES, from, row, col, DROW, DCOL, FAMILY, REST); \
-    look_at_edge(EDGES, from, row, col, -(DROW), -(DCOL), FAMILY, REST);
+    look_at_edge(EDGES, from, needs_free_end, row, col, DROW, DCOL, FAMILY, REST); \
+    look_at_edge(EDGES, from, needs_free_end, row, col, -(DROW), -(DCOL), FAMILY, REST);
 
-Edges look_at_edges(vec4 from, int row, int col) {
+Edges look_at_edges(vec4 from, bool needs_free_end, int row, int col) {
     Edges edges = Edges(0.0, 0.0);
     EACH_EDGE(LOOK_BOTH_WAYS, edges)
 #if HAS_RIGIDITY
@@ -152,7 +156,7 @@ void main() {
         int index = node_index(row, col);
         vec4 x = load_position(index);
         vec4 v = load_velocity(index);
-        Edges edges = look_at_edges(x, row, col);
+        Edges edges = look_at_edges(x, v.w == 0.0 && acts_between_pins == 0, row, col);
         kinetic += 0.5 * v.w * dot(v.xyz, v.xyz);
         elastic += edges.energy;
         gravitational -= dot(gravity, x.xyz);

@@ -92,6 +92,7 @@ class Observer:
         if law is not None:
             # In N: over the mass of a node that weighs nothing, energies would leave float32.
             set_law(program, law.times(self._scene.node_mass))
+            program.set_int('acts_between_pins', int(law.acts_between_pins))
         state.bind_in()
         self._sums_buffer.bind_storage(bindings.PARTIAL_SUMS)
         if records is not None:

@@ -107,7 +107,8 @@ class EnergyAccount:
             self._work += float(np.sum(now.pin_forces.forces * moved[rows, cols]))
         law = self._run.engines.energy_law()
         self._work += _closing_work(
-            self._run.scene, (self._law, before.positions), (law, now.positions))
+            self._run.scene, self._moving_edges(), (self._law, before.positions),
+            (law, now.positions))
         self._law = law
         air_work = self._run.loads.work()
         self._work += air_work - self._air_work
@@ -147,6 +148,12 @@ class EnergyAccount:
     def _moving(self, seen: Snapshot) -> float:
         energy = seen.kinetic_energy + seen.elastic_energy
         return energy + self._half_a_step(seen) if self._is_symplectic else energy
+
+    def _moving_edges(self) -> list[np.ndarray]:
+        """Tell of each kind of edges which have an end that can move."""
+        pinned, size = self._run.pinned_nodes(), (self._run.scene.rows, self._run.scene.cols)
+        return [~(pinned[starts] & pinned[ends]) for starts, ends in (
+            kind.everywhere(*size) for kind in EDGE_KINDS)]
 
     def _uncertain(self, seen: Snapshot) -> float:
         """Return the energy [J] that the state at the start may have besides what it tells."""
@@ -193,25 +200,35 @@ class EnergyAccount:
 
 
 def _closing_work(
-        scene: Scene, begin: tuple[EdgeLaw, np.ndarray], end: tuple[EdgeLaw, np.ndarray]) -> float:
-    """Return the work [J] of limits that move between two laws, each with its positions."""
+        scene: Scene, counted: list[np.ndarray], begin: tuple[EdgeLaw, np.ndarray],
+        end: tuple[EdgeLaw, np.ndarray]) -> float:
+    """
+    Return the work [J] of limits that move between two laws, each with its positions.
+
+    :param counted: of each kind, the edges whose work it is
+    """
     work = 0.0
-    for kind in EDGE_KINDS:
+    for kind, some in zip(EDGE_KINDS, counted):
         family = FAMILIES.index(kind.family)
         for side in ('shortest', 'longest'):
             before, after = (getattr(law, side)[family] for law, _ in (begin, end))
             if before != after and all(0.0 < bound < FAR for bound in (before, after)):
                 pull = 0.5 * sum(
-                    _pull_of_limits(scene, kind, side, *each) for each in (begin, end))
+                    _pull_of_limits(scene, kind, some, side, *each) for each in (begin, end))
                 work += (after - before) * kind.rest_length(scene) * pull
     return work
 
 
 def _pull_of_limits(
-        scene: Scene, kind: EdgeKind, side: str, law: EdgeLaw, positions: np.ndarray) -> float:
-    """Return what one side's limits of edges of a kind push them apart with, summed [N]."""
-    starts, ends = kind.everywhere(scene.rows, scene.cols)
-    lengths = np.linalg.norm(positions[ends].astype(float) - positions[starts], axis=-1)
-    beyond = lengths - getattr(law, side)[FAMILIES.index(kind.family)] * kind.rest_length(scene)
+        scene: Scene, kind: EdgeKind, some: np.ndarray, side: str, law: EdgeLaw,
+        positions: np.ndarray) -> float:
+    """Return what one side's limits of some edges of a kind push them apart with, summed [N]."""
+    bound = getattr(law, side)[FAMILIES.index(kind.family)] * kind.rest_length(scene)
+    beyond = _lengths(scene, kind, positions)[some] - bound
     beyond = np.minimum(beyond, 0.0) if side == 'shortest' else np.maximum(beyond, 0.0)
     return -scene.node_mass * law.limit_stiffness[kind.rest] * float(beyond.sum())
+
+
+def _lengths(scene: Scene, kind: EdgeKind, positions: np.ndarray) -> np.ndarray:
+    starts, ends = kind.everywhere(scene.rows, scene.cols)
+    return np.linalg.norm(positions[ends].astype(float) - positions[starts], axis=-1)

@@ -37,7 +37,9 @@ def simulate():
     {'pushes.start': [0.0], 'pushes.duration': [0.1], 'pushes.force': [0.0, 0.5, 0.5],
      'pushes.center': [0.0, 0.0, 1.0], 'pushes.radius': [0.3]},
     {'pin_moves.start': [0.0], 'pin_moves.node': ['top_left'],
-     'pin_moves.target': [-0.2, 0.4, 1.3], 'pin_moves.speed': [0.5]}])
+     'pin_moves.target': [-0.2, 0.4, 1.3], 'pin_moves.speed': [0.5]},
+    {'pins': ['top_edge'], 'pin_moves.start': [0.0], 'pin_moves.node': ['top_left'],
+     'pin_moves.target': [-0.7, 0.5, 1.0], 'pin_moves.speed': [1.0]}])
 def test_work_that_is_done_is_no_gain(simulate, mode, given):
     """A push or a pin that moves would be taken for a blow-up."""
     account = EnergyAccount(simulate({'mode': mode, **given}))

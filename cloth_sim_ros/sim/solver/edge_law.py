@@ -47,6 +47,7 @@ class EdgeLaw:
     :param limit_stiffness: 1 / E of the same as k [1/s2]
     :param geometric: beta of the geometric mass term; 0 leaves it out
     :param bending: what bending along a row and along a column resists [1/s2]
+    :param acts_between_pins: whether an edge pulls, and stores energy, where both ends are pinned
     """
 
     length: float
@@ -57,6 +58,7 @@ class EdgeLaw:
     limit_stiffness: tuple[float, ...]
     geometric: float = 0.0
     bending: tuple[float, float] = (0.0, 0.0)
+    acts_between_pins: bool = True
 
     @property
     def bending_weights(self) -> tuple[float, float]:
