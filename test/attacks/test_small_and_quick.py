@@ -13,10 +13,10 @@ FRAMES = 12_500
 QUICK = {'publish.rate': 2000.0, 'dt': 0.0005}
 
 
-@pytest.mark.parametrize('factor', [0.0, 1.0])
-@pytest.mark.parametrize(('nodes', 'frames'), [
-    (2, 3000), (16, 3000), *(
-        pytest.param(nodes, FRAMES, marks=pytest.mark.long) for nodes in (2, 4, 8, 16))])
+@pytest.mark.parametrize(('nodes', 'factor', 'frames'), [
+    (2, 0.0, 3000), (16, 1.0, 3000), *(
+        pytest.param(nodes, factor, FRAMES, marks=pytest.mark.long)
+        for nodes in (2, 4, 8, 16) for factor in (0.0, 1.0))])
 def test_lives_on(client, tmp_path, nodes, frames, factor):
     """A node with little to do would end by itself after some seconds."""
     scene = {

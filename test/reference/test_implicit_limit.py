@@ -79,7 +79,7 @@ def test_the_light_cloth_of_the_study_keeps_to_its_limit():
     assert max(gains) <= 0.01
 
 
-@pytest.mark.parametrize('dt', [0.002, 0.02])
+@pytest.mark.parametrize('dt', [pytest.param(0.002, marks=pytest.mark.long), 0.02])
 @pytest.mark.parametrize('name', [
     name for name, values in SCENES.items() if values.get('adaptive.threshold') == 0.02])
 def test_a_strip_hangs_still_at_its_limit(name, dt):

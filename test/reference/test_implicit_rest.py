@@ -54,7 +54,7 @@ def _elastic_catenary(
     return np.concatenate([np.zeros((1, 2)), np.cumsum(steps, axis=0)]), tensions
 
 
-@pytest.mark.parametrize('solves', [1, 2])
+@pytest.mark.parametrize('solves', [pytest.param(1, marks=pytest.mark.long), 2])
 @pytest.mark.parametrize(('span', 'strain'), [(0.8, 1e-5), (0.8, 0.5), (1.0, 0.008)])
 def test_catenary(solves, span, strain):
     """A chain, slack or taut, hard or soft, rests elsewhere than forces and lengths allow."""

@@ -27,9 +27,9 @@ FAMILIES = ('structural', 'shear', 'bend')
 # Layout, loads and block of each way through the shaders, and how many scenes it has to do.
 # Large blocks compile slowly on software devices.
 PATHS = (
-    ('paper', 'storage', 1, 15), ('fused', 'storage', 1, 15), ('fused', 'texture', 1, 15),
-    ('fused', 'texture', 2, 10), ('fused', 'storage', 2, 5), ('fused', 'texture', 3, 5),
-    ('fused', 'texture', 4, 8), ('fused', 'storage', 4, 2),
+    ('paper', 'storage', 1, 5), ('fused', 'storage', 1, 4), ('fused', 'texture', 1, 5),
+    ('fused', 'texture', 2, 8), ('fused', 'storage', 2, 2), ('fused', 'texture', 3, 2),
+    ('fused', 'texture', 4, 6), ('fused', 'storage', 4, 1),
 )
 MOST_NODES_OF_A_SIDE = 40
 MOST_SUBSTEPS = 800

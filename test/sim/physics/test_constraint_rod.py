@@ -32,7 +32,7 @@ def _swing(simulate, angle, seconds, **values):
     return tuple(np.array(values, dtype=float) for values in zip(*seen))
 
 
-@pytest.mark.parametrize('dt', [0.02, 0.01, 0.005])
+@pytest.mark.parametrize('dt', [0.02, 0.01, pytest.param(0.005, marks=pytest.mark.long)])
 def test_pendulum_of_the_paper(simulate, within, dt):
     """The period is not 4 sqrt(L/g) K to second order, or the length not off (omega h)^2/2."""
     offsets, velocities = _swing(simulate, 1.0, 10.0, dt=dt, **PAPER)

@@ -16,7 +16,7 @@ HANGING = {
 SECONDS = 4.0
 
 
-@pytest.mark.parametrize('cols', [1, 3])
+@pytest.mark.parametrize('cols', [pytest.param(1, marks=pytest.mark.long), 3])
 def test_edges_carry_the_weight_below_them(simulate, within, force_scene, cols):
     """A tension is not the weight it carries, or is told of another edge."""
     rows = 8

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 
-@pytest.mark.parametrize('dt', [0.01, 0.001])
+@pytest.mark.parametrize('dt', [0.01, pytest.param(0.001, marks=pytest.mark.long)])
 def test_free_fall(simulate, within, any_mode, layout, dt):
     """Gravity, dt or the order of velocity and position is not the scheme's."""
     simulation = simulate({

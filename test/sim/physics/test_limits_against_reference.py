@@ -122,8 +122,10 @@ def _sides(snapshot, oracle):
     return oracle.law.side(lengths)
 
 
-@pytest.mark.parametrize('loads', ['texture', 'storage'])
-@pytest.mark.parametrize('form', FORMS)
+@pytest.mark.parametrize(('form', 'loads'), [
+    *((form, 'texture') for form in FORMS), ('plain', 'storage'), ('bend springs', 'storage'),
+    *(pytest.param(form, 'storage', marks=pytest.mark.long) for form in FORMS
+      if form not in ('plain', 'bend springs'))])
 def test_steps_and_tensions(simulate, within, form, loads):
     """A limit is not in force where it is, or does not pull as its law says."""
     simulation = simulate({**SCENE, **FORMS[form], 'loads': loads})

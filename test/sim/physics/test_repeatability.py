@@ -46,7 +46,9 @@ def _hash_of_a_process(values, spans=None, **environment):
     return done.stdout.strip()
 
 
-@pytest.mark.parametrize('loads_and_block', [('auto', 0), ('texture', 1), ('storage', 2)])
+@pytest.mark.parametrize('loads_and_block', [
+    ('auto', 0), *(pytest.param(each, marks=pytest.mark.long)
+                   for each in (('texture', 1), ('storage', 2)))])
 def test_two_processes_give_one_state(any_mode, loads_and_block):
     """A run depends on thread timing or on memory nobody wrote."""
     loads, block = loads_and_block
