@@ -104,10 +104,16 @@ def draw_scene(seed: int) -> dict[str, Any]:
 
 def run_scene(values: dict[str, Any], context: Context) -> Outcome:
     """Run a scene and return what came of it."""
-    run = Simulation(Scene(values), context=context)
+    run, pieces = Simulation(Scene(values), context=context), 1
+    if run.substeps > 1 and run.scene.timed_pin_moves() and not AVAILABLE[run.mode].is_implicit:
+        # The force on a pin swings within dt, and its work is found from that at the end.
+        pieces = run.substeps
+        values = {**values, 'dt': run.dt / pieces}
+        run.close()
+        run = Simulation(Scene(values), context=context)
     outcome = Outcome()
     try:
-        steps = min(_SECONDS / run.dt, _MOST_STEPS)
+        steps = min(_SECONDS / run.dt, _MOST_STEPS * pieces)
         if not AVAILABLE[run.mode].is_implicit:
             steps = min(steps, _MOST_SUBSTEPS / run.substeps)
         steps = max(1, math.floor(steps))
