@@ -20,14 +20,16 @@ ROOMS = {
     'playback': {'recording', 'messages', 'sim', 'files'},
     'node': {'recording', 'messages', 'sim', 'gl', 'files'},
     'study': {'recording', 'messages', 'sim', 'gl', 'reference', 'files'},
-    'analysis': {'recording', 'messages', 'sim', 'gl', 'files'},
+    'analysis': {'recording', 'messages', 'sim', 'files'},
+    'rendering': {'analysis', 'recording', 'messages', 'sim', 'gl', 'files'},
     'view': {'analysis', 'messages', 'sim', 'files'},
     'view/ros': {'view', 'node', 'analysis', 'messages', 'sim', 'files'},
     'resimulation': {'analysis', 'recording', 'sim', 'files'},
     'gym': {'sim', 'files'},
     'api': {'node', 'resimulation', 'analysis', 'recording', 'messages', 'sim'},
     'verb': {
-        'view', 'view/ros', 'api', 'node', 'study', 'resimulation', 'analysis', 'recording',
+        'view', 'view/ros', 'api', 'node', 'study', 'resimulation', 'rendering', 'analysis',
+        'recording',
         'messages', 'reference', 'sim', 'gl', 'playback', 'files'},
 }
 

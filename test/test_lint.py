@@ -17,10 +17,11 @@ from catkin_pkg.package import parse_package
 import pytest
 
 ROOT = Path(__file__).resolve().parents[1]
-PYTHON_PLACES = ('cloth_sim_ros', 'examples', 'launch', 'scripts', 'setup.py', 'test')
+PYTHON_PLACES = (
+    'benchmarks', 'cloth_sim_ros', 'examples', 'launch', 'scripts', 'setup.py', 'test')
 HEADED_PLACES = (
-    '.ci', 'cloth_sim_interfaces', 'cloth_sim_ros', 'examples', 'launch', 'scripts', 'setup.py',
-    'shaders', 'test')
+    '.ci', 'benchmarks', 'cloth_sim_interfaces', 'cloth_sim_ros', 'examples', 'launch', 'scripts',
+    'setup.py', 'shaders', 'test')
 COMMENT_OF = {
     '.py': '#', '.sh': '#', '.txt': '#', '.comp': '//', '.glsl': '//', '': '#',
 }

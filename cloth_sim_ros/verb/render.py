@@ -19,8 +19,8 @@ For example:
 from argparse import ArgumentParser
 from argparse import Namespace
 
-from cloth_sim_ros.analysis.rendering.picture import write_picture
-from cloth_sim_ros.analysis.rendering.video import write_video
+from cloth_sim_ros.rendering.picture import write_picture
+from cloth_sim_ros.rendering.video import write_video
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.verb.recording_arguments import list_of_times
 from cloth_sim_ros.verb.render_arguments import add_camera_arguments

@@ -8,11 +8,11 @@ from argparse import ArgumentTypeError
 from argparse import Namespace
 
 from cloth_sim_ros.analysis.recording import Recording
-from cloth_sim_ros.analysis.rendering.camera import Camera
-from cloth_sim_ros.analysis.rendering.recording_source import RecordingSource
-from cloth_sim_ros.analysis.rendering.source import Source
-from cloth_sim_ros.analysis.rendering.stage import Style
-from cloth_sim_ros.analysis.rendering.state_source import StateSource
+from cloth_sim_ros.rendering.camera import Camera
+from cloth_sim_ros.rendering.recording_source import RecordingSource
+from cloth_sim_ros.rendering.source import Source
+from cloth_sim_ros.rendering.stage import Style
+from cloth_sim_ros.rendering.state_source import StateSource
 from cloth_sim_ros.files.echo import cut
 from cloth_sim_ros.files.echo import shown
 from cloth_sim_ros.sim.errors import ClothSimError

@@ -13,9 +13,9 @@ from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.simulation import Simulation
 from cloth_sim_ros.sim.snapshot import FLAG_AT_LIMIT
 from cloth_sim_ros.sim.snapshot import FLAG_PINNED
-from cloth_sim_ros.study.limit_scenes import unit_scene
 from made_snapshot import make_snapshot
 import numpy as np
+from pushed_scenes import unit_scene
 import pytest
 from rclpy.serialization import deserialize_message
 from visualization_msgs.msg import Marker

@@ -11,8 +11,8 @@ from cloth_sim_ros.reference.edge_law import limited_law
 from cloth_sim_ros.reference.edge_law import spring_law
 from cloth_sim_ros.reference.implicit_cloth import ImplicitCloth
 from cloth_sim_ros.sim.scene import Scene
-from cloth_sim_ros.study.force_tremor import SCENES
 from cloth_sim_ros.study.modes.contenders import LIGHT_CLOTH
+from force_tremor import SCENES
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp

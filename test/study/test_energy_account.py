@@ -7,9 +7,9 @@ from cloth_sim_ros.gl.context import Context
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.simulation import Simulation
 from cloth_sim_ros.study.energy_account import EnergyAccount
-from cloth_sim_ros.study.random_scenes import draw_scene
 import numpy as np
 import pytest
+from random_scenes import draw_scene
 
 MODES = ('mass_spring', 'adaptive', 'constraint')
 SCENE = {'rows': 8, 'cols': 8, 'dt': 0.002}

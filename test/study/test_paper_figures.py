@@ -7,9 +7,9 @@ from cloth_sim_ros.node.node_fields import NODE_FIELDS
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.scene_file import load_parameters
 from cloth_sim_ros.sim.stability import stability_limit
-from cloth_sim_ros.study.limit_scenes import paper_scene
 from cloth_sim_ros.study.paper_figures import FIGURES
 from cloth_sim_ros.study.paper_figures import paper_scene_file
+from pushed_scenes import paper_scene
 import pytest
 
 RUNS = [(figure, run) for figure, made in FIGURES.items() for run in made.runs]

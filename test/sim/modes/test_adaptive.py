@@ -9,12 +9,12 @@ from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.simulation import Simulation
 from cloth_sim_ros.sim.snapshot import FLAG_AT_LIMIT
-from cloth_sim_ros.study.inactive_cost import inactive_costs
-from cloth_sim_ros.study.limit_scenes import paper_scene
-from cloth_sim_ros.study.limit_scenes import unit_scene
-from cloth_sim_ros.study.limits import limit_run
-from cloth_sim_ros.study.limits import spread
+from inactive_cost import inactive_costs
+from limits import limit_run
+from limits import spread
 import numpy as np
+from pushed_scenes import paper_scene
+from pushed_scenes import unit_scene
 import pytest
 
 # Scene, push, largest strain, spread of peak kinetic energy (issue 3, point 3).

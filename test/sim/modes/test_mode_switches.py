@@ -12,8 +12,8 @@ from cloth_sim_ros.sim.modes import AVAILABLE
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.simulation import Simulation
 from cloth_sim_ros.sim.snapshot import Snapshot
-from cloth_sim_ros.study.limit_scenes import paper_scene
-from cloth_sim_ros.study.limit_scenes import unit_scene
+from pushed_scenes import paper_scene
+from pushed_scenes import unit_scene
 import pytest
 
 

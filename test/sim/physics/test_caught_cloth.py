@@ -3,9 +3,9 @@
 
 """A cloth that is caught gains nothing by it, and one that hangs at its limit does not sink."""
 
-from cloth_sim_ros.study.force_tremor import SCENES
 from cloth_sim_ros.study.random_limits import largest_gain
 from cloth_sim_ros.study.random_limits import random_scene
+from force_tremor import SCENES
 
 # Undamped, without shear, hung by its upper corners: it falls until its upper row catches it all
 # but straight, where tensions are many times the weight. The push comes later than is looked.

@@ -3,7 +3,7 @@
 
 """How well the constraint mode keeps lengths in the paper's scene, pushed with 5 g."""
 
-from cloth_sim_ros.study.limit_scenes import paper_scene
+from pushed_scenes import paper_scene
 import pytest
 
 _METHOD_OF_THE_PAPER = {

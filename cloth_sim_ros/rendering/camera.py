@@ -1,0 +1,97 @@
+# SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
+# SPDX-License-Identifier: Apache-2.0
+
+"""From where a picture is taken."""
+
+from dataclasses import dataclass
+import math
+
+from cloth_sim_ros.rendering.view import View
+from cloth_sim_ros.sim.errors import ClothSimError
+import numpy as np
+
+_MARGIN = 1.06        # size of the picture over that of what must be in it
+_WIDEST = 150.0       # [deg]
+_LEAST_VIEW = 1e-3    # half the height of a picture of one point, over the size of the scene
+_CLEAR = 1.1          # distance of the camera over that of what is nearest to it
+_SMALLEST = 1e-6      # a scene of one point still has a size [m]
+_DEEP = 4.0           # what is drawn around the scene, over its size
+
+
+@dataclass(frozen=True)
+class Camera:
+    """
+    Looks at the scene, with z up.
+
+    :param azimuth: direction it stands in, counted from x towards y [deg]
+    :param elevation: how far above the horizon it stands [deg]
+    :param field_of_view: angle between the upper and the lower end of the picture [deg]; 0 is a
+        camera without perspective
+    :param zoom: 1 shows everything, 2 half as much along each side
+    :param target: the point in the middle of the picture [m]; None puts everything there
+    :raises ClothSimError: for angles and zooms that show nothing
+    """
+
+    azimuth: float = -55.0
+    elevation: float = 22.0
+    field_of_view: float = 25.0
+    zoom: float = 1.0
+    target: tuple[float, float, float] | None = None
+
+    def __post_init__(self) -> None:
+        """Check the values."""
+        values = (self.azimuth, self.elevation, self.field_of_view, self.zoom,
+                  *(self.target or ()))
+        if not all(map(math.isfinite, values)):
+            raise ClothSimError(f'a camera needs finite values, got {values}: give numbers')
+        if not 0.0 <= self.field_of_view <= _WIDEST:
+            raise ClothSimError(
+                f'the field of view must be from 0 to {_WIDEST:g} degrees, got '
+                f'{self.field_of_view:g}: 0 is a camera without perspective')
+        if self.zoom <= 0.0:
+            raise ClothSimError(f'the zoom must be above 0, got {self.zoom:g}: 1 shows everything')
+
+    @property
+    def axes(self) -> np.ndarray:
+        """Right, up and towards the camera, as the rows of a rotation."""
+        azimuth, elevation = math.radians(self.azimuth), math.radians(self.elevation)
+        right = (-math.sin(azimuth), math.cos(azimuth), 0.0)
+        towards = (
+            math.cos(azimuth) * math.cos(elevation), math.sin(azimuth) * math.cos(elevation),
+            math.sin(elevation))
+        return np.array([right, np.cross(towards, right), towards])
+
+    def looking_at(self, points: np.ndarray, width: int, height: int) -> View:
+        """
+        Return the view of ``width`` x ``height`` pixels that all ``points`` are in, at zoom 1.
+
+        :param points: (n, 3) [m]
+        """
+        low, high = points.min(axis=0), points.max(axis=0)
+        middle = (low + high) / 2.0 if self.target is None else np.array(self.target, float)
+        size = max(float(np.linalg.norm(high - low)), _SMALLEST)
+        across, up, near = ((points - middle) @ self.axes.T).T
+        tangent = math.tan(math.radians(self.field_of_view) / 2.0)
+        # In perspective, what is nearer by z looks larger: |x| / slope + z must not be above the
+        # distance. That asks for the same as a parallel view of x + slope z.
+        slope = tangent / _MARGIN
+        sides = [
+            self._side(across, near, slope * width / height), self._side(up, near, slope)]
+        half_height = _MARGIN * max(
+            sides[0][1] * height / width, sides[1][1], size * _LEAST_VIEW,
+            # A wide camera would stand within the cloth.
+            slope * _CLEAR * float(near.max()))
+        middle = middle + sides[0][0] * self.axes[0] + sides[1][0] * self.axes[1]
+        distance = half_height / tangent if tangent > 0.0 else math.inf
+        return View(
+            width=width, height=height, axes=self.axes, middle=middle, distance=distance,
+            half_height=half_height / self.zoom, depth=_DEEP * (
+                size + float(np.linalg.norm((low + high) / 2.0 - middle))))
+
+    def _side(self, places: np.ndarray, near: np.ndarray, slope: float) -> tuple[float, float]:
+        """Return the middle and half the length of what is seen along one side."""
+        upper = float(np.max(places + slope * near))
+        lower = float(np.max(slope * near - places))
+        if self.target is not None:
+            return 0.0, max(upper, lower)
+        return (upper - lower) / 2.0, (upper + lower) / 2.0

@@ -1,0 +1,99 @@
+# SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
+# SPDX-License-Identifier: Apache-2.0
+
+"""Draw the surface of a cloth, and its shadow."""
+
+from functools import cached_property
+import math
+
+from cloth_sim_ros.analysis.frame import Frame
+from cloth_sim_ros.rendering.light import LIGHT_DEFINES
+from cloth_sim_ros.rendering.light import set_light
+from cloth_sim_ros.rendering.look import HEM_SHADE
+from cloth_sim_ros.rendering.look import LIMIT_COLOR
+from cloth_sim_ros.rendering.look import SHADOW_COLOR
+from cloth_sim_ros.rendering.palette_buffer import PALETTE_DEFINES
+from cloth_sim_ros.rendering.palette_buffer import PaletteBuffer
+from cloth_sim_ros.rendering.view import View
+from cloth_sim_ros.rendering.view_uniforms import set_view
+from cloth_sim_ros.gl.draw_state import draw_over_all
+from cloth_sim_ros.gl.render_program import RenderProgram
+from cloth_sim_ros.sim.snapshot import FLAG_AT_LIMIT
+import numpy as np
+
+_HEM_WIDTH = 0.9      # [pixel of the picture]
+_SHADOW_SIDE = 160    # most nodes of the shadow along a side
+
+CLOTH_DEFINES = {
+    **LIGHT_DEFINES, **PALETTE_DEFINES, 'HEM_SHADE': HEM_SHADE}
+LIMIT_DEFINES = {
+    **CLOTH_DEFINES, 'HAS_LIMITS': 1, 'FLAG_AT_LIMIT': FLAG_AT_LIMIT,
+    # Radius of a dot on a node at its limit, over the shorter side of a cell, with its rim and
+    # without; the grey of the rim; the tint that dots make where they can't be told apart.
+    'DOT_RADIUS': 0.33, 'DOT_INSIDE': 0.22, 'DOT_RIM': 0.1, 'DOT_TINT': 0.3}
+
+
+class ClothDrawing:
+    """
+    Draws the frame in the node buffer, of two rows and two columns or more.
+
+    :param detail: drawn pixels along each side of a pixel of the picture
+    """
+
+    def __init__(self, palette: PaletteBuffer, detail: int) -> None:
+        """Keep what all frames share."""
+        self._palette = palette
+        self._detail = detail
+
+    def draw(self, frame: Frame, view: View) -> None:
+        """Draw the surface."""
+        rows, cols = frame.records.shape
+        has_limits = bool((frame.records['flags'] & FLAG_AT_LIMIT).any())
+        program = self._with_limits if has_limits else self._surface
+        program.use()
+        set_view(program, view)
+        set_light(program, view)
+        self._palette.give(program)
+        program.set_int('rows', rows)
+        program.set_int('cols', cols)
+        program.set_pair('cell', cell_sides(frame.positions))
+        program.set_float('hem_width', _HEM_WIDTH * self._detail)
+        program.set_vectors('limit_color', LIMIT_COLOR)
+        program.draw_strips(2 * cols, rows - 1)
+
+    def draw_shadow(self, frame: Frame, view: View, floor: float) -> None:
+        """Draw the shadow on the floor at the height ``floor`` [m], over all before."""
+        rows, cols = frame.records.shape
+        program = self._shadow
+        program.use()
+        set_view(program, view)
+        stride = math.ceil(max(rows, cols) / _SHADOW_SIDE)
+        program.set_int('rows', rows)
+        program.set_int('cols', cols)
+        program.set_int('stride', stride)
+        program.set_float('floor_z', floor - view.middle[2])
+        program.set_vectors('plain_color', SHADOW_COLOR)
+        draw_over_all()
+        down, along = (math.ceil((count - 1) / stride) for count in (rows, cols))
+        program.draw_strips(2 * (along + 1), down)
+
+    @cached_property
+    def _surface(self) -> RenderProgram:
+        return RenderProgram('render/cloth.vert', 'render/cloth.frag', CLOTH_DEFINES)
+
+    @cached_property
+    def _with_limits(self) -> RenderProgram:
+        return RenderProgram('render/cloth.vert', 'render/cloth.frag', LIMIT_DEFINES)
+
+    @cached_property
+    def _shadow(self) -> RenderProgram:
+        return RenderProgram('render/cloth.vert', 'render/plain.frag', {'SHADOW': 1})
+
+
+def cell_sides(positions: np.ndarray) -> tuple[float, float]:
+    """Return the sides of a cell along a row and along a column, the shorter one 1."""
+    sides = [
+        float(np.median(np.linalg.norm(np.diff(positions, axis=axis), axis=-1)))
+        for axis in (1, 0)]
+    shorter = min(sides)
+    return (sides[0] / shorter, sides[1] / shorter) if shorter > 0.0 else (1.0, 1.0)

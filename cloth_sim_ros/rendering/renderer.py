@@ -1,0 +1,128 @@
+# SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
+# SPDX-License-Identifier: Apache-2.0
+
+"""One panel's image of a frame, drawn by OpenGL."""
+
+from functools import cached_property
+
+from cloth_sim_ros.analysis.frame import Frame
+from cloth_sim_ros.rendering.ball_drawing import BallDrawing
+from cloth_sim_ros.rendering.cloth_drawing import ClothDrawing
+from cloth_sim_ros.rendering.floor_drawing import FloorDrawing
+from cloth_sim_ros.rendering.look import BACKGROUND
+from cloth_sim_ros.rendering.look import LIMIT_COLOR
+from cloth_sim_ros.rendering.look import PIN_COLOR
+from cloth_sim_ros.rendering.look import PUSH_COLOR
+from cloth_sim_ros.rendering.node_buffer import NodeBuffer
+from cloth_sim_ros.rendering.palette_buffer import PaletteBuffer
+from cloth_sim_ros.rendering.push_drawing import PushDrawing
+from cloth_sim_ros.rendering.region_rings import region_rings
+from cloth_sim_ros.rendering.ribbon_drawing import RibbonDrawing
+from cloth_sim_ros.rendering.seen_and_hidden import seen_and_hidden
+from cloth_sim_ros.rendering.strain_scale import StrainScale
+from cloth_sim_ros.rendering.survey import Survey
+from cloth_sim_ros.rendering.view import View
+from cloth_sim_ros.gl.context import Context
+from cloth_sim_ros.gl.draw_state import blend_by_opacity
+from cloth_sim_ros.gl.draw_state import draw_nearest
+from cloth_sim_ros.gl.errors import DeviceError
+from cloth_sim_ros.gl.framebuffer import Framebuffer
+from cloth_sim_ros.sim.snapshot import FLAG_AT_LIMIT
+import numpy as np
+
+_CHAIN_WIDTH = 1.0 / 100.0  # of the shorter side of the picture
+_CHAIN_RIM = 0.8            # [pixel]
+_RING_WIDTH = 1.5
+_LIMIT_SIZE = 0.55          # of the ball on a node at its limit, over that of a pin
+
+
+class Renderer:
+    """
+    Draws frames, all seen alike.
+
+    :param detail: 2 draws four times the pixels, for still pictures
+    :raises DeviceError: when there is no GL device, or it can't draw so large a picture
+    """
+
+    def __init__(
+            self, survey: Survey, scale: StrainScale, view: View, detail: int = 1) -> None:
+        """Make the context and the picture."""
+        self.view = view
+        self._survey = survey
+        self._scale = scale
+        self._detail = detail
+        self._context = Context()
+        if not self._context.max_texture_texels:
+            raise DeviceError(
+                f'{self._context.device} lacks texture buffers, which rendering needs: render on '
+                'another device')
+        self._framebuffer = Framebuffer(view.width, view.height, detail)
+        self._nodes = NodeBuffer(self._context.max_texture_texels)
+        self._lines = NodeBuffer(self._context.max_texture_texels)
+
+    @property
+    def device(self) -> str:
+        """Name the device that draws."""
+        return self._context.device
+
+    def draw(self, frame: Frame) -> np.ndarray:
+        """Return the image of ``frame``, (height, width, 3) uint8, the uppermost line first."""
+        self._context.make_current()
+        self._framebuffer.begin(BACKGROUND)
+        blend_by_opacity()
+        is_chain = min(frame.records.shape) == 1
+        self._nodes.load(frame, self.view.middle)
+        if not is_chain:
+            self._cloth.draw_shadow(frame, self.view, self._survey.floor)
+        self._floor.draw(self.view)
+        draw_nearest()
+        if is_chain:
+            self._ribbon.draw(
+                frame.records.size, self.view,
+                _CHAIN_WIDTH * min(self.view.width, self.view.height), rim=_CHAIN_RIM)
+            self._balls.draw(
+                frame.positions[(frame.records['flags'] & FLAG_AT_LIMIT) != 0], self.view,
+                LIMIT_COLOR, _LIMIT_SIZE)
+        else:
+            self._cloth.draw(frame, self.view)
+        self._pushes.draw(self._survey.arrows(frame), self.view)
+        self._draw_rings(frame)
+        self._balls.draw(frame.positions[frame.pinned], self.view, PIN_COLOR)
+        return self._framebuffer.read()
+
+    def close(self) -> None:
+        """Give the device back."""
+        self._context.close()
+
+    def _draw_rings(self, frame: Frame) -> None:
+        for ring in region_rings(frame.acting_pushes, self.view.axes):
+            self._lines.load_line(ring, self.view.middle)
+            for opacity in seen_and_hidden():
+                self._ribbon.draw(
+                    len(ring), self.view, _RING_WIDTH, opacity=opacity, color=PUSH_COLOR)
+
+    # Each is made, and its shaders compiled, when it is first drawn.
+
+    @cached_property
+    def _palette(self) -> PaletteBuffer:
+        return PaletteBuffer(self._scale)
+
+    @cached_property
+    def _cloth(self) -> ClothDrawing:
+        return ClothDrawing(self._palette, self._detail)
+
+    @cached_property
+    def _ribbon(self) -> RibbonDrawing:
+        return RibbonDrawing(self._palette, self._detail)
+
+    @cached_property
+    def _floor(self) -> FloorDrawing:
+        return FloorDrawing(self._survey, self._detail)
+
+    @cached_property
+    def _balls(self) -> BallDrawing:
+        return BallDrawing(self._detail)
+
+    @cached_property
+    def _pushes(self) -> PushDrawing:
+        return PushDrawing(self._survey.arrow_length)

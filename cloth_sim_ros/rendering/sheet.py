@@ -1,0 +1,132 @@
+# SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
+# SPDX-License-Identifier: Apache-2.0
+
+"""What is written around the panels of a picture, and the whole of it."""
+
+from collections.abc import Sequence
+
+from cloth_sim_ros.rendering.floor_drawing import grid_step
+from cloth_sim_ros.rendering.layout import Layout
+from cloth_sim_ros.rendering.legend import legend_handles
+from cloth_sim_ros.rendering.strain_scale import StrainScale
+from cloth_sim_ros.rendering.survey import Survey
+from cloth_sim_ros.rendering.view import View
+from cloth_sim_ros.rendering.words import write_words
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+import numpy as np
+
+_INK = '#303030'
+_POINTS_PER_INCH = 72.0  # so that a point is a pixel
+_LETTERS = 1.7           # height of a letter over its usual width
+
+
+class Sheet:
+    """
+    A picture of many panels. What is around them is drawn once.
+
+    :param labels: the name of each row; none when the layout has no room for them
+    :param note: written below
+    """
+
+    def __init__(
+            self, layout: Layout, survey: Survey, scale: StrainScale, view: View, *,
+            title: str = '', labels: Sequence[str] = (), note: str = '') -> None:
+        """Draw what is around the panels."""
+        self.layout = layout
+        width, height = layout.size
+        self._figure = Figure(
+            figsize=(width / _POINTS_PER_INCH, height / _POINTS_PER_INCH),
+            dpi=_POINTS_PER_INCH)
+        self._write(title, labels)
+        if layout.has_bar:
+            self._draw_bar(scale)
+        self._draw_directions(view)
+        self._explain(survey, note)
+        canvas = FigureCanvasAgg(self._figure)
+        canvas.draw()
+        self._around = np.asarray(canvas.buffer_rgba())[..., :3].copy()
+
+    def compose(self, images: Sequence[np.ndarray], headings: Sequence[str]) -> np.ndarray:
+        """
+        Return the whole picture, (height, width, 3) uint8.
+
+        :param images: of the panels, along the rows
+        :param headings: written above each
+        """
+        layout = self.layout
+        whole = self._around.copy()
+        for number, (image, heading) in enumerate(zip(images, headings)):
+            left, top = layout.corner(number)
+            upper = top + layout.heading
+            whole[upper:upper + layout.panel[1], left:left + layout.panel[0]] = image
+            strip = whole[top:upper, left:left + layout.panel[0]]
+            write_words(
+                strip, heading, (layout.panel[0] / 2.0, layout.heading / 2.0), layout.font)
+        return whole
+
+    def _write(self, title: str, labels: Sequence[str]) -> None:
+        layout = self.layout
+        width, height = layout.size
+        middle = layout.middle / width
+        self._figure.text(
+            middle, 1.0 - 0.55 * layout.top / height, title, fontsize=1.15 * layout.font,
+            color=_INK, ha='center', va='center')
+        for row, label in enumerate(labels if layout.has_labels else ()):
+            _, top = layout.corner(row * layout.columns)
+            self._figure.text(
+                0.6 * layout.left / width,
+                1.0 - (top + layout.heading + layout.panel[1] / 2.0) / height, label,
+                fontsize=layout.font, color=_INK, ha='center', va='center', rotation=90)
+
+    def _draw_bar(self, scale: StrainScale) -> None:
+        layout = self.layout
+        width, height = layout.size
+        room = height - layout.top - layout.legend_height
+        long = min(0.84 * room, 26.0 * layout.font)
+        left = layout.bar_left + 0.9 * layout.font
+        bottom = layout.legend_height + (room - long) / 2.0
+        axes = self._figure.add_axes((
+            left / width, bottom / height, 1.1 * layout.font / width, long / height))
+        bar = self._figure.colorbar(
+            scale.in_percent, cax=axes, extend='max' if scale.is_exceeded else 'neither')
+        bar.set_label(
+            f'strain |l / L0 - 1| [%], largest shown {100.0 * scale.largest:.3g} %', color=_INK,
+            fontsize=0.9 * layout.font)
+        bar.ax.tick_params(labelsize=0.9 * layout.font, labelcolor=_INK)
+        bar.outline.set_linewidth(0.5)
+
+    def _draw_directions(self, view: View) -> None:
+        """Draw the directions x, y and z into the lower left corner."""
+        layout = self.layout
+        width, height = layout.size
+        side = layout.legend_height
+        axes = self._figure.add_axes((0.0, 0.0, side / width, side / height))
+        axes.set_xlim(-1.5, 1.5)
+        axes.set_ylim(-1.1, 1.9)
+        axes.axis('off')
+        for name, direction in zip('xyz', view.axes[:2].T):
+            # What points to the camera has no arrow.
+            if np.linalg.norm(direction) > 0.1:
+                axes.annotate('', direction, (0.0, 0.0), arrowprops={
+                    'arrowstyle': '->', 'color': _INK, 'shrinkA': 0.0, 'shrinkB': 0.0,
+                    'mutation_scale': 0.7 * layout.font})
+            axes.text(
+                *(1.4 * direction), name, color=_INK, fontsize=0.8 * layout.font, ha='center',
+                va='center')
+
+    def _explain(self, survey: Survey, note: str) -> None:
+        layout = self.layout
+        width, height = layout.size
+        middle = layout.middle / width
+        handles = legend_handles(survey, grid_step(survey.size), 0.55 * layout.font)
+        self._figure.legend(
+            handles=handles, loc='center', ncols=len(handles), frameon=False,
+            bbox_to_anchor=(middle, 0.68 * layout.legend_height / height), labelcolor=_INK,
+            fontsize=0.9 * layout.font, handletextpad=0.5, columnspacing=1.6)
+        # The directions stand to the left, and the same room is left free on the right.
+        room = 2.0 * (layout.middle - layout.legend_height)
+        self._figure.text(
+            middle, 0.24 * layout.legend_height / height, note,
+            fontsize=min(0.75 * layout.font, _LETTERS * room / max(len(note), 1)),
+            color='#707070', ha='center', va='center')

@@ -1,0 +1,105 @@
+# SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
+# SPDX-License-Identifier: Apache-2.0
+
+"""What all panels of a picture have in common: one camera, one floor, one scale."""
+
+from collections.abc import Sequence
+
+from cloth_sim_ros.analysis.frame import Frame
+from cloth_sim_ros.rendering.extent import Extent
+from cloth_sim_ros.rendering.strain_range import StrainRange
+from cloth_sim_ros.sim.errors import ClothSimError
+from cloth_sim_ros.sim.push import Push
+from cloth_sim_ros.sim.snapshot import FLAG_AT_LIMIT
+from cloth_sim_ros.sim.snapshot import FLAG_PINNED
+import numpy as np
+
+_ARROW = 0.3          # of the largest push, over the longest side of all cloths
+_WITH_WORDS = 1.2     # room for an arrow and its words, over its length
+_BELOW = 0.03         # from the lowest point to the floor, over the longest side
+
+
+class Survey:
+    """
+    Looks at all frames that will be shown, one after the other.
+
+    ``shows_pins``, ``shows_limits`` and ``shows_pushes`` tell what there is to explain.
+    """
+
+    def __init__(self) -> None:
+        """Begin with no frame."""
+        self.strains = StrainRange()
+        self.shows_pins = False
+        self.shows_limits = False
+        self.frames = 0
+        self._cloth = Extent()
+        self._largest_force = 0.0
+        self._arrows: list[np.ndarray] = []
+        self._regions: set[tuple[float, float, float, float]] = set()
+
+    @property
+    def shows_pushes(self) -> bool:
+        """Tell whether a push acts in some frame."""
+        return bool(self._arrows)
+
+    @property
+    def arrow_length(self) -> float:
+        """Get the length of the largest push's arrow [m]."""
+        return _ARROW * self._cloth.size
+
+    @property
+    def floor(self) -> float:
+        """Get the height of the floor [m]."""
+        return float(self._cloth.low[2]) - _BELOW * self._cloth.size
+
+    @property
+    def size(self) -> float:
+        """Get the longest side along x, y and z of all cloths [m]."""
+        return self._cloth.size
+
+    @property
+    def middle(self) -> np.ndarray:
+        """Get the middle of all cloths [m]."""
+        return (self._cloth.low + self._cloth.high) / 2.0
+
+    @property
+    def points(self) -> np.ndarray:
+        """Get points around all in view [m], (n, 3); ClothSimError without a finite one."""
+        cloth = self._cloth.points
+        if not len(cloth):
+            raise ClothSimError(
+                'no node to render has a finite position: choose times before the run became '
+                'non-finite, with --at')
+        room = _WITH_WORDS * self.arrow_length / self._largest_force if self._arrows else 0.0
+        tips = [tail + room * force for tail, force in self._arrows]
+        # A region larger than the cloth is not worth a small picture.
+        rims = [
+            np.array(center) + radius * np.concatenate([np.eye(3), -np.eye(3)])
+            for *center, radius in self._regions if radius < self._cloth.size / 2.0]
+        return np.concatenate([cloth, *np.reshape(tips, (-1, 1, 3)), *rims])
+
+    def add(self, frame: Frame) -> None:
+        """Look at ``frame``."""
+        self.frames += 1
+        self._cloth.add_nodes(frame.positions)
+        self.strains.add(frame.strain)
+        flags = frame.records['flags']
+        self.shows_pins = self.shows_pins or bool((flags & FLAG_PINNED).any())
+        self.shows_limits = self.shows_limits or bool((flags & FLAG_AT_LIMIT).any())
+        pushes = frame.acting_pushes
+        largest = largest_force(pushes)
+        self._largest_force = max(self._largest_force, largest)
+        self._regions.update(
+            (*push.center, push.radius) for push in pushes if push.region != 'all')
+        for tail, tip in frame.push_arrows(1.0):
+            self._arrows.append(np.stack([tail, largest * (tip - tail)]))
+
+    def arrows(self, frame: Frame) -> list[np.ndarray]:
+        """Return tail and tip [m] of each push in ``frame``, as long as the force is large."""
+        share = largest_force(frame.acting_pushes) / max(self._largest_force, 1e-30)
+        return frame.push_arrows(self.arrow_length * share)
+
+
+def largest_force(pushes: Sequence[Push]) -> float:
+    """Return the largest force [N] of ``pushes``; 0 without one."""
+    return max((float(np.linalg.norm(push.force)) for push in pushes), default=0.0)

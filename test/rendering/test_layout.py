@@ -1,0 +1,43 @@
+# SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
+# SPDX-License-Identifier: Apache-2.0
+
+"""Where the panels go."""
+
+from cloth_sim_ros.rendering.layout import Layout
+import pytest
+
+LAYOUTS = [
+    Layout(1, 1, (320, 240)), Layout(2, 3, (301, 207), has_labels=True),
+    Layout(3, 2, (100, 400), has_title=False, has_bar=False), Layout(1, 5, (64, 64))]
+
+
+@pytest.mark.parametrize('layout', LAYOUTS)
+def test_panels_are_beside_each_other_within_the_sheet(layout):
+    """A panel would cover another one, or be cut off."""
+    width, height = layout.size
+    taken = set()
+    for number in range(layout.rows * layout.columns):
+        left, top = layout.corner(number)
+        right, bottom = left + layout.panel[0], top + layout.heading + layout.panel[1]
+        assert left >= layout.left and top >= layout.top
+        assert right <= layout.bar_left and bottom <= height - layout.legend_height
+        for x in (left, right - 1):
+            for y in (top, bottom - 1):
+                assert (x, y) not in taken
+                taken.add((x, y))
+    assert layout.bar_left + layout.bar_width <= width
+
+
+@pytest.mark.parametrize('layout', LAYOUTS)
+def test_sheets_have_even_sides(layout):
+    """H.264 takes no others."""
+    assert layout.size[0] % 2 == 0 and layout.size[1] % 2 == 0
+
+
+@pytest.mark.parametrize('parts', [
+    {'rows': 1, 'columns': 1}, {'rows': 1, 'columns': 2, 'has_title': False},
+    {'rows': 2, 'columns': 3, 'has_bar': False}])
+def test_a_sheet_of_a_given_size_can_be_asked_for(parts):
+    """A video would not have the size of a screen."""
+    width, height = Layout.within(1280, 720, **parts).size
+    assert abs(width - 1280) <= 4 and abs(height - 720) <= 4

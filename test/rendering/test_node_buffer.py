@@ -1,0 +1,15 @@
+# SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
+# SPDX-License-Identifier: Apache-2.0
+
+"""The nodes on the device."""
+
+from cloth_sim_ros.rendering.node_buffer import NodeBuffer
+from cloth_sim_ros.gl.errors import DeviceError
+import numpy as np
+import pytest
+
+
+def test_a_cloth_too_large_for_the_device_is_refused(flat):
+    """A part of it would be missing from the picture, silently."""
+    with pytest.raises(DeviceError, match='9 x 9 nodes is too large.*at most 80 nodes'):
+        NodeBuffer(161).load(flat(), np.zeros(3))

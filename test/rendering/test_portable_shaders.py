@@ -1,0 +1,59 @@
+# SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
+# SPDX-License-Identifier: Apache-2.0
+
+"""
+Every shader that draws, in every form, is portable GLSL.
+
+Apart from test/shaders, which runs where there is no matplotlib.
+"""
+
+from pathlib import Path
+import subprocess
+
+from cloth_sim_ros.rendering.ball_drawing import BALL_DEFINES
+from cloth_sim_ros.rendering.cloth_drawing import CLOTH_DEFINES
+from cloth_sim_ros.rendering.cloth_drawing import LIMIT_DEFINES
+from cloth_sim_ros.rendering.push_drawing import ARROW_DEFINES
+from cloth_sim_ros.rendering.ribbon_drawing import RIBBON_DEFINES
+from cloth_sim_ros.gl.shader_directory import shader_directory
+from cloth_sim_ros.gl.shader_source import ShaderSource
+import pytest
+
+_SHADOW = {'SHADOW': 1}
+_FORMS = {
+    'arrow.frag': [ARROW_DEFINES],
+    'arrow.vert': [ARROW_DEFINES],
+    'ball.frag': [BALL_DEFINES],
+    'ball.vert': [BALL_DEFINES],
+    'cloth.frag': [CLOTH_DEFINES, LIMIT_DEFINES],
+    'cloth.vert': [CLOTH_DEFINES, LIMIT_DEFINES, _SHADOW],
+    'floor.frag': [{}],
+    'floor.vert': [{}],
+    'plain.frag': [_SHADOW],
+    'ribbon.frag': [RIBBON_DEFINES],
+    'ribbon.vert': [RIBBON_DEFINES],
+}
+
+
+def test_every_shader_is_looked_at():
+    """A new shader would be tried on one driver only."""
+    assert {path.name for path in (shader_directory() / 'render').iterdir()} == set(_FORMS)
+
+
+@pytest.mark.parametrize(
+    ('name', 'defines'), [(name, defines) for name, forms in _FORMS.items() for defines in forms])
+def test_glslang_accepts_the_shader(tmp_path: Path, name: str, defines: dict):
+    """The picture would be drawn on one driver's leniency only."""
+    source = ShaderSource(f'render/{name}', defines)
+    assert source.text.startswith('#version 430 core\n')
+    (tmp_path / name).write_text(source.text)
+    done = subprocess.run(
+        ['glslangValidator', str(tmp_path / name)], capture_output=True, text=True)
+    assert done.returncode == 0, done.stdout
+
+
+@pytest.mark.parametrize('name', _FORMS)
+def test_version_is_430_core(name: str):
+    """A device with OpenGL 4.3 could not run it."""
+    lines = (shader_directory() / 'render' / name).read_text().splitlines()
+    assert '#version 430 core' in lines

@@ -1,0 +1,77 @@
+# SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
+# SPDX-License-Identifier: Apache-2.0
+
+"""What is around the panels, and where they go."""
+
+from cloth_sim_ros.rendering.camera import Camera
+from cloth_sim_ros.rendering.layout import Layout
+from cloth_sim_ros.rendering.sheet import Sheet
+from cloth_sim_ros.rendering.strain_scale import StrainScale
+from cloth_sim_ros.rendering.survey import Survey
+import numpy as np
+import pytest
+
+
+@pytest.fixture
+def sheet_of(hanging):
+    """Return a function that makes a sheet for a layout."""
+
+    def make(layout, **words):
+        survey = Survey()
+        survey.add(hanging())
+        view = Camera().looking_at(survey.points, *layout.panel)
+        return Sheet(layout, survey, StrainScale(survey.strains), view, **words)
+
+    return make
+
+
+def test_each_panel_is_where_the_layout_says(sheet_of):
+    """A panel would be in the place of another, or changed on its way."""
+    layout = Layout(2, 2, (60, 50))
+    images = [np.full((50, 60, 3), 40 * (number + 1), np.uint8) for number in range(4)]
+    whole = sheet_of(layout).compose(images, ['a', 'b', 'c', 'd'])
+    assert whole.shape == (layout.size[1], layout.size[0], 3)
+    for number, image in enumerate(images):
+        left, top = layout.corner(number)
+        top += layout.heading
+        np.testing.assert_array_equal(whole[top:top + 50, left:left + 60], image)
+
+
+def test_each_panel_has_its_own_heading(sheet_of):
+    """A reader would not know which moment is shown."""
+    layout = Layout(1, 2, (200, 100))
+    images = 2 * [np.full((100, 200, 3), 255, np.uint8)]
+    sheet = sheet_of(layout)
+    empty, told = (sheet.compose(images, headings) for headings in (['', ''], ['', 't = 1 s']))
+    changed = np.argwhere((empty != told).any(axis=-1))
+    left, top = layout.corner(1)
+    assert len(changed) > 20
+    assert top <= changed[:, 0].min() and changed[:, 0].max() < top + layout.heading
+    assert left <= changed[:, 1].min() and changed[:, 1].max() < left + 200
+    # Composing does not change the sheet.
+    np.testing.assert_array_equal(sheet.compose(images, ['', '']), empty)
+
+
+def test_words_and_bar_stay_off_the_panels(sheet_of):
+    """A long title or note, or the bar, would be written over the cloth."""
+    layout = Layout(2, 1, (240, 180), has_labels=True)
+    around = sheet_of(
+        layout, title='a cloth', labels=['one row', 'the other'], note='note ' * 12
+    ).compose([], [])
+    ink = (around < 128).any(axis=-1)
+    for number in range(2):
+        left, top = layout.corner(number)
+        assert not ink[top:top + layout.heading + 180, left:left + 240].any()
+    assert ink[:layout.top].any() and ink[:, :layout.left].any()
+    assert ink[:, layout.bar_left:].any()
+    # The border of the sheet is free.
+    assert not ink[0].any() and not ink[-1].any() and not ink[:, -1].any()
+
+
+def test_a_sheet_without_strain_has_no_bar(sheet_of):
+    """A bar would explain colours that are not there."""
+    with_bar, without = (
+        sheet_of(Layout(1, 1, (240, 180), has_bar=has_bar)).compose([], [])
+        for has_bar in (True, False))
+    assert without.shape[1] < with_bar.shape[1]
+    assert np.ptp(without[:180], axis=-1).max() < 10
