@@ -23,7 +23,7 @@ import sys
 from cloth_sim_ros.messages.requests import Request
 from cloth_sim_ros.messages.requests import SERVICES
 from cloth_sim_ros.messages.requests import SUBSCRIPTIONS
-from cloth_sim_ros.messages.topic import Topic
+from cloth_sim_ros.messages.topics import Topic
 from cloth_sim_ros.messages.topics import TOPICS
 from cloth_sim_ros.node.node_fields import NODE_FIELDS
 from cloth_sim_ros.sim.field import Field

@@ -81,7 +81,7 @@ def test_installed_code_runs_without_the_checkout(installed, tmp_path):
     printed = bash(
         f'. {installed}/setup.bash; python3 -c "'
         'import cloth_sim_ros.node.process as process; '
-        'import cloth_sim_ros.gl.shader_directory as shaders; '
+        'import cloth_sim_ros.gl.shared_directory as shaders; '
         'print(process.__file__, shaders.shader_directory())"',
         tmp_path)
     for place in printed.split():

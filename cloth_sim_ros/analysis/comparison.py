@@ -1,7 +1,6 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-
 """Two recordings of one cloth, node by node, at the times both have a frame."""
 
 from collections.abc import Iterator
@@ -11,6 +10,7 @@ from cloth_sim_ros.analysis.frame import Frame
 from cloth_sim_ros.analysis.recording import Recording
 from cloth_sim_ros.analysis.run import not_watched
 from cloth_sim_ros.analysis.run import Watch
+from cloth_sim_ros.analysis.summary import figure
 from cloth_sim_ros.sim.errors import ClothSimError
 import numpy as np
 
@@ -162,3 +162,28 @@ def _distances(one: Frame, other: Frame, sides: list[_Side]) -> tuple[float, flo
     for axis in 'xyz':
         squares += np.square(one.records[axis] - other.records[axis].astype(float))
     return float(np.sqrt(squares.mean())), float(np.sqrt(squares.max()))
+
+
+def comparison_lines(comparison: Comparison) -> dict[str, str]:
+    """Return the lines of a comparison by their names."""
+    lines = {
+        'compared': f'{comparison.second} with {comparison.first}, at their common times',
+        'matched': f'{len(comparison.times)} frames from {comparison.times[0]:.6g} to '
+                   f'{comparison.times[-1]:.6g} s; {comparison.unmatched[0]} and '
+                   f'{comparison.unmatched[1]} are in only one of them',
+    }
+    if comparison.identical:
+        lines['node distance'] = 'none: all positions are bitwise identical'
+    else:
+        lines['node distance'] = _line(comparison.rms_distance, ' m', 'RMS')
+    lines['max strain'] = _line(comparison.strain_difference, '', 'difference')
+    lines['total energy'] = _line(comparison.energy_difference, ' J', 'difference')
+    return lines
+
+
+def _line(series: np.ndarray, unit: str, what: str) -> str:
+    told = series[np.isfinite(series)]
+    if not len(told):
+        return 'unknown: not in both recordings'
+    most = told[np.argmax(np.abs(told))]
+    return f'{what} {figure(told[-1])}{unit} at the end, peak {figure(most)}{unit}'

@@ -1,18 +1,18 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-
 """The frames of a recording, in the order of time."""
 
+from collections.abc import Iterable
 from collections.abc import Iterator
 from collections.abc import Sequence
 
 from cloth_sim_ros.analysis.frame import Frame
-from cloth_sim_ros.analysis.panel_times import panel_times
 from cloth_sim_ros.analysis.push_history import KEYS
 from cloth_sim_ros.analysis.push_history import PushHistory
 from cloth_sim_ros.analysis.recording import Recording
 from cloth_sim_ros.sim.push import Push
+import numpy as np
 
 
 def read_frames(recording: Recording) -> Iterator[Frame]:
@@ -59,3 +59,22 @@ def default_times(recording: Recording, count: int) -> list[float]:
     if not times:
         raise recording.no_frame()
     return panel_times(times[0], times[-1], pushes.values(), count)
+
+
+def panel_times(begin: float, end: float, pushes: Iterable[Push], count: int) -> list[float]:
+    """
+    Return ``count`` times from ``begin`` to ``end`` [s], evenly apart but for the pushes.
+
+    The time next to the middle of a push moves there, so that the push is seen; the first and
+    the last stay, and a time moves once.
+    """
+    times = np.linspace(begin, end, count)
+    free = set(range(1, count - 1))
+    for push in pushes:
+        middle = push.start + push.duration / 2
+        if not free or not begin < middle < end:
+            continue
+        nearest = min(free, key=lambda panel: abs(times[panel] - middle))
+        times[nearest] = middle
+        free.remove(nearest)
+    return sorted(times.tolist())

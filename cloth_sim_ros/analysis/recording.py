@@ -1,7 +1,6 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-
 """A recording to read: messages of one node, from first to last, one in memory at a time."""
 
 from collections.abc import Iterable
@@ -13,16 +12,99 @@ from typing import Any
 from cloth_sim_ros.analysis.entry import Entry
 from cloth_sim_ros.analysis.message_check import check_message
 from cloth_sim_ros.analysis.recorded_arrays import arrays_of
-from cloth_sim_ros.analysis.recorded_node import find_node
-from cloth_sim_ros.analysis.recorded_node import TYPES
-from cloth_sim_ros.analysis.steady_time import SteadyTime
 from cloth_sim_ros.files.echo import cut
 from cloth_sim_ros.recording.bag_reader import BagReader
 from cloth_sim_ros.recording.bag_topic import BagTopic
 from cloth_sim_ros.recording.bag_topic import RawMessage
-from cloth_sim_ros.recording.cut_off import nothing_flushed
+from cloth_sim_ros.recording.recording_faults import nothing_flushed
 from cloth_sim_ros.sim.errors import ClothSimError
 import numpy as np
+
+
+class SteadyTime:
+    """
+    Turns the stamps of a recording, one behind the other, into times that go on over resets.
+
+    A reset puts the stamps back to 0, of every topic. Messages of one topic come in their order;
+    those of several may not, when another program recorded them: one that is late is no reset.
+    """
+
+    def __init__(self) -> None:
+        """Begin before the first message."""
+        self.now = 0.0
+        self.resets = 0        # before the message read last
+        self._offsets = [0.0]  # of each span between two resets
+        self._latest = 0.0     # time of any message
+        self._last: dict[str, tuple[float, int]] = {}
+
+    def read(self, stamp: Any, topic: str = '') -> float:
+        """Return the time [s] of the next message of ``topic``, which is stamped ``stamp``."""
+        stamped = stamp.sec + 1e-9 * stamp.nanosec
+        before, span = self._last.get(topic, (0.0, 0))
+        if stamped < before:
+            span += 1
+            if span == len(self._offsets):
+                self._offsets.append(self._latest)
+        # A topic that is seldom sent learns of a reset from the others.
+        span = min(
+            range(span, len(self._offsets)),
+            key=lambda later: abs(stamped + self._offsets[later] - self._latest))
+        self._last[topic] = stamped, span
+        self.resets = span
+        self.now = stamped + self._offsets[span]
+        self._latest = max(self._latest, self.now)
+        return self.now
+
+
+_OWN = 'cloth_sim_interfaces/msg/'
+
+# The type of each topic behind the node's name: a recording is read without the interfaces.
+TYPES = {
+    'points': 'sensor_msgs/msg/PointCloud2',
+    'markers': 'visualization_msgs/msg/MarkerArray',
+    'topology': 'shape_msgs/msg/Mesh',
+    'stats': f'{_OWN}ClothStats',
+    'pins/wrenches': 'geometry_msgs/msg/WrenchStamped',
+    'state': f'{_OWN}ClothState',
+    'inputs/push': f'{_OWN}Push',
+    'inputs/pin': f'{_OWN}PinChange',
+    'inputs/pin_target': f'{_OWN}PinTarget',
+    'inputs/wind': 'geometry_msgs/msg/Vector3Stamped',
+    'inputs/mode': f'{_OWN}ModeChange',
+    'inputs/command': f'{_OWN}Command',
+    'inputs/parameters': 'rcl_interfaces/msg/ParameterEvent',
+}
+
+
+def find_node(topics: Iterable[BagTopic], path: Path) -> str:
+    """
+    Return the name of the one node that could have sent ``topics``, with its namespace.
+
+    A topic of one of this project's types tells best; points alone count where there is none.
+
+    :param path: of the bag, for the errors
+    :raises ClothSimError: when there is none, or several
+    """
+    certain = set()
+    possible = set()
+    for topic in topics:
+        for key, type_name in TYPES.items():
+            node = topic.name.removesuffix(f'/{key}')
+            if node == topic.name or type_name != topic.type_name:
+                continue
+            if type_name.startswith(_OWN):
+                certain.add(node)
+            elif key == 'points':
+                possible.add(node)
+    nodes = sorted(certain or possible)
+    if not nodes:
+        raise ClothSimError(
+            f'{path} holds no frame of a cloth_sim node, as it has no topic like '
+            '/cloth_sim/points or /cloth_sim/stats: give a recording of one')
+    if len(nodes) > 1:
+        raise ClothSimError(
+            f'{path} holds several nodes ({", ".join(nodes)}): name one with --node')
+    return nodes[0]
 
 
 class Recording:

@@ -8,8 +8,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 import math
 
-from cloth_sim_ros.analysis.gaps import find_gaps
 from cloth_sim_ros.analysis.run import Run
+from cloth_sim_ros.analysis.summary import find_gaps
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator

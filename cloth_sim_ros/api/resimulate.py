@@ -11,7 +11,7 @@ from cloth_sim_ros.analysis.recording import Recording
 from cloth_sim_ros.recording.project_version import project_version
 from cloth_sim_ros.resimulation.listener import Listener
 from cloth_sim_ros.resimulation.recorded_run import RecordedRun
-from cloth_sim_ros.resimulation.recorded_version import recorded_version
+from cloth_sim_ros.resimulation.recorded_scene import recorded_version
 from cloth_sim_ros.resimulation.rerun import Rerun
 from cloth_sim_ros.resimulation.verdict import Verdict
 

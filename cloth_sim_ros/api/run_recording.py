@@ -13,10 +13,10 @@ from cloth_sim_ros.messages.state import state_of
 from cloth_sim_ros.messages.stats import stats_message
 from cloth_sim_ros.messages.wrenches import too_many_pins
 from cloth_sim_ros.messages.wrenches import WrenchMessages
-from cloth_sim_ros.node.opening import write_opening
 from cloth_sim_ros.node.recording_session import RecordingSession
-from cloth_sim_ros.recording.recording_error import RecordingError
-from cloth_sim_ros.recording.recording_error import RecordingFull
+from cloth_sim_ros.node.recording_session import write_opening
+from cloth_sim_ros.recording.recording_faults import RecordingError
+from cloth_sim_ros.recording.recording_faults import RecordingFull
 from cloth_sim_ros.recording.recording_options import RecordingOptions
 from cloth_sim_ros.sim.simulation import Simulation
 import numpy as np

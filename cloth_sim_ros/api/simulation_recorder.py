@@ -15,7 +15,7 @@ from cloth_sim_ros.api.run_recording import RunRecording
 from cloth_sim_ros.node.inputs import Inputs
 from cloth_sim_ros.node.node_fields import checked_node_values
 from cloth_sim_ros.node.node_fields import NODE_FIELDS
-from cloth_sim_ros.recording.recording_error import RecordingError
+from cloth_sim_ros.recording.recording_faults import RecordingError
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.errors import NonFiniteStateError
 from cloth_sim_ros.sim.input_listener import InputListener

@@ -10,7 +10,7 @@ from pathlib import Path
 import re
 
 from cloth_sim_ros.gl.errors import ShaderError
-from cloth_sim_ros.gl.shader_directory import shader_directory
+from cloth_sim_ros.gl.shared_directory import shader_directory
 
 VERSION_LINE = '#version 430 core'
 _INCLUDE = re.compile(r'\s*#include\s+"([^"]+)"\s*$')

@@ -28,3 +28,8 @@ def shared_directory(name: str) -> Path:
     raise MissingFilesError(
         f'there are no {name} beside {here.parents[1]}: reinstall the package, which contains '
         'them')
+
+
+def shader_directory() -> Path:
+    """Return the folder of the shaders that belong to this code."""
+    return shared_directory('shaders')

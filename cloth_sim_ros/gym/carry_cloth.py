@@ -11,7 +11,7 @@ from typing import Any
 from cloth_sim_ros.files.echo import shown
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.errors import NonFiniteStateError
-from cloth_sim_ros.sim.pin_move import FARTHEST
+from cloth_sim_ros.sim.pin_path import FARTHEST
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.simulation import Simulation
 import gymnasium

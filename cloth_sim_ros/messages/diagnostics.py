@@ -4,12 +4,27 @@
 """The health of a run, in words."""
 
 from builtin_interfaces.msg import Time
-from cloth_sim_ros.messages.pace import slow_pace
 from cloth_sim_ros.sim.snapshot import Snapshot
 from diagnostic_msgs.msg import DiagnosticArray
 from diagnostic_msgs.msg import DiagnosticStatus
 from diagnostic_msgs.msg import KeyValue
 from std_msgs.msg import Header
+
+
+def slow_pace(achieved: float, wanted: float, *, substeps: int, automatic: bool) -> str:
+    """
+    Return that a run is too slow, and what makes it faster.
+
+    :param achieved: simulated time per wall time
+    :param wanted: the same as asked for
+    :param substeps: in each dt
+    :param automatic: True where they follow from what is stable: a longer dt has more of them
+    """
+    faster = 'softer springs' if automatic and substeps > 1 else 'a longer dt'
+    return (
+        f'{achieved:.3g} x real time, below the target {wanted:.3g}: use fewer nodes, {faster}, '
+        'another mode or a lower real_time_factor')
+
 
 SLOW = 0.9          # share of the wanted real-time factor below which a run is slow
 SAFE_MARGIN = 0.85  # what auto_substeps keeps

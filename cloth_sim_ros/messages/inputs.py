@@ -13,10 +13,10 @@ from cloth_sim_interfaces.msg import ModeChange
 from cloth_sim_interfaces.msg import PinChange
 from cloth_sim_interfaces.msg import PinTarget
 from cloth_sim_interfaces.msg import Push as PushMessage
-from cloth_sim_ros.messages.parameter_value import parameter_value
+from cloth_sim_ros.messages.parameter_event import parameter_value
 from cloth_sim_ros.messages.stamp import stamp
 from cloth_sim_ros.sim.field import Field
-from cloth_sim_ros.sim.pin_move import PinMove
+from cloth_sim_ros.sim.pin_path import PinMove
 from cloth_sim_ros.sim.push import Push
 from geometry_msgs.msg import Point
 from geometry_msgs.msg import Vector3

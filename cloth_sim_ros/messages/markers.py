@@ -5,12 +5,11 @@
 
 from collections.abc import Iterable
 
+from builtin_interfaces.msg import Time
 from cloth_sim_ros.messages.cdr_writer import CdrWriter
-from cloth_sim_ros.messages.marker import put_marker
-from cloth_sim_ros.messages.push_arrows import push_arrows
 from cloth_sim_ros.messages.stamp import stamp
-from cloth_sim_ros.messages.strain_colors import strain_colors
 from cloth_sim_ros.messages.surface import MOST_DRAWN
+from cloth_sim_ros.messages.surface import strain_colors
 from cloth_sim_ros.messages.surface import Surface
 from cloth_sim_ros.sim.push import Push
 from cloth_sim_ros.sim.snapshot import FLAG_AT_LIMIT
@@ -18,6 +17,74 @@ from cloth_sim_ros.sim.snapshot import FLAG_PINNED
 from cloth_sim_ros.sim.snapshot import Snapshot
 import numpy as np
 from visualization_msgs.msg import Marker
+
+_NO_TURN = (0.0, 0.0, 0.0, 1.0)
+_NO_POINTS = np.empty((0, 3))
+_NO_COLORS = np.empty((0, 4), '<f4')
+
+
+def put_marker(
+        writer: CdrWriter, *, time: Time, frame_id: str, namespace: str, number: int,
+        action: int = Marker.ADD, kind: int = 0,
+        scale: tuple[float, float, float] = (0.0, 0.0, 0.0),
+        color: tuple[float, float, float, float] = (0.0, 0.0, 0.0, 0.0),
+        points: np.ndarray = _NO_POINTS, colors: np.ndarray = _NO_COLORS) -> None:
+    """
+    Put a visualization_msgs/Marker.
+
+    :param kind: Marker.TRIANGLE_LIST and so on
+    :param points: (n, 3) float64
+    :param colors: (n, 4) float32, or empty for ``color`` everywhere
+    """
+    _put_header(writer, time, frame_id)
+    writer.put_string(namespace)
+    writer.put('i', number, kind, action)
+    writer.put('d', 0.0, 0.0, 0.0, *_NO_TURN, *scale)
+    writer.put('f', *color)
+    writer.put('i', 0)  # lifetime: for ever
+    writer.put('I', 0)
+    writer.put('?', False)  # frame_locked
+    writer.put_sequence(points)
+    writer.put_sequence(colors)
+    writer.put_string('')  # texture_resource
+    _put_header(writer, Time(), '')  # texture
+    writer.put_string('')
+    writer.put('I', 0)
+    writer.put('I', 0)  # uv_coordinates
+    writer.put_string('')  # text
+    writer.put_string('')  # mesh_resource
+    writer.put_string('')  # mesh_file
+    writer.put('I', 0)
+    writer.put('?', False)  # mesh_use_embedded_materials
+
+
+def _put_header(writer: CdrWriter, time: Time, frame_id: str) -> None:
+    writer.put('i', time.sec)
+    writer.put('I', time.nanosec)
+    writer.put_string(frame_id)
+
+
+def push_arrows(
+        pushes: Iterable[Push], time: float, nodes: np.ndarray,
+        length: float) -> list[np.ndarray]:
+    """
+    Return tail and tip of an arrow for each push that acts at ``time`` [s].
+
+    :param nodes: positions of nodes, (n, 3) [m]; their mean is the middle of the cloth
+    :param length: of the arrow of the largest force [m]
+    :return: (2, 3) float64 each [m]
+    """
+    active = [push for push in pushes if push.start <= time < push.end]
+    forces = [np.array(push.force) for push in active]
+    largest = max((np.linalg.norm(force) for force in forces), default=0.0)
+    if largest == 0.0:
+        return []
+    arrows = []
+    for push, force in zip(active, forces):
+        tail = nodes.mean(axis=0, dtype=float) if push.region == 'all' else np.array(push.center)
+        arrows.append(np.stack([tail, tail + force * (length / largest)]))
+    return arrows
+
 
 PIN_COLOR = (0.9, 0.1, 0.1, 1.0)
 LIMIT_COLOR = (1.0, 0.45, 0.0, 1.0)

@@ -1,10 +1,66 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-"""The cloth as what RViz and Foxglove can draw: triangles, or a line for a chain."""
+"""What RViz and Foxglove draw: triangles coloured by strain, or a line for a chain."""
 
-from cloth_sim_ros.messages.triangles import triangles
+from cloth_sim_ros.messages.cdr_writer import CdrWriter
+from cloth_sim_ros.sim.scene import Scene
 import numpy as np
+
+
+def serialise_topology(scene: Scene) -> bytes:
+    """Return the CDR bytes of the shape_msgs/Mesh of ``scene`` at rest."""
+    writer = CdrWriter()
+    writer.put_sequence(triangles(scene.rows, scene.cols))
+    writer.put_sequence(scene.rest_positions().reshape(-1, 3).astype('<f8', copy=False))
+    return writer.finish()
+
+
+def triangles(rows: int, cols: int) -> np.ndarray:
+    """
+    Return the nodes of the two triangles of each cell, counted along the rows.
+
+    Counter-clockwise seen from above while the cloth lies flat; none for a chain.
+
+    :return: (2 (rows - 1) (cols - 1), 3) uint32
+    """
+    node = np.arange(rows * cols, dtype='<u4').reshape(rows, cols)
+    corners = (
+        node[:-1, :-1], node[1:, :-1], node[:-1, 1:],
+        node[:-1, 1:], node[1:, :-1], node[1:, 1:])
+    return np.stack(corners, axis=-1).reshape(-1, 3)
+
+
+FULL_STRAIN = 0.1  # drawn, like all above it, in the last colour
+
+# The viridis map of matplotlib at eleven places, 0 to 1.
+_VIRIDIS = (
+    '440154', '482475', '414487', '355f8d', '2a788e', '21918c',
+    '22a884', '44bf70', '7ad151', 'bddf26', 'fde725')
+_STEPS = 256
+
+
+def _palette() -> np.ndarray:
+    anchors = np.array([list(bytes.fromhex(color)) for color in _VIRIDIS]) / 255.0
+    places = np.linspace(0.0, 1.0, _STEPS)
+    known = np.linspace(0.0, 1.0, len(anchors))
+    channels = [np.interp(places, known, anchors[:, channel]) for channel in range(3)]
+    return np.stack([*channels, np.ones(_STEPS)], axis=-1).astype('<f4')
+
+
+_PALETTE = _palette()
+
+
+def strain_colors(strain: np.ndarray) -> np.ndarray:
+    """
+    Return the colour of each strain, dark at rest and bright from FULL_STRAIN on.
+
+    :param strain: of any shape, 0 or more; what is not a number takes the last colour
+    :return: red, green, blue, alpha from 0 to 1, shape (..., 4) float32
+    """
+    steps = np.fmin(strain * ((_STEPS - 1) / FULL_STRAIN), _STEPS - 1)
+    return _PALETTE[steps.astype(np.intp)]
+
 
 # Nodes drawn along each side at most: more make a message that no viewer needs.
 MOST_DRAWN = 256

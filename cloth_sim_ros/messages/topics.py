@@ -3,6 +3,8 @@
 
 """Every topic that goes out: what the node publishes is what the recorder writes."""
 
+from dataclasses import dataclass
+
 from cloth_sim_interfaces.msg import ClothState
 from cloth_sim_interfaces.msg import ClothStats
 from cloth_sim_interfaces.msg import Command
@@ -10,7 +12,6 @@ from cloth_sim_interfaces.msg import ModeChange
 from cloth_sim_interfaces.msg import PinChange
 from cloth_sim_interfaces.msg import PinTarget
 from cloth_sim_interfaces.msg import Push
-from cloth_sim_ros.messages.topic import Topic
 from cloth_sim_ros.messages.wrenches import MOST_PINS
 from diagnostic_msgs.msg import DiagnosticArray
 from geometry_msgs.msg import Vector3Stamped
@@ -21,6 +22,46 @@ from sensor_msgs.msg import PointCloud2
 from shape_msgs.msg import Mesh
 from tf2_msgs.msg import TFMessage
 from visualization_msgs.msg import MarkerArray
+
+
+@dataclass(frozen=True)
+class Topic:
+    """
+    A topic the simulator publishes or records.
+
+    :param key: its name behind the node's, or behind / when ``is_global``
+    :param message: class of its messages
+    :param depth: messages kept for slow subscribers
+    :param reliable: False for best effort
+    :param transient_local: True to keep the last ``depth`` for late subscribers
+    :param is_global: True for a name that does not depend on the node
+    :param recorded: False for what a recording leaves out
+    :param text: one line for people
+    """
+
+    key: str
+    message: type
+    depth: int
+    reliable: bool = True
+    transient_local: bool = False
+    is_global: bool = False
+    recorded: bool = True
+    text: str = ''
+
+    @property
+    def name(self) -> str:
+        """Name to publish under: private to the node, or global."""
+        return f'/{self.key}' if self.is_global else f'~/{self.key}'
+
+    @property
+    def type_name(self) -> str:
+        """Name of the message type, such as std_msgs/msg/Header."""
+        return f'{self.message.__module__.split(".")[0]}/msg/{self.message.__name__}'
+
+    def full_name(self, node_name: str) -> str:
+        """Return the name in the graph, for the node ``node_name``, namespace included."""
+        return self.name.replace('~', f'/{node_name.lstrip("/")}')
+
 
 # Markers are drawn from the points, at many times their size: a recording keeps the points.
 TOPICS = {

@@ -1,11 +1,57 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-"""Messages that ask for what can't be: a topic has no answer, so the log has the reason."""
+"""Messages that ask for what cannot be: topics have no answer, so the log has them."""
 
 from collections.abc import Callable
+import time
 
-from cloth_sim_ros.node.log_throttle import LogThrottle
+from cloth_sim_ros.files.echo import shown
+from cloth_sim_ros.sim.errors import ClothSimError
+
+
+def check_frame(given: str, own: str) -> None:
+    """Raise ClothSimError unless the frame ``given`` is the cloth's ``own``, or empty."""
+    if given not in ('', own):
+        raise ClothSimError(
+            f'its frame is {shown(given)} but the frame of the cloth is {shown(own)}: transform '
+            'it to the latter, or choose that as the fixed frame')
+
+
+_MOST_KINDS = 100
+
+
+class LogThrottle:
+    """
+    Decide what to log of things of many kinds.
+
+    :param quiet: time between two lines of the same kind [s]
+    :param clock: wall time [s]
+    """
+
+    def __init__(self, quiet: float, clock: Callable[[], float] = time.monotonic) -> None:
+        """Begin with nothing logged."""
+        self._quiet = quiet
+        self._clock = clock
+        # Of each kind: when it was logged, and how many were left out since.
+        self._logged: dict[str, tuple[float, int]] = {}
+
+    def left_out(self, kind: str) -> int | None:
+        """
+        Return how many of this kind were left out since one was logged.
+
+        None when this one is to be left out as well.
+        """
+        now = self._clock()
+        logged, missed = self._logged.get(kind, (-self._quiet, 0))
+        if now - logged < self._quiet:
+            self._logged[kind] = logged, missed + 1
+            return None
+        if len(self._logged) >= _MOST_KINDS:
+            self._logged.clear()
+        self._logged[kind] = now, 0
+        return missed
+
 
 QUIET = 1.0  # [s] of wall time between two warnings of one topic
 

@@ -18,7 +18,7 @@ from cloth_sim_ros.messages.inputs import wind_message
 from cloth_sim_ros.messages.parameter_event import serialise_parameter_event
 from cloth_sim_ros.node.parameters import FIELDS
 from cloth_sim_ros.node.parameters import plain_value
-from cloth_sim_ros.sim.pin_move import PinMove
+from cloth_sim_ros.sim.pin_path import PinMove
 from cloth_sim_ros.sim.push import Push
 from cloth_sim_ros.sim.simulation import Simulation
 from rclpy.parameter import Parameter

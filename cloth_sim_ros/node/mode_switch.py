@@ -1,18 +1,21 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-"""Switch modes without a pause: compile on a thread, and take over when that is done."""
+"""~/set_mode: compile a mode on a thread, and let it take over without a pause."""
 
 from collections.abc import Callable
 import threading
 import time
 
+from cloth_sim_interfaces.srv import SetMode
+from cloth_sim_ros.node.answer import serve_later
 from cloth_sim_ros.sim.engine import Preparation
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.simulation import Simulation
 from rclpy.clock import Clock
 from rclpy.clock import ClockType
 from rclpy.node import Node
+from rclpy.parameter import Parameter
 from rclpy.task import Future
 
 # How often a preparation that takes longer is reported [s].
@@ -165,3 +168,26 @@ class ModeSwitch:
                 f'compiling shaders for mode {self.preparing}; the first time on a machine this '
                 'takes some seconds')
         self._changed()
+
+
+class ModeService:
+    """Serve ~/set_mode by the parameter, so that both ways have the same effect and checks."""
+
+    def __init__(self, node: Node, simulation: Simulation, switch: ModeSwitch) -> None:
+        """Make the service."""
+        self._node = node
+        self._simulation = simulation
+        self._switch = switch
+        serve_later(node, SetMode, '~/set_mode', self._set_mode)
+
+    async def _set_mode(self, request: SetMode.Request, response: SetMode.Response) -> str:
+        response.previous_mode = self._simulation.mode
+        result = self._node.set_parameters_atomically(
+            [Parameter('mode', Parameter.Type.STRING, request.mode)])
+        if not result.successful:
+            raise ClothSimError(result.reason)
+        done = self._switch.is_done(request.mode)
+        if not request.wait and not done.done():
+            return f'mode {request.mode} becomes active when it is ready; ~/state reports when'
+        await done
+        return f'mode {request.mode}, was {response.previous_mode}'

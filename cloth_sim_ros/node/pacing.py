@@ -1,9 +1,14 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-"""How long to wait between frames so that simulated time keeps to the wall clock."""
+"""Keep simulated time to the wall clock, and say when it can not."""
 
 from collections import deque
+from collections.abc import Callable
+import math
+
+from cloth_sim_ros.messages.diagnostics import slow_pace
+from cloth_sim_ros.sim.simulation import Simulation
 
 # A late frame is caught up with, but not more than this: a machine that is too slow would
 # otherwise run ever longer without a pause.
@@ -62,3 +67,46 @@ class Pacing:
     def too_slow(self) -> bool:
         """Tell whether a whole window fell short of the factor asked for by over 5 percent."""
         return self.has_window and self.achieved < 0.95 * self.factor
+
+
+# [s] of wall time: between two warnings at least, and how long a run has to keep up before that
+# is said.
+QUIET = 60.0
+STEADY = 5.0
+
+
+class PaceReport:
+    """
+    Warns once where a run falls behind, and says once that it keeps up again.
+
+    :param warn: is given the warning
+    :param say: is given what is no warning
+    """
+
+    def __init__(
+            self, simulation: Simulation, pacing: Pacing, *, warn: Callable[[str], object],
+            say: Callable[[str], object]) -> None:
+        """Begin with a run that keeps up."""
+        self._simulation = simulation
+        self._pacing = pacing
+        self._warn = warn
+        self._say = say
+        self._is_behind = False
+        self._warned = -math.inf
+        self._steady_since = math.inf
+
+    def look(self, now: float) -> None:
+        """Look at the pace at the wall time ``now`` [s]."""
+        pacing = self._pacing
+        if pacing.too_slow:
+            self._steady_since = math.inf
+            if not self._is_behind and now - self._warned >= QUIET:
+                self._is_behind, self._warned = True, now
+                self._warn(slow_pace(
+                    pacing.achieved, pacing.factor, substeps=self._simulation.substeps,
+                    automatic=self._simulation.scene['auto_substeps']))
+        elif self._is_behind and pacing.has_window:
+            self._steady_since = min(self._steady_since, now)
+            if now - self._steady_since >= STEADY:
+                self._is_behind = False
+                self._say(f'{pacing.achieved:.3g} x real time: the run keeps up again')

@@ -10,7 +10,7 @@ from cloth_sim_interfaces.msg import Command
 from cloth_sim_interfaces.msg import Push
 from cloth_sim_interfaces.srv import ApplyPush
 from cloth_sim_ros.node.answer import answer
-from cloth_sim_ros.node.frame_check import check_frame
+from cloth_sim_ros.node.ignored_messages import check_frame
 from cloth_sim_ros.node.ignored_messages import IgnoredMessages
 from cloth_sim_ros.node.inputs import Inputs
 from cloth_sim_ros.sim.errors import ClothSimError

@@ -1,19 +1,53 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-"""~/pause, ~/step and ~/reset: when simulated time goes on, and where it begins."""
+"""~/pause, ~/step and ~/reset, and ~/start_recording and ~/stop_recording."""
 
 from collections.abc import Callable
 
+from cloth_sim_interfaces.srv import StartRecording
 from cloth_sim_interfaces.srv import Step
 from cloth_sim_ros.node.answer import answer
 from cloth_sim_ros.node.answer import serve_later
 from cloth_sim_ros.node.at_rest import at_rest
+from cloth_sim_ros.node.recording_session import RecordingSession
 from cloth_sim_ros.node.run_loop import RunLoop
 from cloth_sim_ros.sim.simulation import Simulation
 from rclpy.node import Node
 from std_srvs.srv import SetBool
 from std_srvs.srv import Trigger
+
+
+class RecordingServices:
+    """
+    Serve the requests about recordings.
+
+    :param start: starts a recording of the given name and returns its path
+    :param changed: called when a recording has ended
+    """
+
+    def __init__(
+            self, node: Node, simulation: Simulation, recording: RecordingSession, *,
+            start: Callable[[str], str], changed: Callable[[], None]) -> None:
+        """Make the services."""
+        self._simulation = simulation
+        self._recording = recording
+        self._start = start
+        self._changed = changed
+        serve_later(node, StartRecording, '~/start_recording', self._on_start)
+        node.create_service(Trigger, '~/stop_recording', answer(self._on_stop))
+
+    async def _on_start(
+            self, request: StartRecording.Request, response: StartRecording.Response) -> str:
+        # It begins with the state, which is whole between steps.
+        response.path = await at_rest(self._simulation, lambda: self._start(request.name))
+        return f'recording to {response.path}'
+
+    def _on_stop(self, _: Trigger.Request, __: Trigger.Response) -> str:
+        try:
+            return f'closed {self._recording.stop()}'
+        finally:
+            self._changed()
 
 
 class RunServices:

@@ -3,7 +3,7 @@
 
 """The wind, as a topic: ~/wind."""
 
-from cloth_sim_ros.node.frame_check import check_frame
+from cloth_sim_ros.node.ignored_messages import check_frame
 from cloth_sim_ros.node.ignored_messages import IgnoredMessages
 from cloth_sim_ros.node.inputs import Inputs
 from cloth_sim_ros.sim.errors import ClothSimError

@@ -5,20 +5,96 @@
 
 from collections.abc import Callable
 from collections.abc import Iterable
+from importlib import import_module
+import re
 import sys
 
 from cloth_sim_ros.files.echo import cut
+from cloth_sim_ros.files.echo import shown
 from cloth_sim_ros.messages.topics import TOPICS
-from cloth_sim_ros.playback.message_class import message_class
 from cloth_sim_ros.playback.play_options import PlayOptions
-from cloth_sim_ros.playback.played_quality import played_quality
+from cloth_sim_ros.playback.played_topic import played_quality
 from cloth_sim_ros.playback.played_topic import PlayedTopic
 from cloth_sim_ros.recording.bag_topic import BagTopic
+from cloth_sim_ros.recording.message_decoder import recorded_type_hash
+from cloth_sim_ros.recording.message_definition import type_hash
 from cloth_sim_ros.sim.errors import ClothSimError
 from rclpy.exceptions import InvalidTopicNameException
 from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy
 from rclpy.qos import QoSProfile
+from rclpy.type_support import check_for_type_support
+from rosbags.interfaces import MessageDefinition
+from rosidl_generator_py.import_type_support_impl import UnsupportedTypeSupport
+
+_TYPE_NAME = re.compile(r'([a-z][a-z0-9_]*)/msg/([A-Z][A-Za-z0-9]*)')
+
+
+def message_class(type_name: str, definition: MessageDefinition) -> type:
+    """
+    Return the class of ``type_name``, such as std_msgs/msg/Header.
+
+    :param definition: of the recorded messages, as far as the bag holds it
+    :raises ClothSimError: when it is not installed, or not as it was when recorded
+    """
+    match = _TYPE_NAME.fullmatch(type_name)
+    if match is None:
+        raise ClothSimError(
+            f'{shown(type_name)} is not a message type: record it again, with a type like '
+            'std_msgs/msg/Header')
+    package, name = match.groups()
+    try:
+        found = getattr(import_module(f'{package}.msg'), name)
+        check_for_type_support(found)
+    except (ImportError, AttributeError, UnsupportedTypeSupport) as error:
+        raise ClothSimError(
+            f'the message type {type_name} is not installed: install or build the package '
+            f'{package}, and source its setup') from error
+    if not _is_as_installed(type_name, definition):
+        raise ClothSimError(
+            f'the message type {type_name} had another definition when this was recorded: play it '
+            f'with the {package} of that time')
+    return found
+
+
+def _is_as_installed(type_name: str, definition: MessageDefinition) -> bool:
+    recorded = recorded_type_hash(type_name, definition)
+    try:
+        return recorded in ('', type_hash(type_name))
+    except (ClothSimError, OSError):
+        return True  # an installed package without its files can't tell
+
+
+def other_publishers(node: Node, topics: Iterable[str]) -> dict[str, list[str]]:
+    """Return the topics that other nodes publish, by the full names of those nodes."""
+    own = _full_name(node.get_namespace(), node.get_name())
+    found: dict[str, list[str]] = {}
+    for topic in topics:
+        names = [
+            _full_name(publisher.node_namespace, publisher.node_name)
+            for publisher in node.get_publishers_info_by_topic(topic)]
+        if own in names:
+            # One of them is this node itself; a second one of its name is another player.
+            names.remove(own)
+        for name in names:
+            found.setdefault(name, []).append(topic)
+    return found
+
+
+def warning_of(others: dict[str, list[str]]) -> str:
+    """Return what to tell about ``others``; empty when there are none."""
+    if not others:
+        return ''
+    name, topics = max(others.items(), key=lambda item: len(item[1]))
+    more = f' and {len(topics) - 1} more of these topics' if len(topics) > 1 else ''
+    return (
+        f'{name} publishes {topics[0]}{more} as well, and subscribers receive both: stop it, or '
+        'rename the played topics with --as')
+
+
+def _full_name(namespace: str, name: str) -> str:
+    return f'{namespace.rstrip("/")}/{name}'
+
 
 _PARAMETERS = TOPICS['inputs/parameters']
 

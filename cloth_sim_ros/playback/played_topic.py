@@ -3,12 +3,71 @@
 
 """One topic of a recording on its way out."""
 
+from collections.abc import Iterable
 import time
 
+from builtin_interfaces.msg import Time
+from cloth_sim_ros.messages.topics import TOPICS
 from rclpy.duration import Duration
 from rclpy.node import Node
+from rclpy.qos import DurabilityPolicy
 from rclpy.qos import QoSProfile
 from rclpy.qos import ReliabilityPolicy
+from rosbags.interfaces import Qos
+from rosbags.interfaces import QosDurability
+from rosbags.interfaces import QosHistory
+from rosbags.interfaces import QosReliability
+
+# Of the 4 bytes before a serialised message the second says how its numbers are laid out.
+_ENCAPSULATION = 4
+_STAMP = 8
+
+
+def has_header(message_class: type) -> bool:
+    """Tell whether messages of this class begin with a std_msgs/Header."""
+    fields = message_class.get_fields_and_field_types()
+    return next(iter(fields.items()), None) == ('header', 'std_msgs/Header')
+
+
+def header_stamp(data: bytes) -> Time:
+    """Return the stamp of ``data``, a serialised message that begins with a header."""
+    order = 'little' if data[1] & 1 else 'big'
+    parts = data[_ENCAPSULATION:_ENCAPSULATION + _STAMP]
+    return Time(
+        sec=int.from_bytes(parts[:4], order, signed=True),
+        nanosec=int.from_bytes(parts[4:], order))
+
+
+_DEPTH = 10
+
+
+def played_quality(name: str, type_name: str, offered: Iterable[Qos]) -> QoSProfile:
+    """
+    Return what to offer on the topic ``name``: the best that any of its publishers offered.
+
+    Whoever could read one of them can read that. Deadlines and lifespans are left out: at another
+    pace they would be missed.
+
+    :param offered: profiles of the recorded publishers
+    """
+    offered = list(offered)
+    depth = max((profile.depth for profile in offered
+                 if profile.history == QosHistory.KEEP_LAST), default=0)
+    reliable = not offered or any(
+        profile.reliability != QosReliability.BEST_EFFORT for profile in offered)
+    kept = any(profile.durability == QosDurability.TRANSIENT_LOCAL for profile in offered)
+    return QoSProfile(
+        depth=depth or _usual_depth(name, type_name),
+        reliability=ReliabilityPolicy.RELIABLE if reliable else ReliabilityPolicy.BEST_EFFORT,
+        durability=DurabilityPolicy.TRANSIENT_LOCAL if kept else DurabilityPolicy.VOLATILE)
+
+
+def _usual_depth(name: str, type_name: str) -> int:
+    """Return the depth where none is recorded: a graph does not tell it, so `ros2 bag` can't."""
+    return next(
+        (topic.depth for key, topic in TOPICS.items()
+         if topic.type_name == type_name and name.endswith(f'/{key}')), _DEPTH)
+
 
 # A reader on a busy machine is away for tenths of a second; a hung one costs this once.
 PATIENCE = 1.0

@@ -9,14 +9,14 @@ from collections.abc import Iterator
 import time
 
 from cloth_sim_ros.playback.opened_topics import open_topics
+from cloth_sim_ros.playback.opened_topics import other_publishers
 from cloth_sim_ros.playback.opened_topics import wanted_topics
-from cloth_sim_ros.playback.other_publishers import other_publishers
-from cloth_sim_ros.playback.other_publishers import warning_of
+from cloth_sim_ros.playback.opened_topics import warning_of
 from cloth_sim_ros.playback.play_clock import PlayClock
 from cloth_sim_ros.playback.play_options import PlayOptions
 from cloth_sim_ros.playback.play_report import PlayReport
 from cloth_sim_ros.playback.player_node import PlayerNode
-from cloth_sim_ros.playback.simulated_clock import SimulatedClock
+from cloth_sim_ros.playback.player_node import SimulatedClock
 from cloth_sim_ros.recording.bag_reader import BagReader
 from cloth_sim_ros.recording.bag_topic import RawMessage
 from cloth_sim_ros.sim.errors import ClothSimError

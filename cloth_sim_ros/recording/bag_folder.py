@@ -11,8 +11,8 @@ import re
 
 from cloth_sim_ros.files.echo import cut
 from cloth_sim_ros.files.echo import shown
-from cloth_sim_ros.recording.folder_metadata import FRESH_METADATA_NAME
-from cloth_sim_ros.recording.folder_metadata import METADATA_NAME
+from cloth_sim_ros.recording.bag_metadata import FRESH_METADATA_NAME
+from cloth_sim_ros.recording.bag_metadata import METADATA_NAME
 from cloth_sim_ros.recording.recording_faults import refusal
 from cloth_sim_ros.sim.errors import ClothSimError
 

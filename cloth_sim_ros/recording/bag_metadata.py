@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-"""What rosbag2 wants to know of a bag before it opens it."""
+"""The metadata.yaml of a bag, in the style of rosbag2."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -9,10 +9,38 @@ import os
 from pathlib import Path
 from typing import Any
 
-from cloth_sim_ros.recording.bag_channel import BagChannel
-from cloth_sim_ros.recording.folder_metadata import FRESH_METADATA_NAME
-from cloth_sim_ros.recording.folder_metadata import METADATA_NAME
-from cloth_sim_ros.recording.yaml_text import yaml_text
+from cloth_sim_ros.files.checked_yaml import load_yaml
+from cloth_sim_ros.recording.bag_topic import BagChannel
+from cloth_sim_ros.sim.errors import ClothSimError
+import yaml
+
+# Ten times as fast, where PyYAML was built with libyaml.
+_DUMPER = getattr(yaml, 'CSafeDumper', yaml.SafeDumper)
+
+
+def yaml_text(content: Any) -> str:
+    """Return ``content`` as block YAML, its keys in the order given."""
+    return yaml.dump(content, Dumper=_DUMPER, sort_keys=False, default_flow_style=False).strip()
+
+
+METADATA_NAME = 'metadata.yaml'
+FRESH_METADATA_NAME = f'{METADATA_NAME}.new'  # while it is being written
+
+
+def folder_metadata(folder: Path) -> Mapping[str, Any]:
+    """
+    Return what rosbag2 has written of the bag in ``folder``.
+
+    It is empty when metadata.yaml is missing, broken or hostile: files tell the same.
+    """
+    try:
+        content = load_yaml(folder / METADATA_NAME)
+    except ClothSimError:
+        return {}
+    information = content.get('rosbag2_bagfile_information') if isinstance(
+        content, Mapping) else None
+    return information if isinstance(information, Mapping) else {}
+
 
 VERSION = 9
 _NO_TIME_YET = 2**63 - 1

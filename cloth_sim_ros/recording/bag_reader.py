@@ -17,11 +17,11 @@ from cloth_sim_ros.files.regular_file import is_folder
 from cloth_sim_ros.recording.bag_topic import BagTopic
 from cloth_sim_ros.recording.bag_topic import RawMessage
 from cloth_sim_ros.recording.broken_mcap import BrokenMcap
-from cloth_sim_ros.recording.cut_off import nothing_flushed
 from cloth_sim_ros.recording.decompression import decompress_file
 from cloth_sim_ros.recording.decompression import decompress_message
 from cloth_sim_ros.recording.indexed_mcap import IndexedMcap
 from cloth_sim_ros.recording.message_decoder import MessageDecoder
+from cloth_sim_ros.recording.recording_faults import nothing_flushed
 from cloth_sim_ros.recording.sqlite_bag import SqliteBag
 from cloth_sim_ros.recording.storage_files import compressed_files
 from cloth_sim_ros.recording.storage_files import compression_of

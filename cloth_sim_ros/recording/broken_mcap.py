@@ -16,11 +16,11 @@ from cloth_sim_ros.files.echo import cut
 from cloth_sim_ros.files.regular_file import open_regular
 from cloth_sim_ros.recording.bag_topic import BagTopic
 from cloth_sim_ros.recording.bag_topic import RawMessage
-from cloth_sim_ros.recording.cut_off import nothing_flushed
-from cloth_sim_ros.recording.mcap_channels import McapChannels
 from cloth_sim_ros.recording.mcap_records import chunk_records
 from cloth_sim_ros.recording.mcap_records import MAGIC
+from cloth_sim_ros.recording.mcap_records import McapChannels
 from cloth_sim_ros.recording.mcap_records import read_records
+from cloth_sim_ros.recording.recording_faults import nothing_flushed
 from cloth_sim_ros.sim.errors import ClothSimError
 from mcap.records import Chunk
 from mcap.records import Footer

@@ -1,15 +1,19 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-"""The records of an mcap file, none longer than what is left of the file."""
+"""The records of an mcap file, and what they have said of its topics so far."""
 
+from collections.abc import Collection
 from collections.abc import Iterator
+from collections.abc import Mapping
 from io import BytesIO
 import struct
 from typing import BinaryIO
 import zlib
 
+from cloth_sim_ros.recording.bag_topic import BagTopic
 from cloth_sim_ros.recording.decompression import decompress
+from cloth_sim_ros.recording.recorded_qos import recorded_qos
 from mcap.data_stream import ReadDataStream
 from mcap.opcode import Opcode
 from mcap.records import Channel
@@ -21,6 +25,8 @@ from mcap.records import Message
 from mcap.records import MessageIndex
 from mcap.records import Schema
 from mcap.records import Statistics
+from rosbags.interfaces import MessageDefinition
+from rosbags.interfaces import MessageDefinitionFormat
 
 MAGIC = b'\x89MCAP0\r\n'
 HEAD = struct.Struct('<BQ')  # of each record: its kind, and its length behind that [bytes]
@@ -86,3 +92,52 @@ def read_record(opcode: int, payload: bytes) -> McapRecord:
     return Message(
         channel_id=channel, log_time=logged, data=payload[MESSAGE_HEAD.size:],
         publish_time=published, sequence=sequence)
+
+
+_FORMATS = {'ros2msg': MessageDefinitionFormat.MSG, 'ros2idl': MessageDefinitionFormat.IDL}
+
+
+class McapChannels:
+    """The channels of an mcap file by their number, with the schemas they name."""
+
+    def __init__(self) -> None:
+        """Begin with none."""
+        self._schemas: dict[int, Schema] = {}
+        self._channels: dict[int, Channel] = {}
+
+    def read(self, record: McapRecord) -> None:
+        """Take up a schema or a channel; any other record is passed over."""
+        if isinstance(record, Schema):
+            self._schemas[record.id] = record
+        elif isinstance(record, Channel):
+            self._channels[record.id] = record
+
+    def __contains__(self, number: int) -> bool:
+        """Tell whether the channel ``number`` is known."""
+        return number in self._channels
+
+    def name(self, number: int) -> tuple[str, str]:
+        """Return topic and type of a channel; the type is empty when its schema is missing."""
+        channel = self._channels[number]
+        schema = self._schemas.get(channel.schema_id)
+        return channel.topic, schema.name if schema is not None else ''
+
+    def named(self, names: Collection[str] | None) -> dict[int, tuple[str, str]]:
+        """Return topic and type of the channels of the topics ``names``, or of all."""
+        told = {number: self.name(number) for number in self._channels}
+        return {
+            number: pair for number, pair in told.items() if names is None or pair[0] in names}
+
+    def topics(self, counts: Mapping[int, int]) -> list[BagTopic]:
+        """Return all channels as topics, with the numbers of their messages."""
+        return [
+            BagTopic(
+                *self.name(number), recorded_qos(channel.metadata.get('offered_qos_profiles')),
+                counts.get(number, 0), _definition(self._schemas.get(channel.schema_id)))
+            for number, channel in self._channels.items()]
+
+
+def _definition(schema: Schema | None) -> MessageDefinition:
+    if schema is None or schema.encoding not in _FORMATS:
+        return MessageDefinition(MessageDefinitionFormat.NONE, '')
+    return MessageDefinition(_FORMATS[schema.encoding], schema.data.decode(errors='replace'))

@@ -17,9 +17,9 @@ from cloth_sim_ros.recording.bag_folder import DIRECTORY_SETTING
 from cloth_sim_ros.recording.bag_folder import make_bag_folder
 from cloth_sim_ros.recording.bag_folder import remove_bag_folder
 from cloth_sim_ros.recording.bag_writer import BagWriter
-from cloth_sim_ros.recording.recording_error import RecordingError
-from cloth_sim_ros.recording.recording_error import RecordingFull
 from cloth_sim_ros.recording.recording_faults import ending
+from cloth_sim_ros.recording.recording_faults import RecordingError
+from cloth_sim_ros.recording.recording_faults import RecordingFull
 from cloth_sim_ros.recording.recording_faults import refusal
 from cloth_sim_ros.recording.recording_options import RecordingOptions
 from cloth_sim_ros.recording.topic_channel import topic_channel

@@ -1,14 +1,33 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-"""Why a recording cannot begin or go on, in words, with the way out."""
+"""Why a recording cannot begin or go on, or was cut off, with the way out."""
 
 import errno
 from pathlib import Path
 
-from cloth_sim_ros.recording.recording_error import RecordingError
 from cloth_sim_ros.recording.watched_file import FileChangedError
 from cloth_sim_ros.sim.errors import ClothSimError
+
+
+class RecordingError(ClothSimError):
+    """A recording that could not continue; what was flushed before stays readable."""
+
+
+class RecordingFull(RecordingError):
+    """A recording that was completed before it was stopped, as it may not become larger."""
+
+
+def nothing_flushed(path: Path, finding: str) -> ClothSimError:
+    """
+    Return the error of the bag or file ``path``.
+
+    :param finding: what is there in place of a recording, behind the path
+    """
+    return ClothSimError(
+        f'{path} {finding}, as it was truncated before the first flush, within a second of its '
+        'start: give another recording, or read it later if it is being recorded')
+
 
 _NO_ROOM = {errno.ENOSPC, errno.EDQUOT, errno.EFBIG}
 _TOO_MANY_FILES = {errno.EMFILE, errno.ENFILE}

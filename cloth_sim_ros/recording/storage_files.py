@@ -9,10 +9,10 @@ from pathlib import Path
 from cloth_sim_ros.files.echo import cut
 from cloth_sim_ros.files.regular_file import is_folder
 from cloth_sim_ros.files.regular_file import is_regular
-from cloth_sim_ros.recording.cut_off import nothing_flushed
-from cloth_sim_ros.recording.folder_metadata import folder_metadata
-from cloth_sim_ros.recording.folder_metadata import FRESH_METADATA_NAME
-from cloth_sim_ros.recording.folder_metadata import METADATA_NAME
+from cloth_sim_ros.recording.bag_metadata import folder_metadata
+from cloth_sim_ros.recording.bag_metadata import FRESH_METADATA_NAME
+from cloth_sim_ros.recording.bag_metadata import METADATA_NAME
+from cloth_sim_ros.recording.recording_faults import nothing_flushed
 from cloth_sim_ros.sim.errors import ClothSimError
 
 SUFFIXES = ('.mcap', '.db3')

@@ -16,8 +16,8 @@ from cloth_sim_ros.reference.energy import kinetic_energy
 from cloth_sim_ros.reference.push_force import push_acceleration
 from cloth_sim_ros.reference.push_force import push_nodes
 from cloth_sim_ros.reference.push_force import push_weight
+from cloth_sim_ros.reference.springs import node_strain
 from cloth_sim_ros.reference.springs import spring_sets
-from cloth_sim_ros.reference.strain import node_strain
 from cloth_sim_ros.sim.push import Push
 from cloth_sim_ros.sim.scene import Scene
 import numpy as np

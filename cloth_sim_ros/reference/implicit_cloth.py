@@ -21,7 +21,6 @@ from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.scene import Scene
 import numpy as np
 
-
 # Of a substep: rounding that is no reason for another one.
 _NOTHING = 1e-9
 

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-"""The springs of a cloth: six directions, each a slice of the grid against a shifted slice."""
+"""The springs of a cloth: six directions, each a slice of the grid; their strain."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -97,3 +97,15 @@ def total_forces(
         first += force
         second -= force
     return total
+
+
+def node_strain(springs: Sequence[SpringSet], positions: np.ndarray) -> np.ndarray:
+    """Return the largest |l / L0 - 1| of the structural and shear springs at each node."""
+    strain = np.zeros(positions.shape[:2])
+    for spring_set in springs:
+        if spring_set.family == 'bend':
+            continue
+        magnitude = np.abs(spring_set.strains(positions))
+        for end in spring_set.ends(strain):
+            np.maximum(end, magnitude, out=end)
+    return strain

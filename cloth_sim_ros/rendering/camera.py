@@ -1,14 +1,73 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-"""From where a picture is taken."""
+"""From where the cloth is looked at, and how that projects."""
 
 from dataclasses import dataclass
 import math
 
-from cloth_sim_ros.rendering.view import View
+from cloth_sim_ros.gl.render_program import RenderProgram
 from cloth_sim_ros.sim.errors import ClothSimError
 import numpy as np
+
+_NEAREST = 0.02  # of the distance: nothing is drawn nearer to the camera
+
+
+@dataclass(frozen=True)
+class View:
+    """
+    A picture's frame in the scene.
+
+    :param width: [pixel]
+    :param height: [pixel]
+    :param axes: right, up and towards the camera, the rows of a rotation
+    :param middle: the point in the middle of the picture [m], (3,)
+    :param distance: from there to the camera [m]; infinite without perspective
+    :param half_height: of the picture, at the middle [m]
+    :param depth: how far from the middle, forth and back, is still drawn [m]
+    """
+
+    width: int
+    height: int
+    axes: np.ndarray
+    middle: np.ndarray
+    distance: float
+    half_height: float
+    depth: float
+
+    @property
+    def pixel(self) -> float:
+        """Get the side of a pixel at the middle [m]."""
+        return 2.0 * self.half_height / self.height
+
+    @property
+    def matrix(self) -> np.ndarray:
+        """Get the clip coordinates of OpenGL for points relative to the middle, (4, 4)."""
+        near = min(self.depth, (1.0 - _NEAREST) * self.distance)
+        far = -self.depth
+        shrink = 1.0 / self.distance
+        # The fourth coordinate, 1 at the middle, is the distance over that of the middle.
+        at_near, at_far = 1.0 - shrink * near, 1.0 - shrink * far
+        slope = -(at_near + at_far) / (near - far)
+        half_width = self.half_height * self.width / self.height
+        right, up, towards = self.axes
+        return np.stack([
+            np.append(right / half_width, 0.0), np.append(up / self.half_height, 0.0),
+            np.append(slope * towards, at_far - slope * far),
+            np.append(-shrink * towards, 1.0)])
+
+    def project(self, points: np.ndarray) -> np.ndarray:
+        """
+        Return where ``points`` are seen.
+
+        :param points: (..., 3) [m]
+        :return: (..., 2) pixels from the upper left corner of the picture, right and down
+        """
+        across, up, near = np.moveaxis((points - self.middle) @ self.axes.T, -1, 0)
+        scale = 1.0 / (self.pixel * (1.0 - near / self.distance))
+        return np.stack(
+            [self.width / 2.0 + scale * across, self.height / 2.0 - scale * up], axis=-1)
+
 
 _MARGIN = 1.06        # size of the picture over that of what must be in it
 _WIDEST = 150.0       # [deg]
@@ -95,3 +154,14 @@ class Camera:
         if self.target is not None:
             return 0.0, max(upper, lower)
         return (upper - lower) / 2.0, (upper + lower) / 2.0
+
+
+def set_view(program: RenderProgram, view: View, detail: int = 1) -> None:
+    """
+    Set the uniforms of render/view.glsl in ``program``, which is in use.
+
+    :param detail: drawn pixels along each side of a pixel of the picture
+    """
+    program.set_matrix('view_matrix', view.matrix)
+    program.set_vectors('towards_camera', view.axes[2])
+    program.set_pair('half_size', (detail * view.width / 2.0, detail * view.height / 2.0))

@@ -1,7 +1,11 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-"""The colours and sizes of what is drawn beside the strain."""
+"""The colours, sizes and light of all pictures."""
+
+from cloth_sim_ros.gl.render_program import RenderProgram
+from cloth_sim_ros.rendering.camera import View
+import numpy as np
 
 BACKGROUND = (1.0, 1.0, 1.0)
 GRID_COLOR = (0.80, 0.80, 0.80)
@@ -14,3 +18,23 @@ UNKNOWN_COLOR = (0.72, 0.76, 0.82)  # of a cloth whose strain is not known
 HEM_SHADE = 0.45      # how much darker the border of a cloth is
 HIDDEN = 0.22         # opacity of a pin or an arrow behind the cloth
 GRID_LINES = 8        # across the longest side
+
+
+# Right, up and towards the camera.
+DIRECTION = np.array([-0.45, 0.50, 0.74]) / np.linalg.norm([-0.45, 0.50, 0.74])
+AMBIENT = 0.28
+WRAP_POWER = 1.4      # of the light that reaches around the cloth: 1 to 2
+GLOSS = 0.10
+GLOSS_POWER = 24.0
+BACK = 0.88
+
+LIGHT_DEFINES = {
+    'AMBIENT': AMBIENT, 'WRAP_POWER': WRAP_POWER, 'GLOSS': GLOSS, 'GLOSS_POWER': GLOSS_POWER,
+    'BACK': BACK}
+
+
+def set_light(program: RenderProgram, view: View) -> None:
+    """Give the lamp's direction in the scene to ``program``, which is in use."""
+    halfway = DIRECTION + np.array([0.0, 0.0, 1.0])
+    program.set_vectors('light', DIRECTION @ view.axes)
+    program.set_vectors('halfway', halfway / np.linalg.norm(halfway) @ view.axes)

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from cloth_sim_ros.analysis.frame import Frame
 from cloth_sim_ros.rendering.layout import Layout
-from cloth_sim_ros.rendering.panel_size import panel_size
+from cloth_sim_ros.rendering.layout import panel_size
 from cloth_sim_ros.rendering.source import Source
 from cloth_sim_ros.rendering.stage import labels_of
 from cloth_sim_ros.rendering.stage import note_of

@@ -1,32 +1,33 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-"""One panel's image of a frame, drawn by OpenGL."""
+"""Draw a frame into an image."""
 
 from functools import cached_property
 
 from cloth_sim_ros.analysis.frame import Frame
-from cloth_sim_ros.rendering.ball_drawing import BallDrawing
-from cloth_sim_ros.rendering.cloth_drawing import ClothDrawing
-from cloth_sim_ros.rendering.floor_drawing import FloorDrawing
-from cloth_sim_ros.rendering.look import BACKGROUND
-from cloth_sim_ros.rendering.look import LIMIT_COLOR
-from cloth_sim_ros.rendering.look import PIN_COLOR
-from cloth_sim_ros.rendering.look import PUSH_COLOR
-from cloth_sim_ros.rendering.node_buffer import NodeBuffer
-from cloth_sim_ros.rendering.palette_buffer import PaletteBuffer
-from cloth_sim_ros.rendering.push_drawing import PushDrawing
-from cloth_sim_ros.rendering.region_rings import region_rings
-from cloth_sim_ros.rendering.ribbon_drawing import RibbonDrawing
-from cloth_sim_ros.rendering.seen_and_hidden import seen_and_hidden
-from cloth_sim_ros.rendering.strain_scale import StrainScale
-from cloth_sim_ros.rendering.survey import Survey
-from cloth_sim_ros.rendering.view import View
 from cloth_sim_ros.gl.context import Context
 from cloth_sim_ros.gl.draw_state import blend_by_opacity
 from cloth_sim_ros.gl.draw_state import draw_nearest
 from cloth_sim_ros.gl.errors import DeviceError
 from cloth_sim_ros.gl.framebuffer import Framebuffer
+from cloth_sim_ros.rendering.camera import View
+from cloth_sim_ros.rendering.cloth_drawing import ClothDrawing
+from cloth_sim_ros.rendering.cloth_drawing import NodeBuffer
+from cloth_sim_ros.rendering.cloth_drawing import PaletteBuffer
+from cloth_sim_ros.rendering.look import BACKGROUND
+from cloth_sim_ros.rendering.look import LIMIT_COLOR
+from cloth_sim_ros.rendering.look import PIN_COLOR
+from cloth_sim_ros.rendering.look import PUSH_COLOR
+from cloth_sim_ros.rendering.solid_drawing import BallDrawing
+from cloth_sim_ros.rendering.solid_drawing import FloorDrawing
+from cloth_sim_ros.rendering.solid_drawing import PushDrawing
+from cloth_sim_ros.rendering.solid_drawing import RibbonDrawing
+from cloth_sim_ros.rendering.solid_drawing import seen_and_hidden
+from cloth_sim_ros.rendering.strain_scale import StrainScale
+from cloth_sim_ros.rendering.survey import region_rings
+from cloth_sim_ros.rendering.survey import Survey
+from cloth_sim_ros.rendering.words import write_forces
 from cloth_sim_ros.sim.snapshot import FLAG_AT_LIMIT
 import numpy as np
 
@@ -126,3 +127,15 @@ class Renderer:
     @cached_property
     def _pushes(self) -> PushDrawing:
         return PushDrawing(self._survey.arrow_length)
+
+
+def draw_panel(renderer: Renderer, survey: Survey, frame: Frame, font: int) -> np.ndarray:
+    """
+    Return the image of ``frame``, (height, width, 3) uint8.
+
+    :param font: height of the letters [pixel]
+    """
+    image = renderer.draw(frame)
+    write_forces(
+        image, frame.acting_pushes, survey.arrows(frame), renderer.view, font)
+    return image

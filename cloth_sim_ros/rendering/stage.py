@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from cloth_sim_ros.analysis.frame import Frame
 from cloth_sim_ros.rendering.camera import Camera
 from cloth_sim_ros.rendering.layout import Layout
-from cloth_sim_ros.rendering.panel_drawing import draw_panel
+from cloth_sim_ros.rendering.renderer import draw_panel
 from cloth_sim_ros.rendering.renderer import Renderer
 from cloth_sim_ros.rendering.sheet import Sheet
 from cloth_sim_ros.rendering.source import Source

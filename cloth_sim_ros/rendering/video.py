@@ -10,7 +10,7 @@ from pathlib import Path
 
 from cloth_sim_ros.analysis.frame import Frame
 from cloth_sim_ros.rendering.layout import Layout
-from cloth_sim_ros.rendering.nearest_frames import nearest_frames
+from cloth_sim_ros.rendering.source import nearest_frames
 from cloth_sim_ros.rendering.source import Source
 from cloth_sim_ros.rendering.stage import labels_of
 from cloth_sim_ros.rendering.stage import note_of

@@ -3,16 +3,64 @@
 
 """Give a simulation the inputs of a recording."""
 
+import math
 from typing import Any
 
 from cloth_sim_ros.files.echo import shown
 from cloth_sim_ros.resimulation.listener import Listener
-from cloth_sim_ros.resimulation.recorded_push import parts
-from cloth_sim_ros.resimulation.recorded_push import recorded_push
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.input_listener import CLEAR_PUSHES
 from cloth_sim_ros.sim.input_listener import RESET
+from cloth_sim_ros.sim.push import Push
 from cloth_sim_ros.sim.simulation import Simulation
+
+
+def recorded_push(message: Any) -> Push:
+    """Return the push of a decoded Push message of ~/inputs/push; ClothSimError if it is none."""
+    return Push.checked(
+        force=parts(message.force), start=message.start, duration=message.duration,
+        region=message.region, center=parts(message.center), radius=message.radius)
+
+
+def parts(vector: Any) -> tuple[float, float, float]:
+    """Return the components of a decoded Point or Vector3."""
+    return (vector.x, vector.y, vector.z)
+
+
+_SECOND = 1_000_000_000
+_NOTHING = 1e-6
+
+
+class StepClock:
+    """
+    Tell how many steps of dt lie before a recorded moment.
+
+    A stamp has whole nanoseconds and dt need not, so the recorded step is the nearest one.
+
+    :param recorded_dt: of the recorded run [s]
+    :param dt: of the run that is made now [s]; with another one, a moment within a step is taken
+        at the beginning of that step
+    """
+
+    def __init__(self, recorded_dt: float, dt: float) -> None:
+        """Keep both."""
+        self._recorded_dt = recorded_dt
+        self._dt = dt
+
+    def recorded_time(self, stamp: Any) -> float:
+        """Return the simulated time of ``stamp`` [s], with all the digits of the recorded run."""
+        return self._recorded_steps(stamp) * self._recorded_dt
+
+    def steps(self, stamp: Any) -> int:
+        """Return the steps made before the moment of ``stamp``, a ROS time."""
+        if self._dt == self._recorded_dt:
+            return self._recorded_steps(stamp)
+        return math.floor(self.recorded_time(stamp) / self._dt + _NOTHING)
+
+    def _recorded_steps(self, stamp: Any) -> int:
+        # The whole seconds stay integers: a sum of floats would lose the last digits.
+        return round((stamp.sec * _SECOND + stamp.nanosec) / (self._recorded_dt * _SECOND))
+
 
 # As cloth_sim_interfaces/msg/Command has them, which is not needed to read a recording.
 

@@ -12,12 +12,12 @@ from cloth_sim_ros.analysis.frame import Frame
 from cloth_sim_ros.analysis.recording import Entry
 from cloth_sim_ros.resimulation.frame_check import FrameCheck
 from cloth_sim_ros.resimulation.input_replay import InputReplay
+from cloth_sim_ros.resimulation.input_replay import StepClock
 from cloth_sim_ros.resimulation.listener import Listener
 from cloth_sim_ros.resimulation.recorded_run import RecordedRun
 from cloth_sim_ros.resimulation.recorded_run import stamp_of
 from cloth_sim_ros.resimulation.rerun_limits import RerunLimits
 from cloth_sim_ros.resimulation.run_start import RunStart
-from cloth_sim_ros.resimulation.step_clock import StepClock
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.errors import NonFiniteStateError
 from cloth_sim_ros.sim.modes import AVAILABLE

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-"""What air does to the cloth: a load that a pass over the triangles works out."""
+"""What air does to the cloth: a load that a pass over the triangles works out, and its work."""
 
 import math
 from typing import Any
@@ -10,7 +10,6 @@ from cloth_sim_ros.gl.buffer import Buffer
 from cloth_sim_ros.gl.buffer import shader_writes_visible
 from cloth_sim_ros.gl.program import Program
 from cloth_sim_ros.sim import bindings
-from cloth_sim_ros.sim.air_work import AirWork
 from cloth_sim_ros.sim.forcing import Forcing
 from cloth_sim_ros.sim.layout import Layout
 from cloth_sim_ros.sim.push_field import PushField
@@ -19,6 +18,39 @@ from cloth_sim_ros.sim.scene_program import SceneProgram
 from cloth_sim_ros.sim.state import State
 from cloth_sim_ros.sim.wind import Wind
 import numpy as np
+
+
+class AirWork:
+    """
+    Adds up what the accelerations in force do as the free nodes move.
+
+    Reads positions and accelerations back at each look of the air, which is slow.
+
+    :param node_mass: [kg]
+    """
+
+    def __init__(self, node_mass: float) -> None:
+        """Begin with nothing done."""
+        self._node_mass = node_mass
+        self._done = 0.0
+        self._positions: np.ndarray | None = None
+        self._accelerations: np.ndarray | None = None
+
+    def settle(self, state: State) -> float:
+        """Return the work until the present ``state`` [J]."""
+        if self._positions is not None:
+            positions = state.read_positions().astype(float)
+            moved = (positions - self._positions) * ~state.pinned[..., None]
+            self._done += self._node_mass * float(np.sum(self._accelerations * moved))
+            self._positions = positions
+        return self._done
+
+    def take(self, state: State, accelerations: np.ndarray) -> None:
+        """Take ``accelerations`` (rows, cols, 3) [m/s2] for those in force from now on."""
+        self.settle(state)
+        self._positions = state.read_positions().astype(float)
+        self._accelerations = accelerations
+
 
 # Of the relative velocity: what air may take of it until it is looked at again.
 _CHANGE = 0.1

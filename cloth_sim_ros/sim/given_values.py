@@ -5,12 +5,30 @@
 
 from collections.abc import Mapping
 from collections.abc import Sequence
+from functools import cache
+from types import MappingProxyType
 from typing import Any
 
+from cloth_sim_ros.gl.shared_directory import shared_directory
 from cloth_sim_ros.sim.materials import with_material
-from cloth_sim_ros.sim.presets import with_preset
+from cloth_sim_ros.sim.scene_fields import PRESETS
+from cloth_sim_ros.sim.scene_file import load_parameters
 from cloth_sim_ros.sim.springs import MATERIAL
 from cloth_sim_ros.sim.springs import MATERIAL_SPRINGS
+
+
+def with_preset(given: Mapping[str, Any]) -> dict[str, Any]:
+    """Return ``given`` with the values of its preset for what it leaves out."""
+    name = given.get('preset')
+    # What is no preset is left to the check of the field.
+    return {**(_values(name) if name in PRESETS else {}), **given}
+
+
+@cache
+def _values(name: str) -> Mapping[str, Any]:
+    path = shared_directory('config') / 'presets' / f'{name}.yaml'
+    return MappingProxyType(load_parameters(path))
+
 
 NO_PINS = ('none',)
 # They stretch, too, which would add to what a material says.

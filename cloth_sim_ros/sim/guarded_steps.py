@@ -11,7 +11,7 @@ from typing import NoReturn
 from typing import Protocol
 
 from cloth_sim_ros.sim import blow_up
-from cloth_sim_ros.sim.bounds_check import BoundsCheck
+from cloth_sim_ros.sim.blow_up import BoundsCheck
 from cloth_sim_ros.sim.errors import NonFiniteStateError
 from cloth_sim_ros.sim.forcing import Forcing
 from cloth_sim_ros.sim.layout import Layout

@@ -3,7 +3,7 @@
 
 """Who is told of what is done to a simulation from outside."""
 
-from cloth_sim_ros.sim.pin_move import PinMove
+from cloth_sim_ros.sim.pin_path import PinMove
 from cloth_sim_ros.sim.push import Push
 
 RESET, CLEAR_PUSHES = 'reset', 'clear_pushes'

@@ -9,7 +9,7 @@ import math
 from typing import Any
 
 from cloth_sim_ros.sim.air import Air
-from cloth_sim_ros.sim.air_work import AirWork
+from cloth_sim_ros.sim.air import AirWork
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.forcing import Forcing
 from cloth_sim_ros.sim.layout import Layout

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import math
 
 from cloth_sim_ros.sim.errors import ClothSimError
-from cloth_sim_ros.sim.pin_move import FARTHEST
+from cloth_sim_ros.sim.pin_path import FARTHEST
 import numpy as np
 
 

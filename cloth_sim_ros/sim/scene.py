@@ -17,7 +17,7 @@ from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.field import Field
 from cloth_sim_ros.sim.given_values import completed
 from cloth_sim_ros.sim.near_node import near_node
-from cloth_sim_ros.sim.pin_move import PinMove
+from cloth_sim_ros.sim.pin_path import PinMove
 from cloth_sim_ros.sim.pins import only_node
 from cloth_sim_ros.sim.pins import pinned_nodes
 from cloth_sim_ros.sim.push import Push

@@ -28,16 +28,16 @@ from cloth_sim_ros.sim.near_node import NearNode
 from cloth_sim_ros.sim.nearest import nearest
 from cloth_sim_ros.sim.pin_forces import PinForces
 from cloth_sim_ros.sim.pin_motion import PinMotion
-from cloth_sim_ros.sim.pin_move import PinMove
+from cloth_sim_ros.sim.pin_motion import PinRequests
+from cloth_sim_ros.sim.pin_path import PinMove
 from cloth_sim_ros.sim.pin_path import PinPath
-from cloth_sim_ros.sim.pin_requests import PinRequests
 from cloth_sim_ros.sim.push import Push
 from cloth_sim_ros.sim.push_field import AppliedPush
-from cloth_sim_ros.sim.run_status import RunStatus
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.snapshot import Measures
 from cloth_sim_ros.sim.snapshot import Snapshot
 from cloth_sim_ros.sim.state import State
+from cloth_sim_ros.sim.stepping import RunStatus
 from cloth_sim_ros.sim.stepping import Stepping
 import numpy as np
 

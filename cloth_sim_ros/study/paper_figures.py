@@ -9,7 +9,7 @@ from dataclasses import field
 from pathlib import Path
 from typing import Any
 
-from cloth_sim_ros.gl.shader_directory import shader_directory
+from cloth_sim_ros.gl.shared_directory import shader_directory
 from cloth_sim_ros.sim.scene import FAMILIES
 
 # [N/m]; explicit springs as stiff as this are stable up to dt = 0.0045 s in that scene.

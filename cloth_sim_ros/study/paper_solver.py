@@ -18,7 +18,7 @@ from cloth_sim_ros.reference.edges import Edges
 from cloth_sim_ros.reference.edges import edges_of
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.solver.edge_law import full_pull
-from cloth_sim_ros.sim.solver.solve_report import SolveReport
+from cloth_sim_ros.sim.solver.tally import SolveReport
 import numpy as np
 
 _BUFFERS = ('EDGES', 'NODES', 'VALUES', 'COLUMNS', 'MATRIX', 'COUNTS', 'VECTORS', 'SCALARS')

@@ -15,8 +15,8 @@ from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.solver.edge_law import EdgeLaw
 from cloth_sim_ros.sim.solver.edge_law import hard_edges
 from cloth_sim_ros.sim.solver.edge_law import spring_law
-from cloth_sim_ros.sim.solver.solve_report import SolveReport
 from cloth_sim_ros.sim.solver.solver import Solver
+from cloth_sim_ros.sim.solver.tally import SolveReport
 from cloth_sim_ros.sim.state import State
 from cloth_sim_ros.study.paper_solver import PaperSolver
 import numpy as np

@@ -23,7 +23,7 @@ from pathlib import Path
 
 from cloth_sim_ros.analysis.comparison import compare
 from cloth_sim_ros.analysis.comparison import Comparison
-from cloth_sim_ros.analysis.comparison_lines import comparison_lines
+from cloth_sim_ros.analysis.comparison import comparison_lines
 from cloth_sim_ros.analysis.recording import Recording
 from cloth_sim_ros.analysis.report_files import comparison_values
 from cloth_sim_ros.analysis.report_files import make_folder
@@ -35,10 +35,10 @@ from cloth_sim_ros.analysis.report_files import write_plot
 from cloth_sim_ros.analysis.report_files import write_points
 from cloth_sim_ros.analysis.run import Run
 from cloth_sim_ros.analysis.summary import Summary
-from cloth_sim_ros.analysis.summary_lines import summary_lines
-from cloth_sim_ros.analysis.summary_lines import text_table
+from cloth_sim_ros.analysis.summary import summary_lines
+from cloth_sim_ros.analysis.summary import text_table
 from cloth_sim_ros.sim.errors import ClothSimError
-from cloth_sim_ros.verb.reading_progress import ReadingProgress
+from cloth_sim_ros.verb.play_progress import ReadingProgress
 from cloth_sim_ros.verb.recording_arguments import add_node_argument
 
 
@@ -109,7 +109,7 @@ def _write_comparisons(
 
 
 def _write_curves(runs: Sequence[Run], names: Sequence[str], folder: Path) -> None:
-    from cloth_sim_ros.analysis.overlay_plot import overlay_plot
+    from cloth_sim_ros.analysis.comparison_plot import overlay_plot
     write_plot(overlay_plot(runs, names), folder / 'curves.png')
 
 

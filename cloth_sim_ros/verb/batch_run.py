@@ -1,17 +1,19 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-"""Run a simulation to an end as fast as it goes, with a progress bar and a recording."""
+"""Run a simulation to an end as fast as it goes, into a recording where one is asked for."""
 
 import math
+from pathlib import Path
 import time
 from typing import Any
 
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.errors import NonFiniteStateError
+from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.simulation import Simulation
 from cloth_sim_ros.verb.compile_notice import compile_notice
-from cloth_sim_ros.verb.sayer import sayer
+from cloth_sim_ros.verb.termination import sayer
 from tqdm import tqdm
 
 # Of a step: what a sum of frame times may fall short of it, as in Simulation.advance.
@@ -132,3 +134,23 @@ class BatchRun:
             if self.problem:
                 self._recording.write_stop()
         return not self.problem
+
+
+def record_run(
+        scene: Scene, node_values: dict[str, Any], seconds: float, directory: str | Path,
+        name: str, *, check_stability: bool = True, setting: str = '--out') -> str:
+    """
+    Simulate ``seconds`` into ``directory``/``name``; return why either stopped early, or ''.
+
+    :param check_stability: False lets dt pass the stability limit
+    :param setting: what ``directory`` was given by, for errors
+    :raises ClothSimError: when the scene can't be run, or the recording is there already
+    """
+    simulation = Simulation(scene, check_stability=check_stability)
+    try:
+        run = BatchRun(
+            simulation, {**node_values, 'recording.name': name}, str(directory), setting=setting)
+        run.advance(seconds)
+        return run.problem or run.recording_problem
+    finally:
+        simulation.close()

@@ -15,8 +15,8 @@ from argparse import ArgumentParser
 from argparse import Namespace
 
 from cloth_sim_ros.analysis.summary import summarise
-from cloth_sim_ros.analysis.summary_lines import summary_lines
-from cloth_sim_ros.analysis.summary_lines import text_table
+from cloth_sim_ros.analysis.summary import summary_lines
+from cloth_sim_ros.analysis.summary import text_table
 from cloth_sim_ros.verb.recording_arguments import add_recording_arguments
 from cloth_sim_ros.verb.recording_arguments import open_recording
 

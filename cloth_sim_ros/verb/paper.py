@@ -17,19 +17,19 @@ from argparse import Namespace
 from pathlib import Path
 import sys
 
-from cloth_sim_ros.analysis.outcome_table import outcome_table
 from cloth_sim_ros.analysis.recording import Recording
 from cloth_sim_ros.analysis.run import Run
+from cloth_sim_ros.analysis.run_outcome import outcome_table
 from cloth_sim_ros.analysis.run_outcome import RunOutcome
-from cloth_sim_ros.rendering.run_sheet import write_run_sheet
 from cloth_sim_ros.api.scene_file import scene_from
+from cloth_sim_ros.rendering.run_sheet import write_run_sheet
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.modes import AVAILABLE
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.study.paper_figures import FIGURES
 from cloth_sim_ros.study.paper_figures import paper_scene_file
 from cloth_sim_ros.study.paper_figures import PaperFigure
-from cloth_sim_ros.verb.recorded_run import record_run
+from cloth_sim_ros.verb.batch_run import record_run
 from cloth_sim_ros.verb.recording_arguments import list_of_times
 from cloth_sim_ros.verb.scene_arguments import parse_change
 

@@ -19,7 +19,7 @@ from argparse import ArgumentParser
 from argparse import Namespace
 import sys
 
-from cloth_sim_ros.analysis.recorded_node import find_node
+from cloth_sim_ros.analysis.recording import find_node
 from cloth_sim_ros.node.large_messages import use_profile
 from cloth_sim_ros.playback.play_clock import PlayClock
 from cloth_sim_ros.playback.play_options import PlayOptions

@@ -8,13 +8,13 @@ from argparse import ArgumentTypeError
 from argparse import Namespace
 
 from cloth_sim_ros.analysis.recording import Recording
-from cloth_sim_ros.rendering.camera import Camera
-from cloth_sim_ros.rendering.recording_source import RecordingSource
-from cloth_sim_ros.rendering.source import Source
-from cloth_sim_ros.rendering.stage import Style
-from cloth_sim_ros.rendering.state_source import StateSource
 from cloth_sim_ros.files.echo import cut
 from cloth_sim_ros.files.echo import shown
+from cloth_sim_ros.rendering.camera import Camera
+from cloth_sim_ros.rendering.source import RecordingSource
+from cloth_sim_ros.rendering.source import Source
+from cloth_sim_ros.rendering.source import StateSource
+from cloth_sim_ros.rendering.stage import Style
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.verb.recording_arguments import add_node_argument
 

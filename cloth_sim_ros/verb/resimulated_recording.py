@@ -9,10 +9,10 @@ from cloth_sim_interfaces.msg import Command
 from cloth_sim_ros.api.run_recording import RunRecording
 from cloth_sim_ros.node.inputs import Inputs
 from cloth_sim_ros.resimulation.listener import Listener
-from cloth_sim_ros.sim.pin_move import PinMove
+from cloth_sim_ros.sim.pin_path import PinMove
 from cloth_sim_ros.sim.push import Push
 from cloth_sim_ros.sim.simulation import Simulation
-from cloth_sim_ros.verb.sayer import sayer
+from cloth_sim_ros.verb.termination import sayer
 
 
 class ResimulatedRecording(Listener):

@@ -1,13 +1,20 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-"""SIGTERM as a wish to stop: what a verb does at Ctrl-C, it does at SIGTERM."""
+"""What verbs say beside their result, and SIGTERM as a wish to stop."""
 
+from collections.abc import Callable
 from collections.abc import Iterator
 from contextlib import contextmanager
 import signal
+import sys
 from types import FrameType
 from typing import NoReturn
+
+
+def sayer(verb: str) -> Callable[[str], None]:
+    """Return what prints a sentence of ``verb`` to stderr."""
+    return lambda sentence: print(f'cloth_sim {verb}: {sentence}', file=sys.stderr)
 
 
 class Terminated(KeyboardInterrupt):

@@ -5,7 +5,7 @@
 """Two recordings, node by node."""
 
 from cloth_sim_ros.analysis.comparison import compare
-from cloth_sim_ros.analysis.comparison_lines import comparison_lines
+from cloth_sim_ros.analysis.comparison import comparison_lines
 from cloth_sim_ros.analysis.recording import Recording
 from cloth_sim_ros.messages.points import PointsMessage
 from cloth_sim_ros.messages.stats import stats_message

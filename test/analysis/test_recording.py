@@ -1,18 +1,103 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-
 """Reading what was recorded, whole or cut off."""
 
+from pathlib import Path
 import shutil
+from types import SimpleNamespace
 
+from cloth_sim_ros.analysis.recording import find_node
 from cloth_sim_ros.analysis.recording import Recording
+from cloth_sim_ros.analysis.recording import SteadyTime
+from cloth_sim_ros.analysis.recording import TYPES
+from cloth_sim_ros.messages.topics import TOPICS
+from cloth_sim_ros.recording.bag_topic import BagTopic
 from cloth_sim_ros.recording.recorder import Recorder
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.snapshot import POINT_DTYPE
 from made_cloud import make_cloud
 import numpy as np
 import pytest
+from rosbags.interfaces import MessageDefinition
+from rosbags.interfaces import MessageDefinitionFormat
+
+
+def test_it_goes_on_where_a_reset_put_the_clock_back():
+    """What came after a reset would be mixed with what was before."""
+    time = SteadyTime()
+    stamps = [(0, 0), (1, 500000000), (0, 0), (2, 0), (0, 250000000)]
+    read = [time.read(SimpleNamespace(sec=sec, nanosec=nanosec)) for sec, nanosec in stamps]
+    assert read == [0.0, 1.5, 1.5, 3.5, 3.75]
+
+
+def test_it_begins_where_the_recording_begins():
+    """A recording that was started late would seem to start at 0."""
+    assert SteadyTime().read(SimpleNamespace(sec=7, nanosec=0)) == 7.0
+
+
+def test_a_late_message_is_no_reset():
+    """Clouds that came after the figures of the next frame would shift all that follow."""
+    time = SteadyTime()
+    given = [
+        ('stats', 0.0), ('points', 0.0), ('stats', 0.02), ('stats', 0.04), ('points', 0.02),
+        ('points', 0.04), ('push', 0.02), ('stats', 0.06)]
+    read = [time.read(_stamp(at), topic) for topic, at in given]
+    assert read == pytest.approx([at for _, at in given])
+
+
+def test_every_topic_learns_of_a_reset():
+    """A push after a reset would be shown before it, where its topic is seldom sent."""
+    time = SteadyTime()
+    given = [
+        ('push', 0.5), ('points', 5.0), ('stats', 4.98), ('points', 0.0), ('stats', 5.0),
+        ('points', 0.02), ('stats', 0.0), ('push', 1.0), ('points', 1.0)]
+    read = [time.read(_stamp(at), topic) for topic, at in given]
+    assert read == pytest.approx([0.5, 5.0, 4.98, 5.0, 5.0, 5.02, 5.0, 6.0, 6.0])
+
+
+def _stamp(seconds):
+    return SimpleNamespace(sec=int(seconds), nanosec=round(seconds % 1.0 * 1e9))
+
+
+CLOUD = 'sensor_msgs/msg/PointCloud2'
+STATS = 'cloth_sim_interfaces/msg/ClothStats'
+
+
+def find(*topics):
+    """Return the node of a bag with ``topics``, each a name and a type."""
+    none = MessageDefinition(MessageDefinitionFormat.NONE, '')
+    return find_node([BagTopic(*topic, (), 1, none) for topic in topics], Path('bag'))
+
+
+def test_types_are_those_of_the_node():
+    """A topic would be passed over as another program's."""
+    assert TYPES == {
+        key: topic.type_name for key, topic in TOPICS.items() if not topic.is_global}
+
+
+def test_any_topic_of_ours_names_the_node():
+    """A bag of a node with a namespace, or without points, would need --node."""
+    assert find(('/cloth_sim/stats', STATS)) == '/cloth_sim'
+    assert find(('/left/cloth/points', CLOUD), ('/rosout', 'a')) == '/left/cloth'
+    assert find(('/a/inputs/push', 'cloth_sim_interfaces/msg/Push')) == '/a'
+
+
+def test_points_of_other_programs_do_not_count_beside_ours():
+    """A bag with a laser scanner in it would need --node."""
+    assert find(('/laser/points', CLOUD), ('/a/stats', STATS), ('/a/points', CLOUD)) == '/a'
+
+
+def test_other_types_do_not_count():
+    """A bag of another program would be taken for a cloth."""
+    with pytest.raises(ClothSimError, match='bag holds no frame of a cloth_sim node'):
+        find(('/cloth_sim/points', 'std_msgs/msg/String'), ('/a/stats', CLOUD))
+
+
+def test_several_nodes_are_not_mixed():
+    """Two cloths in one bag would be read as one, or one of them without a word."""
+    with pytest.raises(ClothSimError, match='several nodes .*/a, /b.*--node'):
+        find(('/b/stats', STATS), ('/a/stats', STATS))
 
 
 def test_messages_come_as_they_were_recorded(known):

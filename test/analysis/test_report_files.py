@@ -8,11 +8,11 @@ import sys
 
 # 300000 points that go up and down: the outline of such a line fills the whole plot.
 _DRAW = """
-import sys
-from pathlib import Path
 from cloth_sim_ros.analysis.report_files import write_plot
 from matplotlib.figure import Figure
 import numpy as np
+from pathlib import Path
+import sys
 
 def most():
     with open('/proc/self/status') as file:

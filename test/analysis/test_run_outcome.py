@@ -3,9 +3,9 @@
 
 """What a run came to, by its recording."""
 
-from cloth_sim_ros.analysis.outcome_table import outcome_table
 from cloth_sim_ros.analysis.recording import Recording
 from cloth_sim_ros.analysis.run import Run
+from cloth_sim_ros.analysis.run_outcome import outcome_table
 from cloth_sim_ros.analysis.run_outcome import RunOutcome
 from cloth_sim_ros.messages.points import PointsMessage
 from cloth_sim_ros.messages.state import state_message

@@ -1,19 +1,44 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-
 """A recording in a few numbers."""
 
+from dataclasses import replace
+import math
+
 from cloth_sim_ros.analysis.recording import Recording
+from cloth_sim_ros.analysis.summary import find_gaps
 from cloth_sim_ros.analysis.summary import summarise
+from cloth_sim_ros.analysis.summary import summary_lines
+from cloth_sim_ros.analysis.summary import text_table
 from cloth_sim_ros.messages.points import PointsMessage
 from cloth_sim_ros.messages.state import state_message
 from cloth_sim_ros.messages.stats import stats_message
 from cloth_sim_ros.recording.recorder import Recorder
 from cloth_sim_ros.sim.errors import ClothSimError
 from made_snapshot import make_snapshot
+import numpy as np
 import pytest
 from rclpy.serialization import serialize_message
+
+
+def test_a_span_without_frames_is_found():
+    """A run with a hole would be drawn as if nothing were missing."""
+    times = np.array([0.0, 0.02, 0.04, 0.06, 0.3, 0.32, 0.34])
+    gap, = find_gaps(times, np.zeros(7))
+    assert gap == pytest.approx((0.06, 0.3))
+
+
+@pytest.mark.parametrize('times, resets', [
+    ([], []), ([1.0], [0]), ([0.0, 5.0], [0, 0]),
+    (np.arange(50) / 50, np.zeros(50)),
+    # At 60 Hz with steps of 5 ms, frames are 3 or 4 steps apart.
+    (np.cumsum([3, 3, 4] * 20) * 0.005, np.zeros(60)),
+    # The clock stood still, and a reset is no gap.
+    ([0.0, 0.1, 0.1, 0.2, 0.9, 1.0, 1.1], [0, 0, 0, 0, 1, 1, 1])])
+def test_whole_runs_have_none(times, resets):
+    """A good recording would be said to have holes."""
+    assert find_gaps(np.array(times, float), np.array(resets, float)) == []
 
 
 def test_everything_is_counted(known):
@@ -77,3 +102,43 @@ def test_a_recording_without_frames_is_refused(tmp_path):
     Recorder(tmp_path, 'empty', 'cloth_sim').close()
     with pytest.raises(ClothSimError, match='contains no messages'):
         summarise(Recording(tmp_path / 'empty'))
+
+
+@pytest.fixture
+def summary(known):
+    """Return the summary of the known recording."""
+    return summarise(Recording(known.folder))
+
+
+def test_what_is_unknown_is_said_to_be(summary):
+    """A user would read nan, or a zero that nobody measured."""
+    lines = summary_lines(replace(
+        summary, dt=math.nan, substeps=math.nan, last_energy=math.nan, device='', rows=0))
+    assert lines['dt'] == 'unknown s in unknown substeps'
+    assert 'unknown J at the end' in lines['total energy']
+    assert lines['device'] == lines['cloth'] == 'not recorded'
+
+
+def test_parts_that_a_run_has_are_told(summary):
+    """Solver, constraints, switches and gaps would have to be looked for in the plots."""
+    assert not {
+        'solver', 'constraints', 'lengths', 'stalled pins', 'mode switches', 'gaps', 'problems',
+    } & set(summary_lines(summary))
+    lines = summary_lines(replace(
+        summary, solver_iterations=12.0, solver_residual=1e-3, solver_missed=4, most_active=7.0,
+        lengths_lost=3, stalled=2, switches=[(1.5, 'adaptive', 'constraint')],
+        gaps=[(float(n), n + 0.5) for n in range(6)], problems=['a is truncated']))
+    assert lines['solver'].startswith('at most 12 iterations, worst residual 0.001, 4 frames')
+    assert lines['constraints'] == 'at most 7 active'
+    assert lines['lengths'] == 'far off in 3 frames'
+    assert lines['stalled pins'] == 'in 2 frames'
+    assert lines['mode switches'] == 'constraint at 1.5 s'
+    assert lines['gaps'].startswith('0 to 0.5 s, ') and lines['gaps'].endswith(' and 2 more')
+    assert lines['problems'] == 'a is truncated'
+
+
+def test_the_table_has_a_line_for_each_part(summary):
+    """A long value would push the next one out of sight."""
+    lines = summary_lines(summary)
+    assert [row.split()[0] for row in text_table(lines).splitlines()] == [
+        name.split()[0] for name in lines]

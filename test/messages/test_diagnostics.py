@@ -5,12 +5,24 @@
 
 from builtin_interfaces.msg import Time
 from cloth_sim_ros.messages.diagnostics import diagnostics_message
+from cloth_sim_ros.messages.diagnostics import slow_pace
 from diagnostic_msgs.msg import DiagnosticArray
 from diagnostic_msgs.msg import DiagnosticStatus
 from made_snapshot import make_snapshot
 import pytest
 from rclpy.serialization import deserialize_message
 from rclpy.serialization import serialize_message
+
+
+@pytest.mark.parametrize(('substeps', 'automatic', 'faster', 'useless'), [
+    (16, True, 'softer springs', 'dt'), (1, True, 'a longer dt', 'springs'),
+    (16, False, 'a longer dt', 'springs')])
+def test_a_longer_dt_is_advised_where_it_helps(substeps, automatic, faster, useless):
+    """A user would take a longer dt, which then has more substeps of the same length."""
+    advice = slow_pace(0.5, 1.0, substeps=substeps, automatic=automatic)
+    assert advice.startswith('0.5 x real time, below the target 1: use fewer nodes, ')
+    assert faster in advice and useless not in advice
+
 
 WALL = Time(sec=1700000000, nanosec=5)
 HEALTHY = {

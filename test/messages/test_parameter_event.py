@@ -4,14 +4,41 @@
 """Parameters as bytes."""
 
 from cloth_sim_ros.messages.inputs import parameters_message
+from cloth_sim_ros.messages.parameter_event import parameter_value
 from cloth_sim_ros.messages.parameter_event import serialise_parameter_event
 from cloth_sim_ros.node.parameters import FIELDS
+from cloth_sim_ros.sim.field import Field
+import pytest
 from rcl_interfaces.msg import Parameter
 from rcl_interfaces.msg import ParameterEvent
+from rcl_interfaces.msg import ParameterType
 from rcl_interfaces.msg import ParameterValue
+from rclpy.parameter import parameter_value_to_python
 from rclpy.serialization import deserialize_message
 from rosbags.typesys import get_typestore
 from rosbags.typesys import Stores
+
+
+@pytest.mark.parametrize(('kind', 'value', 'type_number'), [
+    (bool, True, ParameterType.PARAMETER_BOOL),
+    (int, 3, ParameterType.PARAMETER_INTEGER),
+    (float, 0.5, ParameterType.PARAMETER_DOUBLE),
+    (str, 'a', ParameterType.PARAMETER_STRING),
+    (bool, (True, False), ParameterType.PARAMETER_BOOL_ARRAY),
+    (int, (3, 4), ParameterType.PARAMETER_INTEGER_ARRAY),
+    (float, (), ParameterType.PARAMETER_DOUBLE_ARRAY),
+    (float, (0.5, 1.0), ParameterType.PARAMETER_DOUBLE_ARRAY),
+    (str, (), ParameterType.PARAMETER_STRING_ARRAY),
+    (str, ('a', 'b'), ParameterType.PARAMETER_STRING_ARRAY),
+])
+def test_values_keep_type_and_content(kind, value, type_number):
+    """A parameter, above all an empty list, would come back as another type."""
+    is_array = isinstance(value, tuple)
+    message = parameter_value(Field('a', kind, value, '', is_array=is_array), value)
+    assert message.type == type_number
+    content = parameter_value_to_python(message)
+    assert (tuple(content) if is_array else content) == value
+
 
 EVERYTHING = ParameterEvent(
     node='/a/node', deleted_parameters=[Parameter(name='gone')],

@@ -3,12 +3,68 @@
 
 """Which nodes are drawn."""
 
+from cloth_sim_ros.messages.surface import FULL_STRAIN
 from cloth_sim_ros.messages.surface import MOST_DRAWN
+from cloth_sim_ros.messages.surface import serialise_topology
+from cloth_sim_ros.messages.surface import strain_colors
 from cloth_sim_ros.messages.surface import Surface
 from cloth_sim_ros.messages.surface import surface_bytes
-from cloth_sim_ros.messages.triangles import triangles
+from cloth_sim_ros.messages.surface import triangles
+from cloth_sim_ros.sim.scene import Scene
+from matplotlib import colormaps
 import numpy as np
 import pytest
+from rclpy.serialization import deserialize_message
+from shape_msgs.msg import Mesh
+
+
+@pytest.mark.parametrize(('rows', 'cols', 'pose'), [
+    (3, 5, 'horizontal'), (4, 2, 'hanging'), (1, 6, 'hanging')])
+def test_mesh_is_the_scene_at_rest(rows, cols, pose):
+    """A viewer would draw another cloth than the one simulated."""
+    scene = Scene({'rows': rows, 'cols': cols, 'start.pose': pose, 'start.jitter': 0.2})
+    mesh = deserialize_message(serialise_topology(scene), Mesh)
+    nodes = np.array([[node.x, node.y, node.z] for node in mesh.vertices])
+    np.testing.assert_array_equal(nodes, scene.rest_positions().reshape(-1, 3))
+    faces = np.array([face.vertex_indices for face in mesh.triangles]).reshape(-1, 3)
+    np.testing.assert_array_equal(faces, triangles(rows, cols))
+
+
+def test_each_cell_is_covered_once():
+    """The surface would have holes or overlap."""
+    rows, cols = 4, 6
+    positions = Scene({'rows': rows, 'cols': cols, 'width': 5.0, 'height': 3.0}).rest_positions()
+    corners = positions.reshape(-1, 3)[triangles(rows, cols)]
+    area = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]) / 2
+    np.testing.assert_allclose(area, np.tile([0.0, 0.0, 0.5], (2 * 3 * 5, 1)), atol=1e-12)
+    cells = np.floor(corners.mean(axis=1)[:, :2] - positions[-1, 0, :2])
+    assert sorted(map(tuple, cells)) == sorted(
+        2 * [(float(col), float(row)) for row in range(3) for col in range(5)])
+
+
+def test_a_chain_has_no_faces():
+    """A chain would be drawn with faces of nothing."""
+    assert triangles(1, 9).shape == triangles(9, 1).shape == (0, 3)
+
+
+def test_colours_are_those_of_viridis():
+    """Equal steps of strain would not look equal."""
+    strain = np.linspace(0.0, FULL_STRAIN, 101)
+    np.testing.assert_allclose(
+        strain_colors(strain), colormaps['viridis'](np.linspace(0.0, 1.0, 101)), atol=0.06)
+
+
+def test_brightness_grows_with_strain():
+    """A larger strain could look smaller, above all in grey."""
+    brightness = strain_colors(np.linspace(0.0, FULL_STRAIN, 101))[:, :3] @ [0.299, 0.587, 0.114]
+    assert np.all(np.diff(brightness) > 0.0)
+
+
+def test_beyond_the_scale_is_the_last_colour():
+    """A torn or broken cloth would show as one at rest."""
+    colors = strain_colors(np.array([[FULL_STRAIN, 1.0], [np.inf, np.nan]], np.float32))
+    assert colors.shape == (2, 2, 4) and colors.dtype == np.float32
+    np.testing.assert_array_equal(colors, np.broadcast_to(colors[0, 0], (2, 2, 4)))
 
 
 def lattice(rows, cols):

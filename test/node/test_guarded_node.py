@@ -16,9 +16,9 @@ from std_srvs.srv import SetBool
 from std_srvs.srv import Trigger
 
 START = """
-import sys
-from cloth_sim_ros.node.main import main
 from cloth_sim_ros.{module} import {name}
+from cloth_sim_ros.node.main import main
+import sys
 
 def fails(*arguments, **options):
     {name}.calls += 1

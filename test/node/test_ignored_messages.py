@@ -3,7 +3,44 @@
 
 """Warnings of messages that make no sense."""
 
+from cloth_sim_ros.node.ignored_messages import check_frame
 from cloth_sim_ros.node.ignored_messages import IgnoredMessages
+from cloth_sim_ros.node.ignored_messages import LogThrottle
+from cloth_sim_ros.sim.errors import ClothSimError
+import pytest
+
+
+@pytest.mark.parametrize('frame', ['', 'world'])
+def test_takes_its_own_frame(frame: str):
+    """Points of the cloth's own frame would be refused."""
+    check_frame(frame, 'world')
+
+
+def test_refuses_another():
+    """A point would be taken for another one, far away."""
+    with pytest.raises(
+            ClothSimError, match="is 'tool0' but the frame of the cloth is 'world': transform"):
+        check_frame('tool0', 'world')
+
+
+def test_one_of_a_kind_is_logged_now_and_then():
+    """A client at 1 kHz would fill the disk, or what was left out would go uncounted."""
+    now = [0.0]
+    throttle = LogThrottle(10.0, clock=lambda: now[0])
+    assert throttle.left_out('push') == 0
+    assert [throttle.left_out('push') for _ in range(99)] == [None] * 99
+    assert throttle.left_out('pin') == 0, 'another kind has its own time'
+    now[0] = 10.0
+    assert throttle.left_out('push') == 99
+    now[0] = 20.0
+    assert throttle.left_out('push') == 0
+
+
+def test_kinds_without_end_take_no_memory_without_end():
+    """A client could have each of its messages be of another kind."""
+    throttle = LogThrottle(10.0, clock=lambda: 0.0)
+    assert all(throttle.left_out(str(kind)) == 0 for kind in range(1000))
+    assert len(throttle._logged) <= 100
 
 
 def test_a_flood_does_not_fill_the_log():

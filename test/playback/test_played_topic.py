@@ -8,12 +8,94 @@ from signal import SIGSTOP
 import subprocess
 import sys
 
+from builtin_interfaces.msg import Time
+from cloth_sim_interfaces.msg import ClothStats
+from cloth_sim_ros.messages.topics import TOPICS
+from cloth_sim_ros.playback.played_topic import has_header
+from cloth_sim_ros.playback.played_topic import header_stamp
+from cloth_sim_ros.playback.played_topic import played_quality
 from cloth_sim_ros.playback.played_topic import PlayedTopic
+from cloth_sim_ros.recording.bag_metadata import yaml_text
+from cloth_sim_ros.recording.recorded_qos import offered_qos
 import pytest
+from rclpy.qos import DurabilityPolicy
 from rclpy.qos import QoSProfile
 from rclpy.qos import ReliabilityPolicy
 from rclpy.serialization import serialize_message
+from rosbags.rosbag2.metadata import parse_qos
+from rosgraph_msgs.msg import Clock
+from sensor_msgs.msg import PointCloud2
+from shape_msgs.msg import Mesh
+from std_msgs.msg import Header
 from std_msgs.msg import Int32
+
+
+@pytest.mark.parametrize('message_class', [ClothStats, PointCloud2])
+@pytest.mark.parametrize('time', [(0, 0), (3, 20_000_000), (2**31 - 1, 999_999_999), (-2, 5)])
+def test_stamp_is_that_of_the_message(message_class, time):
+    """The clock would tell another time than the messages."""
+    stamp = Time(sec=time[0], nanosec=time[1])
+    message = message_class(header=Header(stamp=stamp, frame_id='world'))
+    assert has_header(message_class)
+    assert header_stamp(serialize_message(message)) == stamp
+
+
+def test_big_endian_is_read():
+    """A recording of another machine would give times of centuries."""
+    data = b'\x00\x00\x00\x00' + (7).to_bytes(4, 'big') + (8).to_bytes(4, 'big')
+    assert header_stamp(data) == Time(sec=7, nanosec=8)
+
+
+@pytest.mark.parametrize('message_class', [Mesh, Clock])
+def test_others_have_no_stamp(message_class):
+    """Some other number of the message would be taken for a time."""
+    assert not has_header(message_class)
+
+
+CLOUD = 'sensor_msgs/msg/PointCloud2'
+
+
+def profiles(*changes):
+    """Return profiles like that of the points, but for the changes of each."""
+    usual, = offered_qos(TOPICS['points'])
+    return parse_qos(yaml_text([{**usual, **change} for change in changes]))
+
+
+def offered(quality):
+    """Return the parts of a quality that tell."""
+    return (
+        quality.depth, quality.reliability == ReliabilityPolicy.RELIABLE,
+        quality.durability == DurabilityPolicy.TRANSIENT_LOCAL)
+
+
+@pytest.mark.parametrize('key', TOPICS)
+def test_what_this_project_recorded_is_offered_again(key):
+    """Readers of the simulation would not get what is played, or late ones no topology."""
+    topic = TOPICS[key]
+    quality = played_quality(
+        topic.full_name('cloth_sim'), topic.type_name, parse_qos(yaml_text(offered_qos(topic))))
+    assert offered(quality) == (topic.depth, topic.reliable, topic.transient_local)
+
+
+def test_of_several_publishers_the_best_is_offered():
+    """A reader of one of them would get nothing."""
+    mixed = profiles(
+        {'reliability': 'best_effort'}, {'durability': 'transient_local', 'depth': 3})
+    assert offered(played_quality('/a', CLOUD, mixed)) == (10, True, True)
+    assert offered(played_quality('/a', CLOUD, mixed[:1])) == (10, False, False)
+
+
+@pytest.mark.parametrize(('name', 'key', 'depth'), [
+    ('/cloth_sim/pins/wrenches', 'pins/wrenches', TOPICS['pins/wrenches'].depth),
+    ('/a/cloth_sim/topology', 'topology', TOPICS['topology'].depth),
+    ('/scan', 'points', 10)])
+def test_a_depth_that_was_not_recorded_is_the_usual_one(name, key, depth):
+    """A bag of `ros2 bag record`, which can't know it, would be played with a depth of 0."""
+    topic = TOPICS[key]
+    unknown = profiles({'history': 'unknown', 'depth': 0})
+    assert played_quality(name, topic.type_name, unknown).depth == depth
+    assert offered(played_quality(name, topic.type_name, ())) == (depth, True, False)
+
 
 DEPTH = 10
 MESSAGES = 200

@@ -10,7 +10,7 @@ import time
 from cloth_sim_interfaces.msg import ClothStats
 from cloth_sim_ros.recording.bag_reader import BagReader
 from cloth_sim_ros.recording.recorder import Recorder
-from cloth_sim_ros.recording.recording_error import RecordingError
+from cloth_sim_ros.recording.recording_faults import RecordingError
 import pytest
 from rclpy.serialization import serialize_message
 import yaml

@@ -8,12 +8,12 @@ import shutil
 
 from cloth_sim_interfaces.msg import ClothState
 from cloth_sim_interfaces.msg import ClothStats
+from cloth_sim_ros.messages.surface import serialise_topology
 from cloth_sim_ros.messages.topics import TOPICS
-from cloth_sim_ros.messages.topology import serialise_topology
 from cloth_sim_ros.recording.bag_reader import BagReader
 from cloth_sim_ros.recording.bag_writer import BagWriter
 from cloth_sim_ros.recording.recorder import Recorder
-from cloth_sim_ros.recording.recording_error import RecordingFull
+from cloth_sim_ros.recording.recording_faults import RecordingFull
 from cloth_sim_ros.recording.recording_options import RecordingOptions
 from cloth_sim_ros.recording.topic_channel import topic_channel
 from cloth_sim_ros.sim.scene import Scene

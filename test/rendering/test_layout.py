@@ -1,10 +1,26 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-"""Where the panels go."""
+"""Panels have the size and places that a sheet needs."""
 
+from cloth_sim_ros.rendering.camera import Camera
 from cloth_sim_ros.rendering.layout import Layout
+from cloth_sim_ros.rendering.layout import panel_size
+import numpy as np
 import pytest
+
+FRONT = Camera(-90.0, 0.0)
+
+
+@pytest.mark.parametrize(('wide', 'high', 'ratio'), [
+    (1.0, 1.0, 1.0), (1.2, 1.0, 1.2), (1.0, 1.5, 1 / 1.5), (1.0, 0.0, 1.7), (0.0, 1.0, 1 / 1.7)])
+def test_it_has_the_shape_of_the_scene(wide, high, ratio):
+    """A panel would be half empty, or a finger wide."""
+    corners = np.array([[0.0, 0.0, 0.0], [wide, 5.0, high]])
+    width, height = panel_size(corners, FRONT)
+    assert width / height == pytest.approx(ratio, rel=0.02)
+    assert 300 < width < 700
+
 
 LAYOUTS = [
     Layout(1, 1, (320, 240)), Layout(2, 3, (301, 207), has_labels=True),

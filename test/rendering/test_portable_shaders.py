@@ -10,13 +10,13 @@ Apart from test/shaders, which runs where there is no matplotlib.
 from pathlib import Path
 import subprocess
 
-from cloth_sim_ros.rendering.ball_drawing import BALL_DEFINES
+from cloth_sim_ros.gl.shader_source import ShaderSource
+from cloth_sim_ros.gl.shared_directory import shader_directory
 from cloth_sim_ros.rendering.cloth_drawing import CLOTH_DEFINES
 from cloth_sim_ros.rendering.cloth_drawing import LIMIT_DEFINES
-from cloth_sim_ros.rendering.push_drawing import ARROW_DEFINES
-from cloth_sim_ros.rendering.ribbon_drawing import RIBBON_DEFINES
-from cloth_sim_ros.gl.shader_directory import shader_directory
-from cloth_sim_ros.gl.shader_source import ShaderSource
+from cloth_sim_ros.rendering.solid_drawing import ARROW_DEFINES
+from cloth_sim_ros.rendering.solid_drawing import BALL_DEFINES
+from cloth_sim_ros.rendering.solid_drawing import RIBBON_DEFINES
 import pytest
 
 _SHADOW = {'SHADOW': 1}

@@ -6,15 +6,15 @@
 import sys
 import warnings
 
-from cloth_sim_ros.rendering import light
+from cloth_sim_ros.gl.render_program import RenderProgram
+from cloth_sim_ros.rendering import look
 from cloth_sim_ros.rendering.camera import Camera
 from cloth_sim_ros.rendering.look import LIMIT_COLOR
 from cloth_sim_ros.rendering.look import PIN_COLOR
 from cloth_sim_ros.rendering.look import PUSH_COLOR
 from cloth_sim_ros.rendering.look import UNKNOWN_COLOR
-from cloth_sim_ros.rendering.strain_range import StrainRange
+from cloth_sim_ros.rendering.strain_scale import StrainRange
 from cloth_sim_ros.rendering.strain_scale import StrainScale
-from cloth_sim_ros.gl.render_program import RenderProgram
 from cloth_sim_ros.sim.push import Push
 from cloth_sim_ros.sim.snapshot import FLAG_AT_LIMIT
 from cloth_sim_ros.sim.snapshot import FLAG_PINNED
@@ -49,11 +49,11 @@ def pixel_at(image, renderer, point):
 
 def level(facing, is_front=True):
     """Return how bright a surface is and its gloss, by the cosine that faces the camera: 1."""
-    diffuse = (0.5 + 0.5 * light.DIRECTION[2] * facing) ** light.WRAP_POWER
-    halfway = light.DIRECTION + (0.0, 0.0, 1.0)
-    gloss = light.GLOSS * (halfway[2] / np.linalg.norm(halfway)) ** light.GLOSS_POWER
-    return (light.AMBIENT + (1.0 - light.AMBIENT) * diffuse) * (
-        1.0 if is_front else light.BACK), gloss
+    diffuse = (0.5 + 0.5 * look.DIRECTION[2] * facing) ** look.WRAP_POWER
+    halfway = look.DIRECTION + (0.0, 0.0, 1.0)
+    gloss = look.GLOSS * (halfway[2] / np.linalg.norm(halfway)) ** look.GLOSS_POWER
+    return (look.AMBIENT + (1.0 - look.AMBIENT) * diffuse) * (
+        1.0 if is_front else look.BACK), gloss
 
 
 def scale_color(strain):

@@ -4,12 +4,12 @@
 """What a picture says of its sources."""
 
 from cloth_sim_ros.analysis.recording import Recording
-from cloth_sim_ros.rendering.recording_source import RecordingSource
+from cloth_sim_ros.rendering.source import RecordingSource
+from cloth_sim_ros.rendering.source import StateSource
 from cloth_sim_ros.rendering.stage import labels_of
 from cloth_sim_ros.rendering.stage import note_of
 from cloth_sim_ros.rendering.stage import Style
 from cloth_sim_ros.rendering.stage import title_of
-from cloth_sim_ros.rendering.state_source import StateSource
 import numpy as np
 import pytest
 

@@ -6,7 +6,7 @@
 import av
 from cloth_sim_ros.analysis.recording import Recording
 from cloth_sim_ros.rendering.layout import Layout
-from cloth_sim_ros.rendering.recording_source import RecordingSource
+from cloth_sim_ros.rendering.source import RecordingSource
 from cloth_sim_ros.rendering.stage import Style
 from cloth_sim_ros.rendering.video import write_video
 from cloth_sim_ros.sim.errors import ClothSimError

@@ -1,9 +1,12 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-"""Words in an image."""
+"""Words and forces stand where they can be read."""
 
+from cloth_sim_ros.rendering.camera import Camera
+from cloth_sim_ros.rendering.words import write_forces
 from cloth_sim_ros.rendering.words import write_words
+from cloth_sim_ros.sim.push import Push
 import numpy as np
 import pytest
 
@@ -40,3 +43,22 @@ def test_colour_and_weight_are_those_asked_for():
 def test_words_wider_than_the_image_are_no_failure():
     """A picture with small panels and long labels could not be made."""
     assert written('a label that is far too long for this', (60.0, 40.0), 30)[1].any()
+
+
+@pytest.mark.parametrize('force', [
+    (0.0, 0.0, 5.0), (5.0, 0.0, 0.0), (-3.0, 0.0, -4.0), (0.0, -5.0, 0.0)])
+def test_it_stands_beyond_the_tip(force):
+    """The words would cover the arrow, or have no place where it points to the camera."""
+    corners = np.array([[-1.0, -1.0, -1.0], [1.0, 1.0, 1.0]])
+    view = Camera(-90.0, 0.0, 0.0).looking_at(corners, 300, 300)
+    arrow = np.array([(0.0, 0.0, 0.0), np.array(force) / 10.0])
+    image = np.full((300, 300, 3), 255, np.uint8)
+    push = Push.checked(force=force, start=0.0, duration=1.0)
+    write_forces(image, [push], [arrow], view, 14)
+    ink = np.argwhere((image < 200).any(axis=-1))[:, ::-1]
+    tail, tip = view.project(arrow)
+    assert len(ink) > 30
+    assert np.linalg.norm(ink - tip, axis=1).min() > 1.0
+    assert np.linalg.norm(ink.mean(axis=0) - tip) < 45.0
+    if force[0] or force[2]:
+        assert (ink.mean(axis=0) - tip) @ (tip - tail) > 0.0

@@ -9,8 +9,8 @@ from pathlib import Path
 import re
 import subprocess
 
-from cloth_sim_ros.gl.shader_directory import shader_directory
 from cloth_sim_ros.gl.shader_source import ShaderSource
+from cloth_sim_ros.gl.shared_directory import shader_directory
 from cloth_sim_ros.sim.layout import Layout
 from cloth_sim_ros.sim.scene import FAMILIES
 from cloth_sim_ros.sim.scene import Scene

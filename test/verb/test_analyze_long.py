@@ -23,8 +23,8 @@ SECONDS = 600
 REPEATED = 4
 # What a child process takes over from its parent counts as its most memory, too, but not here.
 _START = """
-import sys
 from cloth_sim_ros.verb.main import main
+import sys
 assert main() == 0
 with open('/proc/self/status') as file:
     print(*(line for line in file if line.startswith('VmHWM')))

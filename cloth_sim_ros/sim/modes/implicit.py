@@ -15,11 +15,11 @@ from typing import Any
 from cloth_sim_ros.sim.forcing import Forcing
 from cloth_sim_ros.sim.layout import Layout
 from cloth_sim_ros.sim.loads import Loads
+from cloth_sim_ros.sim.modes.edge_watch import TurnWatch
 from cloth_sim_ros.sim.modes.free_motion import FreeMotion
 from cloth_sim_ros.sim.modes.mode import Pieces
 from cloth_sim_ros.sim.modes.settling import first_limit
 from cloth_sim_ros.sim.modes.settling import Settling
-from cloth_sim_ros.sim.modes.turn_watch import TurnWatch
 from cloth_sim_ros.sim.scene import FAMILIES
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.solver.edge_law import EdgeLaw

@@ -15,7 +15,6 @@ from cloth_sim_ros.sim.solver.edge_law import EdgeLaw
 from cloth_sim_ros.sim.state import State
 import numpy as np
 
-
 # A piece of work that can wait at each yield. What is sent back is True when something else may
 # have used the device meanwhile: then everything is bound anew.
 Pieces = Generator[None, bool | None, None]

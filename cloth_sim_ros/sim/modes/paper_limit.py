@@ -5,19 +5,100 @@
 
 import math
 
+from cloth_sim_ros.gl.buffer import Buffer
+from cloth_sim_ros.gl.buffer import shader_writes_visible
+from cloth_sim_ros.sim import bindings
+from cloth_sim_ros.sim.edge_kinds import EDGE_KINDS
 from cloth_sim_ros.sim.forcing import Forcing
 from cloth_sim_ros.sim.layout import Layout
 from cloth_sim_ros.sim.loads import Loads
 from cloth_sim_ros.sim.modes.mode import Pieces
-from cloth_sim_ros.sim.modes.one_pass import OnePass
-from cloth_sim_ros.sim.modes.paper_sweeps import PaperSweeps
+from cloth_sim_ros.sim.modes.spring_passes import OnePass
+from cloth_sim_ros.sim.pin_forces import spring_tension
 from cloth_sim_ros.sim.scene import Scene
+from cloth_sim_ros.sim.scene_program import SceneProgram
 from cloth_sim_ros.sim.solver.edge_law import EdgeLaw
 from cloth_sim_ros.sim.solver.edge_law import spring_law
-from cloth_sim_ros.sim.spring_tension import spring_tension
 from cloth_sim_ros.sim.stability import stability_limit
 from cloth_sim_ros.sim.state import State
 import numpy as np
+
+_COLOURS = 4
+_TENSION_BYTES = 16
+_LOCAL = (8, 2)
+_DEFINES = {'LOCAL_X': _LOCAL[0], 'LOCAL_Y': _LOCAL[1]}
+# The edge of a cell that starts at its second corner.
+_CROSSING = next(kind.number for kind in EDGE_KINDS if kind.name == 'crossing')
+
+
+class PaperSweeps:
+    """The passes paper_sweep.comp and paper_finish.comp, and the tensions they work on."""
+
+    def __init__(self, scene: Scene, layout: Layout) -> None:
+        """Compile the passes and allocate the tensions."""
+        self._layout = layout
+        self._sweep = SceneProgram('paper_sweep.comp', scene, layout, _DEFINES)
+        self._finish = SceneProgram('paper_finish.comp', scene, layout, _DEFINES)
+        # Cells of a colour lie in every other column and row.
+        self._groups = tuple(
+            -(-nodes // (2 * local)) for nodes, local in zip((layout.cols, layout.rows), _LOCAL))
+        self._node_groups = tuple(
+            -(-nodes // local) for nodes, local in zip((layout.cols, layout.rows), _LOCAL))
+        self.tensions = Buffer(layout.stored * _TENSION_BYTES)
+        self._sweep.use()
+        self._finish.use()
+
+    def run(self, state: State, count: int, length: float, kick: float) -> None:
+        """
+        Sweep ``count`` times over velocities that a pass has written but not made present.
+
+        :param length: of the substep [s]
+        :param kick: what tensions act for in it [s]
+        """
+        self.tensions.bind_storage(bindings.TENSION)
+        if self._layout.texture_loads:
+            self.tensions.bind_texture(bindings.TENSION)
+            state.bind_out_for_reading()
+        sweep = self._sweep.use()
+        sweep.set_float('substep', length)
+        sweep.set_float('kick', kick)
+        for _ in range(count):
+            for colour in range(_COLOURS):
+                sweep.set_int('colour', colour)
+                sweep.dispatch(*self._groups)
+                shader_writes_visible()
+
+    def finish(self, state: State, length: float) -> None:
+        """Move the nodes of the substep of ``length`` [s] that ``run`` was told of."""
+        if self._layout.texture_loads:
+            state.bind_in()
+        finish = self._finish.use()
+        finish.set_float('substep', length)
+        finish.dispatch(*self._node_groups)
+        shader_writes_visible()
+        state.swap()
+
+    def read_tensions(self) -> np.ndarray:
+        """Return what holds each edge [N], (rows, cols, 6) float32 as in Snapshot."""
+        rows, cols = self._layout.rows, self._layout.cols
+        stored = np.empty((self._layout.stored, 4), dtype=np.float32)
+        self.tensions.read_into(stored)
+        cells = self._layout.load(stored)
+        held = np.zeros((rows, cols, len(EDGE_KINDS)), dtype=np.float32)
+        held[..., :_CROSSING] = cells[..., :_CROSSING]
+        held[:, 1:, _CROSSING] = cells[:, :-1, _CROSSING]
+        return held
+
+    def clear(self) -> None:
+        """Make all tensions zero."""
+        self.tensions.write(np.zeros(self.tensions.bytes, dtype=np.uint8))
+
+    def delete(self) -> None:
+        """Give passes and tensions back."""
+        self.tensions.delete()
+        self._sweep.delete()
+        self._finish.delete()
+
 
 # Enough for the linear system of a small cloth; the error falls by some 10 % a sweep.
 _SWEEPS = 60

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-"""What conjugate gradients want of a preconditioner."""
+"""What conjugate gradients want of a preconditioner; block-Jacobi, each node on its own."""
 
 from typing import Protocol
 
@@ -28,3 +28,17 @@ class Preconditioner(Protocol):
 
     def set_law(self, law: EdgeLaw) -> None:
         """Take up what depends on the weights of the edges, besides the weights."""
+
+
+class BlockJacobi:
+    """The inverse of each node's diagonal block. Needs no pass of its own."""
+
+    is_multigrid = False
+
+    def __init__(self, programs: SolverPrograms, levels: Levels) -> None:
+        """Leave it all to the update."""
+        self.assembly: list[SolverPass] = []
+        self.cycle: list[SolverPass] = []
+
+    def set_law(self, law: EdgeLaw) -> None:
+        """Take up nothing."""

@@ -13,17 +13,15 @@ from cloth_sim_ros.sim.forcing import Forcing
 from cloth_sim_ros.sim.layout import Layout
 from cloth_sim_ros.sim.scene import FAMILIES
 from cloth_sim_ros.sim.scene import Scene
-from cloth_sim_ros.sim.solver.block_jacobi import BlockJacobi
 from cloth_sim_ros.sim.solver.edge_law import EdgeLaw
 from cloth_sim_ros.sim.solver.levels import Levels
 from cloth_sim_ros.sim.solver.levels import MOST_LEVELS
 from cloth_sim_ros.sim.solver.limit_search import LimitSearch
 from cloth_sim_ros.sim.solver.multigrid import Multigrid
+from cloth_sim_ros.sim.solver.preconditioner import BlockJacobi
 from cloth_sim_ros.sim.solver.preconditioner import Preconditioner
 from cloth_sim_ros.sim.solver.right_side import RightSide
 from cloth_sim_ros.sim.solver.right_side import Start
-from cloth_sim_ros.sim.solver.solve_report import report_of
-from cloth_sim_ros.sim.solver.solve_report import SolveReport
 from cloth_sim_ros.sim.solver.solver_buffers import BEND_TENSION
 from cloth_sim_ros.sim.solver.solver_buffers import CHANGE
 from cloth_sim_ros.sim.solver.solver_buffers import PRECONDITIONED
@@ -37,6 +35,8 @@ from cloth_sim_ros.sim.solver.solver_pass import SolverPass
 from cloth_sim_ros.sim.solver.solver_programs import POINT_LOCAL
 from cloth_sim_ros.sim.solver.solver_programs import POINTS
 from cloth_sim_ros.sim.solver.solver_programs import SolverPrograms
+from cloth_sim_ros.sim.solver.tally import report_of
+from cloth_sim_ros.sim.solver.tally import SolveReport
 from cloth_sim_ros.sim.solver.tally import Tally
 from cloth_sim_ros.sim.solver.tally import TallyReport
 from cloth_sim_ros.sim.state import State

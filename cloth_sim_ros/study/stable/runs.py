@@ -3,11 +3,14 @@
 
 """The runs of the stability study: points of its maps, and edges found by bisection."""
 
+from collections.abc import Callable
 from collections.abc import Mapping
+from dataclasses import dataclass
 import math
 from typing import Any
 
 from cloth_sim_ros.gl.context import Context
+from cloth_sim_ros.reference.edges import edges_of
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.modes import AVAILABLE
 from cloth_sim_ros.sim.modes.spring_substeps import spring_substeps
@@ -16,17 +19,116 @@ from cloth_sim_ros.sim.stability import any_shape_limit
 from cloth_sim_ros.sim.stability import stability_limit
 from cloth_sim_ros.study.process_context import process_context
 from cloth_sim_ros.study.scene_values import scaled_stiffness
-from cloth_sim_ros.study.stable.edge_bisection import bisect_edge
 from cloth_sim_ros.study.stable.hanging_cloth import hang
+from cloth_sim_ros.study.stable.hanging_cloth import hanging_probe
 from cloth_sim_ros.study.stable.hanging_cloth import hanging_scene
-from cloth_sim_ros.study.stable.hanging_probe import hanging_probe
-from cloth_sim_ros.study.stable.lattice_limit import lattice_limit
 from cloth_sim_ros.study.stable.moving_probe import moving_probe
 from cloth_sim_ros.study.stable.probe_outcome import ProbeOutcome
 from cloth_sim_ros.study.stable.probe_outcome import REFUSED
 from cloth_sim_ros.study.stable.probe_outcome import STABLE
 from cloth_sim_ros.study.stable.rest_probe import rest_probe
 from cloth_sim_ros.study.stable.rest_probe import rest_scene
+import numpy as np
+from scipy import sparse
+from scipy.optimize import brentq
+from scipy.sparse.linalg import eigsh
+
+_FACTOR = 2.0
+_MOST_WIDENINGS = 8
+
+
+@dataclass(frozen=True)
+class Edge:
+    """
+    The longest step seen to be stable and the shortest seen not to be [s].
+
+    :param stable: 0 where none was stable
+    :param unstable: infinite where all were
+    """
+
+    stable: float
+    unstable: float
+
+    @property
+    def middle(self) -> float:
+        """Return the edge, the geometric mean of both [s]; 0 or infinite where there is none."""
+        if self.stable == 0.0 or math.isinf(self.unstable):
+            return self.stable and self.unstable
+        return math.sqrt(self.stable * self.unstable)
+
+
+def bisect_edge(
+        is_stable: Callable[[float], bool], guess: float, *, width: float = 0.005,
+        longest: float = math.inf) -> Edge:
+    """
+    Return the edge of ``is_stable``, a function of the step, which lies near ``guess`` [s].
+
+    :param width: of what is left between both sides, over the edge
+    :param longest: step that is tried [s]
+    """
+    stable, unstable = 0.0, math.inf
+    step = min(guess / math.sqrt(_FACTOR), longest)
+    for _ in range(_MOST_WIDENINGS):
+        if is_stable(step):
+            stable = step
+            if math.isfinite(unstable) or step >= longest:
+                break
+            step = min(step * _FACTOR, longest)
+        else:
+            unstable = step
+            if stable:
+                break
+            step /= _FACTOR
+    while stable and math.isfinite(unstable) and unstable > (1.0 + width) * stable:
+        middle = math.sqrt(stable * unstable)
+        if is_stable(middle):
+            stable = middle
+        else:
+            unstable = middle
+    return Edge(stable, unstable)
+
+
+_DENSE = 64
+_TOLERANCE = 1e-4
+
+
+def lattice_limit(scene: Scene) -> float:
+    """
+    Return the longest stable substep [s] of the flat cloth of ``scene``, nothing held.
+
+    ``stability_limit`` has waves of an endless lattice in a closed form; this has the matrices of
+    the springs themselves, K = J^T k J and C = J^T k_d J. A wave turns unstable by changing its
+    sign in each step, so the limit is the least h at which h^2 K + 2 h C has the eigenvalue 4 m.
+    """
+    closed = stability_limit(scene)
+    if math.isinf(closed):
+        return closed
+    edges = edges_of(scene)
+    flat = scene.rest_positions().reshape(-1, 3)
+    jacobian = edges.jacobian(edges.directions(flat), len(flat))
+    stiff, damped = (
+        jacobian.T @ sparse.diags(weights) @ jacobian
+        for weights in (edges.stiffness, edges.damping))
+
+    def excess(step: float) -> float:
+        return _largest(step**2 * stiff + 2.0 * step * damped) / (4.0 * scene.node_mass) - 1.0
+
+    # Edges and corners take springs away, so it is never below the closed form.
+    longest = closed
+    while excess(longest) < 0.0:
+        longest *= 2.0
+    return closed if longest == closed else float(
+        brentq(excess, 0.5 * longest, longest, rtol=_TOLERANCE))
+
+
+def _largest(matrix: sparse.spmatrix) -> float:
+    if matrix.shape[0] < _DENSE:
+        return float(np.linalg.eigvalsh(matrix.toarray())[-1])
+    # A fixed start: the same scene gives the same figure.
+    start = np.random.default_rng(0).uniform(-1.0, 1.0, matrix.shape[0])
+    return float(eigsh(
+        matrix, k=1, which='LA', tol=_TOLERANCE, v0=start, return_eigenvectors=False)[0])
+
 
 # Of a scene that moves: enough for its first fall, and for what grows to be seen.
 MOVING_SECONDS = 0.5

@@ -13,12 +13,12 @@ from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.study.runs.result import Result
 from cloth_sim_ros.study.trade.errors import errors
 from cloth_sim_ros.study.trade.grid import Grid
+from cloth_sim_ros.study.trade.grid import Setting
 from cloth_sim_ros.study.trade.path import path_of
 from cloth_sim_ros.study.trade.reference import extrapolated
 from cloth_sim_ros.study.trade.reference import finest
 from cloth_sim_ros.study.trade.reference import Reference
 from cloth_sim_ros.study.trade.row import Row
-from cloth_sim_ros.study.trade.setting import Setting
 from cloth_sim_ros.study.trade.variant import Variant
 
 Key = tuple[Variant, str]

@@ -17,8 +17,42 @@ from cloth_sim_ros.gl.shared_directory import shared_directory
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.scene import refuse_unknown
 from cloth_sim_ros.sim.scene_fields import SCENE_FIELDS
-from cloth_sim_ros.study.trade.setting import Setting
 from cloth_sim_ros.study.trade.variant import Variant
+
+_SHORT = {
+    'refine': 'refine {}', 'dt': 'dt {:g} s', 'solver.tolerance': 'tolerance {:g}',
+    'constraint.newton_iterations': 'solves {}'}
+
+
+@dataclass(frozen=True)
+class Setting:
+    """
+    Scene parameters that say how to step, and what they are a way to step.
+
+    :param method: its name in the grid
+    :param model: what finer and finer settings of the method converge to: springs, hard edges or
+        springs with a limit
+    :param fixed: parameters that all settings of the method have
+    :param chosen: parameters that tell this setting from the others
+    """
+
+    method: str
+    model: str
+    fixed: Mapping[str, Any]
+    chosen: Mapping[str, Any]
+
+    @property
+    def values(self) -> dict[str, Any]:
+        """Return all parameters it sets."""
+        return {**self.fixed, **self.chosen}
+
+    @property
+    def label(self) -> str:
+        """Return what tells it from the others, in a few words."""
+        return ', '.join(
+            _SHORT[name].format(value) if name in _SHORT else f'{name} {value}'
+            for name, value in self.chosen.items())
+
 
 MODELS = ('springs', 'hard', 'limited')
 _MOST_SETTINGS = 100_000

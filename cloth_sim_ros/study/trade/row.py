@@ -7,9 +7,8 @@ from dataclasses import dataclass
 
 from cloth_sim_ros.study.runs.result import Result
 from cloth_sim_ros.study.trade.errors import Errors
-from cloth_sim_ros.study.trade.setting import Setting
+from cloth_sim_ros.study.trade.grid import Setting
 from cloth_sim_ros.study.trade.variant import Variant
-
 
 # Of the side: what is off by more shows another motion, and is no choice at any cost.
 WORST_ERROR = 0.1

@@ -10,7 +10,7 @@ import time
 
 from cloth_sim_interfaces.msg import ClothStats
 from cloth_sim_ros.recording.recorder import Recorder
-from cloth_sim_ros.recording.recording_error import RecordingError
+from cloth_sim_ros.recording.recording_faults import RecordingError
 from rclpy.serialization import serialize_message
 from sensor_msgs.msg import PointCloud2
 import yaml

@@ -6,9 +6,9 @@
 from contextlib import closing
 
 from cloth_sim_ros.sim.edge_kinds import EDGE_KINDS
+from cloth_sim_ros.sim.pin_forces import spring_tension
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.simulation import Simulation
-from cloth_sim_ros.sim.spring_tension import spring_tension
 import numpy as np
 import pytest
 

@@ -21,9 +21,9 @@ LIMITED = {
     **SCENE, 'rows': 17, 'cols': 13, 'start.jitter': 0.002, 'adaptive.threshold': 0.01}
 
 IN_A_PROCESS = """
-import json, sys
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.simulation import Simulation
+import json, sys
 simulation = Simulation(Scene(json.loads(sys.argv[1])))
 for seconds, mode in json.loads(sys.argv[2]):
     simulation.set_mode(mode)

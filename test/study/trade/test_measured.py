@@ -10,7 +10,7 @@ from cloth_sim_ros.study.runs.results_folder import LINES
 from cloth_sim_ros.study.trade.budget import ErrorBudget
 from cloth_sim_ros.study.trade.budget import SpeedBudget
 from cloth_sim_ros.study.trade.page import page
-from cloth_sim_ros.study.trade.table import write_table
+from cloth_sim_ros.study.trade.page import write_table
 from cloth_sim_ros.study.trade.variant import Variant
 from made_study import small_study
 import numpy as np

@@ -1,0 +1,127 @@
+# SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
+# SPDX-License-Identifier: Apache-2.0
+
+"""Watch for edges near their limit, and for edges that turn too far in a substep."""
+
+import math
+
+from cloth_sim_ros.sim.edge_kinds import edge_defines
+from cloth_sim_ros.sim.forcing import Forcing
+from cloth_sim_ros.sim.layout import Layout
+from cloth_sim_ros.sim.loads import Loads
+from cloth_sim_ros.sim.scene import Scene
+from cloth_sim_ros.sim.scene_program import SceneProgram
+from cloth_sim_ros.sim.state import State
+from cloth_sim_ros.sim.strips import Strips
+
+# Of the limit: a predicted strain above this makes an edge near it.
+_NEAR = 0.9
+_FEWEST, _MOST = 4, 64
+
+
+class StrainWatch:
+    """
+    Says for how many substeps no edge will come near its limit.
+
+    A look predicts every edge's length from velocities and applied accelerations. It holds for as
+    long as no edge passes 0.9 of the limit by that, also beyond the end of a step, while neither
+    the state is changed from outside nor a push acts. The next look is up to twice as far.
+    """
+
+    def __init__(self, scene: Scene, layout: Layout) -> None:
+        """Compile the pass and allocate its result."""
+        self._strips = Strips(layout, 2)
+        self._program = SceneProgram('strain_watch.comp', scene, layout, Strips.defines())
+        self._program.use()
+        self._near = _NEAR * scene['adaptive.threshold']
+        self.forget()
+
+    def forget(self) -> None:
+        """Start anew: the next answer needs a look."""
+        self._reach = _FEWEST
+        self._left = 0
+        self._until = 0.0
+        self._edits = -1
+
+    def calm_substeps(
+            self, state: State, now: float, length: float, loads: Loads) -> int:
+        """Return how many substeps of ``length`` [s] can do without limits; 0 if none."""
+        if self._left == 0 or not self._holds(state, now, loads):
+            self._look_ahead(state, now, length, loads)
+        return self._left
+
+    def spend(self, substeps: int) -> None:
+        """Tell that ``substeps`` of the calm ones were made."""
+        self._left -= substeps
+
+    def strains(self, state: State, forcing: Forcing, ahead: float) -> tuple[float, float]:
+        """Return the largest strain now and the one predicted ``ahead`` [s] from now."""
+        program = self._program.use_for_step(forcing, ahead)
+        state.bind_in()
+        self._strips.dispatch(program)
+        now, then = self._strips.largest()
+        return float(now), float(then)
+
+    def delete(self) -> None:
+        """Give pass and result back."""
+        self._strips.delete()
+        self._program.delete()
+
+    def _holds(self, state: State, now: float, loads: Loads) -> bool:
+        return state.edits == self._edits and loads.quiet_until(now) >= self._until
+
+    def _look_ahead(
+            self, state: State, now: float, length: float, loads: Loads) -> None:
+        # A push takes the nodes of the time it begins, so no look goes beyond that; and while one
+        # acts each look is for the next substep alone.
+        quiet = int(min(self._reach, (loads.quiet_until(now) - now) / length))
+        reach = max(1, quiet)
+        forcing = loads.foreseen(state, now, now + length, is_quiet=quiet > 0)
+        self._until = now + reach * length
+        self._edits = state.edits
+        present, ahead = self.strains(state, forcing, reach * length)
+        self._left = reach
+        if not max(present, ahead) < self._near:
+            # An edge's length is a convex function of time: until then it is below the chord.
+            share = (self._near - present) / (ahead - present) if present < self._near else 0.0
+            self._left = int(share * reach) if math.isfinite(share) else 0
+            self._until = now + self._left * length
+        self._reach = min(max(2 * self._left, _FEWEST), _MOST)
+
+
+# Of the length, lost by an edge that turns in one substep: (omega h)^2 / 2.
+_TURN = 0.0025
+
+
+class TurnWatch:
+    """
+    Measures how fast edges turn and how far they stretch (docs/explanation/implicit_step.md).
+
+    :param families: of the edges that are looked at
+    """
+
+    def __init__(self, scene: Scene, layout: Layout, families: tuple[str, ...]) -> None:
+        """Allocate room for the result; nothing is compiled yet."""
+        self._strips = Strips(layout, 2)
+        self._program = SceneProgram('turn_watch.comp', scene, layout, {
+            **Strips.defines(),
+            **edge_defines(families)})
+
+    def look(self, state: State, forcing: Forcing, dt: float) -> tuple[float, float]:
+        """
+        Return the longest substep [s] in which no edge turns too far, and the largest strain.
+
+        The strain is abs(l / L0 - 1), of structural and shear edges.
+
+        :param forcing: that acts for ``dt`` [s] from now
+        """
+        program = self._program.use_for_step(forcing, dt)
+        state.bind_in()
+        self._strips.dispatch(program)
+        turns, strain = (float(largest) for largest in self._strips.largest())
+        return math.sqrt(2.0 * _TURN / turns) if turns > 0.0 else math.inf, strain
+
+    def delete(self) -> None:
+        """Give pass and room back."""
+        self._strips.delete()
+        self._program.delete()
