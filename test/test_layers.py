@@ -29,8 +29,7 @@ ROOMS = {
     'api': {'node', 'resimulation', 'analysis', 'recording', 'messages', 'sim'},
     'verb': {
         'view', 'view/ros', 'api', 'node', 'study', 'resimulation', 'rendering', 'analysis',
-        'recording',
-        'messages', 'reference', 'sim', 'gl', 'playback', 'files'},
+        'recording', 'messages', 'reference', 'sim', 'gl', 'playback', 'files'},
 }
 
 # These rooms must run where there is no ROS; they may import no more than this beside Python.

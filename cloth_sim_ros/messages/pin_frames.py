@@ -3,9 +3,9 @@
 
 """Where each pin is: a frame of tf2 at its node, in the bytes that go out."""
 
-import re
 import struct
 
+from cloth_sim_ros.messages.pin_names import pin_frame
 from cloth_sim_ros.messages.stamp import stamp
 from cloth_sim_ros.sim.snapshot import FLAG_PINNED
 from cloth_sim_ros.sim.snapshot import Snapshot
@@ -16,20 +16,6 @@ import numpy as np
 from rclpy.serialization import serialize_message
 from std_msgs.msg import Header
 from tf2_msgs.msg import TFMessage
-
-_PIN = re.compile(r'_pin_(\d{1,9})_(\d{1,9})$')
-
-
-def pin_frame(node_name: str, row: int, col: int) -> str:
-    """Return the name of a pin's frame; names of frames have no slashes, unlike those of nodes."""
-    return f'{node_name.strip("/").replace("/", "_")}_pin_{row}_{col}'
-
-
-def node_of_pin(frame: str) -> tuple[int, int] | None:
-    """Return row and col of the pin that ``frame`` is named after; None when it is of no pin."""
-    found = _PIN.search(frame)
-    return (int(found[1]), int(found[2])) if found else None
-
 
 _STAMP = struct.Struct('<iI')
 _FIRST_STAMP_AT = 8  # behind the encapsulation and the length of the list

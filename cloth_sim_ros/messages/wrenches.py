@@ -5,7 +5,7 @@
 
 import struct
 
-from cloth_sim_ros.messages.pin_frames import pin_frame
+from cloth_sim_ros.messages.pin_names import pin_frame
 from cloth_sim_ros.messages.stamp import stamp
 from cloth_sim_ros.sim.snapshot import Snapshot
 from geometry_msgs.msg import Vector3

@@ -6,32 +6,8 @@
 from typing import Any
 
 from cloth_sim_ros.files.checked_yaml import parse_yaml
-from cloth_sim_ros.messages.topics import Topic
 from rosbags.interfaces import Qos
 from rosbags.rosbag2.metadata import parse_qos
-
-_FOR_EVER = (9223372036, 854775807)  # RMW_DURATION_INFINITE
-
-
-def offered_qos(topic: Topic) -> list[dict[str, Any]]:
-    """Return the profile of the one publisher of ``topic``."""
-    return [{
-        'history': 'keep_last',
-        'depth': topic.depth,
-        'reliability': 'reliable' if topic.reliable else 'best_effort',
-        'durability': 'transient_local' if topic.transient_local else 'volatile',
-        'deadline': _for_ever(),
-        'lifespan': _for_ever(),
-        'liveliness': 'automatic',
-        'liveliness_lease_duration': _for_ever(),
-        'avoid_ros_namespace_conventions': False,
-    }]
-
-
-def _for_ever() -> dict[str, int]:
-    # A new one each time: YAML would write references to a shared one.
-    return {'sec': _FOR_EVER[0], 'nsec': _FOR_EVER[1]}
-
 
 _MOST_DEPTH = 1_000_000
 _MOST_PROFILES = 1000

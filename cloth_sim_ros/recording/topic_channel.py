@@ -8,7 +8,7 @@ from cloth_sim_ros.recording.bag_metadata import yaml_text
 from cloth_sim_ros.recording.bag_topic import BagChannel
 from cloth_sim_ros.recording.message_definition import message_definition
 from cloth_sim_ros.recording.message_definition import type_hash
-from cloth_sim_ros.recording.recorded_qos import offered_qos
+from cloth_sim_ros.recording.offered_qos import offered_qos
 
 
 def topic_channel(topic: Topic, node_name: str) -> BagChannel:

@@ -6,7 +6,7 @@
 from cloth_sim_ros.messages.topics import TOPICS
 from cloth_sim_ros.recording.bag_metadata import BagMetadata
 from cloth_sim_ros.recording.message_definition import type_hash
-from cloth_sim_ros.recording.recorded_qos import offered_qos
+from cloth_sim_ros.recording.offered_qos import offered_qos
 from cloth_sim_ros.recording.topic_channel import topic_channel
 import pytest
 import yaml

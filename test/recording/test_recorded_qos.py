@@ -6,7 +6,7 @@
 from cloth_sim_ros.messages.topics import Topic
 from cloth_sim_ros.messages.topics import TOPICS
 from cloth_sim_ros.recording.bag_metadata import yaml_text
-from cloth_sim_ros.recording.recorded_qos import offered_qos
+from cloth_sim_ros.recording.offered_qos import offered_qos
 import pytest
 import rclpy
 from rclpy.context import Context

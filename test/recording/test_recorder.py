@@ -13,7 +13,7 @@ from cloth_sim_ros.messages.surface import serialise_topology
 from cloth_sim_ros.messages.topics import TOPICS
 from cloth_sim_ros.recording.message_definition import message_definition
 from cloth_sim_ros.recording.message_definition import type_hash
-from cloth_sim_ros.recording.recorded_qos import offered_qos
+from cloth_sim_ros.recording.offered_qos import offered_qos
 from cloth_sim_ros.recording.recorder import Recorder
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.push import Push as SimPush
