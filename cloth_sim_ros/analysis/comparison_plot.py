@@ -23,6 +23,10 @@ _CURVE_PANELS = (
     ('mean_height', 'mean height [m]', 1.0),
     ('total_energy', 'total energy [J]', 1.0),
     (LARGEST, 'largest force of a pin [N]', 1.0))
+_DISTANCE_PANELS = (
+    ('rms_distance', 'RMS node distance [m]', 1.0),
+    ('strain_difference', 'difference of max strain [%]', 100.0),
+    ('energy_difference', 'difference of total energy [J]', 1.0))
 
 
 def overlay_plot(runs: Sequence[Run], names: Sequence[str]) -> Figure:
@@ -46,12 +50,6 @@ def overlay_plot(runs: Sequence[Run], names: Sequence[str]) -> Figure:
     all_axes[-1].set_xlabel('simulated time [s]', color=INK)
     figure.suptitle(', '.join(names), fontsize=11, color=INK)
     return figure
-
-
-_DISTANCE_PANELS = (
-    ('rms_distance', 'RMS node distance [m]', 1.0),
-    ('strain_difference', 'difference of max strain [%]', 100.0),
-    ('energy_difference', 'difference of total energy [J]', 1.0))
 
 
 def comparison_plot(comparisons: Sequence[Comparison]) -> Figure:

@@ -20,6 +20,25 @@ from cloth_sim_ros.recording.recording_faults import nothing_flushed
 from cloth_sim_ros.sim.errors import ClothSimError
 import numpy as np
 
+_OWN = 'cloth_sim_interfaces/msg/'
+
+# The type of each topic behind the node's name: a recording is read without the interfaces.
+TYPES = {
+    'points': 'sensor_msgs/msg/PointCloud2',
+    'markers': 'visualization_msgs/msg/MarkerArray',
+    'topology': 'shape_msgs/msg/Mesh',
+    'stats': f'{_OWN}ClothStats',
+    'pins/wrenches': 'geometry_msgs/msg/WrenchStamped',
+    'state': f'{_OWN}ClothState',
+    'inputs/push': f'{_OWN}Push',
+    'inputs/pin': f'{_OWN}PinChange',
+    'inputs/pin_target': f'{_OWN}PinTarget',
+    'inputs/wind': 'geometry_msgs/msg/Vector3Stamped',
+    'inputs/mode': f'{_OWN}ModeChange',
+    'inputs/command': f'{_OWN}Command',
+    'inputs/parameters': 'rcl_interfaces/msg/ParameterEvent',
+}
+
 
 class SteadyTime:
     """
@@ -54,26 +73,6 @@ class SteadyTime:
         self.now = stamped + self._offsets[span]
         self._latest = max(self._latest, self.now)
         return self.now
-
-
-_OWN = 'cloth_sim_interfaces/msg/'
-
-# The type of each topic behind the node's name: a recording is read without the interfaces.
-TYPES = {
-    'points': 'sensor_msgs/msg/PointCloud2',
-    'markers': 'visualization_msgs/msg/MarkerArray',
-    'topology': 'shape_msgs/msg/Mesh',
-    'stats': f'{_OWN}ClothStats',
-    'pins/wrenches': 'geometry_msgs/msg/WrenchStamped',
-    'state': f'{_OWN}ClothState',
-    'inputs/push': f'{_OWN}Push',
-    'inputs/pin': f'{_OWN}PinChange',
-    'inputs/pin_target': f'{_OWN}PinTarget',
-    'inputs/wind': 'geometry_msgs/msg/Vector3Stamped',
-    'inputs/mode': f'{_OWN}ModeChange',
-    'inputs/command': f'{_OWN}Command',
-    'inputs/parameters': 'rcl_interfaces/msg/ParameterEvent',
-}
 
 
 def find_node(topics: Iterable[BagTopic], path: Path) -> str:

@@ -9,6 +9,10 @@ from dataclasses import dataclass
 from cloth_sim_ros.analysis.run import Run
 import numpy as np
 
+_HEAD = (
+    'run', 'dt [s]', 'substeps a dt', 'largest strain', 'beyond its limit',
+    'peak kinetic energy [J]', 'end', 'wall time [s]')
+
 
 @dataclass(frozen=True)
 class RunOutcome:
@@ -51,11 +55,6 @@ class RunOutcome:
             stability_margin=float(columns['stability_margin'].max()),
             wall_seconds=float(np.sum(steps * columns['step_wall_time'][1:])),
             device=run.device, stopped=run.stopped)
-
-
-_HEAD = (
-    'run', 'dt [s]', 'substeps a dt', 'largest strain', 'beyond its limit',
-    'peak kinetic energy [J]', 'end', 'wall time [s]')
 
 
 def outcome_table(rows: Iterable[tuple[str, RunOutcome, float | None]]) -> str:

@@ -13,6 +13,7 @@ from cloth_sim_ros.analysis.run import Run
 import numpy as np
 
 _TOO_LONG = 1.5  # over the usual time from frame to frame
+_MOST_SHOWN = 4
 
 
 def find_gaps(times: np.ndarray, resets: np.ndarray) -> list[tuple[float, float]]:
@@ -178,9 +179,6 @@ class _Figures:
     def median_above_0(self, name: str, otherwise: float) -> float:
         values = self._values(name)
         return float(np.median(values[values > 0.0])) if (values > 0.0).any() else otherwise
-
-
-_MOST_SHOWN = 4
 
 
 def summary_lines(summary: Summary) -> dict[str, str]:

@@ -10,6 +10,14 @@ from diagnostic_msgs.msg import DiagnosticStatus
 from diagnostic_msgs.msg import KeyValue
 from std_msgs.msg import Header
 
+SLOW = 0.9          # share of the wanted real-time factor below which a run is slow
+SAFE_MARGIN = 0.85  # what auto_substeps keeps
+LOOSE_RESIDUAL = 1e-2
+
+OK = DiagnosticStatus.OK
+WARN = DiagnosticStatus.WARN
+ERROR = DiagnosticStatus.ERROR
+
 
 def slow_pace(achieved: float, wanted: float, *, substeps: int, automatic: bool) -> str:
     """
@@ -24,15 +32,6 @@ def slow_pace(achieved: float, wanted: float, *, substeps: int, automatic: bool)
     return (
         f'{achieved:.3g} x real time, below the target {wanted:.3g}: use fewer nodes, {faster}, '
         'another mode or a lower real_time_factor')
-
-
-SLOW = 0.9          # share of the wanted real-time factor below which a run is slow
-SAFE_MARGIN = 0.85  # what auto_substeps keeps
-LOOSE_RESIDUAL = 1e-2
-
-OK = DiagnosticStatus.OK
-WARN = DiagnosticStatus.WARN
-ERROR = DiagnosticStatus.ERROR
 
 
 def diagnostics_message(

@@ -21,6 +21,9 @@ from visualization_msgs.msg import Marker
 _NO_TURN = (0.0, 0.0, 0.0, 1.0)
 _NO_POINTS = np.empty((0, 3))
 _NO_COLORS = np.empty((0, 4), '<f4')
+PIN_COLOR = (0.9, 0.1, 0.1, 1.0)
+LIMIT_COLOR = (1.0, 0.45, 0.0, 1.0)
+PUSH_COLOR = (0.1, 0.4, 1.0, 1.0)
 
 
 def put_marker(
@@ -84,11 +87,6 @@ def push_arrows(
         tail = nodes.mean(axis=0, dtype=float) if push.region == 'all' else np.array(push.center)
         arrows.append(np.stack([tail, tail + force * (length / largest)]))
     return arrows
-
-
-PIN_COLOR = (0.9, 0.1, 0.1, 1.0)
-LIMIT_COLOR = (1.0, 0.45, 0.0, 1.0)
-PUSH_COLOR = (0.1, 0.4, 1.0, 1.0)
 
 
 class MarkersMessage:

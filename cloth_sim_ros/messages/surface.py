@@ -7,6 +7,18 @@ from cloth_sim_ros.messages.cdr_writer import CdrWriter
 from cloth_sim_ros.sim.scene import Scene
 import numpy as np
 
+FULL_STRAIN = 0.1  # drawn, like all above it, in the last colour
+
+# The viridis map of matplotlib at eleven places, 0 to 1.
+_VIRIDIS = (
+    '440154', '482475', '414487', '355f8d', '2a788e', '21918c',
+    '22a884', '44bf70', '7ad151', 'bddf26', 'fde725')
+_STEPS = 256
+# Nodes drawn along each side at most: more make a message that no viewer needs.
+MOST_DRAWN = 256
+# A point of three float64 and a colour of four float32.
+_BYTES_A_CORNER = 3 * 8 + 4 * 4
+
 
 def serialise_topology(scene: Scene) -> bytes:
     """Return the CDR bytes of the shape_msgs/Mesh of ``scene`` at rest."""
@@ -31,15 +43,6 @@ def triangles(rows: int, cols: int) -> np.ndarray:
     return np.stack(corners, axis=-1).reshape(-1, 3)
 
 
-FULL_STRAIN = 0.1  # drawn, like all above it, in the last colour
-
-# The viridis map of matplotlib at eleven places, 0 to 1.
-_VIRIDIS = (
-    '440154', '482475', '414487', '355f8d', '2a788e', '21918c',
-    '22a884', '44bf70', '7ad151', 'bddf26', 'fde725')
-_STEPS = 256
-
-
 def _palette() -> np.ndarray:
     anchors = np.array([list(bytes.fromhex(color)) for color in _VIRIDIS]) / 255.0
     places = np.linspace(0.0, 1.0, _STEPS)
@@ -60,12 +63,6 @@ def strain_colors(strain: np.ndarray) -> np.ndarray:
     """
     steps = np.fmin(strain * ((_STEPS - 1) / FULL_STRAIN), _STEPS - 1)
     return _PALETTE[steps.astype(np.intp)]
-
-
-# Nodes drawn along each side at most: more make a message that no viewer needs.
-MOST_DRAWN = 256
-# A point of three float64 and a colour of four float32.
-_BYTES_A_CORNER = 3 * 8 + 4 * 4
 
 
 def surface_bytes(rows: int, cols: int) -> int:

@@ -9,6 +9,9 @@ import time
 from cloth_sim_ros.files.echo import shown
 from cloth_sim_ros.sim.errors import ClothSimError
 
+_MOST_KINDS = 100
+QUIET = 1.0  # [s] of wall time between two warnings of one topic
+
 
 def check_frame(given: str, own: str) -> None:
     """Raise ClothSimError unless the frame ``given`` is the cloth's ``own``, or empty."""
@@ -16,9 +19,6 @@ def check_frame(given: str, own: str) -> None:
         raise ClothSimError(
             f'its frame is {shown(given)} but the frame of the cloth is {shown(own)}: transform '
             'it to the latter, or choose that as the fixed frame')
-
-
-_MOST_KINDS = 100
 
 
 class LogThrottle:
@@ -51,9 +51,6 @@ class LogThrottle:
             self._logged.clear()
         self._logged[kind] = now, 0
         return missed
-
-
-QUIET = 1.0  # [s] of wall time between two warnings of one topic
 
 
 class IgnoredMessages:

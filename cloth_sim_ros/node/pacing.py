@@ -14,6 +14,10 @@ from cloth_sim_ros.sim.simulation import Simulation
 # otherwise run ever longer without a pause.
 _CATCH_UP = 0.2
 _WINDOW = 1.0
+# [s] of wall time: between two warnings at least, and how long a run has to keep up before that
+# is said.
+QUIET = 60.0
+STEADY = 5.0
 
 
 class Pacing:
@@ -67,12 +71,6 @@ class Pacing:
     def too_slow(self) -> bool:
         """Tell whether a whole window fell short of the factor asked for by over 5 percent."""
         return self.has_window and self.achieved < 0.95 * self.factor
-
-
-# [s] of wall time: between two warnings at least, and how long a run has to keep up before that
-# is said.
-QUIET = 60.0
-STEADY = 5.0
 
 
 class PaceReport:

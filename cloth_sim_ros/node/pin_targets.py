@@ -17,6 +17,9 @@ from cloth_sim_ros.sim.pin_path import PinPath
 from cloth_sim_ros.sim.simulation import Simulation
 from rclpy.node import Node
 
+# A controller at 1 kHz fills it in the time of a few frames.
+_DEPTH = 100
+
 
 class PinService:
     """Serve ~/set_pin."""
@@ -43,10 +46,6 @@ class PinService:
         self._inputs.pin(row, col, not request.release)
         place = f', {response.distance:.3f} m from the point' if request.use_point else ''
         return f'node ({row}, {col}) is {"free" if request.release else "pinned"}{place}'
-
-
-# A controller at 1 kHz fills it in the time of a few frames.
-_DEPTH = 100
 
 
 class PinTargets:

@@ -28,6 +28,7 @@ from rosbags.interfaces import MessageDefinition
 from rosidl_generator_py.import_type_support_impl import UnsupportedTypeSupport
 
 _TYPE_NAME = re.compile(r'([a-z][a-z0-9_]*)/msg/([A-Z][A-Za-z0-9]*)')
+_PARAMETERS = TOPICS['inputs/parameters']
 
 
 def message_class(type_name: str, definition: MessageDefinition) -> type:
@@ -94,9 +95,6 @@ def warning_of(others: dict[str, list[str]]) -> str:
 
 def _full_name(namespace: str, name: str) -> str:
     return f'{namespace.rstrip("/")}/{name}'
-
-
-_PARAMETERS = TOPICS['inputs/parameters']
 
 
 def wanted_topics(topics: Iterable[BagTopic], options: PlayOptions) -> list[BagTopic]:

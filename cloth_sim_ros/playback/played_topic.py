@@ -21,6 +21,10 @@ from rosbags.interfaces import QosReliability
 # Of the 4 bytes before a serialised message the second says how its numbers are laid out.
 _ENCAPSULATION = 4
 _STAMP = 8
+_DEPTH = 10
+# A reader on a busy machine is away for tenths of a second; a hung one costs this once.
+PATIENCE = 1.0
+_SLICE = 0.01
 
 
 def has_header(message_class: type) -> bool:
@@ -36,9 +40,6 @@ def header_stamp(data: bytes) -> Time:
     return Time(
         sec=int.from_bytes(parts[:4], order, signed=True),
         nanosec=int.from_bytes(parts[4:], order))
-
-
-_DEPTH = 10
 
 
 def played_quality(name: str, type_name: str, offered: Iterable[Qos]) -> QoSProfile:
@@ -67,11 +68,6 @@ def _usual_depth(name: str, type_name: str) -> int:
     return next(
         (topic.depth for key, topic in TOPICS.items()
          if topic.type_name == type_name and name.endswith(f'/{key}')), _DEPTH)
-
-
-# A reader on a busy machine is away for tenths of a second; a hung one costs this once.
-PATIENCE = 1.0
-_SLICE = 0.01
 
 
 class PlayedTopic:

@@ -21,6 +21,8 @@ from rclpy.serialization import serialize_message
 from rosgraph_msgs.msg import Clock
 from std_srvs.srv import SetBool
 
+NODE_NAME = 'cloth_sim_player'
+
 
 class SimulatedClock:
     """
@@ -47,9 +49,6 @@ class SimulatedClock:
         if stamp != self._latest:
             self._latest = stamp
             self.topic.publish(serialize_message(Clock(clock=stamp)))
-
-
-NODE_NAME = 'cloth_sim_player'
 
 
 class PlayerNode:

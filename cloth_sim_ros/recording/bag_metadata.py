@@ -16,15 +16,15 @@ import yaml
 
 # Ten times as fast, where PyYAML was built with libyaml.
 _DUMPER = getattr(yaml, 'CSafeDumper', yaml.SafeDumper)
+METADATA_NAME = 'metadata.yaml'
+FRESH_METADATA_NAME = f'{METADATA_NAME}.new'  # while it is being written
+VERSION = 9
+_NO_TIME_YET = 2**63 - 1
 
 
 def yaml_text(content: Any) -> str:
     """Return ``content`` as block YAML, its keys in the order given."""
     return yaml.dump(content, Dumper=_DUMPER, sort_keys=False, default_flow_style=False).strip()
-
-
-METADATA_NAME = 'metadata.yaml'
-FRESH_METADATA_NAME = f'{METADATA_NAME}.new'  # while it is being written
 
 
 def folder_metadata(folder: Path) -> Mapping[str, Any]:
@@ -40,10 +40,6 @@ def folder_metadata(folder: Path) -> Mapping[str, Any]:
     information = content.get('rosbag2_bagfile_information') if isinstance(
         content, Mapping) else None
     return information if isinstance(information, Mapping) else {}
-
-
-VERSION = 9
-_NO_TIME_YET = 2**63 - 1
 
 
 @dataclass

@@ -29,6 +29,8 @@ from cloth_sim_ros.recording.storage_files import missing_files
 from cloth_sim_ros.recording.storage_files import storage_files
 from cloth_sim_ros.sim.errors import ClothSimError
 
+Storage = IndexedMcap | SqliteBag | BrokenMcap
+
 
 class BagReader:
     """
@@ -142,9 +144,6 @@ class BagReader:
         return ClothSimError(
             f'{cut(self.path)} cannot be read ({cut(error) or type(error).__name__}): decompress '
             'it, or record it again')
-
-
-Storage = IndexedMcap | SqliteBag | BrokenMcap
 
 
 def _storage(file: Path) -> Storage:

@@ -36,6 +36,7 @@ _READ = {
     Opcode.CHANNEL: Channel.read, Opcode.CHUNK: Chunk.read, Opcode.CHUNK_INDEX: ChunkIndex.read,
     Opcode.FOOTER: Footer.read, Opcode.MESSAGE_INDEX: MessageIndex.read,
     Opcode.SCHEMA: Schema.read, Opcode.STATISTICS: Statistics.read}
+_FORMATS = {'ros2msg': MessageDefinitionFormat.MSG, 'ros2idl': MessageDefinitionFormat.IDL}
 
 
 def read_records(stream: BinaryIO, end: int) -> Iterator[McapRecord]:
@@ -92,9 +93,6 @@ def read_record(opcode: int, payload: bytes) -> McapRecord:
     return Message(
         channel_id=channel, log_time=logged, data=payload[MESSAGE_HEAD.size:],
         publish_time=published, sequence=sequence)
-
-
-_FORMATS = {'ros2msg': MessageDefinitionFormat.MSG, 'ros2idl': MessageDefinitionFormat.IDL}
 
 
 class McapChannels:

@@ -20,6 +20,16 @@ _PRIMITIVES = {
     'bool', 'byte', 'char', 'float32', 'float64', 'int8', 'uint8', 'int16', 'uint16', 'int32',
     'uint32', 'int64', 'uint64', 'string', 'wstring'}
 _FIELD_TYPE = re.compile(r'^\s*([a-zA-Z0-9_/]+)', re.MULTILINE)
+MOST_CHARACTERS = 200_000
+# Code is written for each element of an array of fixed length, but of numbers.
+MOST_ELEMENTS = 2000
+MOST_MODULES = 8
+
+_IDL_RULE = '=' * 80 + '\n'
+_IDL_PROSE = re.compile(r'"(?:\\.|[^"\\])*"|//[^\n]*|/\*.*?\*/', re.DOTALL)
+_IDL_ANNOTATION = re.compile(r'@[\w:]+\s*\([^()]*\)')
+# The parser tries each of these in many ways, in one another in all combinations.
+_IDL_NESTED = re.compile(r'[()|^&]|<<|>>|<[^<>]*<[^<>]*<')
 
 
 @cache
@@ -54,18 +64,6 @@ def _text_with_parts(package: str, name: str, seen: set[str]) -> str:
             seen.add(part)
             result += f'\n{"=" * 80}\nMSG: {part}\n' + _text_with_parts(*_split(part), seen)
     return result
-
-
-MOST_CHARACTERS = 200_000
-# Code is written for each element of an array of fixed length, but of numbers.
-MOST_ELEMENTS = 2000
-MOST_MODULES = 8
-
-_IDL_RULE = '=' * 80 + '\n'
-_IDL_PROSE = re.compile(r'"(?:\\.|[^"\\])*"|//[^\n]*|/\*.*?\*/', re.DOTALL)
-_IDL_ANNOTATION = re.compile(r'@[\w:]+\s*\([^()]*\)')
-# The parser tries each of these in many ways, in one another in all combinations.
-_IDL_NESTED = re.compile(r'[()|^&]|<<|>>|<[^<>]*<[^<>]*<')
 
 
 def parse_definition(definition: MessageDefinition, name: str) -> Typesdict:

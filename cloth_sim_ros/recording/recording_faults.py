@@ -9,6 +9,10 @@ from pathlib import Path
 from cloth_sim_ros.recording.watched_file import FileChangedError
 from cloth_sim_ros.sim.errors import ClothSimError
 
+_NO_ROOM = {errno.ENOSPC, errno.EDQUOT, errno.EFBIG}
+_TOO_MANY_FILES = {errno.EMFILE, errno.ENFILE}
+_USED_UP = {errno.ENOMEM, errno.EAGAIN}
+
 
 class RecordingError(ClothSimError):
     """A recording that could not continue; what was flushed before stays readable."""
@@ -27,11 +31,6 @@ def nothing_flushed(path: Path, finding: str) -> ClothSimError:
     return ClothSimError(
         f'{path} {finding}, as it was truncated before the first flush, within a second of its '
         'start: give another recording, or read it later if it is being recorded')
-
-
-_NO_ROOM = {errno.ENOSPC, errno.EDQUOT, errno.EFBIG}
-_TOO_MANY_FILES = {errno.EMFILE, errno.ENFILE}
-_USED_UP = {errno.ENOMEM, errno.EAGAIN}
 
 
 def refusal(folder: Path, error: Exception, setting: str) -> ClothSimError:

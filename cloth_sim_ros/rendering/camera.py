@@ -11,6 +11,12 @@ from cloth_sim_ros.sim.errors import ClothSimError
 import numpy as np
 
 _NEAREST = 0.02  # of the distance: nothing is drawn nearer to the camera
+_MARGIN = 1.06        # size of the picture over that of what must be in it
+_WIDEST = 150.0       # [deg]
+_LEAST_VIEW = 1e-3    # half the height of a picture of one point, over the size of the scene
+_CLEAR = 1.1          # distance of the camera over that of what is nearest to it
+_SMALLEST = 1e-6      # a scene of one point still has a size [m]
+_DEEP = 4.0           # what is drawn around the scene, over its size
 
 
 @dataclass(frozen=True)
@@ -67,14 +73,6 @@ class View:
         scale = 1.0 / (self.pixel * (1.0 - near / self.distance))
         return np.stack(
             [self.width / 2.0 + scale * across, self.height / 2.0 - scale * up], axis=-1)
-
-
-_MARGIN = 1.06        # size of the picture over that of what must be in it
-_WIDEST = 150.0       # [deg]
-_LEAST_VIEW = 1e-3    # half the height of a picture of one point, over the size of the scene
-_CLEAR = 1.1          # distance of the camera over that of what is nearest to it
-_SMALLEST = 1e-6      # a scene of one point still has a size [m]
-_DEEP = 4.0           # what is drawn around the scene, over its size
 
 
 @dataclass(frozen=True)

@@ -24,6 +24,23 @@ from cloth_sim_ros.rendering.strain_scale import StrainScale
 from cloth_sim_ros.sim.snapshot import FLAG_AT_LIMIT
 import numpy as np
 
+_NODES_UNIT = 0             # render/nodes.glsl
+_WORDS = 8            # x y z strain, normal and flags
+UNKNOWN_STRAIN = -1.0
+_PALETTE_UNIT = 1             # render/strain_color.glsl
+
+PALETTE_DEFINES = {'PALETTE_SIZE': PALETTE_SIZE}
+_HEM_WIDTH = 0.9      # [pixel of the picture]
+_SHADOW_SIDE = 160    # most nodes of the shadow along a side
+
+CLOTH_DEFINES = {
+    **LIGHT_DEFINES, **PALETTE_DEFINES, 'HEM_SHADE': HEM_SHADE}
+LIMIT_DEFINES = {
+    **CLOTH_DEFINES, 'HAS_LIMITS': 1, 'FLAG_AT_LIMIT': FLAG_AT_LIMIT,
+    # Radius of a dot on a node at its limit, over the shorter side of a cell, with its rim and
+    # without; the grey of the rim; the tint that dots make where they can't be told apart.
+    'DOT_RADIUS': 0.33, 'DOT_INSIDE': 0.22, 'DOT_RIM': 0.1, 'DOT_TINT': 0.3}
+
 
 def surface_normals(positions: np.ndarray) -> np.ndarray:
     """
@@ -44,11 +61,6 @@ def _difference(positions: np.ndarray, axis: int) -> np.ndarray:
     if positions.shape[axis] < 2:
         return np.zeros_like(positions)
     return np.gradient(positions, axis=axis)
-
-
-_NODES_UNIT = 0             # render/nodes.glsl
-_WORDS = 8            # x y z strain, normal and flags
-UNKNOWN_STRAIN = -1.0
 
 
 class NodeBuffer:
@@ -99,11 +111,6 @@ class NodeBuffer:
         self._buffer.bind_texture(_NODES_UNIT)
 
 
-_PALETTE_UNIT = 1             # render/strain_color.glsl
-
-PALETTE_DEFINES = {'PALETTE_SIZE': PALETTE_SIZE}
-
-
 class PaletteBuffer:
     """The palette of ``scale``, for render/strain_color.glsl."""
 
@@ -123,18 +130,6 @@ class PaletteBuffer:
         self._buffer.bind_texture(_PALETTE_UNIT)
         program.set_float('full_strain', self._full)
         program.set_vectors('plain_color', plain)
-
-
-_HEM_WIDTH = 0.9      # [pixel of the picture]
-_SHADOW_SIDE = 160    # most nodes of the shadow along a side
-
-CLOTH_DEFINES = {
-    **LIGHT_DEFINES, **PALETTE_DEFINES, 'HEM_SHADE': HEM_SHADE}
-LIMIT_DEFINES = {
-    **CLOTH_DEFINES, 'HAS_LIMITS': 1, 'FLAG_AT_LIMIT': FLAG_AT_LIMIT,
-    # Radius of a dot on a node at its limit, over the shorter side of a cell, with its rim and
-    # without; the grey of the rim; the tint that dots make where they can't be told apart.
-    'DOT_RADIUS': 0.33, 'DOT_INSIDE': 0.22, 'DOT_RIM': 0.1, 'DOT_TINT': 0.3}
 
 
 class ClothDrawing:

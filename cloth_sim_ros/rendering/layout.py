@@ -10,6 +10,9 @@ import numpy as np
 
 _WIDTH = 540          # [pixel]
 _SLIMMEST = 1.7       # longer over shorter side
+_SMALLEST_FONT, _LARGEST_FONT = 11, 34
+_SMALLEST_SIDE = 32       # of a panel [pixel]
+_FONT_SHARE = 1.0 / 36.0  # of the width of a panel that is not much wider than high
 
 
 def panel_size(points: np.ndarray, camera: Camera) -> tuple[int, int]:
@@ -24,11 +27,6 @@ def panel_size(points: np.ndarray, camera: Camera) -> tuple[int, int]:
     # A slim panel is made narrower, so that a sheet of them is not too high.
     width = round(_WIDTH / max(1.0, ratio) ** 0.5)
     return width, round(width * ratio)
-
-
-_SMALLEST_FONT, _LARGEST_FONT = 11, 34
-_SMALLEST_SIDE = 32       # of a panel [pixel]
-_FONT_SHARE = 1.0 / 36.0  # of the width of a panel that is not much wider than high
 
 
 @dataclass(frozen=True)

@@ -20,6 +20,10 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 import numpy as np
 
+_INK = '#303030'
+_POINTS_PER_INCH = 72.0  # so that a point is a pixel
+_LETTERS = 1.7           # height of a letter over its usual width
+
 
 def legend_handles(survey: Survey, grid: float, size: float) -> list[Line2D]:
     """
@@ -45,11 +49,6 @@ def _dot(color: tuple[float, float, float], size: float) -> dict[str, object]:
     return {
         'linestyle': 'none', 'marker': 'o', 'color': color, 'markersize': size,
         'markevery': [0], 'markeredgewidth': 0.0}
-
-
-_INK = '#303030'
-_POINTS_PER_INCH = 72.0  # so that a point is a pixel
-_LETTERS = 1.7           # height of a letter over its usual width
 
 
 class Sheet:

@@ -29,6 +29,24 @@ from cloth_sim_ros.rendering.strain_scale import round_up
 from cloth_sim_ros.rendering.survey import Survey
 import numpy as np
 
+# The floor.
+_LINE_WIDTH = 1.0     # [pixel of the picture]
+_REACH = 1.6          # of half a side of the grid over the longest side of all cloths
+RIBBON_DEFINES = {**PALETTE_DEFINES, 'HEM_SHADE': HEM_SHADE}
+# Balls.
+_UNIT = 0             # render/ball.vert
+_RADIUS = 1.0 / 75.0  # of the shorter side of the picture
+_SMALLEST = 1.2       # [pixel]
+_SHARE = 0.36         # of the distance between neighbouring balls
+_LEAD = 4.0           # in front of the cloth, over the radius: a ball should not be cut by it
+BALL_DEFINES = {'RIM': 1.3}
+# Arrows.
+_SIDES = 40
+_SHAFT = 0.016        # radius over the length of the largest arrow
+_HEAD = 0.048
+_HEAD_LENGTH = 0.17
+ARROW_DEFINES = {**LIGHT_DEFINES, 'SIDES': _SIDES}
+
 
 def seen_and_hidden(*, hides: bool = False) -> Iterator[float]:
     """
@@ -41,10 +59,6 @@ def seen_and_hidden(*, hides: bool = False) -> Iterator[float]:
     draw_nearest(hides=hides)
     yield 1.0
     draw_nearest()
-
-
-_LINE_WIDTH = 1.0     # [pixel of the picture]
-_REACH = 1.6          # of half a side of the grid over the longest side of all cloths
 
 
 class FloorDrawing:
@@ -86,9 +100,6 @@ def grid_step(size: float) -> float:
     return round_up(max(size, 1e-6) / GRID_LINES)
 
 
-RIBBON_DEFINES = {**PALETTE_DEFINES, 'HEM_SHADE': HEM_SHADE}
-
-
 class RibbonDrawing:
     """
     Draws the line through the points in the node buffer, coloured by strain.
@@ -123,15 +134,6 @@ class RibbonDrawing:
     @cached_property
     def _program(self) -> RenderProgram:
         return RenderProgram('render/ribbon.vert', 'render/ribbon.frag', RIBBON_DEFINES)
-
-
-_UNIT = 0             # render/ball.vert
-_RADIUS = 1.0 / 75.0  # of the shorter side of the picture
-_SMALLEST = 1.2       # [pixel]
-_SHARE = 0.36         # of the distance between neighbouring balls
-_LEAD = 4.0           # in front of the cloth, over the radius: a ball should not be cut by it
-
-BALL_DEFINES = {'RIM': 1.3}
 
 
 class BallDrawing:
@@ -185,14 +187,6 @@ def ball_radius(seen: np.ndarray, view: View) -> float:
     steps = np.linalg.norm(np.diff(seen, axis=0), axis=1)
     near = float(np.percentile(steps, 25))
     return max(min(largest, _SHARE * near), _SMALLEST) if math.isfinite(near) else largest
-
-
-_SIDES = 40
-_SHAFT = 0.016        # radius over the length of the largest arrow
-_HEAD = 0.048
-_HEAD_LENGTH = 0.17
-
-ARROW_DEFINES = {**LIGHT_DEFINES, 'SIDES': _SIDES}
 
 
 class PushDrawing:

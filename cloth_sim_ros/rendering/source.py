@@ -23,6 +23,10 @@ from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.snapshot import POINT_DTYPE
 import numpy as np
 
+_WRITE_IT_ANEW = 'write it with `cloth_sim run --out`'
+# From there on a run counts as lost, and squares leave the range of float32 [m].
+_FARTHEST = 1e12
+
 
 class Source(ABC):
     """
@@ -128,11 +132,6 @@ class RecordingSource(Source):
             elif entry.message.mode not in modes:
                 modes.append(entry.message.mode)
         return modes, device
-
-
-_WRITE_IT_ANEW = 'write it with `cloth_sim run --out`'
-# From there on a run counts as lost, and squares leave the range of float32 [m].
-_FARTHEST = 1e12
 
 
 class StateSource(Source):

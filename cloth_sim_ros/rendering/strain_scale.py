@@ -13,6 +13,13 @@ import numpy as np
 
 _LEAST_STRAIN, _MOST = 1e-6, 1e3
 _BINS = 2000
+PALETTE_SIZE = 256
+# Light at rest: folds are seen by their shade, which a dark colour would hide.
+_COLORS = LinearSegmentedColormap.from_list(
+    'strain', ('#c3d3e8', '#e6dfae', '#f4b942', '#e0632b', '#9c1429'), N=PALETTE_SIZE)
+_SHARE = 0.995        # of the nodes whose strain the colours tell apart
+_LEAST = 1e-3
+_STEPS = (1.0, 2.0, 5.0)
 
 
 class StrainRange:
@@ -42,15 +49,6 @@ class StrainRange:
         total = np.cumsum(self._counts)
         place = int(np.searchsorted(total, share * total[-1]))
         return float(self._edges[place - 1]) if place else 0.0
-
-
-PALETTE_SIZE = 256
-# Light at rest: folds are seen by their shade, which a dark colour would hide.
-_COLORS = LinearSegmentedColormap.from_list(
-    'strain', ('#c3d3e8', '#e6dfae', '#f4b942', '#e0632b', '#9c1429'), N=PALETTE_SIZE)
-_SHARE = 0.995        # of the nodes whose strain the colours tell apart
-_LEAST = 1e-3
-_STEPS = (1.0, 2.0, 5.0)
 
 
 class StrainScale:

@@ -16,6 +16,12 @@ import numpy as np
 
 _DIRECTIONS = 256
 _SIDE = 64        # nodes looked at along each side of a frame, its last ones among them
+_POINTS = 97
+# [m]: the outline of a larger sphere is nowhere near the cloth, and leaves float32.
+_MOST = 1e12
+_ARROW = 0.3          # of the largest push, over the longest side of all cloths
+_WITH_WORDS = 1.2     # room for an arrow and its words, over its length
+_BELOW = 0.03         # from the lowest point to the floor, over the longest side
 
 
 class Extent:
@@ -79,11 +85,6 @@ def _even_directions(count: int) -> np.ndarray:
     return np.concatenate([np.eye(3), -np.eye(3), spiral])
 
 
-_POINTS = 97
-# [m]: the outline of a larger sphere is nowhere near the cloth, and leaves float32.
-_MOST = 1e12
-
-
 def region_rings(pushes: Iterable[Push], axes: np.ndarray) -> list[np.ndarray]:
     """
     Return a circle for each of ``pushes`` that acts on a sphere whose outline can be in view.
@@ -96,11 +97,6 @@ def region_rings(pushes: Iterable[Push], axes: np.ndarray) -> list[np.ndarray]:
     return [
         np.array(push.center) + push.radius * circle for push in pushes
         if push.region != 'all' and push.radius < _MOST]
-
-
-_ARROW = 0.3          # of the largest push, over the longest side of all cloths
-_WITH_WORDS = 1.2     # room for an arrow and its words, over its length
-_BELOW = 0.03         # from the lowest point to the floor, over the longest side
 
 
 class Survey:

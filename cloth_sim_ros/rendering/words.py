@@ -18,6 +18,7 @@ from PIL import ImageFont
 
 INK = (48, 48, 48)
 _HALO = (255, 255, 255)
+_COLOR = tuple(round(255 * part) for part in PUSH_COLOR)
 
 
 def write_words(
@@ -52,9 +53,6 @@ def _font(size: int, is_bold: bool) -> ImageFont.FreeTypeFont:
     name = 'DejaVuSans-Bold.ttf' if is_bold else 'DejaVuSans.ttf'
     return ImageFont.truetype(
         str(Path(matplotlib.get_data_path()) / 'fonts' / 'ttf' / name), size)
-
-
-_COLOR = tuple(round(255 * part) for part in PUSH_COLOR)
 
 
 def write_forces(

@@ -14,6 +14,9 @@ from cloth_sim_ros.sim.input_listener import RESET
 from cloth_sim_ros.sim.push import Push
 from cloth_sim_ros.sim.simulation import Simulation
 
+_SECOND = 1_000_000_000
+_NOTHING = 1e-6
+
 
 def recorded_push(message: Any) -> Push:
     """Return the push of a decoded Push message of ~/inputs/push; ClothSimError if it is none."""
@@ -25,10 +28,6 @@ def recorded_push(message: Any) -> Push:
 def parts(vector: Any) -> tuple[float, float, float]:
     """Return the components of a decoded Point or Vector3."""
     return (vector.x, vector.y, vector.z)
-
-
-_SECOND = 1_000_000_000
-_NOTHING = 1e-6
 
 
 class StepClock:

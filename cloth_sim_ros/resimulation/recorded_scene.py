@@ -22,6 +22,7 @@ _SLOTS = {
 _ARRAY_SLOTS = {
     6: ('bool_array_value', bool), 7: ('integer_array_value', int),
     8: ('double_array_value', float), 9: ('string_array_value', str)}
+_FIELDS = {field.name: field for field in SCENE_FIELDS}
 
 
 def plain_value(value: Any) -> Any:
@@ -48,9 +49,6 @@ def recorded_version(path: Path) -> str:
     custom = folder_metadata(folder).get('custom_data')
     version = custom.get(PACKAGE) if isinstance(custom, Mapping) else None
     return version if isinstance(version, str) else ''
-
-
-_FIELDS = {field.name: field for field in SCENE_FIELDS}
 
 
 @dataclass(frozen=True)

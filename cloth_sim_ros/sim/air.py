@@ -19,6 +19,15 @@ from cloth_sim_ros.sim.state import State
 from cloth_sim_ros.sim.wind import Wind
 import numpy as np
 
+# Of the relative velocity: what air may take of it until it is looked at again.
+_CHANGE = 0.1
+# Of the relative velocity: what air takes of it at most while it is not looked at. Up to there the
+# velocity that is left grows with the one there was.
+_MOST_SHARE = 0.5
+_GRAVITY = 9.81
+# Of a substep: rounding that is no part of one.
+_NOTHING = 1e-6
+
 
 class AirWork:
     """
@@ -50,16 +59,6 @@ class AirWork:
         self.settle(state)
         self._positions = state.read_positions().astype(float)
         self._accelerations = accelerations
-
-
-# Of the relative velocity: what air may take of it until it is looked at again.
-_CHANGE = 0.1
-# Of the relative velocity: what air takes of it at most while it is not looked at. Up to there the
-# velocity that is left grows with the one there was.
-_MOST_SHARE = 0.5
-_GRAVITY = 9.81
-# Of a substep: rounding that is no part of one.
-_NOTHING = 1e-6
 
 
 class Air:

@@ -13,6 +13,11 @@ from cloth_sim_ros.sim.state import State
 from cloth_sim_ros.sim.strips import Strips
 import numpy as np
 
+# Of the shortest spacing: a node that moves further in a substep has left what its springs know.
+_FAR = 0.5
+# A strain that no cloth was laid out for.
+_OVERSTRETCHED = 10.0
+
 
 class BoundsCheck:
     """Runs bounds_check.comp; compiles it when it is first asked."""
@@ -33,12 +38,6 @@ class BoundsCheck:
         """Give pass and result back."""
         self._strips.delete()
         self._program.delete()
-
-
-# Of the shortest spacing: a node that moves further in a substep has left what its springs know.
-_FAR = 0.5
-# A strain that no cloth was laid out for.
-_OVERSTRETCHED = 10.0
 
 
 def explain(

@@ -16,6 +16,10 @@ from cloth_sim_ros.sim.scene_file import load_parameters
 from cloth_sim_ros.sim.springs import MATERIAL
 from cloth_sim_ros.sim.springs import MATERIAL_SPRINGS
 
+NO_PINS = ('none',)
+# They stretch, too, which would add to what a material says.
+_BEND_SPRINGS = ('stiffness.bend', 'damping.bend')
+
 
 def with_preset(given: Mapping[str, Any]) -> dict[str, Any]:
     """Return ``given`` with the values of its preset for what it leaves out."""
@@ -28,11 +32,6 @@ def with_preset(given: Mapping[str, Any]) -> dict[str, Any]:
 def _values(name: str) -> Mapping[str, Any]:
     path = shared_directory('config') / 'presets' / f'{name}.yaml'
     return MappingProxyType(load_parameters(path))
-
-
-NO_PINS = ('none',)
-# They stretch, too, which would add to what a material says.
-_BEND_SPRINGS = ('stiffness.bend', 'damping.bend')
 
 
 def completed(given: Mapping[str, Any]) -> dict[str, Any]:

@@ -10,6 +10,8 @@ import sys
 from cloth_sim_ros.analysis.recording import Entry
 from tqdm import tqdm
 
+_BAR = '{percentage:3.0f}% |{bar}| {n:.2f}/{total:.2f} s'
+
 
 class ReadingProgress:
     """
@@ -39,9 +41,6 @@ class ReadingProgress:
             self._walks -= 1
             if not self._walks:
                 self._bar.close()
-
-
-_BAR = '{percentage:3.0f}% |{bar}| {n:.2f}/{total:.2f} s'
 
 
 class PlayProgress:

@@ -11,6 +11,14 @@ import math
 from cloth_sim_ros.analysis.recording import Recording
 from cloth_sim_ros.files.echo import shown
 
+# The node's parameter that each stands for.
+_PARAMETERS = {
+    'max_bag_size': 'recording.max_bagfile_size',
+    'max_bag_duration': 'recording.max_bagfile_duration',
+    'max_recording_size': 'recording.max_size',
+    'fsync': 'recording.fsync',
+}
+
 
 def add_recording_arguments(parser: ArgumentParser) -> None:
     """Add the recording and the name of its node."""
@@ -41,15 +49,6 @@ def list_of_times(text: str) -> list[float]:
     if not all(math.isfinite(time) for time in times):
         raise ArgumentTypeError(f'{shown(text)} is not a list of times: write them as in 0.5,1,2')
     return sorted(times)
-
-
-# The node's parameter that each stands for.
-_PARAMETERS = {
-    'max_bag_size': 'recording.max_bagfile_size',
-    'max_bag_duration': 'recording.max_bagfile_duration',
-    'max_recording_size': 'recording.max_size',
-    'fsync': 'recording.fsync',
-}
 
 
 def add_recording_options(parser: ArgumentParser) -> None:

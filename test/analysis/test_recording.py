@@ -22,6 +22,9 @@ import pytest
 from rosbags.interfaces import MessageDefinition
 from rosbags.interfaces import MessageDefinitionFormat
 
+CLOUD = 'sensor_msgs/msg/PointCloud2'
+STATS = 'cloth_sim_interfaces/msg/ClothStats'
+
 
 def test_it_goes_on_where_a_reset_put_the_clock_back():
     """What came after a reset would be mixed with what was before."""
@@ -58,10 +61,6 @@ def test_every_topic_learns_of_a_reset():
 
 def _stamp(seconds):
     return SimpleNamespace(sec=int(seconds), nanosec=round(seconds % 1.0 * 1e9))
-
-
-CLOUD = 'sensor_msgs/msg/PointCloud2'
-STATS = 'cloth_sim_interfaces/msg/ClothStats'
 
 
 def find(*topics):

@@ -13,6 +13,13 @@ import pytest
 from rclpy.serialization import deserialize_message
 from rclpy.serialization import serialize_message
 
+WALL = Time(sec=1700000000, nanosec=5)
+HEALTHY = {
+    'stamp': WALL, 'node_name': 'cloth_sim', 'device': 'llvmpipe', 'paused': False,
+    'automatic_substeps': True,
+    'real_time_factor': 1.0, 'wanted_factor': 1.0}
+OK, WARN, ERROR = DiagnosticStatus.OK, DiagnosticStatus.WARN, DiagnosticStatus.ERROR
+
 
 @pytest.mark.parametrize(('substeps', 'automatic', 'faster', 'useless'), [
     (16, True, 'softer springs', 'dt'), (1, True, 'a longer dt', 'springs'),
@@ -22,14 +29,6 @@ def test_a_longer_dt_is_advised_where_it_helps(substeps, automatic, faster, usel
     advice = slow_pace(0.5, 1.0, substeps=substeps, automatic=automatic)
     assert advice.startswith('0.5 x real time, below the target 1: use fewer nodes, ')
     assert faster in advice and useless not in advice
-
-
-WALL = Time(sec=1700000000, nanosec=5)
-HEALTHY = {
-    'stamp': WALL, 'node_name': 'cloth_sim', 'device': 'llvmpipe', 'paused': False,
-    'automatic_substeps': True,
-    'real_time_factor': 1.0, 'wanted_factor': 1.0}
-OK, WARN, ERROR = DiagnosticStatus.OK, DiagnosticStatus.WARN, DiagnosticStatus.ERROR
 
 
 def diagnose(snapshot, **changes):

@@ -30,6 +30,9 @@ from std_msgs.msg import Header
 from visualization_msgs.msg import Marker
 from visualization_msgs.msg import MarkerArray
 
+NODES = np.array([[0.0, 0.0, 1.0], [2.0, 4.0, 1.0]])
+PUSH = Push.checked(force=(0.0, 0.0, 1.0), start=1.0, duration=0.5)
+
 
 @pytest.mark.parametrize('frame_id', ['', 'a', 'ab', 'abc', 'abcd', 'world'])
 @pytest.mark.parametrize('count', [0, 1, 3])
@@ -55,9 +58,6 @@ def test_every_field_is_read_back(frame_id, count):
     assert deserialize_message(writer.finish(), MarkerArray).markers == expected
 
 
-NODES = np.array([[0.0, 0.0, 1.0], [2.0, 4.0, 1.0]])
-
-
 def test_only_pushes_that_act_are_shown():
     """A push would show before it begins or after it ends."""
     push = Push.checked(force=(0.0, 0.0, 2.0), start=1.0, duration=0.5)
@@ -80,9 +80,6 @@ def test_a_push_without_force_has_no_arrow():
     """The arrow of a zero force would have a direction that is not a number."""
     push = Push.checked(force=(0.0, 0.0, 0.0), start=0.0, duration=1.0)
     assert push_arrows([push], 0.5, NODES, 1.0) == []
-
-
-PUSH = Push.checked(force=(0.0, 0.0, 1.0), start=1.0, duration=0.5)
 
 
 def decode(data):

@@ -18,6 +18,14 @@ from rclpy.serialization import deserialize_message
 from rosbags.typesys import get_typestore
 from rosbags.typesys import Stores
 
+EVERYTHING = ParameterEvent(
+    node='/a/node', deleted_parameters=[Parameter(name='gone')],
+    changed_parameters=[Parameter(name='all', value=ParameterValue(
+        type=9, bool_value=True, integer_value=-2**40, double_value=0.1, string_value='väl',
+        byte_array_value=[b'\x07', b'\xff'], bool_array_value=[True, False, True],
+        integer_array_value=[1, -5], double_array_value=[1e-300, 2.5],
+        string_array_value=['', 'two words']))])
+
 
 @pytest.mark.parametrize(('kind', 'value', 'type_number'), [
     (bool, True, ParameterType.PARAMETER_BOOL),
@@ -38,15 +46,6 @@ def test_values_keep_type_and_content(kind, value, type_number):
     assert message.type == type_number
     content = parameter_value_to_python(message)
     assert (tuple(content) if is_array else content) == value
-
-
-EVERYTHING = ParameterEvent(
-    node='/a/node', deleted_parameters=[Parameter(name='gone')],
-    changed_parameters=[Parameter(name='all', value=ParameterValue(
-        type=9, bool_value=True, integer_value=-2**40, double_value=0.1, string_value='väl',
-        byte_array_value=[b'\x07', b'\xff'], bool_array_value=[True, False, True],
-        integer_array_value=[1, -5], double_array_value=[1e-300, 2.5],
-        string_array_value=['', 'two words']))])
 
 
 def all_of_a_node():

@@ -13,6 +13,9 @@ from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.simulation import Simulation
 import pytest
 
+_FRAME = 0.02
+Log = list[tuple[float, str, str]]
+
 
 def test_waits_for_the_rest_of_a_frame():
     """A node that took 5 ms for a frame of 20 ms would not run at real time."""
@@ -75,10 +78,6 @@ def test_tells_when_it_is_too_slow(frame_time, too_slow):
     for frame in range(2, 201):
         pacing.delay(frame_time * frame, 0.02)
     assert pacing.too_slow == too_slow
-
-
-_FRAME = 0.02
-Log = list[tuple[float, str, str]]
 
 
 @pytest.fixture

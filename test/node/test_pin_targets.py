@@ -18,6 +18,18 @@ from recorded import Recorded
 from std_msgs.msg import Header
 from std_srvs.srv import Trigger
 
+NAN, INF = float('nan'), float('inf')
+TARGET = Point(x=-0.4, y=0.35, z=1.2)
+BAD = {
+    'a free node': ({'row': 5, 'col': 3}, 'node (5, 3) is free and only a pin can be moved'),
+    'a node outside': ({'row': 2**32 - 1}, '0 to 7'),
+    'a target that is no number': ({'target': Point(x=NAN)}, '3 finite numbers'),
+    'an infinite target': ({'target': Point(z=-INF)}, '3 finite numbers'),
+    'a negative speed': ({'speed': -0.5}, 'speed of a pin must be from 1e-06'),
+    'a speed that is no number': ({'speed': NAN}, 'speed of a pin must be from 1e-06'),
+    'an infinite speed': ({'speed': INF}, 'speed of a pin must be from 1e-06'),
+}
+
 
 def test_pins_and_releases_a_node(cloth):
     """A pin would not hold, a released one would, or the recording would not know."""
@@ -82,19 +94,6 @@ def test_refuses_a_point_that_is_none(cloth, value):
     assert not response.success
     assert 'finite' in response.message
     assert not cloth['inputs/pin']
-
-
-NAN, INF = float('nan'), float('inf')
-TARGET = Point(x=-0.4, y=0.35, z=1.2)
-BAD = {
-    'a free node': ({'row': 5, 'col': 3}, 'node (5, 3) is free and only a pin can be moved'),
-    'a node outside': ({'row': 2**32 - 1}, '0 to 7'),
-    'a target that is no number': ({'target': Point(x=NAN)}, '3 finite numbers'),
-    'an infinite target': ({'target': Point(z=-INF)}, '3 finite numbers'),
-    'a negative speed': ({'speed': -0.5}, 'speed of a pin must be from 1e-06'),
-    'a speed that is no number': ({'speed': NAN}, 'speed of a pin must be from 1e-06'),
-    'an infinite speed': ({'speed': INF}, 'speed of a pin must be from 1e-06'),
-}
 
 
 def test_moves_a_pin(cloth, simulation):

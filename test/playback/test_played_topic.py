@@ -29,6 +29,24 @@ from shape_msgs.msg import Mesh
 from std_msgs.msg import Header
 from std_msgs.msg import Int32
 
+CLOUD = 'sensor_msgs/msg/PointCloud2'
+DEPTH = 10
+MESSAGES = 200
+_READER = f"""
+import rclpy
+from rclpy.qos import QoSProfile
+from std_msgs.msg import Int32
+rclpy.init()
+node = rclpy.create_node('reader')
+received = []
+node.create_subscription(
+    Int32, '/played', lambda message: received.append(message.data), QoSProfile(depth=1000))
+print('ready', flush=True)
+while not received or received[-1] != {MESSAGES - 1}:
+    rclpy.spin_once(node, timeout_sec=0.1)
+print(*received)
+"""
+
 
 @pytest.mark.parametrize('message_class', [ClothStats, PointCloud2])
 @pytest.mark.parametrize('time', [(0, 0), (3, 20_000_000), (2**31 - 1, 999_999_999), (-2, 5)])
@@ -50,9 +68,6 @@ def test_big_endian_is_read():
 def test_others_have_no_stamp(message_class):
     """Some other number of the message would be taken for a time."""
     assert not has_header(message_class)
-
-
-CLOUD = 'sensor_msgs/msg/PointCloud2'
 
 
 def profiles(*changes):
@@ -95,24 +110,6 @@ def test_a_depth_that_was_not_recorded_is_the_usual_one(name, key, depth):
     unknown = profiles({'history': 'unknown', 'depth': 0})
     assert played_quality(name, topic.type_name, unknown).depth == depth
     assert offered(played_quality(name, topic.type_name, ())) == (depth, True, False)
-
-
-DEPTH = 10
-MESSAGES = 200
-_READER = f"""
-import rclpy
-from rclpy.qos import QoSProfile
-from std_msgs.msg import Int32
-rclpy.init()
-node = rclpy.create_node('reader')
-received = []
-node.create_subscription(
-    Int32, '/played', lambda message: received.append(message.data), QoSProfile(depth=1000))
-print('ready', flush=True)
-while not received or received[-1] != {MESSAGES - 1}:
-    rclpy.spin_once(node, timeout_sec=0.1)
-print(*received)
-"""
 
 
 @pytest.fixture

@@ -19,6 +19,20 @@ from rosbags.typesys import get_typestore
 from rosbags.typesys import Stores
 
 RULE = '=' * 80
+MSG, IDL = MessageDefinitionFormat.MSG, MessageDefinitionFormat.IDL
+POSE = """
+module geometry_msgs { module msg {
+  module Pose_Constants { const long LIMIT = -3; const string NAME = "a (b) << c"; };
+  typedef double double__36[36];
+  @verbatim (language="comment", text= "a pose (of (something)) | more")
+  struct Pose {
+    @verbatim (language="comment", text= "x \\"y\\"") @unit (value="m")
+    double__36 covariance;
+    sequence<string<10>, 5> names; // of (its) parts | these
+    sequence<double> values; /* one << two */
+  };
+}; };
+"""
 
 
 def test_definition_holds_all_parts_once():
@@ -69,22 +83,6 @@ def test_hash_is_that_of_the_definition(key):
     text = message_definition(name)
     store.register(get_types_from_msg(text, name))
     assert store.hash_rihs01(name) == type_hash(name)
-
-
-MSG, IDL = MessageDefinitionFormat.MSG, MessageDefinitionFormat.IDL
-POSE = """
-module geometry_msgs { module msg {
-  module Pose_Constants { const long LIMIT = -3; const string NAME = "a (b) << c"; };
-  typedef double double__36[36];
-  @verbatim (language="comment", text= "a pose (of (something)) | more")
-  struct Pose {
-    @verbatim (language="comment", text= "x \\"y\\"") @unit (value="m")
-    double__36 covariance;
-    sequence<string<10>, 5> names; // of (its) parts | these
-    sequence<double> values; /* one << two */
-  };
-}; };
-"""
 
 
 @pytest.mark.parametrize('name', [

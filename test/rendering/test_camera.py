@@ -10,6 +10,11 @@ from hypothesis import strategies
 import numpy as np
 import pytest
 
+ANGLES = strategies.tuples(
+    strategies.floats(-360.0, 360.0), strategies.floats(-90.0, 90.0))
+VIEWS = strategies.sampled_from([0.0, 10.0, 40.0, 120.0])
+SIZES = strategies.sampled_from([(400, 300), (100, 300), (640, 200)])
+
 
 @pytest.mark.parametrize('field_of_view', [0.0, 25.0, 90.0])
 def test_the_matrix_puts_points_where_project_says(field_of_view):
@@ -24,12 +29,6 @@ def test_the_matrix_puts_points_where_project_says(field_of_view):
     assert (np.abs(device[:, 2]) < 1.0).all()
     near = (points - view.middle) @ view.axes[2]
     assert (np.diff(device[np.argsort(-near), 2]) > 0.0).all()
-
-
-ANGLES = strategies.tuples(
-    strategies.floats(-360.0, 360.0), strategies.floats(-90.0, 90.0))
-VIEWS = strategies.sampled_from([0.0, 10.0, 40.0, 120.0])
-SIZES = strategies.sampled_from([(400, 300), (100, 300), (640, 200)])
 
 
 def some_points(seed, scale=1.0):

@@ -10,6 +10,9 @@ import numpy as np
 import pytest
 
 FRONT = Camera(-90.0, 0.0)
+LAYOUTS = [
+    Layout(1, 1, (320, 240)), Layout(2, 3, (301, 207), has_labels=True),
+    Layout(3, 2, (100, 400), has_title=False, has_bar=False), Layout(1, 5, (64, 64))]
 
 
 @pytest.mark.parametrize(('wide', 'high', 'ratio'), [
@@ -20,11 +23,6 @@ def test_it_has_the_shape_of_the_scene(wide, high, ratio):
     width, height = panel_size(corners, FRONT)
     assert width / height == pytest.approx(ratio, rel=0.02)
     assert 300 < width < 700
-
-
-LAYOUTS = [
-    Layout(1, 1, (320, 240)), Layout(2, 3, (301, 207), has_labels=True),
-    Layout(3, 2, (100, 400), has_title=False, has_bar=False), Layout(1, 5, (64, 64))]
 
 
 @pytest.mark.parametrize('layout', LAYOUTS)

@@ -18,6 +18,8 @@ import pytest
 from rcl_interfaces.msg import Parameter
 from rosbags.rosbag2 import Reader
 
+FIELDS = SCENE_FIELDS + NODE_FIELDS
+
 
 @pytest.fixture
 def bag(tmp_path):
@@ -55,9 +57,6 @@ def test_a_recording_without_metadata_names_none(bag):
     """A recording that lost its metadata would end as a traceback."""
     (bag / 'metadata.yaml').unlink()
     assert recorded_version(bag) == ''
-
-
-FIELDS = SCENE_FIELDS + NODE_FIELDS
 
 
 def recorded(mode='', without=(), **values):

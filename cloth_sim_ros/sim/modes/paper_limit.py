@@ -29,6 +29,10 @@ _LOCAL = (8, 2)
 _DEFINES = {'LOCAL_X': _LOCAL[0], 'LOCAL_Y': _LOCAL[1]}
 # The edge of a cell that starts at its second corner.
 _CROSSING = next(kind.number for kind in EDGE_KINDS if kind.name == 'crossing')
+# Enough for the linear system of a small cloth; the error falls by some 10 % a sweep.
+_SWEEPS = 60
+# Of a substep: rounding that is no reason for another one.
+_NOTHING = 1e-9
 
 
 class PaperSweeps:
@@ -98,12 +102,6 @@ class PaperSweeps:
         self.tensions.delete()
         self._sweep.delete()
         self._finish.delete()
-
-
-# Enough for the linear system of a small cloth; the error falls by some 10 % a sweep.
-_SWEEPS = 60
-# Of a substep: rounding that is no reason for another one.
-_NOTHING = 1e-9
 
 
 class PaperLimit:

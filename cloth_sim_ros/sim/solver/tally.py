@@ -12,6 +12,8 @@ from cloth_sim_ros.sim.solver.solver_pass import SolverPass
 from cloth_sim_ros.sim.solver.solver_programs import SolverPrograms
 import numpy as np
 
+_FIGURES = 5
+
 
 @dataclass(frozen=True)
 class SolveReport:
@@ -42,9 +44,6 @@ def report_of(start: float, after: float, iterations: int, tolerance: float) -> 
     else:
         residual = 0.0 if start == after == 0.0 else math.nan
     return SolveReport(iterations, residual, math.isfinite(residual) and residual <= tolerance)
-
-
-_FIGURES = 5
 
 
 @dataclass(frozen=True)

@@ -34,6 +34,10 @@ from cloth_sim_ros.study.runs.workers import Workers
 import numpy as np
 from tqdm import tqdm
 
+_DEFAULTS = {field.name: field.default for field in SCENE_FIELDS}
+_Kind = tuple[str, str]
+_BAR = '{desc} |{bar}| {n_fmt}/{total_fmt} runs, {elapsed}{postfix}'
+
 
 def perform(run: Run, shares_processor: bool) -> Result:
     """
@@ -68,10 +72,6 @@ def perform(run: Run, shares_processor: bool) -> Result:
 def _sorted(returned: dict[str, Any]) -> tuple[dict[str, Any], dict[str, np.ndarray]]:
     arrays = {name: value for name, value in returned.items() if isinstance(value, np.ndarray)}
     return {name: value for name, value in returned.items() if name not in arrays}, arrays
-
-
-_DEFAULTS = {field.name: field.default for field in SCENE_FIELDS}
-_Kind = tuple[str, str]
 
 
 class Forecast:
@@ -136,9 +136,6 @@ def _work(run: Run) -> float:
         return max(rows * cols * refine * repeats / dt, 1.0)
     except (TypeError, ZeroDivisionError):
         return 1.0  # a scene that will be refused
-
-
-_BAR = '{desc} |{bar}| {n_fmt}/{total_fmt} runs, {elapsed}{postfix}'
 
 
 def make_runs(

@@ -26,6 +26,10 @@ _GRAVITY = 9.81
 # Of the stiffness of hard edges: what holds a cloth without shear, whose rows may slide.
 _HOLD = 1e-9
 _DENSE = 64
+# Of the spacing, out of the plane: edges get longer by its square only.
+_JITTER = 1e-5
+_STEPS = 200
+_LOOKS = 20
 
 
 @dataclass(frozen=True)
@@ -110,12 +114,6 @@ def _largest(
     # A fixed start: the same scene gives the same figure.
     start = np.random.default_rng(0).uniform(-1.0, 1.0, matrix.shape[0])
     return float(eigsh(matrix, k=1, which='LA', v0=start, return_eigenvectors=False)[0])
-
-
-# Of the spacing, out of the plane: edges get longer by its square only.
-_JITTER = 1e-5
-_STEPS = 200
-_LOOKS = 20
 
 
 def hanging_probe(

@@ -35,6 +35,12 @@ from scipy.sparse.linalg import eigsh
 
 _FACTOR = 2.0
 _MOST_WIDENINGS = 8
+_DENSE = 64
+_TOLERANCE = 1e-4
+# Of a scene that moves: enough for its first fall, and for what grows to be seen.
+MOVING_SECONDS = 0.5
+_MOST_STEPS, _MOST_IMPLICIT_STEPS = 2000, 300
+_LONGEST_DT = 1.0
 
 
 @dataclass(frozen=True)
@@ -88,10 +94,6 @@ def bisect_edge(
     return Edge(stable, unstable)
 
 
-_DENSE = 64
-_TOLERANCE = 1e-4
-
-
 def lattice_limit(scene: Scene) -> float:
     """
     Return the longest stable substep [s] of the flat cloth of ``scene``, nothing held.
@@ -128,12 +130,6 @@ def _largest(matrix: sparse.spmatrix) -> float:
     start = np.random.default_rng(0).uniform(-1.0, 1.0, matrix.shape[0])
     return float(eigsh(
         matrix, k=1, which='LA', tol=_TOLERANCE, v0=start, return_eigenvectors=False)[0])
-
-
-# Of a scene that moves: enough for its first fall, and for what grows to be seen.
-MOVING_SECONDS = 0.5
-_MOST_STEPS, _MOST_IMPLICIT_STEPS = 2000, 300
-_LONGEST_DT = 1.0
 
 
 def run_point(

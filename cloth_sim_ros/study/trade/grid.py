@@ -22,6 +22,9 @@ from cloth_sim_ros.study.trade.variant import Variant
 _SHORT = {
     'refine': 'refine {}', 'dt': 'dt {:g} s', 'solver.tolerance': 'tolerance {:g}',
     'constraint.newton_iterations': 'solves {}'}
+MODELS = ('springs', 'hard', 'limited')
+_MOST_SETTINGS = 100_000
+_PARTS = ('times', 'frame', 'variants', 'reference', 'cost', 'methods')
 
 
 @dataclass(frozen=True)
@@ -52,11 +55,6 @@ class Setting:
         return ', '.join(
             _SHORT[name].format(value) if name in _SHORT else f'{name} {value}'
             for name, value in self.chosen.items())
-
-
-MODELS = ('springs', 'hard', 'limited')
-_MOST_SETTINGS = 100_000
-_PARTS = ('times', 'frame', 'variants', 'reference', 'cost', 'methods')
 
 
 @dataclass(frozen=True)

@@ -20,6 +20,12 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 import numpy as np
 
+_COLOURS = ('#0072b2', '#d55e00', '#009e73', '#cc79a7', '#e69f00', '#56b4e9')
+_COLUMNS = 2
+_DPI = 110
+_SPEEDS = (0.1, 0.25, 0.5, 1.0, 2.0, 4.0, 8.0)
+_ERRORS = (3e-2, 1e-2, 3e-3, 1e-3, 3e-4, 1e-4)
+
 
 def write_table(folder: Path, rows: Sequence[Row]) -> None:
     """Write table.csv and table.jsonl into ``folder``, a line for each row."""
@@ -30,11 +36,6 @@ def write_table(folder: Path, rows: Sequence[Row]) -> None:
         writer.writerows(lines)
     text = ''.join(f'{json.dumps(line)}\n' for line in lines)
     (folder / 'table.jsonl').write_text(text, encoding='utf-8')
-
-
-_COLOURS = ('#0072b2', '#d55e00', '#009e73', '#cc79a7', '#e69f00', '#56b4e9')
-_COLUMNS = 2
-_DPI = 110
 
 
 def write_plot(path: Path, measured: Measured) -> None:
@@ -87,10 +88,6 @@ def _draw(
         f'{variant.name}: {first.get("rows", 32)} x {first.get("cols", 32)} nodes', fontsize=10)
     panel.grid(True, which='major', color='0.9')
     panel.margins(x=0.22, y=0.12)
-
-
-_SPEEDS = (0.1, 0.25, 0.5, 1.0, 2.0, 4.0, 8.0)
-_ERRORS = (3e-2, 1e-2, 3e-3, 1e-3, 3e-4, 1e-4)
 
 
 def page(measured: Measured, scene_name: str) -> str:

@@ -14,6 +14,7 @@ import numpy as np
 
 # Of the springs of the cloth in an iteration of each solver: the product, and the cycle.
 _PASSES = {'multigrid': 6, 'block_jacobi': 1}
+ENERGIES = ('kinetic_energy', 'elastic_energy', 'gravitational_energy')
 
 
 class Work:
@@ -42,9 +43,6 @@ class Work:
     def in_a_second(self, seconds: float) -> dict[str, float]:
         """Return substeps and passes in a simulated second, of ``seconds`` simulated."""
         return {'substeps': self._substeps / seconds, 'passes': self._passes / seconds}
-
-
-ENERGIES = ('kinetic_energy', 'elastic_energy', 'gravitational_energy')
 
 
 def trajectory(

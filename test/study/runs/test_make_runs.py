@@ -24,6 +24,8 @@ import pytest
 
 SMALL = {'rows': 10, 'cols': 10}
 LARGE = {'rows': 20, 'cols': 20}
+SCENE = {'rows': 6, 'cols': 5}
+TWO = Workers(jobs=2)
 
 
 def ended(run: Run, seconds: float):
@@ -68,10 +70,6 @@ def test_runs_side_by_side_take_less():
 def test_a_forecast_is_told_as_exactly_as_it_is_known(seconds: float, told: str):
     """Seconds would be counted of a guess."""
     assert in_minutes(seconds) == told
-
-
-SCENE = {'rows': 6, 'cols': 5}
-TWO = Workers(jobs=2)
 
 
 def squares(numbers, **settings):
