@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any
 
-from cloth_sim_ros.messages.markers import push_arrows
+from cloth_sim_ros.messages.push_arrows import push_arrows
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.push import Push
 from cloth_sim_ros.sim.snapshot import FLAG_PINNED

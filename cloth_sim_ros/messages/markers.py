@@ -7,6 +7,7 @@ from collections.abc import Iterable
 
 from builtin_interfaces.msg import Time
 from cloth_sim_ros.messages.cdr_writer import CdrWriter
+from cloth_sim_ros.messages.push_arrows import push_arrows
 from cloth_sim_ros.messages.stamp import stamp
 from cloth_sim_ros.messages.surface import MOST_DRAWN
 from cloth_sim_ros.messages.surface import strain_colors
@@ -65,28 +66,6 @@ def _put_header(writer: CdrWriter, time: Time, frame_id: str) -> None:
     writer.put('i', time.sec)
     writer.put('I', time.nanosec)
     writer.put_string(frame_id)
-
-
-def push_arrows(
-        pushes: Iterable[Push], time: float, nodes: np.ndarray,
-        length: float) -> list[np.ndarray]:
-    """
-    Return tail and tip of an arrow for each push that acts at ``time`` [s].
-
-    :param nodes: positions of nodes, (n, 3) [m]; their mean is the middle of the cloth
-    :param length: of the arrow of the largest force [m]
-    :return: (2, 3) float64 each [m]
-    """
-    active = [push for push in pushes if push.start <= time < push.end]
-    forces = [np.array(push.force) for push in active]
-    largest = max((np.linalg.norm(force) for force in forces), default=0.0)
-    if largest == 0.0:
-        return []
-    arrows = []
-    for push, force in zip(active, forces):
-        tail = nodes.mean(axis=0, dtype=float) if push.region == 'all' else np.array(push.center)
-        arrows.append(np.stack([tail, tail + force * (length / largest)]))
-    return arrows
 
 
 class MarkersMessage:

@@ -7,7 +7,7 @@ import io
 import os
 from pathlib import Path
 
-from cloth_sim_ros.recording.bag_topic import BagChannel
+from cloth_sim_ros.recording.bag_channel import BagChannel
 from cloth_sim_ros.recording.mcap_size import McapSize
 from cloth_sim_ros.recording.watched_file import WatchedFile
 from mcap.writer import CompressionType

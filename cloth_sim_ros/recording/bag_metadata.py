@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from cloth_sim_ros.files.checked_yaml import load_yaml
-from cloth_sim_ros.recording.bag_topic import BagChannel
+from cloth_sim_ros.recording.bag_channel import BagChannel
 from cloth_sim_ros.sim.errors import ClothSimError
 import yaml
 

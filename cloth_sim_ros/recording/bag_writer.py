@@ -5,11 +5,11 @@
 
 from pathlib import Path
 
+from cloth_sim_ros.recording.bag_channel import BagChannel
 from cloth_sim_ros.recording.bag_file import BagFile
 from cloth_sim_ros.recording.bag_folder import sync_file
 from cloth_sim_ros.recording.bag_folder import sync_folder
 from cloth_sim_ros.recording.bag_metadata import BagMetadata
-from cloth_sim_ros.recording.bag_topic import BagChannel
 from cloth_sim_ros.recording.project_version import PACKAGE
 from cloth_sim_ros.recording.project_version import project_version
 from cloth_sim_ros.recording.recording_faults import RecordingFull

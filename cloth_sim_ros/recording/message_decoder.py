@@ -11,7 +11,7 @@ from typing import Any
 from cloth_sim_ros.files.echo import cut
 from cloth_sim_ros.recording.bag_topic import BagTopic
 from cloth_sim_ros.recording.bag_topic import RawMessage
-from cloth_sim_ros.recording.message_definition import parse_definition
+from cloth_sim_ros.recording.checked_definition import parse_definition
 from cloth_sim_ros.sim.errors import ClothSimError
 from rosbags.interfaces import MessageDefinition
 from rosbags.interfaces import MessageDefinitionFormat

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-"""A topic's quality of service as rosbag2 writes and notes it."""
+"""The qualities of service that a bag notes of the publishers of a topic."""
 
 from typing import Any
 

@@ -10,12 +10,12 @@ from typing import Any
 
 from cloth_sim_ros.files.checked_yaml import parse_yaml
 from cloth_sim_ros.files.regular_file import is_folder
+from cloth_sim_ros.recording.bag_channel import BagChannel
 from cloth_sim_ros.recording.bag_file import BagFile
 from cloth_sim_ros.recording.bag_folder import make_bag_folder
 from cloth_sim_ros.recording.bag_folder import remove_bag_folder
 from cloth_sim_ros.recording.bag_folder import sync_folder
 from cloth_sim_ros.recording.bag_metadata import BagMetadata
-from cloth_sim_ros.recording.bag_topic import BagChannel
 from cloth_sim_ros.recording.indexed_mcap import IndexedMcap
 from cloth_sim_ros.recording.mcap_scan import McapScan
 from cloth_sim_ros.recording.recorded_qos import qos_profiles

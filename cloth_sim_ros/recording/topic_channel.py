@@ -4,8 +4,8 @@
 """A topic of this project as it stands in its recordings."""
 
 from cloth_sim_ros.messages.topics import Topic
+from cloth_sim_ros.recording.bag_channel import BagChannel
 from cloth_sim_ros.recording.bag_metadata import yaml_text
-from cloth_sim_ros.recording.bag_topic import BagChannel
 from cloth_sim_ros.recording.message_definition import message_definition
 from cloth_sim_ros.recording.message_definition import type_hash
 from cloth_sim_ros.recording.offered_qos import offered_qos

@@ -73,7 +73,7 @@ def main(args: Namespace) -> int:
     grid = load_grid(args.grid or default_grid_path())
     with ResultsFolder(args.out) as results:
         if args.check:
-            from cloth_sim_ros.study.trade.choice import check
+            from cloth_sim_ros.study.trade.check import check
             return check(Path(args.check), args.scene, grid, results, workers_of(args))
         measured = measure(
             args.scene, grid, results, workers_of(args), _wanted(budget))
@@ -91,7 +91,7 @@ def main(args: Namespace) -> int:
 def _write(folder: Path, measured: Measured, args: Namespace) -> None:
     # Slow to import, and of use at the end alone.
     from cloth_sim_ros.study.trade.page import page
-    from cloth_sim_ros.study.trade.page import write_plot
+    from cloth_sim_ros.study.trade.plot import write_plot
     text = page(measured, args.scene_file)
     try:
         write_table(folder, measured.rows)

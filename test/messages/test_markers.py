@@ -5,11 +5,7 @@
 
 from contextlib import closing
 
-from builtin_interfaces.msg import Time
-from cloth_sim_ros.messages.cdr_writer import CdrWriter
 from cloth_sim_ros.messages.markers import MarkersMessage
-from cloth_sim_ros.messages.markers import push_arrows
-from cloth_sim_ros.messages.markers import put_marker
 from cloth_sim_ros.messages.surface import strain_colors
 from cloth_sim_ros.messages.surface import triangles
 from cloth_sim_ros.sim.push import Push
@@ -17,69 +13,15 @@ from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.simulation import Simulation
 from cloth_sim_ros.sim.snapshot import FLAG_AT_LIMIT
 from cloth_sim_ros.sim.snapshot import FLAG_PINNED
-from geometry_msgs.msg import Point
-from geometry_msgs.msg import Pose
-from geometry_msgs.msg import Vector3
 from made_snapshot import make_snapshot
 import numpy as np
 from pushed_scenes import unit_scene
 import pytest
 from rclpy.serialization import deserialize_message
-from std_msgs.msg import ColorRGBA
-from std_msgs.msg import Header
 from visualization_msgs.msg import Marker
 from visualization_msgs.msg import MarkerArray
 
-NODES = np.array([[0.0, 0.0, 1.0], [2.0, 4.0, 1.0]])
 PUSH = Push.checked(force=(0.0, 0.0, 1.0), start=1.0, duration=0.5)
-
-
-@pytest.mark.parametrize('frame_id', ['', 'a', 'ab', 'abc', 'abcd', 'world'])
-@pytest.mark.parametrize('count', [0, 1, 3])
-def test_every_field_is_read_back(frame_id, count):
-    """Markers of some frame names or sizes would be read from the wrong place."""
-    points = np.arange(3.0 * count).reshape(count, 3)
-    colors = np.linspace(0.0, 1.0, 4 * count, dtype=np.float32).reshape(count, 4)
-    writer = CdrWriter()
-    writer.put('I', 2)
-    for number in (5, 6):
-        put_marker(
-            writer, time=Time(sec=7, nanosec=8), frame_id=frame_id, namespace='pins',
-            number=number, kind=Marker.POINTS, scale=(0.5, 0.25, 0.125),
-            color=(0.0, 0.25, 0.5, 1.0), points=points, colors=colors)
-    expected = [
-        Marker(
-            header=Header(stamp=Time(sec=7, nanosec=8), frame_id=frame_id), ns='pins', id=number,
-            type=Marker.POINTS, action=Marker.ADD, pose=Pose(),
-            scale=Vector3(x=0.5, y=0.25, z=0.125), color=ColorRGBA(g=0.25, b=0.5, a=1.0),
-            points=[Point(x=x, y=y, z=z) for x, y, z in points.tolist()],
-            colors=[ColorRGBA(r=r, g=g, b=b, a=a) for r, g, b, a in colors.tolist()])
-        for number in (5, 6)]
-    assert deserialize_message(writer.finish(), MarkerArray).markers == expected
-
-
-def test_only_pushes_that_act_are_shown():
-    """A push would show before it begins or after it ends."""
-    push = Push.checked(force=(0.0, 0.0, 2.0), start=1.0, duration=0.5)
-    shown = [len(push_arrows([push], time, NODES, 1.0)) for time in (0.99, 1.0, 1.49, 1.5)]
-    assert shown == [0, 1, 1, 0]
-
-
-def test_arrows_stand_in_their_region_and_point_along_the_force():
-    """A push would show somewhere else, in another direction or strength."""
-    everywhere = Push.checked(force=(0.0, 0.0, -4.0), start=0.0, duration=1.0)
-    sphere = Push.checked(
-        force=(2.0, 0.0, 0.0), start=0.0, duration=1.0, region='sphere',
-        center=(5.0, 6.0, 7.0), radius=0.1)
-    first, second = push_arrows([everywhere, sphere], 0.5, NODES, 0.3)
-    np.testing.assert_allclose(first, [[1.0, 2.0, 1.0], [1.0, 2.0, 0.7]])
-    np.testing.assert_allclose(second, [[5.0, 6.0, 7.0], [5.15, 6.0, 7.0]])
-
-
-def test_a_push_without_force_has_no_arrow():
-    """The arrow of a zero force would have a direction that is not a number."""
-    push = Push.checked(force=(0.0, 0.0, 0.0), start=0.0, duration=1.0)
-    assert push_arrows([push], 0.5, NODES, 1.0) == []
 
 
 def decode(data):

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-"""What a study of the trade found, as words, a table and a plot."""
+"""What a study of the trade found, in plain words and as a table."""
 
 from collections import Counter
 from collections.abc import Iterable
@@ -16,13 +16,8 @@ from cloth_sim_ros.study.trade.path import distances
 from cloth_sim_ros.study.trade.row import Row
 from cloth_sim_ros.study.trade.row import WORST_ERROR
 from cloth_sim_ros.study.trade.variant import Variant
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 import numpy as np
 
-_COLOURS = ('#0072b2', '#d55e00', '#009e73', '#cc79a7', '#e69f00', '#56b4e9')
-_COLUMNS = 2
-_DPI = 110
 _SPEEDS = (0.1, 0.25, 0.5, 1.0, 2.0, 4.0, 8.0)
 _ERRORS = (3e-2, 1e-2, 3e-3, 1e-3, 3e-4, 1e-4)
 
@@ -36,58 +31,6 @@ def write_table(folder: Path, rows: Sequence[Row]) -> None:
         writer.writerows(lines)
     text = ''.join(f'{json.dumps(line)}\n' for line in lines)
     (folder / 'table.jsonl').write_text(text, encoding='utf-8')
-
-
-def write_plot(path: Path, measured: Measured) -> None:
-    """Write the figure as PNG."""
-    variants = [v for v in measured.grid.variants if _drawable(measured.rows_of(v), v)]
-    lines = -(-len(variants) // _COLUMNS)
-    figure = Figure(figsize=(6.2 * _COLUMNS, 4.4 * lines), layout='constrained')
-    panels = figure.subplots(lines, min(_COLUMNS, len(variants)), squeeze=False).flatten()
-    for panel in panels[len(variants):]:
-        panel.set_visible(False)
-    methods = list(dict.fromkeys(row.setting.method for row in measured.rows))
-    colours = {method: _COLOURS[i % len(_COLOURS)] for i, method in enumerate(methods)}
-    for panel, variant in zip(panels, variants):
-        _draw(panel, measured, variant, colours)
-    handles, labels = panels[0].get_legend_handles_labels()
-    figure.legend(handles, labels, loc='outside lower center', ncols=len(labels))
-    figure.savefig(path, dpi=_DPI)
-
-
-def _drawable(rows: list[Row], variant: Variant) -> list[Row]:
-    return [row for row in rows if row.is_useful(variant.is_scene)]
-
-
-def _draw(
-        panel: Axes, measured: Measured, variant: Variant, colours: dict[str, str]) -> None:
-    rows = _drawable(measured.rows_of(variant), variant)
-    for method, colour in colours.items():
-        for is_timed in (True, False):
-            points = [row for row in rows
-                      if row.setting.method == method and bool(row.rounds) == is_timed]
-            panel.scatter(
-                [row.cost for row in points], [row.error(variant.is_scene) for row in points],
-                s=26, color=colour, facecolors=colour if is_timed else 'none',
-                label=method if is_timed else None, zorder=3)
-    best = front(rows, of_scene=variant.is_scene)
-    panel.plot(
-        [row.cost for row in best], [row.error(variant.is_scene) for row in best],
-        color='0.4', linewidth=1.0, label='Pareto front')
-    for row in best:
-        panel.annotate(
-            row.setting.label, (row.cost, row.error(variant.is_scene)), fontsize=7,
-            xytext=(4, 4), textcoords='offset points')
-    panel.scatter([], [], s=26, color='0.4', facecolors='none', label='not timed: an estimate')
-    panel.axvline(1.0, color='0.7', linewidth=1.0, linestyle='--', label='real time')
-    panel.set(xscale='log', yscale='log', xlabel='wall time of a simulated second [s]')
-    own = 'position error / side'
-    panel.set_ylabel(own if variant.is_scene else f'{own}, against its own model')
-    first = rows[0].run.scene
-    panel.set_title(
-        f'{variant.name}: {first.get("rows", 32)} x {first.get("cols", 32)} nodes', fontsize=10)
-    panel.grid(True, which='major', color='0.9')
-    panel.margins(x=0.22, y=0.12)
 
 
 def page(measured: Measured, scene_name: str) -> str:

@@ -1,9 +1,10 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
+
 """The progress bar over recordings."""
 
-from cloth_sim_ros.verb.play_progress import ReadingProgress
+from cloth_sim_ros.verb.reading_progress import ReadingProgress
 import pytest
 
 
