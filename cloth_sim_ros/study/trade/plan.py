@@ -13,7 +13,7 @@ from cloth_sim_ros.study.trade.grid import Setting
 from cloth_sim_ros.study.trade.variant import Variant
 
 _TRAJECTORY = 'cloth_sim_ros.study.trade.trajectory:trajectory'
-_REFERENCE = 'cloth_sim_ros.study.trade.reference:spring_reference'
+_REFERENCE = 'cloth_sim_ros.study.trade.spring_reference:spring_reference'
 _COST = 'cloth_sim_ros.study.trade.cost:cost'
 
 
