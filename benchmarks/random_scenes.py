@@ -5,7 +5,7 @@
 Scenes drawn at random over all that can be asked for, in every mode: energy and lengths.
 
     python benchmarks/random_scenes.py --first 0 --count 60
-    python benchmarks/random_scenes.py --seed 20261122 --count 150
+    python benchmarks/random_scenes.py --seed 20261123 --count 150
 
 Each runs for 3 s, or the time that 1500 dt or 40,000 substeps of springs make, and is ended when
 it has taken 20 s of processor time. The books are those of ``EnergyAccount``; lengths are measured

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-Fabrics that were measured: weight, stiffness and rigidity by name.
+Fabrics that were measured: mass, stiffness and rigidity by name.
 
 The numbers are those of Wang, O'Brien and Ramamoorthi, "Data-driven elastic models for cloth:
 modeling and measurement", 2011, DOI 10.1145/2010324.1964966. They measured curves; a fabric here
@@ -99,7 +99,7 @@ def with_material(given: Mapping[str, Any]) -> dict[str, Any]:
     """
     Return ``given`` with the values of its ``material.preset`` for what it leaves out.
 
-    A weight of the whole cloth takes the place of the fabric's, and springs that of its stretch.
+    A mass of the whole cloth takes the place of the fabric's, and springs that of its stretch.
     """
     name = given.get('material.preset', NO_PRESET)
     # What is no fabric is left to the check of the field.

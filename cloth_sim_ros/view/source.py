@@ -35,7 +35,8 @@ class Source(ABC):
     """
     A cloth that moves, of which the latest moment can be had from any thread.
 
-    What is asked for raises ClothSimError when it cannot be done.
+    What is asked for raises ClothSimError when it cannot be done. What ``modes``, ``can_act`` and
+    ``span`` rule out is not offered by the page, and such a source need not define it.
 
     :param name: of the scene, the recording or the node
     :param modes: that ``set_mode`` takes; none where the mode is settled
