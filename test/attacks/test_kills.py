@@ -18,10 +18,10 @@ from node_process import NodeProcess
 import pytest
 from rosbags.highlevel import AnyReader
 from shared_memory import shared_memory_files
-from stall import Stall
 from std_srvs.srv import Trigger
+from writers_clock import WritersClock
 
-MOST_LOST = 1.0  # wall time [s], beside what machine and disk stand still
+MOST_LOST = 1.0  # [s], while neither the disk nor the machine stands still
 NODE = '/kills/cloth_sim'
 PARAMETERS = {
     'rows': 16, 'cols': 16, 'recording.enabled': True, 'recording.max_bagfile_duration': 1.0}
@@ -54,21 +54,22 @@ class Kills:
         """Start the node, kill it around ``moment``, and check what it leaves."""
         before = self.recordings()
         self._forget()
-        with Stall(self._folder) as stall, NodeProcess(
+        with WritersClock(self._folder) as clock, NodeProcess(
                 self._folder, PARAMETERS, '-r', '__ns:=/kills') as node:
             getattr(self, f'_{moment}')()
-            most_lost = MOST_LOST + stall.longest
+            written = clock.before(MOST_LOST)
             killed = time.time()
             node.send(signal.SIGKILL)
             node.wait()
         self._client.spin_for(0.2)  # for what it has sent at the end
         fresh = sorted(self.recordings() - before)
         assert len(fresh) <= 1
-        safe = [steps for at, steps in self._heard if at < killed - most_lost]
+        safe = [steps for at, steps in self._heard if at < written]
         assert fresh or not safe
         if fresh:
             check_recording(
-                fresh[0], max(safe, default=-1), f'killed at {moment}, {most_lost:.3f} s before')
+                fresh[0], max(safe, default=-1),
+                f'killed at {moment}, {killed - written:.3f} s before')
 
     def end_in_peace(self) -> None:
         """Start the node, and let it complete its recording."""

@@ -1,8 +1,9 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-"""How long machine and disk hold up a process that writes as a recording does."""
+"""A clock that stands still while machine or disk hold up who writes as a recording does."""
 
+import math
 import os
 from pathlib import Path
 import threading
@@ -12,27 +13,25 @@ _PERIOD = 0.02  # [s]
 _BLOCK = bytes(4096)
 
 
-class Stall:
+class WritersClock:
     """
     Append to a file in ``folder`` and replace another, each 20 ms; a context manager.
 
-    What that took longer is what others may have been held up for, too: by the disk, or by a
-    machine that stood still for a while.
+    Each turn counts as 20 ms, however long it has taken: by this clock, no time goes by while the
+    disk holds up a turn or the machine stands still.
     """
 
     def __init__(self, folder: Path) -> None:
         """Prepare; nothing is written yet."""
         folder.mkdir(parents=True, exist_ok=True)
-        self._appended = folder / 'stall.appended'
-        self._replaced = folder / 'stall.replaced'
+        self._appended = folder / 'clock.appended'
+        self._replaced = folder / 'clock.replaced'
         self._done = threading.Event()
-        self._thread = threading.Thread(target=self._write, name='stall')
-        self._last = 0.0
-        self._longest = 0.0
+        self._thread = threading.Thread(target=self._write, name='clock')
+        self._turns: list[float] = []
 
-    def __enter__(self) -> 'Stall':
+    def __enter__(self) -> 'WritersClock':
         """Begin."""
-        self._last = time.monotonic()
         self._thread.start()
         return self
 
@@ -40,13 +39,13 @@ class Stall:
         """End, and remove the files."""
         self._done.set()
         self._thread.join()
-        self._appended.unlink()
+        self._appended.unlink(missing_ok=True)
         self._replaced.unlink(missing_ok=True)
 
-    @property
-    def longest(self) -> float:
-        """Get the longest time by which a turn has come late, or is late, so far [s]."""
-        return max(self._longest, time.monotonic() - self._last - _PERIOD)
+    def before(self, period: float) -> float:
+        """Return the wall time [s] that was ``period`` [s] ago by this clock."""
+        number = math.ceil(period / _PERIOD)
+        return self._turns[-number] if len(self._turns) >= number else -math.inf
 
     def _write(self) -> None:
         descriptor = os.open(self._appended, os.O_WRONLY | os.O_CREAT | os.O_APPEND, 0o666)
@@ -56,7 +55,6 @@ class Stall:
                 fresh = self._replaced.with_suffix('.fresh')
                 fresh.write_bytes(_BLOCK)
                 fresh.replace(self._replaced)
-                self._longest = self.longest
-                self._last = time.monotonic()
+                self._turns.append(time.time())
         finally:
             os.close(descriptor)
