@@ -94,7 +94,8 @@ class ReferenceCloth(ABC):
 
     def _load_accelerations(self, begin: float, end: float) -> np.ndarray:
         """Return what pushes and air add in the time given [s], 0 at pinned nodes [m/s2]."""
-        return self._push_accelerations(begin, end) + self._air_accelerations(begin, end)
+        pushes = self._push_accelerations(begin, end)
+        return pushes + self._air_accelerations(begin, end) if self.scene.has_air else pushes
 
     def _air_accelerations(self, begin: float, end: float) -> np.ndarray:
         """Return what the air gives by the present motion, 0 at pinned nodes [m/s2]."""

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-"""The springs of a cloth as one flat list of edges, for schemes that solve for all at once."""
+"""The springs of a cloth as one flat list of edges, and their forces."""
 
 from __future__ import annotations
 
@@ -62,10 +62,7 @@ class Edges:
 
     def directions(self, positions: np.ndarray) -> np.ndarray:
         """Return the unit vector to the first end; 0 where an edge has no length."""
-        differences = self.differences(positions)
-        lengths = np.linalg.norm(differences, axis=1, keepdims=True)
-        return np.divide(
-            differences, lengths, out=np.zeros_like(differences), where=lengths > 0.0)
+        return _along(self.differences(positions))[1]
 
     def along(self, velocities: np.ndarray, directions: np.ndarray) -> np.ndarray:
         """Return how fast each edge grows [m/s]."""
@@ -78,10 +75,17 @@ class Edges:
 
     def scatter(self, vectors: np.ndarray, nodes: int) -> np.ndarray:
         """Return at each node what its edges give: ``vectors`` to the first, - to the second."""
-        total = np.zeros((nodes, 3))
-        np.add.at(total, self.first, vectors)
-        np.subtract.at(total, self.second, vectors)
-        return total
+        return np.stack([
+            np.bincount(self.first, weights=component, minlength=nodes)
+            - np.bincount(self.second, weights=component, minlength=nodes)
+            for component in vectors.T], axis=1, dtype=float)
+
+    def spring_forces(self, positions: np.ndarray, velocities: np.ndarray) -> np.ndarray:
+        """Return what the edges, as damped springs, do to each node [N]."""
+        lengths, directions = _along(self.differences(positions))
+        rates = np.einsum('ij,ij->i', self.differences(velocities), directions)
+        tensions = self.stiffness * (lengths - self.rest_length) + self.damping * rates
+        return self.scatter(-tensions[:, None] * directions, len(positions))
 
     def jacobian(self, directions: np.ndarray, nodes: int) -> sparse.csr_matrix:
         """Return J, edges x 3 nodes: J v is the rate at which each edge grows."""
@@ -91,6 +95,13 @@ class Edges:
             (np.concatenate((directions.ravel(), -directions.ravel())),
              (np.tile(rows, 2), np.concatenate([column.ravel() for column in columns]))),
             shape=(len(self), 3 * nodes))
+
+
+def _along(differences: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Return lengths and unit vectors; 0 for what has no length, which pulls nowhere."""
+    lengths = np.sqrt(np.einsum('ij,ij->i', differences, differences))
+    divisors = np.where(lengths > 0.0, lengths, 1.0)
+    return lengths, differences / divisors[:, None]
 
 
 def edges_of(scene: Scene, always: Sequence[str] = ()) -> Edges:

@@ -5,7 +5,7 @@
 
 from cloth_sim_ros.reference.air_force import air_forces
 from cloth_sim_ros.reference.cloth import ReferenceCloth
-from cloth_sim_ros.reference.springs import total_forces
+from cloth_sim_ros.reference.edges import edges_of
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.stability import choose_substeps
 import numpy as np
@@ -24,13 +24,16 @@ class MassSpringReference(ReferenceCloth):
     def __init__(self, scene: Scene, substeps: int | None = None) -> None:
         """Start at rest in the scene's start pose."""
         super().__init__(scene)
+        self._edges = edges_of(scene)
         self.substeps = substeps or self._substeps_of_scene()
 
     def accelerations(self, positions: np.ndarray, velocities: np.ndarray) -> np.ndarray:
         """Return g + F / m, 0 at pinned nodes [m/s2]; no pushes and no air."""
-        forces = total_forces(self.springs, positions, velocities)
-        forces += self.bending.forces(positions)
-        return (self.gravity + forces / self.scene.node_mass) * self.free[..., None]
+        forces = self._edges.spring_forces(positions.reshape(-1, 3), velocities.reshape(-1, 3))
+        if self.scene.has_rigidity:
+            forces += self.bending.forces(positions).reshape(-1, 3)
+        forces *= self.inverse_masses[:, None]
+        return self.gravity * self.free[..., None] + forces.reshape(positions.shape)
 
     def right_hand_side(self, t: float, state: np.ndarray) -> np.ndarray:
         """

@@ -50,19 +50,6 @@ class SpringSet:
         """Return l / L0 - 1 of each spring."""
         return self.lengths(positions) / self.rest_length - 1.0
 
-    def forces(self, positions: np.ndarray, velocities: np.ndarray) -> np.ndarray:
-        """Return the force on the first end of each spring [N]; the second gets its opposite."""
-        first, second = self.ends(positions)
-        difference = first - second
-        length = np.linalg.norm(difference, axis=-1, keepdims=True)
-        # A spring of no length has no direction: it pulls nowhere.
-        direction = np.divide(
-            difference, length, out=np.zeros_like(difference), where=length > 0.0)
-        first_velocity, second_velocity = self.ends(velocities)
-        rate = np.sum((first_velocity - second_velocity) * direction, axis=-1, keepdims=True)
-        tension = self.stiffness * (length - self.rest_length) + self.damping * rate
-        return -tension * direction
-
 
 def spring_sets(scene: Scene, always: Sequence[str] = ()) -> tuple[SpringSet, ...]:
     """
@@ -84,19 +71,6 @@ def spring_sets(scene: Scene, always: Sequence[str] = ()) -> tuple[SpringSet, ..
         for family, down, right, rest_length in directions
         if (scene.models(family) or family in always)
         and down < scene.rows and abs(right) < scene.cols)
-
-
-def total_forces(
-        springs: Sequence[SpringSet], positions: np.ndarray,
-        velocities: np.ndarray) -> np.ndarray:
-    """Return the force of all springs on each node [N], shape (rows, cols, 3)."""
-    total = np.zeros_like(positions)
-    for spring_set in springs:
-        force = spring_set.forces(positions, velocities)
-        first, second = spring_set.ends(total)
-        first += force
-        second -= force
-    return total
 
 
 def node_strain(springs: Sequence[SpringSet], positions: np.ndarray) -> np.ndarray:

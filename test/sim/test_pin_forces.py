@@ -3,8 +3,8 @@
 
 """The forces that hold the pins."""
 
+from cloth_sim_ros.reference.edges import edges_of
 from cloth_sim_ros.reference.springs import spring_sets
-from cloth_sim_ros.reference.springs import total_forces
 from cloth_sim_ros.sim.edge_kinds import EDGE_KINDS
 from cloth_sim_ros.sim.pin_forces import pin_forces
 from cloth_sim_ros.sim.pin_forces import spring_tension
@@ -24,18 +24,21 @@ def make_state(scene):
     return positions, random.normal(0.0, 1.0, positions.shape)
 
 
-def test_tension_is_the_force_of_the_reference_along_the_spring():
+def test_tension_is_that_of_a_damped_spring():
     """A tension would be of another spring, or have another sign."""
     scene = Scene(SCENE)
     positions, velocities = make_state(scene)
     tension = spring_tension(scene, positions, velocities)
     assert (tension.shape, tension.dtype) == ((6, 5, 6), np.float32)
     for number, springs in enumerate(spring_sets(scene)):
-        force = springs.forces(positions, velocities)
         first, second = springs.ends(positions)
         along = (second - first) / springs.lengths(positions)[..., None]
+        slower, faster = springs.ends(velocities)
+        stretch = springs.lengths(positions) - springs.rest_length
+        expected = springs.stiffness * stretch + springs.damping * np.sum(
+            (faster - slower) * along, axis=-1)
         stored = springs.ends(tension)[0][..., number]
-        np.testing.assert_allclose(stored, np.sum(force * along, axis=-1), rtol=1e-5, atol=1e-6)
+        np.testing.assert_allclose(stored, expected, rtol=1e-5, atol=1e-6)
 
 
 def test_there_is_none_where_there_is_no_edge():
@@ -77,7 +80,8 @@ def test_it_is_the_weight_and_the_pull_of_the_reference_springs(rows, cols):
     random = np.random.default_rng(2)
     positions = scene.rest_positions() + random.normal(0.0, 0.05, (rows, cols, 3))
     velocities = random.normal(0.0, 1.0, positions.shape)
-    pulls = total_forces(spring_sets(scene), positions, velocities)
+    pulls = edges_of(scene).spring_forces(
+        positions.reshape(-1, 3), velocities.reshape(-1, 3)).reshape(positions.shape)
     nodes = np.array([(0, 0), (rows // 2, cols - 1), (rows - 1, 0)])
     tension = spring_tension(scene, positions, velocities, nodes)
     held = pin_forces(scene, positions, tension, nodes)
