@@ -51,8 +51,9 @@ void decide(float now, float curvature, float size) {
     measure_start = start;
     iterations += first && !sound ? 0.0 : 1.0;
     // The step just found is made, and reduces the measure as the last one did. What is not sound
-    // makes no step, and stays what it is: a NaN, for one.
-    measure_after = first || !sound ? now : now * min(keep, 1.0);
+    // makes no step, and stays what it is: a NaN, for one. Below zero is no small residual, but a
+    // preconditioner that is wrong.
+    measure_after = first || !sound ? abs(now) : now * min(keep, 1.0);
     if (sets_scale) {
         scale = max(size, least_scale);
     }

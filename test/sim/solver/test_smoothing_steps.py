@@ -56,6 +56,19 @@ def test_steps_are_those_of_chebyshev(family, stiffness):
     assert left[1] == pytest.approx(-left[0], abs=1e-12)
 
 
+def test_bending_is_smoothed_where_edges_do_not_resist():
+    """Ripples of a stiff fabric with hard edges would grow in each cycle of the solver."""
+    law = hard_edges(Scene({'rows': 64, 'cols': 48, 'bending.rigidity': 1e-3}), 0.01)
+    assert around_a_node(law) > 100.0
+    # Across the edges: a row or a column of five nodes has 16 c, of which the middle one has 6.
+    bending = sum(law.bending_weights)
+    largest = (1.0 + 16.0 * bending) / (1.0 + 6.0 * bending)
+    assert largest > 2.5
+    steps = smoothing_steps(law)
+    assert np.abs(left_over(steps, np.linspace(0.25, largest, 200))).max() < 0.6
+    assert np.abs(left_over(steps, np.linspace(0.0, largest, 200))).max() <= 1.0
+
+
 def test_without_edges_a_step_is_exact():
     """Nodes that nothing ties would not fall freely."""
     assert smoothing_steps(hard_edges(Scene({}), 0.01, families=())) == (1.0, 1.0)
