@@ -21,6 +21,11 @@
 
 uniform float bending[2];  // [N/m] along a row, along a column
 #endif
+#if HAS_BENDING_DAMPING
+#include "bending_damping.glsl"
+
+uniform float bending_damping;  // [s]
+#endif
 
 layout(local_size_x = LOCAL_X, local_size_y = LOCAL_Y) in;
 
@@ -93,6 +98,11 @@ void main() {
         for (int col = HALO; col < HALO + BLOCK; ++col) {
             int index = node_index(first.y + row - HALO, first.x + col - HALO);
             vec4 v = load_velocity(index);
+#if HAS_BENDING_DAMPING
+            force[row][col] -= bending_damping * (
+                bending[0] * bending_brake(index, 1)
+                + bending[1] * bending_brake(index, PITCH));
+#endif
             v.xyz = next_velocity(v, force[row][col], applied_acceleration(index));
             velocity_out[index] = v;
 #if STRAIN_LIMIT == NO_LIMIT

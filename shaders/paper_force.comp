@@ -50,6 +50,12 @@ vec3 bending_along(int row, int col, int drow, int dcol) {
 }
 #endif
 
+#if HAS_BENDING_DAMPING
+#include "bending_damping.glsl"
+
+uniform float bending_damping;  // [s]
+#endif
+
 #define ADD_BOTH_WAYS(FORCE, EDGE, DROW, DCOL, FAMILY, REST) \
     FORCE += both_ways(row, col, DROW, DCOL, FAMILY, REST);
 
@@ -64,6 +70,11 @@ void main() {
 #if HAS_RIGIDITY
     force -= bending[0] * bending_along(row, col, 0, 1)
         + bending[1] * bending_along(row, col, 1, 0);
+#endif
+#if HAS_BENDING_DAMPING
+    int here = node_index(row, col);
+    force -= bending_damping * (
+        bending[0] * bending_brake(here, 1) + bending[1] * bending_brake(here, PITCH));
 #endif
     force_out[node_index(row, col)] = vec4(force, 0.0);
 }

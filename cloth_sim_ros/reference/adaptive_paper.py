@@ -69,7 +69,9 @@ class PaperAdaptiveReference(ReferenceCloth):
         rate = np.sum(edges.differences(self.velocities.reshape(-1, 3)) * directions, axis=1)
         tension = springs * (edges.stiffness * error + edges.damping * rate)
         forces = -edges.scatter(tension[:, None] * directions, len(start))
-        forces += self.bending.forces(self.positions).reshape(-1, 3)
+        bending = self.bending.forces(self.positions)
+        forces += (bending + self.bending.damping_forces(
+            self.positions, self.velocities)).reshape(-1, 3)
         velocities = self.velocities + h * (
             self._applied_accelerations(begin, end)
             + (self.inverse_masses[:, None] * forces).reshape(self.positions.shape))

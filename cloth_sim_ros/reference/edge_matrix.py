@@ -27,6 +27,7 @@ class EdgeMatrix:
             bending: sparse.spmatrix | None = None) -> None:
         """Find where each number of each block goes; only free nodes have unknowns."""
         self.free = free
+        self._own = np.repeat(free, 3)
         self.size = 3 * int(np.count_nonzero(free))
         number = np.cumsum(free) - 1
         rows, cols, self._parts = [np.arange(self.size)], [np.arange(self.size)], []
@@ -54,13 +55,16 @@ class EdgeMatrix:
         self._indices = places % max(self.size, 1)
         self._starts = np.searchsorted(places // max(self.size, 1), np.arange(self.size + 1))
 
-    def solve(self, blocks: np.ndarray, right: np.ndarray, share: float = 0.0) -> np.ndarray:
+    def solve(
+            self, blocks: np.ndarray, right: np.ndarray, share: float = 0.0,
+            more: sparse.csr_matrix | None = None) -> np.ndarray:
         """
-        Return what solves (M + K + K_bend) dv = ``right``, 0 at nodes that are not free.
+        Return what solves (M + K + K_bend + ``more``) dv = ``right``, 0 where it is not free.
 
         :param blocks: K of each edge, symmetric, (edges, 3, 3) [kg]
         :param right: (nodes, 3) [kg m/s]
         :param share: of the matrix of bending in K_bend [s2]
+        :param more: (3 nodes, 3 nodes) [kg]; None for none
         :return: dv (nodes, 3) [m/s]
         """
         change = np.zeros_like(right)
@@ -73,11 +77,15 @@ class EdgeMatrix:
         if self.size <= DENSE:
             dense = np.zeros(self.size**2)
             dense[self._flat] = data
-            found = np.linalg.solve(
-                dense.reshape(self.size, self.size), right[self.free].ravel())
+            dense = dense.reshape(self.size, self.size)
+            if more is not None:
+                dense += more[self._own][:, self._own].toarray()
+            found = np.linalg.solve(dense, right[self.free].ravel())
         else:
             matrix = sparse.csc_matrix(
                 (data, self._indices, self._starts), shape=(self.size, self.size))
+            if more is not None:
+                matrix = (matrix + more[self._own][:, self._own]).tocsc()
             found = splu(
                 matrix, permc_spec='MMD_AT_PLUS_A', diag_pivot_thresh=0.0,
                 options={'SymmetricMode': True}).solve(right[self.free].ravel())

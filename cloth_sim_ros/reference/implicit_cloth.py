@@ -132,11 +132,17 @@ class ImplicitCloth(ReferenceCloth):
         applied = share * (
             self.gravity * self.free[..., None] + self._air_accelerations(now, now + h)
             + bending / self.scene.node_mass) + self._push_accelerations(now, now + h)
+        damping = self.bending.damping_matrix(self.positions)
         held, solves = np.zeros_like(self.free), 0
         while True:
+            start = self._start(held)
+            damped = applied.reshape(-1, 3)
+            if damping is not None:
+                pulls = (damping @ start.ravel()).reshape(-1, 3)
+                damped = damped - self.inverse_masses[:, None] * pulls
             step = self._make(
-                self.positions.reshape(-1, 3), self._start(held).reshape(-1, 3),
-                applied.reshape(-1, 3), self.tension if self._before else None, h)
+                self.positions.reshape(-1, 3), start.reshape(-1, 3), damped,
+                self.tension if self._before else None, h, damping)
             solves += step.solves
             pull = np.linalg.norm(self._pull(step), axis=-1) / h
             too_much = ~self.free & ~held & self._asked.any(axis=-1) & (pull > self.max_force)

@@ -102,6 +102,7 @@ class _Pass:
     :param held: the tension that is already in the velocities [N]
     :param driven: velocities that what is applied adds (nodes, 3) [m/s]
     :param h: length of the step [s]
+    :param damping: what damping of bending resists (3 nodes, 3 nodes) [N s/m]; None for none
     """
 
     directions: np.ndarray
@@ -111,6 +112,7 @@ class _Pass:
     held: np.ndarray
     driven: np.ndarray
     h: float
+    damping: sparse.csr_matrix | None = None
 
 
 class ImplicitStep:
@@ -138,7 +140,8 @@ class ImplicitStep:
 
     def __call__(
             self, positions: np.ndarray, velocities: np.ndarray, applied: np.ndarray,
-            before: np.ndarray | None, h: float) -> Step:
+            before: np.ndarray | None, h: float,
+            damping: sparse.csr_matrix | None = None) -> Step:
         """
         Return what a step of ``h`` [s] makes of a state.
 
@@ -147,6 +150,7 @@ class ImplicitStep:
         :param applied: accelerations by gravity and pushes (nodes, 3) [m/s2]
         :param before: tensions at the end of the step before, for the first K_geo [N]; None where
             there was none, so that those of the present lengths count
+        :param damping: what damping of bending resists in it, (3 nodes, 3 nodes) [N s/m]
         """
         edges = self.law.edges
         lengths, directions = edges.lengths(positions), edges.directions(positions)
@@ -160,7 +164,8 @@ class ImplicitStep:
         for _ in range(self.passes.start):
             one = _Pass(
                 directions, lengths + h * rates + self._turn(ahead, directions, lengths, h), rates,
-                self._across(tension, lengths, h), np.zeros_like(lengths), driven, h)
+                self._across(tension, lengths, h), np.zeros_like(lengths), driven, h,
+                damping)
             change, tension, found, count = self._settle(one, change)
             solves += count
             settled &= found
@@ -172,7 +177,8 @@ class ImplicitStep:
             lengths, directions = edges.lengths(at), edges.directions(at)
             one = _Pass(
                 directions, lengths, edges.along(velocity, directions),
-                self._across(tension, lengths, h), tension, np.zeros_like(at), h)
+                self._across(tension, lengths, h), tension, np.zeros_like(at), h,
+                damping)
             added, tension, found, count = self._settle(one, np.zeros_like(at))
             solves += count
             settled &= found
@@ -204,7 +210,7 @@ class ImplicitStep:
             added = self._matrix.solve(
                 slope[:, None, None] * outer
                 + one.across[:, None, None] * (np.eye(3) - outer), right,
-                _BENDING * h**2)
+                _BENDING * h**2, None if one.damping is None else h * one.damping)
             lengths = one.lengths + h * edges.along(change + added, one.directions)
             if np.array_equal(law.side(lengths), side):
                 # No kink on the way: Newton's step goes to the minimum of a parabola.
@@ -226,6 +232,8 @@ class ImplicitStep:
         return self._free * (
             self._mass * (one.driven - change)
             - _BENDING * one.h**2 * (self._bending @ change)
+            - (0.0 if one.damping is None
+               else one.h * (one.damping @ change.ravel()).reshape(change.shape))
             - self.law.edges.scatter(self._impulse(one, change, tension), len(change)))
 
     def _impulse(self, one: _Pass, change: np.ndarray, tension: np.ndarray) -> np.ndarray:

@@ -32,6 +32,7 @@ class MassSpringReference(ReferenceCloth):
         forces = self._edges.spring_forces(positions.reshape(-1, 3), velocities.reshape(-1, 3))
         if self.scene.has_rigidity:
             forces += self.bending.forces(positions).reshape(-1, 3)
+            forces += self.bending.damping_forces(positions, velocities).reshape(-1, 3)
         forces *= self.inverse_masses[:, None]
         return self.gravity * self.free[..., None] + forces.reshape(positions.shape)
 

@@ -9,6 +9,10 @@ cells of dx x dy, a sheet of the rigidity B [N m] stores c / 2 D^2 at each of th
 c = B dy / dx^3 along a row and B dx / dy^3 along a column. So the fourth difference of positions
 is the force, and the grid does not matter. Springs between nodes two places apart (the bend
 springs) have no such limit: on a flat cloth they do not resist at all, to first order.
+
+With damping of the time tau [s], a line resists besides by c tau times the rate at which the part
+of D across the line grows (Kelvin and Voigt). What stretches or turns it is not resisted: a bent
+cloth rotates as freely as without.
 """
 
 from cloth_sim_ros.sim.scene import Scene
@@ -16,16 +20,22 @@ import numpy as np
 
 # A node's part in D of a line around the node at this place.
 _PARTS = {-1: 1.0, 0: -2.0, 1: 1.0}
+# Of a chord [m2], as in bending_damping.glsl; nodes in one place have no direction.
+_LEAST_SQUARE = 1e-20
 
 
-def bending_pulls(scene: Scene, positions: np.ndarray, nodes: np.ndarray) -> np.ndarray:
+def bending_pulls(
+        scene: Scene, positions: np.ndarray, velocities: np.ndarray | None,
+        nodes: np.ndarray) -> np.ndarray:
     """
     Return what bending pulls ``nodes`` with [N], (n, 3) float64.
 
     :param positions: (rows, cols, 3) [m]
+    :param velocities: (rows, cols, 3) [m/s]; None for a cloth at rest
     :param nodes: rows and columns, (n, 2) int
     """
     pulls = np.zeros((len(nodes), 3))
+    is_damped = velocities is not None and scene.has_bending_damping
     for c, by in zip(scene.bending, ((0, 1), (1, 0))):
         for place, part in _PARTS.items():
             centres = nodes + np.array(by) * place
@@ -33,5 +43,26 @@ def bending_pulls(scene: Scene, positions: np.ndarray, nodes: np.ndarray) -> np.
             are_there = np.all((lines >= 0) & (lines < (scene.rows, scene.cols)), axis=(0, 2))
             behind, here, ahead = (
                 positions[tuple(line[are_there].T)].astype(float) for line in lines)
-            pulls[are_there] -= c * part * ((behind - here) + (ahead - here))
+            bent = (behind - here) + (ahead - here)
+            pulls[are_there] -= c * part * bent
+            if is_damped:
+                # The node stands at the other side of the line's middle.
+                pulls[are_there] -= scene['bending.damping'] * c * _brake(
+                    bent, ahead - behind,
+                    [velocities[tuple(line[are_there].T)].astype(float) for line in lines],
+                    part, -place)
     return pulls
+
+
+def _brake(
+        bent: np.ndarray, chord: np.ndarray, velocities: list[np.ndarray], part: float,
+        place: int) -> np.ndarray:
+    """Return what lines resist at one of their nodes, over c tau, as bending_damping.glsl does."""
+    behind, here, ahead = velocities
+    skew = np.sum(bent * chord, axis=1, keepdims=True) / np.maximum(
+        np.sum(chord**2, axis=1, keepdims=True), _LEAST_SQUARE)
+    across = bent - skew * chord
+    across /= np.sqrt(np.maximum(np.sum(across**2, axis=1, keepdims=True), _LEAST_SQUARE**1.5))
+    grown = (behind - here) + (ahead - here) - skew * (ahead - behind)
+    speed = np.sum(across * grown, axis=1, keepdims=True)
+    return (part - place * skew) * speed * across

@@ -39,7 +39,7 @@ def with_forces(
             snapshot, tension=tension if every_edge else None,
             pin_forces=pin_forces(
                 scene, positions, tension, nodes, pins.velocity_changes(nodes) / snapshot.dt,
-                loads.at_nodes(nodes)))
+                loads.at_nodes(nodes), velocities))
 
 
 def pulled_too_hard(scene: Scene, state: State, mode: Mode, pins: PinMotion) -> list[Node]:
@@ -51,6 +51,6 @@ def pulled_too_hard(scene: Scene, state: State, mode: Mode, pins: PinMotion) -> 
     places = np.array(nodes)
     with np.errstate(invalid='ignore', over='ignore'):
         pulls = edge_pulls(
-            scene, positions, mode.tension(positions, velocities, places), places)
+            scene, positions, velocities, mode.tension(positions, velocities, places), places)
         too_hard = np.linalg.norm(pulls, axis=-1) > most
     return [node for node, is_too_hard in zip(nodes, too_hard) if is_too_hard]

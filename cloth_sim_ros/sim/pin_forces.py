@@ -60,7 +60,8 @@ class PinForces:
 
 def pin_forces(
         scene: Scene, positions: np.ndarray, tension: np.ndarray, nodes: np.ndarray,
-        accelerations: np.ndarray | None = None, loads: np.ndarray | None = None) -> PinForces:
+        accelerations: np.ndarray | None = None, loads: np.ndarray | None = None,
+        velocities: np.ndarray | None = None) -> PinForces:
     """
     Return R = m (a - g) - (what edges and bending pull a node with) for each of ``nodes``.
 
@@ -73,19 +74,21 @@ def pin_forces(
     :param nodes: rows and columns of the pinned nodes, (pins, 2) int
     :param accelerations: of the pinned nodes [m/s2], (pins, 3); by default they hold still
     :param loads: what accelerates them, gravity too [m/s2], (pins, 3); gravity alone by default
+    :param velocities: (rows, cols, 3) [m/s], which damp bending; by default, the cloth is at rest
     """
     applied = np.array(scene['gravity']) if loads is None else loads
     own = -applied if accelerations is None else accelerations - applied
     return PinForces(
-        nodes, scene.node_mass * own - edge_pulls(scene, positions, tension, nodes))
+        nodes,
+        scene.node_mass * own - edge_pulls(scene, positions, velocities, tension, nodes))
 
 
 def edge_pulls(
-        scene: Scene, positions: np.ndarray, tension: np.ndarray,
-        nodes: np.ndarray) -> np.ndarray:
+        scene: Scene, positions: np.ndarray, velocities: np.ndarray | None,
+        tension: np.ndarray, nodes: np.ndarray) -> np.ndarray:
     """Return what edges and bending pull each of ``nodes`` with [N], (n, 3); as in pin_forces."""
     pulls = (
-        bending_pulls(scene, positions, nodes) if scene.has_rigidity
+        bending_pulls(scene, positions, velocities, nodes) if scene.has_rigidity
         else np.zeros((len(nodes), 3)))
     here = positions[tuple(nodes.T)].astype(float)
     for kind in EDGE_KINDS:

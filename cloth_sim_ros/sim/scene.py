@@ -122,6 +122,11 @@ class Scene:
         return max(self.bending) > 0.0
 
     @property
+    def has_bending_damping(self) -> bool:
+        """Tell whether the cloth resists being bent the more the faster that is."""
+        return self.has_rigidity and self['bending.damping'] > 0.0
+
+    @property
     def bending(self) -> tuple[float, float]:
         """Return what bending along a row and along a column resists [N/m], sim/bending.py."""
         (dx, dy), rigidity = self.spacing, self['bending.rigidity']

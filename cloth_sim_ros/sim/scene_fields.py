@@ -50,6 +50,9 @@ SCENE_FIELDS = (
     Field('bending.rigidity', float, 0.0, 'bending rigidity of the cloth, or [warp, weft] for '
           'bending along rows and along columns; independent of the grid, unlike stiffness.bend',
           'N m', low=0.0, high=1e6, is_pair=True),
+    Field('bending.damping', float, 0.0, 'damping of bending.rigidity, as a time: bending that '
+          'changes at a rate is resisted like bending by this time the rate (Kelvin-Voigt)', 's',
+          low=0.0, high=1e3),
     Field('damping.structural', float, 0.01, 'damping coefficient of the structural springs, or '
           '[warp, weft]', 'N s/m', low=0.0, high=1e6, is_pair=True),
     Field('damping.shear', float, 0.01, 'damping coefficient of the shear springs', 'N s/m',

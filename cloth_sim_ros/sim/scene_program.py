@@ -81,6 +81,7 @@ def scene_defines(scene: Scene) -> dict[str, object]:
         'MOST_MAGNITUDE': f'{MOST_MAGNITUDE:e}',
         'HAS_DAMPING': int(has_damping),
         'HAS_RIGIDITY': int(scene.has_rigidity),
+        'HAS_BENDING_DAMPING': int(scene.has_bending_damping),
         **edge_defines(scene.families),
     }
 
@@ -90,6 +91,7 @@ def _set_springs(program: Program, scene: Scene) -> None:
     program.set_floats('damping', [kind.damping(scene) for kind in REST_KINDS])
     program.set_floats('rest_length', rest_lengths(scene))
     program.set_floats('bending', scene.bending)
+    program.set_float('bending_damping', scene['bending.damping'])
     program.set_float('inverse_mass', 1.0 / scene.node_mass)
     program.set_float('limit', scene['adaptive.threshold'])
     program.set_vectors('gravity', scene['gravity'])

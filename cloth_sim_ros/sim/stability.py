@@ -22,13 +22,11 @@ def stability_limit(scene: Scene) -> float:
 
     A plane wave with wave numbers (p, q) on the lattice feels the stiffness
     K(p, q) = sum over springs of 2 k n n^T (1 - cos(p dcol + q drow)), n the spring's
-    direction, that of bending, and a damping C of the form of the former. One wave with
-    eigenvalues kappa and gamma of
-    these is stable while h^2 kappa + 2 h gamma < 4 m. The limit is the least such h over all
-    waves. For a square lattice this is the closed form of docs/explanation/numerics.md.
+    direction, that of bending, and a damping C of the same form. One wave with eigenvalues kappa
+    and gamma of these is stable while h^2 kappa + 2 h gamma < 4 m. The limit is the least such h
+    over all waves. For a square lattice this is the closed form of docs/explanation/numerics.md.
     """
-    kappa, gamma = (_largest_eigenvalue(k) for k in _wave_matrices(scene))
-    return _least_limit(scene, kappa + _bending_of_waves(scene), gamma)
+    return _least_limit(scene, *(_largest_eigenvalue(k) for k in _wave_matrices(scene)))
 
 
 @lru_cache(maxsize=16)
@@ -39,9 +37,7 @@ def any_shape_limit(scene: Scene) -> float:
     No spring is stiffer than k in any direction. So whatever the directions n, no eigenvalue
     is above that of the springs' graph: the trace of K, as n n^T has the trace 1.
     """
-    kappa, gamma = (k[0] + k[2] for k in _wave_matrices(scene))
-    # Bending is the same in all directions: it has no shape to depend on.
-    return _least_limit(scene, kappa + _bending_of_waves(scene), gamma)
+    return _least_limit(scene, *(k[0] + k[2] for k in _wave_matrices(scene)))
 
 
 def safe_substep(scene: Scene) -> float:
@@ -60,6 +56,9 @@ def needed_substeps(dt: float, longest: float) -> int:
 
 
 def _least_limit(scene: Scene, kappa: np.ndarray, gamma: np.ndarray) -> float:
+    """Return the limit [s] with bending, which is the same in all directions and shapes."""
+    bending = _bending_of_waves(scene)
+    kappa, gamma = kappa + bending, gamma + scene['bending.damping'] * bending
     present = (kappa > 0.0) | (gamma > 0.0)
     if not present.any():
         return math.inf

@@ -175,7 +175,8 @@ class EnergyAccount:
         free = np.argwhere(~self._run.pinned_nodes())
         # What would hold a node still is the opposite of the force on it.
         held = pin_forces(
-            self._run.scene, seen.positions, seen.tension, free, np.zeros((len(free), 3)))
+            self._run.scene, seen.positions, seen.tension, free, np.zeros((len(free), 3)),
+            velocities=seen.velocities)
         return free, -held.forces
 
     def _rounding(self) -> float:

@@ -9,7 +9,7 @@
 #include "solver/cloth_edge_block.glsl"
 #if HAS_RIGIDITY
 
-uniform float bending_weight[2];
+uniform float bending_bound[2];  // with damping in any direction, over the node mass
 #endif
 
 layout(local_size_x = LOCAL_X, local_size_y = LOCAL_Y) in;
@@ -44,8 +44,8 @@ void main() {
     diagonal += of_family[BEND];
 #if HAS_RIGIDITY
     diagonal += scaled_identity(
-        bending_weight[0] * bending_at(at, ivec2(0, 1))
-        + bending_weight[1] * bending_at(at, ivec2(1, 0)));
+        bending_bound[0] * bending_at(at, ivec2(0, 1))
+        + bending_bound[1] * bending_at(at, ivec2(1, 0)));
 #endif
     float moves = load_node(at).w > 0.0 ? 1.0 : 0.0;
     Symmetric inverse_block = moves * inverse_above(diagonal, 1.0);

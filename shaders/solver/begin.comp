@@ -26,7 +26,7 @@ void main() {
     FOR_TILE {
         value[row][col] *= is_free(node[row][col]) ? guess : 0.0;
     }
-    make_product();
+    make_product(first);
     FOR_BLOCK {
         int index = tile_index(first, row, col);
         vec3 residual = load_vector(cloth_entry(RESIDUAL, index)) - product[row][col];

@@ -27,7 +27,7 @@ void main() {
             value[row][col] += correction[row][col];
         }
     }
-    make_product();
+    make_product(first);
     FOR_BLOCK {
         int index = tile_index(first, row, col);
         vec3 left = load_vector(cloth_entry(RESIDUAL, index)) - product[row][col];

@@ -18,7 +18,7 @@ void main() {
     }
     load_edges(first);
     load_values(first, SMOOTHED_TWICE);
-    make_product();
+    make_product(first);
     FOR_BLOCK {
         int index = tile_index(first, row, col);
         vec3 residual = load_vector(cloth_entry(RESIDUAL, index));

@@ -22,7 +22,7 @@ void main() {
     }
     load_edges(first);
     load_values(first, SMOOTHED);
-    make_product();
+    make_product(first);
     float step_size = goes_up ? first_step : second_step;
     FOR_BLOCK {
         int index = tile_index(first, row, col);

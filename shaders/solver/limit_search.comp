@@ -21,6 +21,9 @@
 
 uniform float bending_weight[2];
 #endif
+#if HAS_BENDING_DAMPING
+#include "solver/bent_lines.glsl"
+#endif
 
 layout(local_size_x = LOCAL_X, local_size_y = LOCAL_Y) in;
 
@@ -82,6 +85,17 @@ void main() {
             vec3 along_column = BENT(way, node, row, col, 1, 0);
             sums.x += bending_weight[0] * dot(along_row, along_row)
                 + bending_weight[1] * dot(along_column, along_column);
+#endif
+#if HAS_BENDING_DAMPING
+            int index = tile_index(first, row, col);
+            vec2 speeds = vec2(
+                bent_speed(
+                    load_system(cloth_entry(BENT_LINES, index)),
+                    way[row][col - 1], way[row][col], way[row][col + 1]),
+                bent_speed(
+                    load_system(cloth_entry(BENT_LINES + 1, index)),
+                    way[row - 1][col], way[row][col], way[row + 1][col]));
+            sums.x += dot(speeds, speeds);
 #endif
         }
     }

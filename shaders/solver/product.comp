@@ -19,7 +19,7 @@ void main() {
     if (in_cloth(first)) {
         load_edges(first);
         load_values(first, PRECONDITIONED);
-        make_product();
+        make_product(first);
         FOR_BLOCK {
             int index = tile_index(first, row, col);
             vec3 residual = load_vector(cloth_entry(RESIDUAL, index));

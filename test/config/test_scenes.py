@@ -13,6 +13,7 @@ from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.scene_fields import SCENE_FIELDS
 from cloth_sim_ros.sim.scene_file import load_parameters
 from cloth_sim_ros.sim.simulation import Simulation
+import numpy as np
 import pytest
 
 SCENES = sorted((Path(__file__).resolve().parents[2] / 'config').glob('*.yaml'))
@@ -53,7 +54,7 @@ def test_it_moves_and_stays_cloth(given):
     snapshot = simulation.snapshot()
     simulation.close()
     assert snapshot.finite
-    assert snapshot.kinetic_energy > 1e-3
+    assert np.abs(snapshot.positions - scene.start_positions()).max() > 2e-3
     # Next to pins springs stretch more; cloth as a whole hardly does.
     assert float(snapshot.strain.mean()) < 0.03
     assert snapshot.max_strain < 0.3

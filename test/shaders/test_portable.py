@@ -26,6 +26,9 @@ _SCENES = {
     'all': {},
     'no_bend': {'stiffness.bend': 0.0, 'damping.bend': 0.0},
     'rigid': {'bending.rigidity': 1e-4, 'stiffness.bend': 0.0, 'damping.bend': 0.0},
+    'rigid_damped': {
+        'bending.rigidity': 1e-4, 'bending.damping': 0.01, 'stiffness.shear': 0.0,
+        'damping.shear': 0.0},
     'structural_undamped': {
         'stiffness.shear': 0.0, 'stiffness.bend': 0.0, 'damping.structural': 0.0,
         'damping.shear': 0.0, 'damping.bend': 0.0},
@@ -74,7 +77,8 @@ def variants(form: str) -> dict[str, str]:
             levels = Levels(layout, coarsen=True, has_bend='bend' in families)
             defines.update(solver_defines(
                 layout, levels, families, is_multigrid=multigrid,
-                has_rigidity=model.has_rigidity))
+                has_rigidity=model.has_rigidity,
+                has_bending_damping=model.has_bending_damping))
         text = without_idle_defines(ShaderSource(name, defines).text)
         found.setdefault(text, f'{scene}, texture {texture}, multigrid {multigrid}, {block}')
     return found

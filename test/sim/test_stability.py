@@ -66,6 +66,17 @@ def test_rigidity():
     assert stability_limit(oblong) == pytest.approx(2.0 * math.sqrt(_NODE_MASS / most), rel=1e-6)
 
 
+def test_damped_rigidity():
+    """A damped fabric would blow up where an undamped one is stable."""
+    stiffness, time = 32.0 * 0.02 / 0.1**2, 0.004
+    closed = 4.0 * _NODE_MASS / (
+        time * stiffness + math.sqrt((time * stiffness)**2 + 4.0 * _NODE_MASS * stiffness))
+    cloth = scene((0.0, 0.0, 0.0), **{
+        'bending.rigidity': 0.02, 'bending.damping': time, 'rows': 11, 'cols': 11})
+    assert stability_limit(cloth) == pytest.approx(closed, rel=1e-6)
+    assert any_shape_limit(cloth) == pytest.approx(closed, rel=1e-6)
+
+
 def test_a_chain_has_only_its_own_springs():
     """A chain would be stepped as finely as a sheet with shear and springs across."""
     chain = scene((100.0, 100.0, 0.0), rows=50, cols=1)

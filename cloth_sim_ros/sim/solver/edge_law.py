@@ -47,6 +47,7 @@ class EdgeLaw:
     :param limit_stiffness: 1 / E of the same as k [1/s2]
     :param geometric: beta of the geometric mass term; 0 leaves it out
     :param bending: what bending along a row and along a column resists [1/s2]
+    :param bending_damping: its damping time [s]
     :param acts_between_pins: whether an edge pulls, and stores energy, where both ends are pinned
     """
 
@@ -58,12 +59,23 @@ class EdgeLaw:
     limit_stiffness: tuple[float, ...]
     geometric: float = 0.0
     bending: tuple[float, float] = (0.0, 0.0)
+    bending_damping: float = 0.0
     acts_between_pins: bool = True
 
     @property
     def bending_weights(self) -> tuple[float, float]:
         """Return what bending along a row and along a column weighs in the matrix."""
         return tuple(BETA * self.length**2 * value for value in self.bending)
+
+    @property
+    def damping_weights(self) -> tuple[float, float]:
+        """Return what the damping of bending weighs there, across the lines that are bent."""
+        return tuple(self.length * self.bending_damping * value for value in self.bending)
+
+    @property
+    def bending_bounds(self) -> tuple[float, float]:
+        """Return what both weigh at most, in any direction."""
+        return tuple(map(sum, zip(self.bending_weights, self.damping_weights)))
 
     @property
     def weights(self) -> tuple[float, ...]:
@@ -147,7 +159,8 @@ def edge_law(
         tuple(kind.damping(scene) / mass * is_spring[family]
               for family, kind in zip(_FAMILY_OF, REST_KINDS)),
         tuple(shortest), tuple(longest),
-        limits, geometric, tuple(value / mass for value in scene.bending))
+        limits, geometric, tuple(value / mass for value in scene.bending),
+        scene['bending.damping'])
 
 
 def set_law(program: Program, law: EdgeLaw) -> None:

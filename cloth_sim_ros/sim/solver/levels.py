@@ -14,7 +14,8 @@ COARSEST_SIDE = 8
 # As in solver/levels.glsl: enough for any cloth that buffers can hold.
 MOST_LEVELS = 16
 _CLOTH_VECTORS = 8
-_CLOTH_SYSTEM, _CLOTH_SYSTEM_WITH_BEND = 7, 9
+# With bend edges, and with damped bending, two fields more for each.
+_CLOTH_SYSTEM, _MORE_SYSTEM = 7, 2
 _COARSE_VECTORS = 3
 _COARSE_SYSTEM = 10
 # Nodes along each side of an invocation, an even number, and invocations of a workgroup.
@@ -31,9 +32,12 @@ class Levels:
     :param state: how the state is stored, which tells what suits the device
     :param coarsen: False keeps to the cloth alone
     :param has_bend: whether there are bend edges in the system
+    :param has_bending_damping: whether there is damped bending in it
     """
 
-    def __init__(self, state: Layout, *, coarsen: bool, has_bend: bool) -> None:
+    def __init__(
+            self, state: Layout, *, coarsen: bool, has_bend: bool,
+            has_bending_damping: bool = False) -> None:
         """Lay out all levels."""
         self.layouts = [_layout(state, state.rows, state.cols)]
         while coarsen and (len(self.layouts) == 1 or self._coarsest_side > COARSEST_SIDE):
@@ -41,7 +45,7 @@ class Levels:
             self.layouts.append(
                 _layout(state, -(-finer.rows // 2), -(-finer.cols // 2)))
         vectors = [_CLOTH_VECTORS] + [_COARSE_VECTORS] * (len(self.layouts) - 1)
-        of_cloth = _CLOTH_SYSTEM_WITH_BEND if has_bend else _CLOTH_SYSTEM
+        of_cloth = _CLOTH_SYSTEM + _MORE_SYSTEM * (has_bend + has_bending_damping)
         system = [of_cloth] + [_COARSE_SYSTEM] * (len(self.layouts) - 1)
         stored = np.array([layout.stored for layout in self.layouts])
         ends = np.cumsum([stored * vectors, stored * system], axis=1)

@@ -28,7 +28,7 @@ def smoothing_steps(law: EdgeLaw) -> tuple[float, float]:
     negative eigenvalues: the solver would tell of small residuals and be wrong.
     """
     edges = sum(count * weight for count, weight in zip(_EDGES_OF_A_NODE, law.weights))
-    bending = _LINES_OF_A_NODE * sum(law.bending_weights)
+    bending = _LINES_OF_A_NODE * sum(law.bending_bounds)
     around = edges + bending
     least = max(_LEAST, 1.0 / (1.0 + around))
     most = max(

@@ -81,10 +81,13 @@ class Solver:
         kind = PRECONDITIONERS[preconditioner]
         self._node_mass = scene.node_mass
         self._cloth = state
-        levels = Levels(state, coarsen=kind.is_multigrid, has_bend='bend' in families)
+        levels = Levels(
+            state, coarsen=kind.is_multigrid, has_bend='bend' in families,
+            has_bending_damping=scene.has_bending_damping)
         self._programs = SolverPrograms(
             state, levels, families, is_multigrid=kind.is_multigrid,
-            has_rigidity=scene.has_rigidity)
+            has_rigidity=scene.has_rigidity, has_bending_damping=scene.has_bending_damping)
+        self._damps_bending = scene.has_bending_damping
         self._right_sides, self._searches = (
             {is_further: kind_of_pass(
                 scene, state, self._programs, levels, is_further=is_further,
@@ -135,7 +138,8 @@ class Solver:
         self._right_sides[is_further].run(
             self._law, forcing, kick, self._start,
             knows_tension=is_further or self._last_rate > 0.0)
-        for each in (self._assemble, *self._preconditioner.assembly):
+        damping = (self._damp,) if self._damps_bending and not is_further else ()
+        for each in (*damping, self._assemble, *self._preconditioner.assembly):
             each.run()
         self._buffers.clear_scalars(keep_scale=is_further or is_again)
         self._begin.set_int('start_field', self._start.field)
@@ -294,6 +298,8 @@ class Solver:
         nodes = cloth.node_groups
         programs = self._programs
         self._assemble = SolverPass(programs.make('assemble.comp'), nodes)
+        if self._damps_bending:
+            self._damp = SolverPass(programs.make('damp_bending.comp'), nodes)
         self._begin = SolverPass(programs.make('begin.comp'), cloth.groups)
         self._multiply = SolverPass(programs.make('product.comp'), cloth.groups)
         self._update = SolverPass(programs.make('update.comp'), points)

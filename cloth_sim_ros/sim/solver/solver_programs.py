@@ -26,14 +26,16 @@ class SolverPrograms:
     :param state: how the state is stored
     :param families: of the edges in the system
     :param has_rigidity: whether bending is in it
+    :param has_bending_damping: whether bending is damped
     """
 
     def __init__(
             self, state: Layout, levels: Levels, families: Collection[str], *,
-            is_multigrid: bool, has_rigidity: bool) -> None:
+            is_multigrid: bool, has_rigidity: bool, has_bending_damping: bool) -> None:
         """Gather the choices made at compile time."""
         self.defines = solver_defines(
-            state, levels, families, is_multigrid=is_multigrid, has_rigidity=has_rigidity)
+            state, levels, families, is_multigrid=is_multigrid, has_rigidity=has_rigidity,
+            has_bending_damping=has_bending_damping)
         self._state = state
         self._levels = levels
         self._is_multigrid = is_multigrid
@@ -67,17 +69,21 @@ class SolverPrograms:
             program.set_float('second_step', steps[1])
             program.set_float('substep', law.length)
             program.set_floats('bending_weight', law.bending_weights)
+            program.set_floats('damping_weight', law.damping_weights)
+            program.set_floats('bending_bound', law.bending_bounds)
 
 
 def solver_defines(
         state: Layout, levels: Levels, families: Collection[str], *,
-        is_multigrid: bool, has_rigidity: bool) -> dict[str, object]:
+        is_multigrid: bool, has_rigidity: bool,
+        has_bending_damping: bool = False) -> dict[str, object]:
     """Return what every shader of the solver compiles in."""
     return {
         **levels.cloth.defines(),
         **edge_defines(families),
         'MULTIGRID': int(is_multigrid),
         'HAS_RIGIDITY': int(has_rigidity),
+        'HAS_BENDING_DAMPING': int(has_bending_damping),
         'BLOCKS_IN_LINE': int(state.texture_loads),
         'SUMS_BY_GROUP': int(not state.texture_loads),
         'POINT_LOCAL': POINT_LOCAL,

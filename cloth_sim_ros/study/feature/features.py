@@ -27,7 +27,8 @@ def has_feature(values: Mapping[str, Any], feature: str) -> bool:
     if feature in (_BEND, _SHEAR):
         return _has_edges(scene, feature.split()[0])
     return {
-        _DAMPING: any(scene.damping(family) > 0.0 for family in ('structural', 'shear', 'bend')),
+        _DAMPING: scene.has_bending_damping or any(
+            scene.damping(family) > 0.0 for family in ('structural', 'shear', 'bend')),
         _MODE: scene['mode'] != MassSpring.name,
         _AIR: scene.has_air,
         _RIGIDITY: scene.has_rigidity,
@@ -41,8 +42,8 @@ def without(values: Mapping[str, Any], feature: str) -> dict[str, Any]:
     if feature in (_BEND, _SHEAR):
         return _without_family(values, feature.split()[0])
     if feature == _DAMPING:
-        return {**values, **{f'damping.{family}': 0.0
-                             for family in ('structural', 'shear', 'bend')}}
+        return {**values, 'bending.damping': 0.0, **{
+            f'damping.{family}': 0.0 for family in ('structural', 'shear', 'bend')}}
     if feature == _RIGIDITY:
         return {**values, 'bending.rigidity': 0.0}
     if feature == _MODE:

@@ -13,6 +13,9 @@
 // beta h^2 c along a row and along a column, over the node mass.
 uniform float bending_weight[2];
 #endif
+#if HAS_BENDING_DAMPING
+#include "solver/bent_lines.glsl"
+#endif
 
 vec3 value[TILE][TILE];
 vec3 product[TILE][TILE];
@@ -32,7 +35,7 @@ void load_values(ivec2 first, int field) {
     }
 }
 
-void make_product() {
+void make_product(ivec2 first) {
     FOR_TILE {
         product[row][col] = value[row][col];
     }
@@ -43,6 +46,9 @@ void make_product() {
     FOR_BLOCK {
         product[row][col] += resisted[row][col];
     }
+#endif
+#if HAS_BENDING_DAMPING
+    ADD_BENT_LINES(product, value, first)
 #endif
     FOR_BLOCK {
         if (!is_free(node[row][col])) {

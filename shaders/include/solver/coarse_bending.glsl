@@ -5,10 +5,10 @@
 // for it that resist waves of four nodes of a level as bending does: these are what the level is
 // for. Longer waves, which they resist too much, are left to the levels below.
 
-uniform float bending_weight[2];  // as in solver/cloth_product.glsl
+uniform float bending_bound[2];  // as in solver/assemble.comp
 
 // A level has twice the spacing of the one above, and four times the mass in a node.
 Symmetric bending_edge(int which, int direction) {
     return scaled_identity(
-        direction < 2 ? 2.0 * exp2(-2.0 * float(which)) * bending_weight[direction] : 0.0);
+        direction < 2 ? 2.0 * exp2(-2.0 * float(which)) * bending_bound[direction] : 0.0);
 }

@@ -37,6 +37,9 @@ uniform int level;
 #define BEGUN 6    // level 0: as a solve begins with them
 #define BEND_WEIGHT 7   // level 0, with bend edges: along, along, across, across
 #define BEND_TENSION 8  // level 0, with bend edges: found, found, begun, begun
+#define BENT_LINES (7 + 2 * HAS_BEND)  // level 0, with damped bending, two fields: of the lines of
+                   // three nodes around a node along a row and along a column, the direction of
+                   // their bend, times the root of what damping weighs, and their skew
 #define GROUND 2   // coarse levels, two fields: mass, and what ties the node to pinned ones
 #define EDGES 4    // coarse levels, six fields: the tensors of the edges that begin here
 

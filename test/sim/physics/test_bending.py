@@ -98,11 +98,31 @@ def test_the_first_mode_of_a_cantilever(strip, within, nodes):
            abs(_period() / 4.0 / crossed - 1.0), 0.02)
 
 
+@pytest.mark.parametrize('nodes', [16, 32, pytest.param(64, marks=pytest.mark.long)])
+def test_damping_of_the_first_mode(strip, within, nodes):
+    """A bent strip would come to rest at another rate on another grid, or swing for ever."""
+    ratio = 0.05
+    omega = 2.0 * np.pi / _period()
+    simulation, at = strip(nodes, gravity=[0.0, 0.0, 0.0], dt=_period() / 400.0, **{
+        'bending.damping': 2.0 * ratio / omega})
+    place = MODE * at / LENGTH
+    shape = np.cosh(place) - np.cos(place) - SHAPE * (np.sinh(place) - np.sin(place))
+    _bend(simulation, 0.5 * DEFLECTION * LENGTH * shape)
+    begin = _tip(simulation)
+    # The mode of a damped oscillator from rest, a whole period later.
+    damped = omega * np.sqrt(1.0 - ratio**2)
+    simulation.advance(2.0 * np.pi / damped)
+    exact = np.exp(-ratio * omega * 2.0 * np.pi / damped)
+    within(f'{nodes} nodes, swing after a period over the first, relative to exp(-z w t)',
+           abs(_tip(simulation) / begin / exact - 1.0), 0.02)
+
+
 def test_momentum(simulate, within, any_mode):
     """What bending gives to one node it does not take from others."""
     simulation = simulate({
         'mode': any_mode, 'rows': 12, 'cols': 9, 'pins': ['none'], 'gravity': [0.0, 0.0, 0.0],
-        'start.z': 0.0, 'bending.rigidity': [0.02, 0.05], 'dt': 2e-4, **SPRINGS})
+        'start.z': 0.0, 'bending.rigidity': [0.02, 0.05], 'bending.damping': 2e-4, 'dt': 2e-4,
+        **SPRINGS})
     random = np.random.default_rng(3)
     rest = simulation.scene.rest_positions()
     simulation.set_state(

@@ -24,13 +24,18 @@ PATHS = [
     (IMPLICIT, ImplicitCloth), ({**IMPLICIT, 'constraint.newton_iterations': 1}, ImplicitCloth)]
 
 
+@pytest.mark.parametrize('damping', [0.0, 0.02])
 @pytest.mark.parametrize(('values', 'reference'), PATHS)
-def test_steps(simulate, within, values, reference):
+def test_steps(simulate, within, values, reference, damping):
     """A border, a pin, a direction or the length of a step is not what the reference has."""
-    simulation = simulate({**CLOTH, **values})
+    simulation = simulate({**CLOTH, **values, 'bending.damping': damping})
     exact = reference(simulation.scene)
-    simulation.set_state(exact.positions.astype(np.float32), 0.0 * exact.positions)
     exact.positions = exact.positions.astype(np.float32).astype(float)
+    random = np.random.default_rng(4).uniform(-0.5, 0.5, exact.positions.shape)
+    exact.velocities = np.where(
+        exact.free[..., None], random, 0.0).astype(np.float32).astype(float)
+    simulation.set_state(
+        exact.positions.astype(np.float32), exact.velocities.astype(np.float32))
     simulation.step(12)
     exact.step(12)
     snapshot = simulation.snapshot()
@@ -41,15 +46,20 @@ def test_steps(simulate, within, values, reference):
            abs(snapshot.elastic_energy / exact.energies().elastic - 1.0), 1e-3)
 
 
-def test_what_pins_feel(simulate, within):
-    """A pin would feel the edges and not how the cloth is bent there."""
+@pytest.mark.parametrize('damping', [0.0, 0.02])
+def test_what_pins_feel(simulate, within, damping):
+    """A pin would feel the edges and not how the cloth is bent there, or being bent."""
     simulation = simulate({**CLOTH, 'mode': 'mass_spring', 'stiffness.shear': 0.0,
                            'damping.shear': 0.0, 'stiffness.structural': 0.0,
-                           'damping.structural': 0.0})
+                           'damping.structural': 0.0, 'bending.damping': damping})
     exact = MassSpringReference(simulation.scene)
-    forces = exact.bending.forces(exact.positions)
+    velocities = np.random.default_rng(4).uniform(-0.5, 0.5, exact.positions.shape)
+    velocities[~exact.free] = 0.0
+    simulation.set_state(exact.positions.astype(np.float32), velocities.astype(np.float32))
+    forces = exact.bending.forces(exact.positions) + exact.bending.damping_forces(
+        exact.positions, velocities)
     nodes = np.argwhere(np.ones(forces.shape[:2], bool))
-    pulls = bending_pulls(simulation.scene, exact.positions, nodes)
+    pulls = bending_pulls(simulation.scene, exact.positions, velocities, nodes)
     within('pulls at all nodes, relative',
            np.abs(pulls - forces.reshape(-1, 3)).max() / np.abs(forces).max(), 1e-12)
     held = simulation.snapshot(pin_forces=True).pin_forces

@@ -1,0 +1,83 @@
+# SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
+# SPDX-License-Identifier: Apache-2.0
+
+"""A towel hangs in still air: it comes to rest, and its pins carry its weight."""
+
+from pathlib import Path
+
+from cloth_sim_ros.sim.scene_file import load_parameters
+import numpy as np
+import pytest
+
+TOWEL = load_parameters(Path(__file__).parents[3] / 'config' / 'towel.yaml')
+SIZE = np.array([TOWEL['rows'], TOWEL['cols']])
+STEPS = {'mass_spring': 0.005, 'constraint': 0.01, 'adaptive': 0.01}
+
+
+@pytest.fixture
+def towel(simulate):
+    """Return a function to a towel of a share of the nodes along each side."""
+
+    def start(mode, share, **values):
+        rows, cols = (int(nodes * share) for nodes in SIZE)
+        return simulate({
+            **TOWEL, 'mode': mode, 'dt': STEPS[mode], 'rows': rows, 'cols': cols,
+            'adaptive.threshold': 0.01, **values})
+
+    return start
+
+
+def _check_rest(simulation, within, speed):
+    snapshot = simulation.snapshot(pin_forces=True)
+    weight = TOWEL['areal_density'] * TOWEL['width'] * TOWEL['height'] * 9.81
+    within('largest speed [m/s]', np.linalg.norm(snapshot.velocities, axis=-1).max(), speed)
+    within('forces at the pins over the weight, less 1',
+           abs(snapshot.pin_forces.forces.sum(axis=0)[2] / weight - 1.0), 1e-3)
+
+
+@pytest.mark.parametrize('pins', [['top_edge'], ['top_left', 'top_right']], ids=len)
+def test_it_soon_hangs_still(towel, within, any_mode, pins):
+    """Ripples would go on for ever, or grow."""
+    simulation = towel(any_mode, 0.5, pins=pins)
+    simulation.advance(4.0)
+    _check_rest(simulation, within, 0.02)
+
+
+def test_ripples_of_a_fine_grid_fade(towel, within):
+    """Steps far longer than ripples take would feed them, while the solver tells of success."""
+    simulation = towel('constraint', 1.0, pins=['top_edge'])
+    simulation.advance(0.3)
+    before = simulation.snapshot()
+    simulation.advance(0.7)
+    after = simulation.snapshot()
+    energies = [
+        each.kinetic_energy + each.elastic_energy + each.gravitational_energy
+        for each in (before, after)]
+    within('energy gained [J]', energies[1] - energies[0], 1e-6)
+    assert after.solver_reached
+    _check_rest(simulation, within, 0.01)
+
+
+@pytest.mark.long
+def test_it_hangs_alike_at_half_the_nodes(towel, within, any_mode):
+    """The shape would be that of the grid, or the towel never settle."""
+    found = []
+    for share in (0.5, 1.0):
+        simulation = towel(any_mode, share)
+        simulation.advance(20.0)
+        _check_rest(simulation, within, 0.005)
+        found.append(simulation.positions().astype(float))
+    coarse, fine = found
+    places = [np.linspace(0.0, count - 1.0, half) for count, half in zip(SIZE, coarse.shape)]
+    within('difference in shape over the height', np.abs(
+        _at(fine, *places) - coarse).max() / TOWEL['height'], 0.02)
+
+
+def _at(positions, rows, cols):
+    """Return positions between the nodes, (rows, cols, 3), by linear interpolation."""
+    across = np.stack([
+        [np.interp(cols, np.arange(SIZE[1]), line[:, axis]) for line in positions]
+        for axis in range(3)], axis=-1)
+    return np.stack([
+        [np.interp(rows, np.arange(SIZE[0]), line) for line in across[..., axis].T]
+        for axis in range(3)], axis=-1).transpose(1, 0, 2)
