@@ -32,7 +32,7 @@ layout(local_size_x = LOCAL_X, local_size_y = LOCAL_Y) in;
 #define TILE (BLOCK + 2 * HALO)
 
 vec4 position[TILE][TILE];
-#if HAS_DAMPING
+#if HAS_DAMPING || HAS_BENDING_DAMPING
 vec3 velocity[TILE][TILE];
 #endif
 vec3 force[TILE][TILE];
@@ -57,6 +57,23 @@ void add_spring(int index, int row, int col, int drow, int dcol, int family, int
     force[row + drow][col + dcol] -= f;
 }
 
+#if HAS_BENDING_DAMPING
+vec4 brake[TILE][TILE];
+
+// By all lines of one direction; each is found once for three nodes.
+#define ADD_BENDING_BRAKES(DROW, DCOL) \
+    FOR_BENT(DROW, DCOL) { \
+        brake[row][col] = line_brake( \
+            position[row - DROW][col - DCOL], position[row][col], \
+            position[row + DROW][col + DCOL], velocity[row - DROW][col - DCOL], \
+            velocity[row][col], velocity[row + DROW][col + DCOL]); \
+    } \
+    FOR_BENT(0, 0) { \
+        force[row][col] -= bending_damping * bending[DROW] * braked( \
+            brake[row - DROW][col - DCOL], brake[row][col], brake[row + DROW][col + DCOL]); \
+    }
+#endif
+
 // Every spring of one direction with an end in the block.
 #define ADD_SPRINGS(FIRST, EDGE, DROW, DCOL, FAMILY, REST) \
     for (int row = 0; row < TILE; ++row) { \
@@ -80,7 +97,7 @@ void main() {
         for (int col = 0; col < TILE; ++col) {
             int index = node_index(first.y + row - HALO, first.x + col - HALO);
             position[row][col] = load_position(index);
-#if HAS_DAMPING
+#if HAS_DAMPING || HAS_BENDING_DAMPING
             velocity[row][col] = load_velocity(index).xyz;
 #endif
             force[row][col] = vec3(0.0);
@@ -94,15 +111,14 @@ void main() {
         force[row][col] -= resisted[row][col];
     }
 #endif
+#if HAS_BENDING_DAMPING
+    ADD_BENDING_BRAKES(0, 1)
+    ADD_BENDING_BRAKES(1, 0)
+#endif
     for (int row = HALO; row < HALO + BLOCK; ++row) {
         for (int col = HALO; col < HALO + BLOCK; ++col) {
             int index = node_index(first.y + row - HALO, first.x + col - HALO);
             vec4 v = load_velocity(index);
-#if HAS_BENDING_DAMPING
-            force[row][col] -= bending_damping * (
-                bending[0] * bending_brake(index, 1)
-                + bending[1] * bending_brake(index, PITCH));
-#endif
             v.xyz = next_velocity(v, force[row][col], applied_acceleration(index));
             velocity_out[index] = v;
 #if STRAIN_LIMIT == NO_LIMIT

@@ -74,7 +74,7 @@ void main() {
 #if HAS_BENDING_DAMPING
     int here = node_index(row, col);
     force -= bending_damping * (
-        bending[0] * bending_brake(here, 1) + bending[1] * bending_brake(here, PITCH));
+        bending[0] * BENDING_BRAKE(here, 1) + bending[1] * BENDING_BRAKE(here, PITCH));
 #endif
     force_out[node_index(row, col)] = vec4(force, 0.0);
 }

@@ -6,7 +6,6 @@
 // bent cloth rotates as freely as without damping. With e = D . t along the unit vector t from the
 // node behind to that ahead, l apart, the bend |D - e t| grows by the velocities of the nodes, times
 // 1 + e / l, -2 and 1 - e / l, along its direction.
-// Nodes are loaded one by one: kept in the tile of a block, they made compilers fail.
 
 #include "bending.glsl"
 
@@ -15,11 +14,7 @@ struct BentLine {
     float skew;   // e / l
 };
 
-// Of the line around a node; stride is 1 along a row, the pitch of rows along a column.
-BentLine bent_line(int index, int stride) {
-    vec4 behind = load_position(index - stride);
-    vec4 here = load_position(index);
-    vec4 ahead = load_position(index + stride);
+BentLine bent_line(vec4 behind, vec4 here, vec4 ahead) {
     vec3 bent = second_difference(
         behind.w * here.w * ahead.w, behind.xyz, here.xyz, ahead.xyz);
     vec3 chord = ahead.xyz - behind.xyz;
@@ -33,20 +28,26 @@ float bending_speed(BentLine line, vec3 behind, vec3 here, vec3 ahead) {
     return dot(line.across, ((behind - here) + (ahead - here)) - line.skew * (ahead - behind));
 }
 
-// What the line around a node resists there, and at the nodes behind and ahead, over c and the
-// damping time.
-vec3 line_brake(int index, int stride, int place) {
-    BentLine line = bent_line(index, stride);
-    float speed = bending_speed(
-        line, load_velocity(index - stride).xyz, load_velocity(index).xyz,
-        load_velocity(index + stride).xyz);
-    float part = place == 0 ? -2.0 : 1.0 - float(place) * line.skew;
-    return part * speed * line.across;
+// Of a line by its positions and velocities, over c and the damping time: what it resists along
+// its bend, in xyz; and its skew, in w.
+vec4 line_brake(
+        vec4 behind, vec4 here, vec4 ahead, vec3 behind_speed, vec3 here_speed, vec3 ahead_speed) {
+    BentLine line = bent_line(behind, here, ahead);
+    return vec4(
+        bending_speed(line, behind_speed, here_speed, ahead_speed) * line.across, line.skew);
 }
 
-// What a node resists along a row or a column, over c and the damping time. Both neighbours first:
-// a mirrored cloth rounds alike.
-vec3 bending_brake(int index, int stride) {
-    return (line_brake(index - stride, stride, 1) + line_brake(index + stride, stride, -1))
-        + line_brake(index, stride, 0);
+// What a node resists by the lines around those behind and ahead and around itself. Both
+// neighbours first: a mirrored cloth rounds alike.
+vec3 braked(vec4 behind, vec4 here, vec4 ahead) {
+    return ((1.0 - behind.w) * behind.xyz + (1.0 + ahead.w) * ahead.xyz) - 2.0 * here.xyz;
 }
+
+#define LINE_BRAKE(INDEX, STRIDE) line_brake( \
+    load_position(INDEX - STRIDE), load_position(INDEX), load_position(INDEX + STRIDE), \
+    load_velocity(INDEX - STRIDE).xyz, load_velocity(INDEX).xyz, load_velocity(INDEX + STRIDE).xyz)
+
+// What a node resists along a row (stride 1) or a column (the pitch of rows), loaded one by one.
+#define BENDING_BRAKE(INDEX, STRIDE) braked( \
+    LINE_BRAKE(INDEX - STRIDE, STRIDE), LINE_BRAKE(INDEX, STRIDE), \
+    LINE_BRAKE(INDEX + STRIDE, STRIDE))

@@ -27,10 +27,11 @@ void main() {
     vec3 resisted = vec3(0.0);
     for (int direction = 0; direction < 2; ++direction) {
         int stride = direction == 0 ? 1 : state_pitch;
-        BentLine line = bent_line(index, stride);
+        BentLine line = bent_line(
+            load_position(index - stride), load_position(index), load_position(index + stride));
         system_data[cloth_entry(BENT_LINES + direction, entry)] =
             vec4(sqrt(damping_weight[direction]) * line.across, line.skew);
-        resisted += damping_weight[direction] * bending_brake(index, stride);
+        resisted += damping_weight[direction] * BENDING_BRAKE(index, stride);
     }
     if (load_velocity(index).w > 0.0) {
         vec3 residual = load_vector(cloth_entry(RESIDUAL, entry));
