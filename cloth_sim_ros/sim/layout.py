@@ -16,6 +16,8 @@ import numpy as np
 HALO = 2
 # Measured on llvmpipe, docs/notes/performance.md; a GPU hides latency with many small invocations.
 _SOFTWARE_BLOCK = 4
+# Damped bending keeps more of a tile than registers hold: 4 takes three times as long.
+_SOFTWARE_BLOCK_WITH_BRAKES = 2
 _GPU_BLOCK = 1
 _BYTES_PER_NODE = 16
 
@@ -106,7 +108,7 @@ def choose_layout(scene: Scene, context: Context) -> Layout:
                 f'block {block}: set loads: storage and block: 1, or layout: fused')
         loads, block, local = 'storage', 1, (16, 16)
     else:
-        block = block or (_SOFTWARE_BLOCK if context.is_software else _GPU_BLOCK)
+        block = block or _best_block(scene, context)
         local = (8, 4) if context.is_software else (16, 8)
     if loads == 'auto':
         has_textures = context.is_software and context.max_texture_texels > 0
@@ -118,6 +120,12 @@ def choose_layout(scene: Scene, context: Context) -> Layout:
     layout = Layout(scene.rows, scene.cols, kind, loads == 'texture', block, local)
     _refuse_too_large(layout, context)
     return layout
+
+
+def _best_block(scene: Scene, context: Context) -> int:
+    if not context.is_software:
+        return _GPU_BLOCK
+    return _SOFTWARE_BLOCK_WITH_BRAKES if scene.has_bending_damping else _SOFTWARE_BLOCK
 
 
 def _refuse_too_large(layout: Layout, context: Context) -> None:
