@@ -32,5 +32,6 @@ def _listen() -> None:
 def run_bash(names: str, command: str, folder: Path, **variables: str) -> tuple[int, str]:
     """Run ``command`` as start_bash does; return exit code and output."""
     process = start_bash(names, command, folder, **variables)
-    output = process.communicate(timeout=60.0)[0]
+    # A machine that is busy otherwise compiles all shaders for more than a minute.
+    output = process.communicate(timeout=300.0)[0]
     return process.returncode, output
