@@ -9,7 +9,7 @@ from cloth_sim_ros.sim.scene_file import load_parameters
 import numpy as np
 import pytest
 
-TOWEL = load_parameters(Path(__file__).parents[3] / 'config' / 'towel.yaml')
+TOWEL = load_parameters(Path(__file__).parents[3] / 'config' / 'towel_at_rest.yaml')
 SIZE = np.array([TOWEL['rows'], TOWEL['cols']])
 STEPS = {'mass_spring': 0.005, 'constraint': 0.01, 'adaptive': 0.01}
 
