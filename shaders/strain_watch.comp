@@ -4,7 +4,7 @@
 #version 430 core
 // The largest strain now and the largest one predicted for a time ahead, for each invocation,
 // which looks at STRIP nodes of a column. The reader takes the largest of them: that needs no
-// barriers.
+// barriers. HAS_CONTACT: the velocities are those that foresee_contact.comp expects.
 
 #include "lattice.glsl"
 #include "state_in.glsl"
@@ -26,8 +26,11 @@ Node load_node(int row, int col) {
     int index = node_index(row, col);
     vec4 x = load_position(index);
     vec4 v = load_velocity(index);
-    vec3 a = v.w * applied_acceleration(index);
-    return Node(x, vec4(x.xyz + substep * (v.xyz + substep * a), v.w));
+    vec3 expected = v.xyz;
+#if !HAS_CONTACT
+    expected += substep * v.w * applied_acceleration(index);
+#endif
+    return Node(x, vec4(x.xyz + substep * expected, v.w));
 }
 
 void look_at_edge(inout vec2 strain, Node from, Node to, int rest) {

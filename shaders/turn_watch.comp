@@ -4,6 +4,7 @@
 #version 430 core
 // How fast edges turn, and the strain of structural and shear edges: the largest of each, for each
 // invocation, which looks at STRIP nodes of a column. The reader takes the largest of them.
+// HAS_CONTACT: the velocities are those that foresee_contact.comp expects.
 
 #include "lattice.glsl"
 #include "state_in.glsl"
@@ -25,7 +26,10 @@ struct Node {
 Node load_node(int row, int col) {
     int index = node_index(row, col);
     vec4 v = load_velocity(index);
-    return Node(load_position(index), v.xyz + v.w * substep * applied_acceleration(index));
+#if !HAS_CONTACT
+    v.xyz += v.w * substep * applied_acceleration(index);
+#endif
+    return Node(load_position(index), v.xyz);
 }
 
 // Square of the angular velocity, as if the edge had its rest length [1/s2], and its strain.

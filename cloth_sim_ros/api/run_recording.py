@@ -13,6 +13,9 @@ from cloth_sim_ros.messages.state import state_of
 from cloth_sim_ros.messages.stats import stats_message
 from cloth_sim_ros.messages.wrenches import too_many_pins
 from cloth_sim_ros.messages.wrenches import WrenchMessages
+from cloth_sim_ros.node.body_topics import body_messages
+from cloth_sim_ros.node.body_topics import GRASPS
+from cloth_sim_ros.node.body_topics import wanted_of_bodies
 from cloth_sim_ros.node.recording_session import RecordingSession
 from cloth_sim_ros.node.recording_session import write_opening
 from cloth_sim_ros.recording.recording_faults import RecordingError
@@ -25,7 +28,7 @@ from rclpy.serialization import serialize_message
 
 class RunRecording:
     """
-    A recording of points, stats, pins and inputs.
+    A recording of points, stats, pins, grasps, colliders and inputs.
 
     ``problem`` says why it is not whole; it is empty when it is, or when it was completed at the
     size that was asked for.
@@ -47,6 +50,8 @@ class RunRecording:
         self._simulation = simulation
         self._say = say
         self._lost = lost or (lambda error: say(str(error)))
+        self._node_values = node_values
+        self._node_name = node_name
         self._frame_id = node_values['frame_id']
         self._points = PointsMessage(
             simulation.scene.rows, simulation.scene.cols, self._frame_id)
@@ -60,7 +65,7 @@ class RunRecording:
         values = {**simulation.scene.values, **node_values}
         write_opening(self._session, simulation, values, f'/{node_name.strip("/")}')
         self._write_state(ClothState.RUNNING)
-        reason = too_many_pins(int(np.count_nonzero(simulation.pinned_nodes())))
+        reason = too_many_pins(int(np.count_nonzero(self._pins())))
         self._has_wrenches = node_values['publish.wrenches'] and not reason
         self._has_pin_frames = node_values['publish.tf'] and not reason
         if reason and (node_values['publish.wrenches'] or node_values['publish.tf']):
@@ -72,7 +77,9 @@ class RunRecording:
         """Write the present instant."""
         if not self._session.active:
             return
-        snapshot = self._simulation.snapshot(pin_forces=self._has_wrenches)
+        of_bodies = wanted_of_bodies(self._simulation, self._node_values, self)
+        snapshot = self._simulation.snapshot(
+            pin_forces=self._has_wrenches or GRASPS in of_bodies)
         stats = stats_message(
             snapshot, self._frame_id, step_wall_time=step_wall_time,
             real_time_factor=real_time_factor)
@@ -80,11 +87,19 @@ class RunRecording:
         # Not at the end: an interrupt may come in between.
         self._recorded = snapshot.time
         self._session.write('stats', serialize_message(stats), snapshot.time)
-        if self._has_pin_frames and self._simulation.pinned_nodes().any():
-            self._session.write('tf', self._pin_frames.serialise(snapshot), snapshot.time)
+        held = self._simulation.grasped_nodes()
+        if self._has_pin_frames and self._pins().any():
+            self._session.write('tf', self._pin_frames.serialise(snapshot, held), snapshot.time)
         if self._has_wrenches:
-            for data in self._wrenches.serialise(snapshot):
+            for data in self._wrenches.serialise(snapshot, held):
                 self._session.write('pins/wrenches', data, snapshot.time)
+        for key, message in body_messages(
+                self._simulation, snapshot, of_bodies, self._node_name, self._frame_id):
+            self.send_message(key, message, snapshot.time)
+
+    def wanted(self, key: str, *, by_recording: bool = True) -> bool:
+        """Tell whether messages of the topic ``key`` are written now."""
+        return by_recording and self._session.active
 
     def send_message(self, key: str, message: Any, sim_time: float) -> None:
         """Write ``message`` of the topic ``key`` at ``sim_time`` [s], as a node's outlet does."""
@@ -119,6 +134,9 @@ class RunRecording:
                 self._say(
                     f'interrupted; the recording {self.path} is complete up to '
                     f'{self._recorded:.6g} s')
+
+    def _pins(self) -> np.ndarray:
+        return self._simulation.pinned_nodes() & ~self._simulation.grasped_nodes()
 
     def _write_state(self, run_state: str) -> None:
         state = state_of(

@@ -9,9 +9,9 @@ from typing import Any
 
 from cloth_sim_ros.node.node_fields import checked_node_values
 from cloth_sim_ros.node.node_fields import NODE_FIELDS
+from cloth_sim_ros.sim.collider_fields import fields_with_colliders
 from cloth_sim_ros.sim.scene import refuse_unknown
 from cloth_sim_ros.sim.scene import Scene
-from cloth_sim_ros.sim.scene_fields import SCENE_FIELDS
 from cloth_sim_ros.sim.scene_file import load_parameters
 
 
@@ -34,7 +34,8 @@ def scene_from(
     :raises ClothSimError: when the file or a change is not right
     """
     given = {**load_parameters(path), **changes}
-    refuse_unknown(given, SCENE_FIELDS + NODE_FIELDS)
+    fields = fields_with_colliders(given)
+    refuse_unknown(given, fields + NODE_FIELDS)
     node_values = checked_node_values(given)
-    names = {field.name for field in SCENE_FIELDS}
+    names = {field.name for field in fields}
     return Scene({name: value for name, value in given.items() if name in names}), node_values

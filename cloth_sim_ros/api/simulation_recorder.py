@@ -30,11 +30,11 @@ class SimulationRecorder(AbstractContextManager['SimulationRecorder']):
     """
     Writes frames on request, and every input of the simulation automatically.
 
-    Pushes, pins, their moves, switches of the mode and resets are recorded when the simulation
-    gets them, so that ``cloth_sim resimulate`` and ``resimulate`` can make the run again. The
-    recording is one of a node: mcap with the topics of docs/reference/ros_interface.md, the
-    present instant first. As a context manager it is closed at the end of the block. Needs the ROS
-    packages.
+    Pushes, pins, grasps, moves of these and of colliders, switches of the mode and resets are
+    recorded when the simulation gets them, so that ``cloth_sim resimulate`` and ``resimulate`` can
+    make the run again. The recording is one of a node: mcap with the topics of
+    docs/reference/ros_interface.md, the present instant first. As a context manager it is closed
+    at the end of the block. Needs the ROS packages.
 
     ``path`` is the absolute path of the recording's folder.
 

@@ -7,6 +7,7 @@ import math
 from pathlib import Path
 import struct
 import tokenize
+from typing import cast
 from typing import IO
 import warnings
 import zipfile
@@ -75,11 +76,12 @@ def _array(archive: zipfile.ZipFile, member: zipfile.ZipInfo) -> np.ndarray:
         if length != rest:
             raise ValueError(
                 f'{label} of shape {cut(shape, 64)} takes {length} bytes and has {rest}')
-        array = np.frombuffer(_content(stream, length, label), kind, count)
+        content = _content(cast(zipfile.ZipExtFile, stream), length, label)
+        array = np.frombuffer(content, kind, count)
     return array.reshape(shape, order='F' if fortran_order else 'C')
 
 
-def _content(stream: IO[bytes], length: int, label: str) -> bytearray:
+def _content(stream: zipfile.ZipExtFile, length: int, label: str) -> bytearray:
     content = bytearray(length)
     view = memoryview(content)
     place = 0

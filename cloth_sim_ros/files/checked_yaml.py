@@ -3,10 +3,12 @@
 
 """Read YAML that may be hostile: of bounded depth and size, and each key once."""
 
+from collections.abc import Generator
 from collections.abc import Iterator
 from contextlib import closing
 from pathlib import Path
 from typing import Any
+from typing import cast
 
 from cloth_sim_ros.files.echo import cut
 from cloth_sim_ros.files.errors import ClothSimError
@@ -52,7 +54,9 @@ def parse_yaml(text: str, name: str) -> Any:
     :raises ClothSimError: when it is no YAML, beyond MOST_DEPTH or MOST_VALUES, or has a key twice
     """
     try:
-        with closing(yaml.parse(text, Loader=_LOADER)) as events:
+        # What the type stubs take for an iterator is a generator.
+        parsed = cast(Generator[yaml.Event, None, None], yaml.parse(text, Loader=_LOADER))
+        with closing(parsed) as events:
             return _Document().read(events)
     except _Refused as error:
         raise ClothSimError(f'{name} has {error}') from error
@@ -71,7 +75,7 @@ class _Refused(ValueError):
 class _Collection:
     """A list or a mapping that has begun and has not ended."""
 
-    def __init__(self, value: list | dict, event: yaml.NodeEvent) -> None:
+    def __init__(self, value: list[Any] | dict[Any, Any], event: yaml.NodeEvent) -> None:
         self.value = value
         self.anchor = event.anchor
         self.line = _line(event)
@@ -126,7 +130,9 @@ class _Document:
                         f'a second document in line {_line(event)}: keep one in the file')
         return self._value
 
-    def _begin(self, value: list | dict, kind: str, event: yaml.CollectionStartEvent) -> None:
+    def _begin(
+            self, value: list[Any] | dict[Any, Any], kind: str,
+            event: yaml.CollectionStartEvent) -> None:
         if not is_collection_tag(event.tag, kind):
             raise _Refused(
                 f'the tag {cut(event.tag, 64)} in line {_line(event)}, for which ROS has no type: '
@@ -187,7 +193,9 @@ def _scalar(event: yaml.ScalarEvent) -> Any:
 
 
 def _line(event: yaml.Event) -> int:
-    return event.start_mark.line + 1
+    mark = event.start_mark
+    assert mark is not None  # the parser marks what it reads
+    return mark.line + 1
 
 
 def _reason(error: yaml.YAMLError) -> str:

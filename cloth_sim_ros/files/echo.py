@@ -11,14 +11,16 @@ _SPARE = 4
 def shown(value: object) -> str:
     """Return ``value`` as Python writes it, cut after MOST_SHOWN characters."""
     # The whole of it may be so large that writing it takes seconds.
-    part = value[:MOST_SHOWN + 1] if isinstance(value, (str, bytes, list, tuple)) else value
+    part, length = value, 0
+    if isinstance(value, (str, bytes, list, tuple)):
+        part, length = value[:MOST_SHOWN + 1], len(value)
     try:
         text = repr(part)
     except ValueError:
         return 'a number with too many digits'  # Python writes no more than 4300
-    if part is value or len(part) == len(value):
+    if length <= MOST_SHOWN + 1:
         return cut(text)
-    return f'{text[:MOST_SHOWN]}... (a length of {len(value)})'
+    return f'{text[:MOST_SHOWN]}... (a length of {length})'
 
 
 def cut(text: object, most: int = MOST_SHOWN) -> str:

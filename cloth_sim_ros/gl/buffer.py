@@ -75,6 +75,14 @@ class Buffer:
             GL.glBufferSubData(
                 GL.GL_SHADER_STORAGE_BUFFER, offset, content.nbytes, content)
 
+    def clear(self) -> None:
+        """Make all of it zero."""
+        with loss_noticed():
+            GL.glBindBuffer(GL.GL_SHADER_STORAGE_BUFFER, self._buffer)
+            GL.glClearBufferData(
+                GL.GL_SHADER_STORAGE_BUFFER, GL.GL_R32UI, GL.GL_RED_INTEGER, GL.GL_UNSIGNED_INT,
+                None)
+
     def read_into(self, target: np.ndarray, offset: int = 0) -> None:
         """Fill ``target`` (contiguous) with the bytes from ``offset`` on."""
         memory_barrier(_READS)

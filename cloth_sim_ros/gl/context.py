@@ -46,6 +46,8 @@ class Context:
     :raises DeviceError: when there is no EGL device with OpenGL 4.3, with what there is
     """
 
+    device: str
+
     def __init__(
             self, *, single_thread: bool = False, beside: 'Context | None' = None) -> None:
         """Make the context and make it current."""

@@ -3,26 +3,30 @@
 
 """What a piece of work has compiled, allocated and run on the device."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from contextlib import contextmanager
 import threading
-from typing import TYPE_CHECKING
+from typing import Protocol
 
-if TYPE_CHECKING:
-    from cloth_sim_ros.gl.buffer import Buffer
-    from cloth_sim_ros.gl.program import Program
+from cloth_sim_ros.gl.shader_source import ShaderSource
 
 
-class _Taken(threading.local):
-    """The inventories being taken on each thread."""
+class Compiled(Protocol):
+    """
+    A program, as far as an inventory tells of it.
 
-    def __init__(self) -> None:
-        self.inventories: list[Inventory] = []
+    ``name`` is that of its shader, ``dispatches`` counts its runs.
+    """
+
+    name: str
+    source: ShaderSource
+    dispatches: int
 
 
-_taken = _Taken()
+class Allocated(Protocol):
+    """A buffer, as far as an inventory tells of it."""
+
+    bytes: int  # noqa: A003
 
 
 class Inventory:
@@ -34,8 +38,8 @@ class Inventory:
 
     def __init__(self) -> None:
         """Begin with nothing."""
-        self.programs: list[Program] = []
-        self.buffers: list[Buffer] = []
+        self.programs: list[Compiled] = []
+        self.buffers: list[Allocated] = []
 
     @property
     def buffer_bytes(self) -> int:
@@ -45,6 +49,16 @@ class Inventory:
     def dispatches(self) -> list[int]:
         """Return how often each program has been run, or submitted to a device that decides."""
         return [program.dispatches for program in self.programs]
+
+
+class _Taken(threading.local):
+    """The inventories being taken on each thread."""
+
+    def __init__(self) -> None:
+        self.inventories: list[Inventory] = []
+
+
+_taken = _Taken()
 
 
 @contextmanager
@@ -58,19 +72,19 @@ def take_inventory() -> Iterator[Inventory]:
         _taken.inventories.remove(inventory)
 
 
-def note_program(program: Program) -> None:
+def note_program(program: Compiled) -> None:
     """Put a program that was compiled into the inventories being taken."""
     for inventory in _taken.inventories:
         inventory.programs.append(program)
 
 
-def note_buffer(buffer: Buffer) -> None:
+def note_buffer(buffer: Allocated) -> None:
     """Put a buffer that was allocated into the inventories being taken."""
     for inventory in _taken.inventories:
         inventory.buffers.append(buffer)
 
 
-def drop_buffer(buffer: Buffer) -> None:
+def drop_buffer(buffer: Allocated) -> None:
     """Take a buffer that was given back out of them."""
     for inventory in _taken.inventories:
         if buffer in inventory.buffers:

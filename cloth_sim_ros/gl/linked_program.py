@@ -76,7 +76,9 @@ class LinkedProgram:
         """Set a vec2 uniform of the program in use."""
         GL.glUniform2f(self._location(name), *values)
 
-    def set_vectors(self, name: str, vectors: Sequence[Sequence[float]] | np.ndarray) -> None:
+    def set_vectors(
+            self, name: str,
+            vectors: Sequence[float] | Sequence[Sequence[float]] | np.ndarray) -> None:
         """Set a vec3 uniform, or the first of an array of them, of the program in use."""
         flat = np.ascontiguousarray(vectors, dtype=np.float32).reshape(-1, 3)
         GL.glUniform3fv(self._location(name), len(flat), flat)

@@ -39,6 +39,11 @@ class Program(LinkedProgram):
         self.dispatches += 1
         quick_calls.dispatch(groups_x, groups_y, 1)
 
+    def dispatch_indirect(self, offset: int) -> None:
+        """Run the program in use on the workgroups that stand at ``offset`` [bytes]."""
+        self.dispatches += 1
+        quick_calls.dispatch_indirect(offset)
+
     def indirect_calls(self, offset: int, **uniforms: int) -> list[Call]:
         """
         Return the calls that run the program on the workgroups that stand at ``offset`` [bytes].

@@ -52,7 +52,7 @@ def air_forces(
     rest = scene['width'] * scene['height'] / scene.node_count / np.prod(scene.spacing)
     for corner, one, other in _CORNERS:
         nodes = [_part(corner), _part(one), _part(other)]
-        total = sum(counts[node] for node in nodes)
+        total = counts[nodes[0]] + counts[nodes[1]] + counts[nodes[2]]
         moves = sum(counts[node][..., None] * velocities[node] for node in nodes)
         cross = np.cross(
             positions[nodes[1]] - positions[nodes[0]], positions[nodes[2]] - positions[nodes[0]])
@@ -72,7 +72,8 @@ def air_forces(
 
 def _part(offset: tuple[int, int]) -> tuple[slice, slice]:
     """Return where the nodes are that lie by ``offset`` from the first corner of each cell."""
-    return tuple(slice(1, None) if step else slice(None, -1) for step in offset)
+    down, across = (slice(1, None) if step else slice(None, -1) for step in offset)
+    return down, across
 
 
 def _length(vectors: np.ndarray) -> np.ndarray:

@@ -49,15 +49,18 @@ class Bending:
 
         A line of three nodes is damped by how fast the part of its second difference D across the
         line grows, not by how the line is stretched or turns: a cloth rotates as freely as
-        without.
+        without. A line that is folded up counts for less, docs/explanation/numerics.md.
         """
         if not self.damping * self.matrix.nnz:
             return None
         flat = positions.reshape(-1, 3)
         bent, chord = self._differences @ flat, self._chords @ flat
-        skew = np.sum(bent * chord, axis=1) / np.sum(chord**2, axis=1)
+        square = np.sum(chord**2, axis=1)
+        skew = np.divide(
+            np.sum(bent * chord, axis=1), square, out=np.zeros_like(square), where=square > 0.0)
         across = bent - skew[:, None] * chord
-        lengths = np.linalg.norm(across, axis=1, keepdims=True)
+        lengths = np.linalg.norm(across, axis=1, keepdims=True) * np.sqrt(
+            1.0 + skew[:, None]**2 / 3.0)
         across = np.divide(across, lengths, out=np.zeros_like(across), where=lengths > 0.0)
         lines = np.repeat(np.arange(len(bent)), 3)
         project = sparse.csr_matrix(

@@ -75,9 +75,8 @@ class EdgeMatrix:
              share * self._bending])
         data = np.bincount(self._place, numbers, len(self._flat))
         if self.size <= DENSE:
-            dense = np.zeros(self.size**2)
-            dense[self._flat] = data
-            dense = dense.reshape(self.size, self.size)
+            dense = np.zeros((self.size, self.size))
+            dense.ravel()[self._flat] = data
             if more is not None:
                 dense += more[self._own][:, self._own].toarray()
             found = np.linalg.solve(dense, right[self.free].ravel())

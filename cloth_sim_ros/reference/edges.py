@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from dataclasses import fields
+from typing import Any
 
 from cloth_sim_ros.reference.springs import spring_sets
 from cloth_sim_ros.sim.scene import Scene
@@ -114,11 +115,12 @@ def edges_of(scene: Scene, always: Sequence[str] = ()) -> Edges:
     columns: list[list[np.ndarray]] = [[] for _ in range(6)]
     for springs in spring_sets(scene, always):
         first, second = (end.ravel() for end in springs.ends(numbers))
-        row = (first, second, springs.rest_length, springs.stiffness, springs.damping,
-               springs.family)
+        row: tuple[Any, ...] = (
+            first, second, springs.rest_length, springs.stiffness, springs.damping,
+            springs.family)
         for column, value in zip(columns, row):
             column.append(np.broadcast_to(value, first.shape))
     if not columns[0]:
-        nodes, numbers = np.zeros(0, int), np.zeros(0)
-        return Edges(nodes, nodes, numbers, numbers, numbers, np.zeros(0, 'U10'))
+        nodes, none = np.zeros(0, int), np.zeros(0)
+        return Edges(nodes, nodes, none, none, none, np.zeros(0, 'U10'))
     return Edges(*(np.concatenate(column) for column in columns))

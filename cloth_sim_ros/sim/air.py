@@ -73,6 +73,10 @@ class Air:
     """
 
     work: AirWork | None = None
+    _asked: tuple[float, float, float | None] | None
+    _forcing: Forcing | None
+    _since: float
+    _until: float
 
     def __init__(self, scene: Scene, layout: Layout) -> None:
         """Allocate the accelerations; the pass is compiled when it is first needed."""
@@ -105,16 +109,16 @@ class Air:
             kick: float | None = None) -> Forcing:
         """Return the accelerations of a substep, as Loads does, those of ``pushes`` among them."""
         asked = (begin, end, kick)
-        if asked == self._asked:
-            return self._forcing
+        forcing = self._forcing
+        if forcing is not None and asked == self._asked:
+            return forcing
         base = pushes.forcing(begin, end, kick)
         length = end - begin
-        still_holds = self._since < begin and end <= self._until + _NOTHING * length and (
-            base.parts == self._forcing.parts)
         self._asked = asked
-        if not still_holds:
-            self._look(state, base, begin, length, length if kick is None else kick)
-        return self._forcing
+        if forcing is not None and base.parts == forcing.parts and (
+                self._since < begin and end <= self._until + _NOTHING * length):
+            return forcing
+        return self._look(state, base, begin, length, length if kick is None else kick)
 
     def quiet_until(self, now: float) -> float:
         """Return until when the accelerations hold [s], ``now`` where they don't."""
@@ -145,15 +149,16 @@ class Air:
         self._program.delete()
 
     def _forget(self) -> None:
-        self._asked: tuple[float, float, float | None] | None = None
+        self._asked = None
         self._since, self._until = math.inf, -math.inf
-        self._forcing: Forcing | None = None
+        self._forcing = None
 
     def _look(
-            self, state: State, base: Forcing, begin: float, length: float, kick: float) -> None:
+            self, state: State, base: Forcing, begin: float, length: float,
+            kick: float) -> Forcing:
         count = self._substeps(begin, length)
         self._since, self._until = begin, begin + count * length
-        self._forcing = Forcing(
+        self._forcing = forcing = Forcing(
             base.everywhere, base.pushed_everywhere, self._accelerations, base.parts,
             self._layout.texture_loads)
         acts_for = max(count * length, kick)
@@ -167,7 +172,8 @@ class Air:
         program.dispatch(*self._layout.node_groups)
         shader_writes_visible()
         if self.work is not None:
-            self._tell_work(state, base)
+            self._tell_work(self.work, state, base)
+        return forcing
 
     def _use(self, setting: tuple[float, float, tuple[float, float, float]]) -> Program:
         """Return the pass, in use and set; most looks are like the one before."""
@@ -183,12 +189,12 @@ class Air:
             program.set_vectors('past', past)
         return program
 
-    def _tell_work(self, state: State, base: Forcing) -> None:
+    def _tell_work(self, work: AirWork, state: State, base: Forcing) -> None:
         given = self._read().astype(float)
         if base.regions is not None:
             # What pushes give is not the air's.
             given -= self._load(base.regions)
-        self.work.take(state, given)
+        work.take(state, given)
 
     def _read(self) -> np.ndarray:
         return self._load(self._accelerations)

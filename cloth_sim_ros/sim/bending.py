@@ -20,8 +20,8 @@ import numpy as np
 
 # A node's part in D of a line around the node at this place.
 _PARTS = {-1: 1.0, 0: -2.0, 1: 1.0}
-# Of a chord [m2], as in bending_damping.glsl; nodes in one place have no direction.
-_LEAST_SQUARE = 1e-20
+# Squares of a chord and of a bend [m2], as in bending_damping.glsl: below, none has a direction.
+_LEAST_SQUARE, _LEAST_BEND = 1e-20, 1e-30
 
 
 def bending_pulls(
@@ -35,7 +35,7 @@ def bending_pulls(
     :param nodes: rows and columns, (n, 2) int
     """
     pulls = np.zeros((len(nodes), 3))
-    is_damped = velocities is not None and scene.has_bending_damping
+    moving = velocities if scene.has_bending_damping else None
     for c, by in zip(scene.bending, ((0, 1), (1, 0))):
         for place, part in _PARTS.items():
             centres = nodes + np.array(by) * place
@@ -45,11 +45,11 @@ def bending_pulls(
                 positions[tuple(line[are_there].T)].astype(float) for line in lines)
             bent = (behind - here) + (ahead - here)
             pulls[are_there] -= c * part * bent
-            if is_damped:
+            if moving is not None:
                 # The node stands at the other side of the line's middle.
                 pulls[are_there] -= scene['bending.damping'] * c * _brake(
                     bent, ahead - behind,
-                    [velocities[tuple(line[are_there].T)].astype(float) for line in lines],
+                    [moving[tuple(line[are_there].T)].astype(float) for line in lines],
                     part, -place)
     return pulls
 
@@ -62,7 +62,8 @@ def _brake(
     skew = np.sum(bent * chord, axis=1, keepdims=True) / np.maximum(
         np.sum(chord**2, axis=1, keepdims=True), _LEAST_SQUARE)
     across = bent - skew * chord
-    across /= np.sqrt(np.maximum(np.sum(across**2, axis=1, keepdims=True), _LEAST_SQUARE**1.5))
+    square = np.maximum(np.sum(across**2, axis=1, keepdims=True), _LEAST_BEND)
+    across /= np.sqrt(square * (1.0 + skew**2 / 3.0))
     grown = (behind - here) + (ahead - here) - skew * (ahead - behind)
     speed = np.sum(across * grown, axis=1, keepdims=True)
     return (part - place * skew) * speed * across

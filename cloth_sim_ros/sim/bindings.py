@@ -9,6 +9,7 @@ POSITION_OUT = 2
 VELOCITY_OUT = 3
 REGION_PUSHES = 4
 AIR_OUT = 5
+NEAR_NODES = 5
 FORCE = 5
 MASS = 7
 RECORDS = 5
@@ -22,5 +23,7 @@ SOLVER_TENSION = 7
 SOLVER_TALLY = 3
 TENSION = 5
 AT_LIMIT = 7
+CONTACTS = 7
+CONTACTS_SEEN = 2
 
 DEFINES = {name: value for name, value in list(globals().items()) if name.isupper()}

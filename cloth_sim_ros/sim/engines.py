@@ -95,11 +95,12 @@ class Engines:
 
     def add(self, prepared: Preparation) -> None:
         """Have the engine that was prepared, if there is none of its mode yet."""
+        assert prepared.engine is not None  # it has run, without an error
         self._by_mode.setdefault(prepared.mode, prepared.engine)
 
     def energy_law(self) -> EdgeLaw:
         """Return the law by which edges store energy now, in the mode that advances the state."""
-        return self.current.mode.energy_law(self._state)
+        return self.in_use.mode.energy_law(self._state)
 
     def forget(self) -> None:
         """Let the mode in use take the next state as it comes."""

@@ -79,7 +79,8 @@ class Field:
         if self.choices and value not in self.choices:
             raise ClothSimError(
                 f'{self.name} must be one of {", ".join(self.choices)}, got {shown(value)}')
-        if type(value) is not self.kind:
+        is_kind = type(value) is self.kind
+        if not is_kind:
             raise ClothSimError(
                 f'{self.name} must be {_NAMES[self.kind]}, got {shown(value)}{self._way_out()}')
         if self.kind is float and not math.isfinite(value):

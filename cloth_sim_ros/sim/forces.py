@@ -5,6 +5,7 @@
 
 from dataclasses import replace
 
+from cloth_sim_ros.sim.grasps import Grasps
 from cloth_sim_ros.sim.loads import Loads
 from cloth_sim_ros.sim.modes.mode import Mode
 from cloth_sim_ros.sim.pin_forces import edge_pulls
@@ -47,10 +48,23 @@ def pulled_too_hard(scene: Scene, state: State, mode: Mode, pins: PinMotion) -> 
     most, nodes = scene['pin.max_force'], pins.moving
     if not (most and nodes):
         return []
-    positions, velocities = state.read_positions(), state.read_velocities()
-    places = np.array(nodes)
-    with np.errstate(invalid='ignore', over='ignore'):
-        pulls = edge_pulls(
-            scene, positions, velocities, mode.tension(positions, velocities, places), places)
-        too_hard = np.linalg.norm(pulls, axis=-1) > most
+    too_hard = np.linalg.norm(_pulls(scene, state, mode, np.array(nodes)), axis=-1) > most
     return [node for node, is_too_hard in zip(nodes, too_hard) if is_too_hard]
+
+
+def lost_grasps(
+        scene: Scene, state: State, mode: Mode, grasps: Grasps, now: float) -> list[str]:
+    """Return the grasps that edges pull harder at, all nodes together, than they hold ``now``."""
+    limited = [grasp for grasp in grasps.present(now) if grasp.max_force]
+    pulls = (_pulls(scene, state, mode, grasp.nodes).sum(axis=0) for grasp in limited)
+    return [
+        grasp.name for grasp, pull in zip(limited, pulls)
+        if float(np.linalg.norm(pull)) > grasp.max_force]
+
+
+def _pulls(scene: Scene, state: State, mode: Mode, nodes: np.ndarray) -> np.ndarray:
+    positions, velocities = state.read_positions(), state.read_velocities()
+    # A state that is not finite has no finite forces either.
+    with np.errstate(invalid='ignore', over='ignore'):
+        return edge_pulls(
+            scene, positions, velocities, mode.tension(positions, velocities, nodes), nodes)

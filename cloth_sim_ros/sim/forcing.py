@@ -4,10 +4,40 @@
 """What accelerates the nodes in one step besides the springs."""
 
 from dataclasses import dataclass
+from typing import Protocol
+from typing import TYPE_CHECKING
 
 from cloth_sim_ros.gl.buffer import Buffer
 from cloth_sim_ros.gl.program import Program
 from cloth_sim_ros.sim import bindings
+
+if TYPE_CHECKING:
+    from cloth_sim_ros.sim.state import State
+
+
+class Touch(Protocol):
+    """What the cloth touches in one step."""
+
+    def set_in(self, program: Program) -> None:
+        """Set the uniforms of contact.glsl in the program in use, and bind what it writes."""
+
+    def act(self, length: float) -> None:
+        """Act on an explicit substep of ``length`` [s], both states of which are bound."""
+
+    def foresee(self, state: 'State', forcing: 'Forcing', ahead: float) -> None:
+        """Write the velocities that nodes have on their way through ``ahead`` [s] from now."""
+
+    def begin_substep(self) -> None:
+        """Begin to ask anew whether anything is touched, in an implicit substep."""
+
+    def is_touched(self) -> bool:
+        """Return whether a node has touched a collider in the implicit substep."""
+
+    def begin_decision(self) -> None:
+        """Begin to ask anew whether another solve is due."""
+
+    def is_solve_due(self) -> bool:
+        """Return whether the last decision has moved nodes by more than a solve leaves."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -21,13 +51,15 @@ class Forcing:
         there; None where there are none
     :param parts: what it is made of, equal where nothing else acts
     :param reads_texture: whether shaders read ``regions`` as they read the state, by textures
+    :param touch: the colliders in the step; None where there are none
     """
 
     everywhere: tuple[float, float, float]
     pushed_everywhere: bool = False
     regions: Buffer | None = None
-    parts: tuple = ()
+    parts: tuple[object, ...] = ()
     reads_texture: bool = False
+    touch: 'Touch | None' = None
 
     @property
     def has_regions(self) -> bool:
@@ -46,3 +78,9 @@ class Forcing:
                 self.regions.bind_texture(bindings.REGION_PUSHES)
             else:
                 self.regions.bind_storage(bindings.REGION_PUSHES)
+
+
+def touch_of(forcing: Forcing) -> Touch:
+    """Return the colliders of ``forcing``, which has some."""
+    assert forcing.touch is not None
+    return forcing.touch

@@ -87,7 +87,7 @@ class GuardedSteps:
         :param settle: called with the number of steps made, when they have passed a check
         :raises NonFiniteStateError: after going back to the last finite state
         """
-        parts = (self._state, loads, *others)
+        parts: tuple[Restorable, ...] = (self._state, loads, *others)
         kept = _keep(parts)
         since, substeps = first, 0
         for number in range(first, first + count):

@@ -3,6 +3,8 @@
 
 """Who is told of what is done to a simulation from outside."""
 
+from cloth_sim_ros.sim.frame_paths import FrameMove
+from cloth_sim_ros.sim.grasps import Grasp
 from cloth_sim_ros.sim.pin_path import PinMove
 from cloth_sim_ros.sim.push import Push
 
@@ -24,6 +26,18 @@ class InputListener:
 
     def pin_target(self, move: PinMove) -> None:
         """Hear of a pin that sets off."""
+
+    def grasp(self, grasp: Grasp) -> None:
+        """Hear of nodes that are held."""
+
+    def grasp_release(self, name: str, by_force: bool) -> None:
+        """Hear of nodes that are let go; ``by_force``: as the cloth has pulled too hard."""
+
+    def grasp_move(self, move: FrameMove) -> None:
+        """Hear of a grasp that sets off."""
+
+    def collider_move(self, move: FrameMove) -> None:
+        """Hear of a collider that sets off."""
 
     def wind(self, velocity: tuple[float, float, float]) -> None:
         """Hear of another steady wind [m/s]."""

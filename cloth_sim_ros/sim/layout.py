@@ -76,9 +76,10 @@ class Layout:
         return lattice[HALO:HALO + self.rows, HALO:HALO + self.cols]
 
     def _groups_of(self, block: int) -> tuple[int, int]:
-        return tuple(
+        across, down = (
             -(-nodes // (block * local))
             for nodes, local in zip((self.cols, self.rows), self.local))
+        return across, down
 
     def set_in(self, program: Program) -> None:
         """Set the uniform of lattice.glsl in the program in use."""

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-"""Everything that accelerates nodes besides the edges: gravity, pushes and air."""
+"""Everything that acts on nodes besides the edges: gravity, pushes, air and colliders."""
 
 from collections.abc import Sequence
 from functools import partial
@@ -10,6 +10,7 @@ from typing import Any
 
 from cloth_sim_ros.sim.air import Air
 from cloth_sim_ros.sim.air import AirWork
+from cloth_sim_ros.sim.contacts import Contacts
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.forcing import Forcing
 from cloth_sim_ros.sim.layout import Layout
@@ -25,8 +26,8 @@ class Loads:
     The loads of a run, composed into what passes read with applied_acceleration.glsl.
 
     Modes and watchers ask here what acts, and until when it stays so; none knows which loads
-    there are. ``pushes`` and ``air`` are for those who add to them; ``air`` is None where the
-    scene has none.
+    there are. ``pushes``, ``air`` and ``contacts`` are for those who add to them; ``air`` and
+    ``contacts`` are None where the scene has none.
 
     :param state: that they act on
     """
@@ -40,11 +41,13 @@ class Loads:
         self._state = state
         self.pushes = self._make_pushes()
         self.air = Air(scene, layout) if scene.has_air else None
+        self.contacts = Contacts(scene, layout) if scene.has_contact else None
 
     @property
     def still(self) -> Forcing:
-        """Return gravity alone."""
-        return self.pushes.still
+        """Return gravity alone, and the colliders as the run begins."""
+        still = self.pushes.still
+        return still if self.contacts is None else self.contacts.join(still, 0.0, 0.0)
 
     def begin_run(self) -> None:
         """Go back to gravity and the air of the scene."""
@@ -52,11 +55,15 @@ class Loads:
         self.pushes = self._make_pushes()
         if self.air is not None:
             self.air.begin_run()
+        if self.contacts is not None:
+            self.contacts.begin_run()
 
     def begin_step(self, begin: float, end: float) -> None:
         """Tell that a step of dt goes from ``begin`` to ``end`` [s]."""
         if self.air is not None:
             self.air.begin_step(end)
+        if self.contacts is not None:
+            self.contacts.begin_step()
 
     def forcing(
             self, state: State, begin: float, end: float, kick: float | None = None) -> Forcing:
@@ -69,8 +76,10 @@ class Loads:
         :param kick: how long they act in it [s], if not for all of it; pushes keep their impulse
         """
         if self.air is None:
-            return self.pushes.forcing(begin, end, kick)
-        return self.air.forcing(state, self.pushes, begin, end, kick)
+            forcing = self.pushes.forcing(begin, end, kick)
+        else:
+            forcing = self.air.forcing(state, self.pushes, begin, end, kick)
+        return forcing if self.contacts is None else self.contacts.join(forcing, begin, end)
 
     def foreseen(self, state: State, begin: float, end: float, *, is_quiet: bool) -> Forcing:
         """
@@ -79,7 +88,8 @@ class Loads:
         :param is_quiet: whether nothing changes until then, so that no push can begin
         """
         if is_quiet and self.air is None:
-            return self.still
+            still = self.pushes.still
+            return still if self.contacts is None else self.contacts.join(still, begin, end)
         return self.forcing(state, begin, end)
 
     def acting(self, now: float) -> Forcing:
@@ -104,17 +114,22 @@ class Loads:
 
     def work(self) -> float:
         """Return the work on free nodes of all loads but gravity and pushes, until now [J]."""
-        return 0.0 if self.air is None else self.air.work.settle(self._state)
+        if self.air is None:
+            return 0.0
+        assert self.air.work is not None  # keep_account comes first
+        return self.air.work.settle(self._state)
 
     def forget(self) -> None:
         """Take the next state as it comes."""
         if self.air is not None:
             self.air.begin_step(-math.inf)
+        if self.contacts is not None:
+            self.contacts.begin_step()
 
     def quiet_until(self, now: float) -> float:
         """Return until when what acts at ``now`` [s] stays so: ``now`` itself, or infinite."""
-        quiet = self.pushes.quiet_until(now)
-        return quiet if self.air is None else min(quiet, self.air.quiet_until(now))
+        parts = (self.pushes, self.air, self.contacts)
+        return min(part.quiet_until(now) for part in parts if part is not None)
 
     def speed_gained(self, begin: float, end: float) -> float:
         """Return by how much loads other than gravity make a node faster at most [m/s]."""
@@ -136,6 +151,7 @@ class Loads:
 
     def set_wind(self, velocity: tuple[float, float, float]) -> None:
         """Let ``velocity``, which was checked, blow in place of the steady wind."""
+        assert self.air is not None  # checked_wind has refused it otherwise
         self.air.wind.steady = velocity
 
     def keep(self) -> tuple[Any, ...]:
@@ -152,5 +168,6 @@ class Loads:
     def delete(self) -> None:
         """Give everything back."""
         self.pushes.delete()
-        if self.air is not None:
-            self.air.delete()
+        for part in (self.air, self.contacts):
+            if part is not None:
+                part.delete()

@@ -56,8 +56,8 @@ class Fabric:
 def _fabric(
         fabric: str, density: float, stretch: tuple[float, float], shear: float,
         bending: tuple[float, float], note: str) -> Fabric:
-    return Fabric(
-        fabric, density, *stretch, shear, tuple(_MICRO * value for value in bending), note)
+    warp, weft = bending
+    return Fabric(fabric, density, *stretch, shear, (_MICRO * warp, _MICRO * weft), note)
 
 
 # Stretch is that of small strain in woven fabrics, and that of the largest strain measured in

@@ -96,6 +96,7 @@ class Observer:
         state.bind_in()
         self._sums_buffer.bind_storage(bindings.PARTIAL_SUMS)
         if records is not None:
+            assert self._records_buffer is not None  # made by record
             self._records_buffer.bind_storage(bindings.RECORDS)
             # Without marks the shader reads none, but a driver may want something to be bound.
             (limit_marks or self._records_buffer).bind_storage(bindings.AT_LIMIT)
@@ -113,7 +114,7 @@ class Observer:
             largest = max(totals[3], float(sums[:, 3].max()))
             totals += sums.sum(axis=0, dtype=np.float64)
             totals[3] = largest
-            if records is not None:
+            if records is not None and self._records_buffer is not None:
                 self._records_buffer.read_into(records[first:first + rows])
         mass = self._scene.node_mass
         return Measures(

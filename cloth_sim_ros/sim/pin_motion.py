@@ -9,6 +9,7 @@ from collections.abc import Sequence
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.pin_path import PinMove
 from cloth_sim_ros.sim.pin_path import PinPath
+from cloth_sim_ros.sim.pin_path import Way
 from cloth_sim_ros.sim.pins import check_node
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.state import State
@@ -23,7 +24,7 @@ Node = tuple[int, int]
 # The moves to come, the ways under way, and the velocities on the device, of the last step, and of
 # the one before.
 KeptMotion = tuple[
-    list[PinMove], dict[Node, PinPath], dict[Node, np.ndarray], dict[Node, np.ndarray],
+    list[PinMove], dict[Node, Way], dict[Node, np.ndarray], dict[Node, np.ndarray],
     dict[Node, np.ndarray]]
 
 
@@ -42,7 +43,7 @@ class PinMotion:
         self._scene = scene
         self._state = state
         self._waiting = sorted(scene.timed_pin_moves(), key=lambda move: move.start)
-        self._paths: dict[Node, PinPath] = {}
+        self._paths: dict[Node, Way] = {}
         # What the state has now, and what pins had in the last step and in the one before.
         self._on_device: dict[Node, np.ndarray] = {}
         self._latest: dict[Node, np.ndarray] = {}
@@ -52,12 +53,12 @@ class PinMotion:
     @property
     def under_way(self) -> tuple[PinMove, ...]:
         """Return the moves that have begun and not ended."""
-        return tuple(path.move for path in self._paths.values())
+        return tuple(path.move for path in self._own_paths().values())
 
     @property
     def moving(self) -> list[Node]:
         """Return the row and column of each pin whose move has begun and not ended."""
-        return list(self._paths)
+        return list(self._own_paths())
 
     @property
     def stalled(self) -> int:
@@ -105,6 +106,15 @@ class PinMotion:
         path = self._paths.get((row, col))
         return PinPath(move, now if path is None else path.position(then))
 
+    def follow(self, row: int, col: int, way: Way) -> None:
+        """Let the pin (row, col) follow what carries it."""
+        self._paths[row, col] = way
+
+    def position(self, row: int, col: int, now: float) -> np.ndarray:
+        """Return where the pin (row, col) is ``now`` [s], (3,) [m]."""
+        path = self._paths.get((row, col))
+        return self._state.read_position(row, col) if path is None else path.position(now)
+
     def drop(self) -> None:
         """Forget the moves under way: the state was replaced, and its pins are at rest."""
         for entries in (self._paths, self._on_device, self._latest, self._earlier):
@@ -126,8 +136,9 @@ class PinMotion:
         if not (self._paths or self._waiting):
             self._latest = {}
             return
+        own = self._own_paths()
         for node in too_hard:
-            self._paths[node] = self._paths[node].put_off(begin, end)
+            self._paths[node] = own[node].put_off(begin, end)
         places = {node: path.position(begin) for node, path in self._paths.items()}
         while self._waiting and self._waiting[0].start < end:
             move = self._waiting.pop(0)
@@ -158,9 +169,10 @@ class PinMotion:
     def restore(self, kept: KeptMotion) -> None:
         """Go back to the moment of ``keep``, to which the state has gone back already."""
         given_since = self._on_device
-        waiting, *entries = kept
+        waiting, paths, on_device, latest, earlier = kept
         self._waiting = list(waiting)
-        self._paths, self._on_device, self._latest, self._earlier = map(dict, entries)
+        self._paths, self._on_device = dict(paths), dict(on_device)
+        self._latest, self._earlier = dict(latest), dict(earlier)
         # The first step after that moment gave its velocities to the state as it was then.
         for node in given_since:
             self._state.set_pin_velocity(*node, self._on_device.get(node, _REST))
@@ -193,11 +205,12 @@ class PinMotion:
         check_node(row, col, self._scene.rows, self._scene.cols)
 
     def _start(self, move: PinMove) -> PinPath:
-        path = self._paths.get(move.node)
-        origin = self._state.read_position(*move.node) if path is None else (
-            path.position(move.start))
-        self._paths[move.node] = PinPath(move, origin)
-        return self._paths[move.node]
+        path = PinPath(move, self.position(*move.node, move.start))
+        self._paths[move.node] = path
+        return path
+
+    def _own_paths(self) -> dict[Node, PinPath]:
+        return {node: path for node, path in self._paths.items() if isinstance(path, PinPath)}
 
     def _stop(self, node: Node) -> None:
         self._paths.pop(node, None)
@@ -256,6 +269,13 @@ class PinRequests:
                 now=self._state.read_position(row, col))
         stepping.at_rest(lambda: self._motion.move(row, col, target, speed, then))
         return path
+
+    def expect(self, nodes: np.ndarray, is_pinned: bool) -> None:
+        """Hear that ``nodes``, (n, 2), are held or let go by another, at the end of the step."""
+        # What an earlier step has left is settled.
+        self.pinned_nodes()
+        if self._stepping.is_mid_step:
+            self._to_be.update(dict.fromkeys(map(tuple, nodes.tolist()), is_pinned))
 
     def _change(self, row: int, col: int, is_pinned: bool) -> None:
         self._motion.check_node(row, col)

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from copy import copy
 from dataclasses import dataclass
 import math
+from typing import Protocol
 
 from cloth_sim_ros.sim.errors import ClothSimError
 import numpy as np
@@ -58,6 +59,19 @@ class PinMove:
     def node(self) -> tuple[int, int]:
         """Return row and col."""
         return self.row, self.col
+
+
+class Way(Protocol):
+    """What a pin follows; ``begin`` and ``arrival`` are simulated times [s]."""
+
+    begin: float
+    arrival: float
+
+    def position(self, time: float) -> np.ndarray:
+        """Return where the pin is at ``time`` [s], (3,) [m]."""
+
+    def velocity(self, begin: float, end: float, at_begin: np.ndarray) -> np.ndarray:
+        """Return what takes the pin from ``at_begin`` at ``begin`` to its place at ``end``."""
 
 
 class PinPath:

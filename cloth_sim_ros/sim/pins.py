@@ -55,7 +55,8 @@ def only_node(name: str, rows: int, cols: int, parameter: str) -> tuple[int, int
         raise ClothSimError(
             f'{parameter} has {shown(name)}, which is {len(nodes)} nodes: '
             'give a corner, or a node as "row,col"')
-    return tuple(nodes[0])
+    row, col = nodes[0]
+    return row, col
 
 
 def check_node(row: int, col: int, rows: int, cols: int) -> None:

@@ -7,22 +7,26 @@ from collections import Counter
 from collections.abc import Iterable
 from collections.abc import Mapping
 import difflib
+from itertools import repeat
 from typing import Any
 
 from cloth_sim_ros.files.echo import cut
 from cloth_sim_ros.files.echo import MOST_SHOWN
 from cloth_sim_ros.files.echo import shown
 from cloth_sim_ros.sim import grid
+from cloth_sim_ros.sim.collider_fields import fields_with_colliders
+from cloth_sim_ros.sim.colliders import colliders_of
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.field import Field
+from cloth_sim_ros.sim.frame_paths import FrameMove
 from cloth_sim_ros.sim.given_values import completed
+from cloth_sim_ros.sim.grasp_request import GraspRequest
 from cloth_sim_ros.sim.near_node import near_node
 from cloth_sim_ros.sim.pin_path import PinMove
 from cloth_sim_ros.sim.pins import only_node
 from cloth_sim_ros.sim.pins import pinned_nodes
 from cloth_sim_ros.sim.push import Push
 from cloth_sim_ros.sim.scene_fields import FAMILIES
-from cloth_sim_ros.sim.scene_fields import SCENE_FIELDS
 from cloth_sim_ros.sim.springs import of_direction
 from cloth_sim_ros.sim.springs import spring_stiffness
 from cloth_sim_ros.sim.springs import WARP
@@ -41,11 +45,11 @@ class Scene:
 
     def __init__(self, values: Mapping[str, Any] | None = None) -> None:
         """Check ``values`` against the field table."""
-        refuse_unknown(values or {}, SCENE_FIELDS)
+        fields = fields_with_colliders(values or {})
+        refuse_unknown(values or {}, fields)
         given = completed(values or {})
         self.values = {
-            field.name: field.check(given.get(field.name, field.default))
-            for field in SCENE_FIELDS}
+            field.name: field.check(given.get(field.name, field.default)) for field in fields}
         if self.rows * self.cols < 2:
             raise ClothSimError(
                 f'a cloth needs 2 nodes or more, got rows {self.rows} x cols {self.cols}: '
@@ -65,10 +69,15 @@ class Scene:
                     f'{family} edges are in constraint.hard and in constraint.springs: remove '
                     'them from one')
         self._check_mass()
+        self.colliders = colliders_of(self.values)
+        self._check_contact()
         self.pinned_nodes()
         self.timed_pushes()
         self.timed_pin_moves()
         self.gusts()
+        self.timed_collider_moves()
+        self.timed_grasps()
+        self.timed_grasp_moves()
 
     def __getitem__(self, name: str) -> Any:
         """Return the value of the parameter ``name``."""
@@ -206,6 +215,65 @@ class Scene:
                 PinMove.checked(row=row, col=col, target=target, speed=speed, start=start))
         return tuple(moves)
 
+    @property
+    def has_contact(self) -> bool:
+        """Tell whether there is anything that the cloth can touch."""
+        return bool(self.colliders)
+
+    def timed_collider_moves(self) -> tuple[FrameMove, ...]:
+        """Return the moves of colliders that are part of the scene, in the order given."""
+        return self._frame_moves('collider_moves', 'colliders.names')
+
+    def timed_grasp_moves(self) -> tuple[FrameMove, ...]:
+        """Return the moves of grasps that are part of the scene, in the order given."""
+        return self._frame_moves('grasp_moves', 'grasps.name')
+
+    def timed_grasps(self) -> tuple[GraspRequest, ...]:
+        """Return the grasps that are part of the scene, in the order given."""
+        columns = zip(
+            self['grasps.start'], self._timed('grasps.name'), self._timed('grasps.position', 3),
+            self._orientations('grasps.orientation'), self._timed('grasps.radius', default=0.0),
+            self._timed('grasps.count', default=0), self._timed('grasps.max_force', default=0.0),
+            self._timed('grasps.release', default=0.0))
+        return tuple(
+            GraspRequest.checked(
+                name=name, position=position, orientation=orientation, radius=radius,
+                count=0 if radius else count, max_force=max_force, start=start, release=release)
+            for start, (name,), position, orientation, (radius,), (count,), (max_force,),
+            (release,) in columns)
+
+    def _frame_moves(self, group: str, names: str) -> tuple[FrameMove, ...]:
+        moved = self._timed(f'{group}.name')
+        for (name,) in moved:
+            if name not in self[names]:
+                raise ClothSimError(
+                    f'{group}.name has {shown(name)}, which is not one of {names}: add it there')
+        columns = zip(
+            self[f'{group}.start'], moved, self._timed(f'{group}.target', 3),
+            self._orientations(f'{group}.orientation'),
+            self._timed(f'{group}.speed', default=self['motion.speed']),
+            self._timed(f'{group}.angular_speed', default=self['motion.angular_speed']))
+        return tuple(
+            FrameMove.checked(
+                name=name, target=target, orientation=orientation, speed=speed,
+                angular_speed=angular_speed, start=start)
+            for start, (name,), target, orientation, (speed,), (angular_speed,) in columns)
+
+    def _orientations(self, name: str) -> Iterable[tuple[float, ...] | None]:
+        return self._timed(name, 4) if self[name] else repeat(None)
+
+    def _check_contact(self) -> None:
+        if not self.has_contact:
+            return
+        if self['layout'] == 'paper':
+            raise ClothSimError(
+                'layout paper has no contact, and colliders.names is not empty: set '
+                'layout: fused, or remove the colliders')
+        if self['adaptive.scheme'] == 'paper':
+            raise ClothSimError(
+                'adaptive.scheme paper has no contact, and colliders.names is not empty: set '
+                'adaptive.scheme: constraint, or remove the colliders')
+
     def _check_mass(self) -> None:
         given = [name for name in ('total_mass', 'node_mass') if self[name] > 0.0]
         if self['areal_density'] > 0.0 and self['total_mass'] > 0.0:
@@ -239,7 +307,7 @@ class Scene:
             default: float | None = None) -> list[tuple[Any, ...]]:
         """Return the ``width`` entries that each one has in the parameter ``name``."""
         group = name.partition('.')[0]
-        entry = {'pushes': 'push', 'pin_moves': 'move', 'gusts': 'gust'}[group]
+        entry = {'pushes': 'push', 'gusts': 'gust', 'grasps': 'grasp'}.get(group, 'move')
         count = len(self[f'{group}.start'])
         flat = self[name]
         if not flat and default is not None:
@@ -260,6 +328,11 @@ def refuse_unknown(given: Iterable[str], fields: tuple[Field, ...]) -> None:
 
 
 def _hint(name: str, known: list[str]) -> str:
+    group, _, rest = name.partition('.')
+    if group == 'colliders' and '.' in rest:
+        collider = rest.partition('.')[0]
+        if not any(each.startswith(f'colliders.{collider}.') for each in known):
+            return f'list {cut(collider)} in colliders.names'
     counts = Counter(each.partition('.')[0] for each in known if '.' in each)
     groups = sorted(group for group, count in counts.items() if count > 1)
     # What is longer than what is shown is like nothing, which takes long to find.

@@ -141,6 +141,57 @@ SCENE_FIELDS = (
           'as a flat list of x y z', 'm', low=-1e6, high=1e6, is_array=True),
     Field('pin_moves.speed', float, (), 'speed of each timed move; empty for pin_speed',
           'm/s', low=1e-6, high=1e6, is_array=True),
+    Field('colliders.names', str, (), 'names of the rigid bodies that the cloth touches, each '
+          'described by its parameters colliders.NAME.*',
+          words='lower-case letters, digits and underscores', is_array=True),
+    Field('collider_moves.start', float, (), 'start time of each timed move of a collider', 's',
+          low=0.0, high=1e9, is_array=True),
+    Field('collider_moves.name', str, (), 'collider of each timed move',
+          words='one of colliders.names', is_array=True),
+    Field('collider_moves.target', float, (), 'target of the centre in each timed move, reached '
+          'in a straight line, as a flat list of x y z', 'm', low=-1e5, high=1e5, is_array=True),
+    Field('collider_moves.orientation', float, (), 'orientation at the end of each timed move, '
+          'as a flat list of quaternions x y z w; empty to keep the present one',
+          low=-1e3, high=1e3, is_array=True),
+    Field('collider_moves.speed', float, (), 'speed of each timed move; empty for motion.speed',
+          'm/s', low=1e-6, high=1e3, is_array=True),
+    Field('collider_moves.angular_speed', float, (), 'angular speed of each timed move; empty '
+          'for motion.angular_speed', 'rad/s', low=1e-6, high=1e3, is_array=True),
+    Field('grasps.start', float, (), 'time of each timed grasp', 's', low=0.0, high=1e9,
+          is_array=True),
+    Field('grasps.name', str, (), 'name of each timed grasp',
+          words='lower-case letters, digits and underscores', is_array=True),
+    Field('grasps.position', float, (), 'position of each timed grasp, as a flat list of x y z',
+          'm', low=-1e5, high=1e5, is_array=True),
+    Field('grasps.orientation', float, (), 'orientation of each timed grasp, as a flat list of '
+          'quaternions x y z w; empty for none', low=-1e3, high=1e3, is_array=True),
+    Field('grasps.radius', float, (), 'distance within which each timed grasp takes the free '
+          'nodes; 0 to take grasps.count of them', 'm', low=0.0, high=1e5, is_array=True),
+    Field('grasps.count', int, (), 'number of nodes that each timed grasp without a radius takes, '
+          'the nearest ones; empty for 1', low=1, high=100000, is_array=True),
+    Field('grasps.max_force', float, (), 'pull of the cloth at which each timed grasp loses it; '
+          '0 or empty for never', 'N', low=0.0, high=1e9, is_array=True),
+    Field('grasps.release', float, (), 'time at which each timed grasp is released; 0 or empty '
+          'for never', 's', low=0.0, high=1e9, is_array=True),
+    Field('grasp_moves.start', float, (), 'start time of each timed move of a grasp', 's',
+          low=0.0, high=1e9, is_array=True),
+    Field('grasp_moves.name', str, (), 'grasp of each timed move', words='one of grasps.name',
+          is_array=True),
+    Field('grasp_moves.target', float, (), 'target of the grasp in each timed move, reached in a '
+          'straight line, as a flat list of x y z', 'm', low=-1e5, high=1e5, is_array=True),
+    Field('grasp_moves.orientation', float, (), 'orientation at the end of each timed move, as a '
+          'flat list of quaternions x y z w; empty to keep the present one', low=-1e3, high=1e3,
+          is_array=True),
+    Field('grasp_moves.speed', float, (), 'speed of each timed move; empty for motion.speed',
+          'm/s', low=1e-6, high=1e3, is_array=True),
+    Field('grasp_moves.angular_speed', float, (), 'angular speed of each timed move; empty for '
+          'motion.angular_speed', 'rad/s', low=1e-6, high=1e3, is_array=True),
+    Field('motion.speed', float, 0.5, 'speed of colliders and grasps whose move sets none, and '
+          'the most of those that follow a topic', 'm/s', low=1e-6, high=1e3),
+    Field('motion.angular_speed', float, 1.5, 'angular speed of colliders and grasps whose move '
+          'sets none, and the most of those that follow a topic', 'rad/s', low=1e-6, high=1e3),
+    Field('contact.thickness', float, 0.001, 'thickness of the cloth, half of which its nodes '
+          'keep from colliders', 'm', low=0.0, high=1.0),
     Field('layout', str, 'fused', 'fused: forces and update in one shader pass; paper: the two '
           'passes of the paper, a baseline for benchmarks', choices=('fused', 'paper')),
     Field('loads', str, 'auto', 'how shaders read the state; auto chooses the faster one on this '

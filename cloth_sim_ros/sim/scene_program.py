@@ -3,8 +3,11 @@
 
 """Compile the shaders of a scene: only what it uses, with its springs set."""
 
+from collections.abc import Mapping
+
 from cloth_sim_ros.gl.program import Program
 from cloth_sim_ros.gl.shader_source import ShaderSource
+from cloth_sim_ros.sim.colliders import collider_defines
 from cloth_sim_ros.sim.edge_kinds import edge_defines
 from cloth_sim_ros.sim.edge_kinds import REST_KINDS
 from cloth_sim_ros.sim.edge_kinds import rest_lengths
@@ -12,10 +15,7 @@ from cloth_sim_ros.sim.forcing import Forcing
 from cloth_sim_ros.sim.layout import Layout
 from cloth_sim_ros.sim.scene import FAMILIES
 from cloth_sim_ros.sim.scene import Scene
-
-# A position [m] or velocity [m/s] beyond it counts as not finite: with the softest and the
-# stiffest springs, energies and normals of what is below it do not leave float32.
-MOST_MAGNITUDE = 1e12
+from cloth_sim_ros.sim.state import MOST_MAGNITUDE
 
 
 class SceneProgram:
@@ -29,7 +29,7 @@ class SceneProgram:
 
     def __init__(
             self, name: str, scene: Scene, layout: Layout,
-            defines: dict[str, object] | None = None) -> None:
+            defines: Mapping[str, object] | None = None) -> None:
         """Remember what to compile."""
         self._name = name
         self._scene = scene
@@ -82,6 +82,8 @@ def scene_defines(scene: Scene) -> dict[str, object]:
         'HAS_DAMPING': int(has_damping),
         'HAS_RIGIDITY': int(scene.has_rigidity),
         'HAS_BENDING_DAMPING': int(scene.has_bending_damping),
+        'HAS_CONTACT': int(scene.has_contact),
+        **(collider_defines(scene.colliders) if scene.has_contact else {}),
         **edge_defines(scene.families),
     }
 

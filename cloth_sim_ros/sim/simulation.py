@@ -6,46 +6,50 @@
 from collections.abc import Callable
 from collections.abc import Generator
 from collections.abc import Iterator
+from collections.abc import Mapping
 from collections.abc import Sequence
 from contextlib import AbstractContextManager
 from contextlib import closing
 from contextlib import contextmanager
+from functools import partial
 import math
 
 from cloth_sim_ros.gl.context import Context
 from cloth_sim_ros.sim import modes
+from cloth_sim_ros.sim.contacts import ContactForce
 from cloth_sim_ros.sim.engine import Preparation
 from cloth_sim_ros.sim.engines import Engines
-from cloth_sim_ros.sim.errors import ClothSimError
+from cloth_sim_ros.sim.forces import lost_grasps
 from cloth_sim_ros.sim.forces import pulled_too_hard
 from cloth_sim_ros.sim.forces import with_forces
-from cloth_sim_ros.sim.input_listener import CLEAR_PUSHES
+from cloth_sim_ros.sim.grasp_request import GraspRequest
+from cloth_sim_ros.sim.grasps import GraspForce
+from cloth_sim_ros.sim.grasps import GraspRequests
+from cloth_sim_ros.sim.grasps import Grasps
+from cloth_sim_ros.sim.handling import Handling
 from cloth_sim_ros.sim.input_listener import InputListener
 from cloth_sim_ros.sim.input_listener import RESET
 from cloth_sim_ros.sim.layout import choose_layout
 from cloth_sim_ros.sim.loads import Loads
-from cloth_sim_ros.sim.near_node import NearNode
-from cloth_sim_ros.sim.nearest import nearest
+from cloth_sim_ros.sim.nearest import usual_reach
 from cloth_sim_ros.sim.pin_forces import PinForces
 from cloth_sim_ros.sim.pin_motion import PinMotion
 from cloth_sim_ros.sim.pin_motion import PinRequests
-from cloth_sim_ros.sim.pin_path import PinMove
-from cloth_sim_ros.sim.pin_path import PinPath
+from cloth_sim_ros.sim.pose import Pose
 from cloth_sim_ros.sim.push import Push
-from cloth_sim_ros.sim.push_field import AppliedPush
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.snapshot import Measures
 from cloth_sim_ros.sim.snapshot import Snapshot
 from cloth_sim_ros.sim.state import State
-from cloth_sim_ros.sim.stepping import RunStatus
 from cloth_sim_ros.sim.stepping import Stepping
 import numpy as np
 
 # Below this many nodes llvmpipe is faster without its worker threads (docs/notes/performance.md).
 SINGLE_THREAD_NODES = 128 * 128
+_NONE_MOVED: Mapping[str, Pose] = {}
 
 
-class Simulation(RunStatus, AbstractContextManager['Simulation']):
+class Simulation(Handling, AbstractContextManager['Simulation']):
     """
     A simulated cloth. Use it only on the thread that created it.
 
@@ -95,11 +99,6 @@ class Simulation(RunStatus, AbstractContextManager['Simulation']):
         """Close, however the block has ended."""
         self.close()
 
-    @property
-    def pushes(self) -> tuple[AppliedPush, ...]:
-        """Return the pushes that act or will act."""
-        return self.loads.pushes.applied
-
     def warm_up(self) -> None:
         """Compile all that the present mode can need, not each part when it is first used."""
         self.engines.compile_all()
@@ -142,96 +141,6 @@ class Simulation(RunStatus, AbstractContextManager['Simulation']):
                 yield
                 engine.context.make_current()
 
-    def push(
-            self, force: Sequence[float], *, duration: float, region: str = 'all',
-            center: Sequence[float] = (0.0, 0.0, 0.0), radius: float = 0.0,
-            start: float | None = None) -> AppliedPush:
-        """
-        Push the cloth with a total ``force`` [N] for ``duration`` [s] of simulated time.
-
-        :param region: all, or sphere: the free nodes within ``radius`` of ``center`` [m]
-            when the push begins; one to come that finds none does nothing
-        :param start: simulated time at which it begins [s]; now by default
-        :raises ClothSimError: when a value is wrong or no free node is in the region
-        """
-        begin = self.stepping.edit_time if start is None else start
-        push = Push.checked(
-            force=force, start=begin, duration=duration, region=region, center=center,
-            radius=radius)
-        if begin < self.time:
-            raise ClothSimError(
-                f'the start of the push, {begin:g} s, is in the past, the time is {self.time:g} '
-                's: give a later one, or none for now')
-        with self._settled_state():
-            if self.stepping.is_mid_step and begin <= self.stepping.edit_time:
-                applied = self.loads.pushes.foresee(push, self.pinned_nodes())
-                self.stepping.at_rest(lambda: self.loads.pushes.begin(push))
-            else:
-                applied = self.loads.pushes.add(push, self.time)
-        self.listener.push(push)
-        return applied
-
-    def clear_pushes(self) -> int:
-        """Cancel all active and scheduled pushes; return how many."""
-        self.listener.command(CLEAR_PUSHES)
-        pushes = [applied.push for applied in self.pushes]
-        self.stepping.at_rest(lambda: self.loads.pushes.drop(pushes))
-        return len(pushes)
-
-    def set_wind(self, velocity: Sequence[float]) -> None:
-        """Replace the steady wind by ``velocity`` [m/s]; gusts of the scene stay."""
-        wind = self.loads.checked_wind(velocity)
-        self.stepping.at_rest(lambda: self.loads.set_wind(wind))
-        self.listener.wind(wind)
-
-    def pin(self, row: int, col: int) -> None:
-        """Pin the node (row, col) where it is; a moving pin stops."""
-        self.engines.context.make_current()
-        self._pins.hold(row, col)
-        self.listener.pin(row, col, True)
-
-    def release(self, row: int, col: int) -> None:
-        """Release the node (row, col), with the velocity of its pin."""
-        self.engines.context.make_current()
-        self._pins.release(row, col)
-        self.listener.pin(row, col, False)
-
-    def move_pin(
-            self, row: int, col: int, target: Sequence[float],
-            speed: float | None = None) -> PinPath:
-        """
-        Move the pinned node (row, col) in a straight line to ``target`` [m], where it rests.
-
-        A new target replaces the previous one, from the pin's position at that time.
-
-        :param speed: [m/s] in simulated time; the scene's pin_speed by default
-        :return: its path, with the time of arrival
-        :raises ClothSimError: when the node is not pinned or a value is wrong
-        """
-        self.engines.context.make_current()
-        path = self._pins.move(row, col, target, speed)
-        self.listener.pin_target(path.move)
-        return path
-
-    @property
-    def pin_moves(self) -> tuple[PinMove, ...]:
-        """Return the moves of pins that are under way."""
-        return self._pin_motion.under_way
-
-    def pinned_nodes(self) -> np.ndarray:
-        """Return which nodes are held, (rows, cols) bool, with changes yet to be made."""
-        return self._pins.pinned_nodes()
-
-    def nearest_node(
-            self, point: Sequence[float], max_distance: float | None = None) -> NearNode:
-        """Return the node nearest to ``point`` [m]."""
-        return nearest(self.scene, self.positions(), point, max_distance)
-
-    def nearest_pin(
-            self, point: Sequence[float], max_distance: float | None = None) -> NearNode:
-        """Return the pinned node nearest to ``point`` [m]."""
-        return nearest(self.scene, self.positions(), point, max_distance, self.pinned_nodes())
-
     def positions(self) -> np.ndarray:
         """Return all positions [m], (rows, cols, 3) float32."""
         with self._settled_state():
@@ -267,24 +176,28 @@ class Simulation(RunStatus, AbstractContextManager['Simulation']):
         self.listener.new_state()
         self.engines.context.make_current()
         self._state.write(np.asarray(positions), np.asarray(velocities))
+        self._held.stop(self.time)
         self._pin_motion.drop()
         self.loads.forget()
         self.engines.forget()
 
     def go_on_from(
             self, steps: int, positions: np.ndarray, velocities: np.ndarray, *,
-            pinned: np.ndarray, pushes: Sequence[Push] = ()) -> None:
+            pinned: np.ndarray, pushes: Sequence[Push] = (),
+            colliders: Mapping[str, Pose] = _NONE_MOVED) -> None:
         """
         Go on from the middle of a run, as far as that is known.
 
-        Moves of pins under way are not: call ``move_pin`` for them. What the mode kept from
-        earlier steps is dropped, and pushes under way act on the free nodes in their region now.
+        Grasps and moves under way are not: call ``grasp``, ``move_pin``, ``move_grasp`` and
+        ``move_collider`` for them. What the mode kept from earlier steps is dropped, and pushes
+        under way act on the free nodes in their region now.
 
         :param steps: of dt made before
         :param positions: (rows, cols, 3) [m]
         :param velocities: (rows, cols, 3) [m/s]; pins are at rest
         :param pinned: (rows, cols) bool
         :param pushes: all that act or will act, those of the scene as well
+        :param colliders: where those are, by name, that are not where the scene has them
         """
         self.stepping.refuse_mid_step('go_on_from')
         self._state.check(positions, velocities)
@@ -295,6 +208,9 @@ class Simulation(RunStatus, AbstractContextManager['Simulation']):
         self.engines.forget()
         self._begin_run(steps)
         self.loads.pushes.take_up(pushes, self.time)
+        if self.loads.contacts is not None:
+            for name, pose in colliders.items():
+                self.loads.contacts.place(name, pose, self.time)
         self._pin_motion.leave_out_before(self.time)
 
     def reset(self) -> None:
@@ -326,6 +242,8 @@ class Simulation(RunStatus, AbstractContextManager['Simulation']):
             snapshot = engine.snapshot(
                 self._state, self.loads.acting(self.time), time=self.time, steps=self.steps,
                 dt=self.dt, stalled_pins=self._pin_motion.stalled)
+        if self.loads.contacts is not None and not self.stepping.is_mid_step:
+            snapshot = self.loads.contacts.with_contacts(snapshot)
         if tension or pin_forces:
             self.stepping.refuse_mid_step('forces')
             return with_forces(
@@ -338,6 +256,26 @@ class Simulation(RunStatus, AbstractContextManager['Simulation']):
         forces = self.snapshot(pin_forces=True).pin_forces
         assert forces is not None
         return forces
+
+    def contact_forces(self) -> tuple[ContactForce, ...]:
+        """
+        Return the force of the cloth on each collider, in the order of ``colliders.names``.
+
+        It is the mean over the last step of dt.
+        """
+        self.stepping.refuse_mid_step('contact_forces')
+        contacts = self.loads.contacts
+        return () if contacts is None else contacts.forces(self.positions(), self.time)
+
+    def grasp_forces(self, snapshot: Snapshot | None = None) -> tuple[GraspForce, ...]:
+        """
+        Return the present force of the cloth on each grasp, and its torque.
+
+        :param snapshot: of this time, with the forces at pins; made here by default
+        """
+        snapshot = snapshot or self.snapshot(pin_forces=True)
+        assert snapshot.pin_forces is not None
+        return self._held.forces(snapshot.pin_forces, snapshot.positions, self.time)
 
     def finish(self) -> None:
         """Wait until the device has finished all work; for timing."""
@@ -361,19 +299,42 @@ class Simulation(RunStatus, AbstractContextManager['Simulation']):
             self.loads.pushes.add(push, -math.inf)
         self._pin_motion = PinMotion(self.scene, self._state)
         self._pins = PinRequests(self._pin_motion, self._state, self.stepping)
+        self._held = Grasps(self._state, self._pin_motion)
+        self._grasps = GraspRequests(
+            self._held, self._pins, self.stepping, usual_reach(self.scene))
+        self.stepping.at_times(self._timed_edits())
+
+    def _timed_edits(self) -> Iterator[tuple[float, Callable[[], object]]]:
+        for request in self.scene.timed_grasps():
+            yield request.start, partial(self._begin_timed_grasp, request)
+            if request.release:
+                yield request.release, partial(self._held.end, request.name)
+        for move in self.scene.timed_grasp_moves():
+            yield move.start, partial(self._held.move, move)
+
+    def _begin_timed_grasp(self, request: GraspRequest) -> None:
+        self._grasps.begin_timed(request, self._state.read_positions())
 
     def _make_step(self, number: int) -> modes.Pieces:
         self.stepping.step_under_way = number
         begin, end = number * self.dt, (number + 1) * self.dt
         mode, pins = self.engines.in_use.mode, self._pin_motion
         pins.begin_step(begin, end, pulled_too_hard(self.scene, self._state, mode, pins))
+        for name in lost_grasps(self.scene, self._state, mode, self._held, begin):
+            self.stepping.at_end_of_step(partial(self._lose_grasp, name))
         self.loads.begin_step(begin, end)
         yield from mode.step(self._state, begin, self.loads)
         pins.end_step(begin, end)
 
+    def _lose_grasp(self, name: str) -> None:
+        if name in self._grasps.present():
+            self._held.end(name)
+            self.listener.grasp_release(name, True)
+
     def _finish_work(self) -> None:
         self.stepping.refuse_mid_step('advance')
-        if self.stepping.is_behind:
+        # Changes at their times end the work before the aim is reached.
+        while self.stepping.is_behind:
             modes.finish(self.work(lambda: False))
 
     @contextmanager

@@ -23,6 +23,7 @@ _MOST_OVER_BOUND = 1.5
 FLAG_PINNED = 1
 FLAG_AT_LIMIT = 2
 FLAG_PUSHED = 4
+FLAG_TOUCHING = 8
 
 
 @dataclass(frozen=True)
@@ -75,6 +76,9 @@ class Snapshot(Measures):
         (docs/explanation/adaptive.md)
     :param stalled_pins: pins under way that stood still in the last step, as edges pulled at them
         with more than ``pin.max_force``
+    :param sticking_nodes: that touched a collider in the last step and had its velocity
+    :param sliding_nodes: that touched a collider in the last step and moved along it
+    :param deepest_node: how far a node is inside a collider at most [m]
     :param tension: if requested, of the edges that start at each node [N], (rows, cols, 6)
         float32, above 0 where it pulls: of node (r, c) to (r, c + 1), (r + 1, c), (r + 1, c + 1),
         (r + 1, c - 1), (r, c + 2) and (r + 2, c); 0 where there is no such edge
@@ -98,6 +102,9 @@ class Snapshot(Measures):
     active_fraction: float = 0.0
     constraint_switches: int = 0
     stalled_pins: int = 0
+    sticking_nodes: int = 0
+    sliding_nodes: int = 0
+    deepest_node: float = 0.0
     tension: np.ndarray | None = None
     pin_forces: PinForces | None = None
 
@@ -129,7 +136,7 @@ class Snapshot(Measures):
 
     @property
     def flags(self) -> np.ndarray:
-        """Return FLAG_PINNED, FLAG_AT_LIMIT, FLAG_PUSHED of each node, (rows, cols) uint32."""
+        """Return FLAG_PINNED, _AT_LIMIT, _PUSHED, _TOUCHING of each node, (rows, cols) uint32."""
         return self.records['flags']
 
     @property

@@ -95,7 +95,7 @@ def _wave_matrices(scene: Scene) -> tuple[np.ndarray, np.ndarray]:
         outer = np.array([nx * nx, nx * ny, ny * ny])[:, None, None]
         totals[0] += kind.stiffness(scene) * outer * bend
         totals[1] += kind.damping(scene) * outer * bend
-    return tuple(totals)
+    return totals[0], totals[1]
 
 
 def _largest_eigenvalue(matrix: np.ndarray) -> np.ndarray:

@@ -11,8 +11,11 @@ from cloth_sim_ros.gl.buffer import Buffer
 from cloth_sim_ros.sim import bindings
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.layout import Layout
-from cloth_sim_ros.sim.scene_program import MOST_MAGNITUDE
 import numpy as np
+
+# A position [m] or velocity [m/s] beyond it counts as not finite: with the softest and the
+# stiffest springs, energies and normals of what is below it do not leave float32.
+MOST_MAGNITUDE = 1e12
 
 _PAIRS = 3
 
@@ -112,12 +115,8 @@ class State:
 
     def bind_in(self) -> None:
         """Let the next dispatch read the present state."""
-        for binding, buffers in (
-                (bindings.POSITION_IN, self._positions), (bindings.VELOCITY_IN, self._velocities)):
-            if self._layout.texture_loads:
-                buffers[self._now].bind_texture(binding)
-            else:
-                buffers[self._now].bind_storage(binding)
+        self._bind(bindings.POSITION_IN, self._positions[self._now])
+        self._bind(bindings.VELOCITY_IN, self._velocities[self._now])
 
     def bind_out(self) -> None:
         """Let the next dispatch write the state to come."""
@@ -127,6 +126,11 @@ class State:
     def bind_out_for_reading(self) -> None:
         """Let the next dispatches read the velocities to come in place of the present ones."""
         self._velocities[self._next].bind_texture(bindings.VELOCITY_IN)
+
+    def bind_expected(self) -> None:
+        """Let the next dispatch read the present positions, with the velocities to come."""
+        self._bind(bindings.POSITION_IN, self._positions[self._now])
+        self._bind(bindings.VELOCITY_IN, self._velocities[self._next])
 
     def swap(self) -> None:
         """Make what was written the present state."""
@@ -148,6 +152,12 @@ class State:
         """Give the buffers back."""
         for buffer in self._positions + self._velocities:
             buffer.delete()
+
+    def _bind(self, binding: int, buffer: Buffer) -> None:
+        if self._layout.texture_loads:
+            buffer.bind_texture(binding)
+        else:
+            buffer.bind_storage(binding)
 
     def _spare(self) -> int:
         return next(pair for pair in range(_PAIRS) if pair not in (self._now, self._kept))

@@ -5,12 +5,15 @@
 
 from collections.abc import Callable
 from collections.abc import Generator
+from collections.abc import Iterable
 import math
 
 from cloth_sim_ros.sim import modes
+from cloth_sim_ros.sim.colliders import Collider
 from cloth_sim_ros.sim.engines import Engines
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.errors import NonFiniteStateError
+from cloth_sim_ros.sim.loads import Loads
 
 # Makes up to a number of steps, from the step of another number on, in pieces.
 MakeSteps = Callable[[int, int], Generator[None, None, None]]
@@ -18,6 +21,8 @@ MakeSteps = Callable[[int, int], Generator[None, None, None]]
 
 # Seconds are an int32 in a stamp of ROS, and changes are stamped with the end of a step [s].
 LATEST = 2**31 - 2
+# Of a step: later by this is no later.
+_NOTHING = 1e-6
 
 
 class Stepping:
@@ -28,6 +33,8 @@ class Stepping:
     :param steps: made before
     """
 
+    _carried: float
+
     def __init__(self, dt: float, steps: int = 0) -> None:
         """Aim at the present moment."""
         self._dt = dt
@@ -36,7 +43,9 @@ class Stepping:
         # Which is not the next one after ``steps``, where several are checked together.
         self.step_under_way = steps
         # Changes to make when the step under way has ended.
-        self._edits: list[Callable[[], None]] = []
+        self._edits: list[Callable[[], object]] = []
+        # Changes of the scene: the number of steps before each.
+        self._timed: list[tuple[int, Callable[[], object]]] = []
         self.drop_aim()
 
     @property
@@ -57,7 +66,8 @@ class Stepping:
     @property
     def has_edits(self) -> bool:
         """Tell whether changes wait for the end of the step."""
-        return bool(self._edits)
+        return bool(self._edits) or any(
+            step == self.step_under_way + 1 for step, _ in self._timed)
 
     def aim(self, seconds: float) -> None:
         """Go on for ``seconds`` more; what is no whole dt is carried over."""
@@ -106,12 +116,30 @@ class Stepping:
         self.steps = steps
         self._make_edits()
 
-    def at_rest(self, edit: Callable[[], None]) -> None:
+    def at_rest(self, edit: Callable[[], object]) -> None:
         """Make a change of the state now, or when the step under way has ended."""
         if self.is_mid_step:
             self._edits.append(edit)
         else:
             edit()
+
+    def at_end_of_step(self, edit: Callable[[], object]) -> None:
+        """Make a change of the state when the step that is being made has ended."""
+        self._edits.append(edit)
+
+    def at_times(self, edits: Iterable[tuple[float, Callable[[], object]]]) -> None:
+        """
+        Make changes at their times [s], each at the first end of a step that is not earlier.
+
+        Those of the present moment are made at once at the start of a run; on the way, what is
+        no later has been made.
+        """
+        numbered = [
+            (math.ceil(time / self._dt - _NOTHING), edit) for time, edit in edits]
+        self._timed = sorted(
+            (entry for entry in numbered if entry[0] > self.steps or self.steps == 0),
+            key=lambda entry: entry[0])
+        self._make_edits()
 
     def refuse_mid_step(self, name: str) -> None:
         """Raise RuntimeError while a step is under way."""
@@ -128,10 +156,12 @@ class Stepping:
 
     def _make_edits(self) -> None:
         self.is_mid_step = False
+        while self._timed and self._timed[0][0] <= self.steps:
+            self._timed.pop(0)[1]()
         for edit in self._take_edits():
             edit()
 
-    def _take_edits(self) -> list[Callable[[], None]]:
+    def _take_edits(self) -> list[Callable[[], object]]:
         edits, self._edits = self._edits, []
         return edits
 
@@ -140,6 +170,7 @@ class RunStatus:
     """The numbers of a Simulation that are known without asking the device."""
 
     engines: Engines
+    loads: Loads
     stepping: Stepping
 
     @property
@@ -181,3 +212,9 @@ class RunStatus:
     def stability_margin(self) -> float:
         """Return the substep over what it should be at most, see Snapshot."""
         return self.engines.in_use.mode.substep_margin if self.is_ready else 0.0
+
+    @property
+    def colliders(self) -> tuple[Collider, ...]:
+        """Return the colliders of the scene where they are now."""
+        contacts = self.loads.contacts
+        return () if contacts is None else contacts.present(self.time)

@@ -49,7 +49,7 @@ class Wind:
 
     def __init__(self, steady: Sequence[float], gusts: Sequence[Gust] = ()) -> None:
         """Blow from the start."""
-        self.steady: tuple[float, float, float] = tuple(float(part) for part in steady)
+        self.steady = _three(steady)
         self._gusts = tuple(gusts)
 
     @property
@@ -79,4 +79,9 @@ def checked_wind(velocity: Sequence[float]) -> tuple[float, float, float]:
         raise ClothSimError(
             f'the wind must be 3 numbers of at most {FASTEST_WIND:g} m/s each, '
             f'got {[float(part) for part in velocity]}: give x, y and z')
-    return tuple(float(part) for part in velocity)
+    return _three(velocity)
+
+
+def _three(velocity: Sequence[float]) -> tuple[float, float, float]:
+    x, y, z = velocity
+    return float(x), float(y), float(z)

@@ -5,12 +5,13 @@
 // its second difference D across the line. What stretches or turns it is not resisted, so that a
 // bent cloth rotates as freely as without damping. With e = D . t along the unit vector t from the
 // node behind to that ahead, l apart, the bend |D - e t| grows by the velocities of the nodes, times
-// 1 + e / l, -2 and 1 - e / l, along its direction.
+// 1 + e / l, -2 and 1 - e / l, along its direction. Where a line of uneven lengths is folded up,
+// e / l is large: there the growth counts for less, so that no line resists more than an even one.
 
 #include "bending.glsl"
 
 struct BentLine {
-    vec3 across;  // unit vector of the bend; 0 where the line is straight, or leaves the cloth
+    vec3 across;  // along the bend, 1 long or less; 0 where the line is straight, or no line
     float skew;   // e / l
 };
 
@@ -20,7 +21,9 @@ BentLine bent_line(vec4 behind, vec4 here, vec4 ahead) {
     vec3 chord = ahead.xyz - behind.xyz;
     float skew = dot(bent, chord) / max(dot(chord, chord), 1e-20);
     bent -= skew * chord;
-    return BentLine(bent * inversesqrt(max(dot(bent, bent), 1e-30)), skew);
+    // The squares of what the nodes count add up to 6 and twice that of the skew.
+    float scale = max(dot(bent, bent), 1e-30) * (1.0 + skew * skew / 3.0);
+    return BentLine(bent * inversesqrt(scale), skew);
 }
 
 // How fast the bend of a line grows [m/s].

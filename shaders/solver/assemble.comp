@@ -7,6 +7,9 @@
 #include "solver/levels.glsl"
 #include "solver/system.glsl"
 #include "solver/cloth_edge_block.glsl"
+#if HAS_CONTACT
+#include "solver/free_directions.glsl"
+#endif
 #if HAS_RIGIDITY
 
 uniform float bending_bound[2];  // with damping in any direction, over the node mass
@@ -48,8 +51,21 @@ void main() {
         + bending_bound[1] * bending_at(at, ivec2(1, 0)));
 #endif
     float moves = load_node(at).w > 0.0 ? 1.0 : 0.0;
-    Symmetric inverse_block = moves * inverse_above(diagonal, 1.0);
     int index = node_index(at.x, at.y);
+    Symmetric inverse_block = moves * inverse_above(diagonal, 1.0);
+#if HAS_CONTACT
+    vec4 contact = load_contact(index);
+    if (contact.w > 0.0) {
+        // Of the block along the surface, or the line, that the node slides on.
+        vec3 image = times(inverse_block, contact.xyz);
+        Symmetric in_surface =
+            inverse_block - outer_square(image) / max(dot(contact.xyz, image), 1e-30);
+        Symmetric on_line = moves * outer_square(contact.xyz)
+            / max(dot(contact.xyz, times(diagonal, contact.xyz)), 1.0);
+        inverse_block = contact.w == 2.0 ? in_surface : on_line;
+        inverse_block *= contact.w == 1.0 ? 0.0 : 1.0;
+    }
+#endif
     system_data[cloth_entry(INVERSE, index)] = vec4(inverse_block[0], 0.0);
     system_data[cloth_entry(INVERSE + 1, index)] = vec4(inverse_block[1], 0.0);
 }

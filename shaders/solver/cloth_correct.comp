@@ -27,6 +27,18 @@ void main() {
             value[row][col] += correction[row][col];
         }
     }
+#if HAS_CONTACT
+    bool touches = false;
+    FOR_TILE {
+        touches = touches || load_contact(tile_index(first, row, col)).w > 0.0;
+    }
+    if (touches) {
+        FOR_TILE {
+            value[row][col] =
+                in_free_directions(tile_index(first, row, col), value[row][col]);
+        }
+    }
+#endif
     make_product(first);
     FOR_BLOCK {
         int index = tile_index(first, row, col);

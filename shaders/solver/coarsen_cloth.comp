@@ -8,6 +8,7 @@
 #include "solver/system.glsl"
 #include "solver/edge_tensors.glsl"
 #include "solver/cloth_edge_block.glsl"
+#include "solver/free_directions.glsl"
 #if HAS_RIGIDITY
 #include "solver/coarse_bending.glsl"
 #endif
@@ -26,13 +27,18 @@ Symmetric finer_edge(ivec2 at, int direction) {
 
 #include "solver/average_edges.glsl"
 
-// What ties a free node to a pinned one: by an edge that begins here, or ends here.
+// 1 for a node that stays where it is.
+bool is_fixed(ivec2 at) {
+    return load_node(at).w < 0.0 || sticks(node_index(at.x, at.y));
+}
+
+// What ties a free node to a fixed one: by an edge that begins here, or ends here.
 Symmetric ties(ivec2 at, ivec2 by, int edge) {
     Symmetric sum = Symmetric(0.0);
-    if (load_node(at + by).w < 0.0) {
+    if (is_fixed(at + by)) {
         sum += edge_block(at, by, edge);
     }
-    if (load_node(at - by).w < 0.0) {
+    if (is_fixed(at - by)) {
         sum += edge_block(at - by, by, edge);
     }
     return sum;
@@ -49,14 +55,14 @@ Symmetric all_ties(ivec2 at) {
     return of_family[STRUCTURAL] + of_family[SHEAR] + of_family[BEND];
 }
 
-bool has_pin_around(ivec2 first) {
-    float least = 0.0;
+bool has_fixed_around(ivec2 first) {
+    bool has_fixed = false;
     for (int row = -REACH; row < 2 + REACH; ++row) {
         for (int col = -REACH; col < 2 + REACH; ++col) {
-            least = min(least, load_node(first + ivec2(row, col)).w);
+            has_fixed = has_fixed || is_fixed(first + ivec2(row, col));
         }
     }
-    return least < 0.0;
+    return has_fixed;
 }
 
 Symmetric coarse_edge(int row, int col, int direction) {
@@ -101,8 +107,8 @@ void main() {
     Symmetric ground = scaled_identity(mass);
     // A loop ends where no invocation beside this one goes on; a branch costs llvmpipe the same
     // either way.
-    int near_pin = has_pin_around(first) ? 4 : 0;
-    for (int i = 0; i < near_pin; ++i) {
+    int near_fixed = has_fixed_around(first) ? 4 : 0;
+    for (int i = 0; i < near_fixed; ++i) {
         ivec2 at = first + ivec2(i / 2, i % 2);
         if (load_node(at).w > 0.0) {
             ground += all_ties(at);

@@ -8,9 +8,9 @@ from pathlib import Path
 
 from cloth_sim_ros.node.node_fields import check_together
 from cloth_sim_ros.node.node_fields import NODE_FIELDS
+from cloth_sim_ros.sim.collider_fields import fields_with_colliders
 from cloth_sim_ros.sim.scene import refuse_unknown
 from cloth_sim_ros.sim.scene import Scene
-from cloth_sim_ros.sim.scene_fields import SCENE_FIELDS
 from cloth_sim_ros.sim.scene_file import load_parameters
 from cloth_sim_ros.sim.simulation import Simulation
 import numpy as np
@@ -27,13 +27,13 @@ def given(request):
 
 def scene_of(given):
     """Return the scene in what a file gives."""
-    names = {field.name for field in SCENE_FIELDS}
+    names = {field.name for field in fields_with_colliders(given)}
     return Scene({name: value for name, value in given.items() if name in names})
 
 
 def test_node_and_simulation_accept_it(given):
     """A user's first start would end with an error."""
-    refuse_unknown(given, SCENE_FIELDS + NODE_FIELDS)
+    refuse_unknown(given, fields_with_colliders(given) + NODE_FIELDS)
     scene_of(given)
     check_together({
         field.name: field.check(given.get(field.name, field.default)) for field in NODE_FIELDS})
@@ -46,11 +46,12 @@ def test_lists_of_numbers_are_all_of_one_kind(given):
             assert len({type(part) for part in value}) == 1, name
 
 
-def test_it_moves_and_stays_cloth(given):
+@pytest.mark.parametrize('seconds', [0.5, pytest.param(1.5, marks=pytest.mark.long)])
+def test_it_moves_and_stays_cloth(given, seconds):
     """A shipped scene would blow up, or stretch like rubber."""
     scene = scene_of(given)
     simulation = Simulation(scene)
-    simulation.advance(1.5)
+    simulation.advance(seconds)
     snapshot = simulation.snapshot()
     simulation.close()
     assert snapshot.finite

@@ -15,6 +15,13 @@ from std_srvs.srv import SetBool
 FILE = Path(__file__).resolve().parents[2] / 'config' / 'sros2_policy.xml'
 RULES = {
     ('topics', 'publish'), ('topics', 'subscribe'), ('services', 'reply'), ('services', 'request')}
+# A collider and a grasp have topics of their own, which the policy has by a pattern.
+SCENE = {
+    'publish.clock': True, 'colliders.names': ['ball'], 'colliders.ball.size': [0.1],
+    'grasps.start': [9.0], 'grasps.name': ['hand'], 'grasps.position': [0.0, 0.0, 1.0]}
+PATTERNS = {
+    '/cloth_sim/colliders/*/pose': '/cloth_sim/colliders/ball/pose',
+    '/cloth_sim/grasps/*/target': '/cloth_sim/grasps/hand/target'}
 # ROS opens these two for every node, and they change nothing.
 OF_EVERY_NODE = {'/parameter_events', '/rosout'}
 
@@ -29,7 +36,7 @@ def rights(enclave: str) -> dict[tuple[str, str], set[str]]:
         assert answer == 'ALLOW'
         names = [entry.text.replace('~', own, 1) for entry in group]
         assert len(set(names)) == len(names)
-        found[group.tag, kind] |= set(names)
+        found[group.tag, kind] |= {PATTERNS.get(name, name) for name in names}
     return found
 
 
@@ -37,7 +44,7 @@ def rights(enclave: str) -> dict[tuple[str, str], set[str]]:
 def endpoints(tmp_path_factory):
     """Return what a running node has, in the order of the policy's rules."""
     folder = tmp_path_factory.mktemp('policy')
-    with GraphClient() as client, NodeProcess(folder, {'publish.clock': True}):
+    with GraphClient() as client, NodeProcess(folder, SCENE):
         client.call(SetBool, '/cloth_sim/pause', data=True)
         graph = client.node
 

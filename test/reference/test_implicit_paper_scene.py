@@ -60,14 +60,16 @@ def _left_over(dt: float, passes: Passes | None = None, **values) -> float:
 
 
 @pytest.mark.parametrize('passes', [Passes(), Passes(foresees_turn=False)], ids=str)
-@pytest.mark.parametrize(('dt', 'allowed'), [(0.02, 0.002), (0.05, 0.04)])
+@pytest.mark.parametrize(('dt', 'allowed'), [
+    pytest.param(0.02, 0.002, marks=pytest.mark.long), (0.05, 0.04)])
 def test_two_solves_alone(dt, allowed, passes):
     """Two solves without substeps leave more than a second solve should."""
     assert _left_over(dt, passes, auto_substeps=False) <= allowed
 
 
 @pytest.mark.parametrize('strain', [pytest.param(1e-4, marks=pytest.mark.long), 0.008])
-@pytest.mark.parametrize(('dt', 'allowed'), [(0.02, 0.002), (0.05, 0.02)])
+@pytest.mark.parametrize(('dt', 'allowed'), [
+    pytest.param(0.02, 0.002, marks=pytest.mark.long), (0.05, 0.02)])
 @pytest.mark.parametrize('springs', [[], pytest.param(['bend'], marks=pytest.mark.long)], ids=str)
 def test_two_solves_and_substeps(dt, allowed, springs, strain):
     """The default lets edges stray farther from their law than it may."""

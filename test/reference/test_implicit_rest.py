@@ -55,7 +55,10 @@ def _elastic_catenary(
 
 
 @pytest.mark.parametrize('solves', [pytest.param(1, marks=pytest.mark.long), 2])
-@pytest.mark.parametrize(('span', 'strain'), [(0.8, 1e-5), (0.8, 0.5), (1.0, 0.008)])
+@pytest.mark.parametrize(('span', 'strain'), [
+    pytest.param(0.8, 1e-5, marks=pytest.mark.long),
+    pytest.param(0.8, 0.5, marks=pytest.mark.long),
+    (1.0, 0.008)])
 def test_catenary(solves, span, strain):
     """A chain, slack or taut, hard or soft, rests elsewhere than forces and lengths allow."""
     chain = ImplicitCloth(Scene({

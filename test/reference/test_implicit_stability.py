@@ -65,7 +65,7 @@ def _strays(links, dt, passes, times=1e4):
 
 
 @pytest.mark.parametrize('beta', [0.0, 0.1])
-@pytest.mark.parametrize('links', [10, 20])
+@pytest.mark.parametrize('links', [10, pytest.param(20, marks=pytest.mark.long)])
 def test_blow_up_of_a_hanging_chain(links, beta):
     """
     One linear solve is stable up to another step than 2 / w / sqrt(1 - 4 beta).
@@ -85,7 +85,7 @@ def test_blow_up_of_a_hanging_chain(links, beta):
 
 
 @pytest.mark.parametrize('times', [1.05, 3.0, 10.0])
-@pytest.mark.parametrize('links', [10, 20])
+@pytest.mark.parametrize('links', [10, pytest.param(20, marks=pytest.mark.long)])
 def test_a_hanging_chain_stands_steps_of_any_length(links, times):
     """
     With the mass term of mode constraint, waves of a chain in long steps grow all the same.

@@ -10,8 +10,16 @@ import pytest
 
 
 @pytest.fixture(scope='session')
-def context() -> Iterator[Context]:
-    """Return a context for all simulations that are about something else than contexts."""
+def shared_context() -> Iterator[Context]:
+    """Lend one context to a whole test process."""
     context = Context(single_thread=True)
     yield context
     context.close()
+
+
+@pytest.fixture
+def context(shared_context: Context) -> Context:
+    """Return a context for all simulations that are about something else than contexts."""
+    # Another test may have made its own current since.
+    shared_context.make_current()
+    return shared_context

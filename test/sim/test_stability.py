@@ -112,9 +112,11 @@ def test_the_limit_of_any_shape(stiffness: tuple, mu: float):
     assert safe_substep(cloth) <= min(any_shape_limit(cloth), 0.85 * stability_limit(cloth))
 
 
-def test_substeps_keep_to_the_share():
+@pytest.mark.parametrize('ratio', [1.02, 1.48, 1.52, 1.98, 7.1])
+def test_substeps_keep_to_the_share(ratio: float):
     """The automatic choice would come too near to the limit, or be wasteful."""
-    cloth = scene((1000.0,) * 3, dt=0.02)
+    dt = ratio * safe_substep(scene((1000.0,) * 3))
+    cloth = scene((1000.0,) * 3, dt=dt)
     substeps = choose_substeps(cloth)
-    assert 0.02 / substeps <= safe_substep(cloth) <= 0.85 * stability_limit(cloth)
-    assert 0.02 / (substeps - 1) > safe_substep(cloth)
+    assert dt / substeps <= safe_substep(cloth) <= 0.85 * stability_limit(cloth)
+    assert dt / (substeps - 1) > safe_substep(cloth)

@@ -5,6 +5,7 @@
 
 from collections.abc import Collection
 import math
+from typing import Any
 
 from cloth_sim_ros.gl.buffer import Buffer
 from cloth_sim_ros.sim.layout import Layout
@@ -145,7 +146,7 @@ class Adaptive:
         self._limit.forget()
         self._marks.forget()
 
-    def report(self) -> dict[str, float]:
+    def report(self) -> dict[str, Any]:
         """Return how the solves ended, and how many edges are at their limit or changed."""
         solves = self._limit.report() if self._made_limited else {}
         return {**solves, **self._marks.count()}

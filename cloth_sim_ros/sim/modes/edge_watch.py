@@ -19,6 +19,15 @@ _NEAR = 0.9
 _FEWEST, _MOST = 4, 64
 
 
+def _bind(state: State, forcing: Forcing, ahead: float) -> None:
+    """Let a pass read ``state`` with the velocities that are expected ``ahead`` [s]."""
+    if forcing.touch is None:
+        state.bind_in()
+    else:
+        forcing.touch.foresee(state, forcing, ahead)
+        state.bind_expected()
+
+
 class StrainWatch:
     """
     Says for how many substeps no edge will come near its limit.
@@ -56,8 +65,8 @@ class StrainWatch:
 
     def strains(self, state: State, forcing: Forcing, ahead: float) -> tuple[float, float]:
         """Return the largest strain now and the one predicted ``ahead`` [s] from now."""
+        _bind(state, forcing, ahead)
         program = self._program.use_for_step(forcing, ahead)
-        state.bind_in()
         self._strips.dispatch(program)
         now, then = self._strips.largest()
         return float(now), float(then)
@@ -115,8 +124,8 @@ class TurnWatch:
 
         :param forcing: that acts for ``dt`` [s] from now
         """
+        _bind(state, forcing, dt)
         program = self._program.use_for_step(forcing, dt)
-        state.bind_in()
         self._strips.dispatch(program)
         turns, strain = (float(largest) for largest in self._strips.largest())
         return math.sqrt(2.0 * _TURN / turns) if turns > 0.0 else math.inf, strain

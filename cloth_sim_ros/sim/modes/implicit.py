@@ -34,6 +34,8 @@ _LARGEST_MARGIN = 1e9
 _NOTHING = 1e-9
 # Of a pass. Where a hundred edges come to their limits at once, a dozen or two find which do.
 _MOST_SOLVES = 32
+# Of a substep, until it is known what touches a collider.
+_MOST_CONTACT_SOLVES = 8
 
 
 class ImplicitStep(ABC):
@@ -48,6 +50,7 @@ class ImplicitStep(ABC):
 
     # An implicit step is stable whatever its length.
     stability_limit = math.inf
+    last_length: float
 
     def __init__(self, scene: Scene, layout: Layout, families: Collection[str]) -> None:
         """Compile the solver."""
@@ -101,14 +104,24 @@ class ImplicitStep(ABC):
             # next.
             kick = 0.5 * ((self.last_length or length) + length)
             forcing_of = partial(loads.forcing, state, start, start + length, kick)
-            if is_held:
+            touch = forcing_of().touch
+            if touch is not None:
+                touch.begin_substep()
+                self._solver.meet_colliders(state, forcing_of(), kick)
+                yield
+            # What a collider holds has no momentum of its own.
+            if is_held or (touch is not None and touch.is_touched()):
+                self._free_motion.forget()
                 yield from self._substep(state, forcing_of, kick)
             else:
                 forcing = forcing_of()
                 self._free_motion.aim_at(state, forcing, loads.still, kick)
                 yield from self._substep(
                     state, lambda: _uneven(forcing_of()), kick, _common(forcing, kick))
-                self._free_motion.restore(state, loads.still, length)
+                if touch is not None and touch.is_touched():
+                    self._free_motion.forget()
+                else:
+                    self._free_motion.restore(state, loads.still, length)
             self.last_length = length
             self.settling.spend(length)
 
@@ -120,6 +133,9 @@ class ImplicitStep(ABC):
         self._solver.set_law(self.law(self._dt, self.settling.limit))
         self._solver.compile_searches()
         yield
+        if still.touch is not None:
+            self._solver.meet_colliders(state, still, self._dt)
+            yield
         self._free_motion.aim_at(state, still, still, self._dt)
         yield
         yield from self._substep(state, lambda: still, self._dt)
@@ -148,7 +164,7 @@ class ImplicitStep(ABC):
         self._solver.clear_tally()
         self._unsettled = 0
 
-    def report(self) -> dict[str, float]:
+    def report(self) -> dict[str, Any]:
         """Return how the solves of the last dt ended."""
         tally = self._solver.tally()
         return {
@@ -191,10 +207,24 @@ class ImplicitStep(ABC):
         yield from self._solve(state, forcing_of, kick=kick)
         self._solver.apply(state, common_change=common_change)
         yield
-        for _ in range(self._solves - 1):
+        is_due = self._resolve_contacts(state, forcing_of())
+        solves = 1
+        while solves < self._solves or (is_due and solves < _MOST_CONTACT_SOLVES):
             yield from self._solve(state, forcing_of, kick=kick, is_further=True)
             self._solver.apply(state, further=True)
             yield
+            is_due = self._resolve_contacts(state, forcing_of())
+            solves += 1
+        if forcing_of().touch is not None:
+            self._solver.resolve_contacts(state, forcing_of(), is_last=True)
+            yield
+
+    def _resolve_contacts(self, state: State, forcing: Forcing) -> bool:
+        """Let colliders act on what was solved; return whether another solve is due for it."""
+        if forcing.touch is None:
+            return False
+        self._solver.resolve_contacts(state, forcing, is_last=False)
+        return forcing.touch.is_solve_due()
 
     def _solve(
             self, state: State, forcing_of: Callable[[], Forcing], **how: Any) -> Pieces:
@@ -222,4 +252,5 @@ def _uneven(forcing: Forcing) -> Forcing:
 
 def _common(forcing: Forcing, kick: float) -> tuple[float, float, float]:
     """Return what the velocities of all nodes change by [m/s]."""
-    return tuple(kick * part for part in forcing.everywhere)
+    x, y, z = forcing.everywhere
+    return kick * x, kick * y, kick * z

@@ -5,6 +5,7 @@
 
 from collections.abc import Collection
 import math
+from typing import Any
 
 from cloth_sim_ros.gl.buffer import Buffer
 from cloth_sim_ros.sim.layout import Layout
@@ -74,7 +75,7 @@ class MassSpring:
     def forget(self) -> None:
         """Forget nothing: a step depends on the state alone."""
 
-    def report(self) -> dict[str, float]:
+    def report(self) -> dict[str, Any]:
         """Return nothing: there is no solver."""
         return {}
 

@@ -5,6 +5,7 @@
 
 from collections.abc import Collection
 from collections.abc import Generator
+from typing import Any
 from typing import Protocol
 
 from cloth_sim_ros.gl.buffer import Buffer
@@ -44,10 +45,22 @@ class Mode(Protocol):
     name: str
     is_implicit: bool
     has_memory: bool
-    substeps: int
-    stability_limit: float
-    substep_margin: float
-    strain_bound: float
+
+    @property
+    def substeps(self) -> int:
+        """Get how many there are in a dt."""
+
+    @property
+    def stability_limit(self) -> float:
+        """Get the longest stable substep [s]."""
+
+    @property
+    def substep_margin(self) -> float:
+        """Get a substep over the longest one that is stable or accurate."""
+
+    @property
+    def strain_bound(self) -> float:
+        """Get what no structural or shear edge should be stretched or shortened beyond."""
 
     def __init__(self, scene: Scene, layout: Layout, *, check_stability: bool = True) -> None:
         """Compile and allocate what this mode needs and nothing else."""
@@ -81,7 +94,7 @@ class Mode(Protocol):
     def forget(self) -> None:
         """Drop what was kept from earlier steps: the state is not the one they left."""
 
-    def report(self) -> dict[str, float]:
+    def report(self) -> dict[str, Any]:
         """Return what the Snapshot says of solver and constraints, where it is not 0."""
 
     def limit_marks(self) -> Buffer | None:

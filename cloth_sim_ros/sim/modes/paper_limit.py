@@ -4,6 +4,7 @@
 """The paper's adaptive scheme (Tab. 9): an edge beyond the limit is pulled to its rest length."""
 
 import math
+from typing import Any
 
 from cloth_sim_ros.gl.buffer import Buffer
 from cloth_sim_ros.gl.buffer import shader_writes_visible
@@ -154,7 +155,7 @@ class PaperLimit:
     def clear_tally(self) -> None:
         """Count nothing: there are no solves."""
 
-    def report(self) -> dict[str, float]:
+    def report(self) -> dict[str, Any]:
         """Return nothing."""
         return {}
 

@@ -19,6 +19,8 @@ class Settling:
     at once, it would have that of hard edges from nothing, and be thrown together.
     """
 
+    is_new: bool
+
     def __init__(self) -> None:
         """Wait for a cloth."""
         self.forget()

@@ -48,6 +48,8 @@ class OnePass:
         step = self._step.use_for_step(forcing, length, length if kick is None else kick)
         step.dispatch(*self._groups)
         shader_writes_visible()
+        if forcing.touch is not None:
+            forcing.touch.act(length)
 
     def delete(self) -> None:
         """Give the pass back."""

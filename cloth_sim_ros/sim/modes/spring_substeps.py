@@ -15,7 +15,7 @@ from cloth_sim_ros.sim.stability import needed_substeps
 from cloth_sim_ros.sim.stability import safe_substep
 from cloth_sim_ros.sim.stability import stability_limit
 
-_SHORTEST_DT = next(field.low for field in SCENE_FIELDS if field.name == 'dt')
+_SHORTEST_DT = next(field.low for field in SCENE_FIELDS if field.name == 'dt') or 0.0
 _AUTOMATIC = 'auto_substeps: true'
 _OTHER_SPRINGS = 'use softer springs, less damping or a larger node mass'
 

@@ -13,6 +13,7 @@ lambda > 0 pulls. See docs/explanation/implicit_step.md.
 from collections.abc import Collection
 from dataclasses import dataclass
 from dataclasses import replace
+from typing import Any
 
 from cloth_sim_ros.gl.program import Program
 from cloth_sim_ros.sim.edge_kinds import REST_KINDS
@@ -65,17 +66,22 @@ class EdgeLaw:
     @property
     def bending_weights(self) -> tuple[float, float]:
         """Return what bending along a row and along a column weighs in the matrix."""
-        return tuple(BETA * self.length**2 * value for value in self.bending)
+        along_row, along_col = self.bending
+        weight = BETA * self.length**2
+        return weight * along_row, weight * along_col
 
     @property
     def damping_weights(self) -> tuple[float, float]:
         """Return what the damping of bending weighs there, across the lines that are bent."""
-        return tuple(self.length * self.bending_damping * value for value in self.bending)
+        along_row, along_col = self.bending
+        weight = self.length * self.bending_damping
+        return weight * along_row, weight * along_col
 
     @property
     def bending_bounds(self) -> tuple[float, float]:
         """Return what both weigh at most, in any direction."""
-        return tuple(map(sum, zip(self.bending_weights, self.damping_weights)))
+        stiff, damped = self.bending_weights, self.damping_weights
+        return stiff[0] + damped[0], stiff[1] + damped[1]
 
     @property
     def weights(self) -> tuple[float, ...]:
@@ -88,9 +94,10 @@ class EdgeLaw:
 
     def times(self, mass: float) -> 'EdgeLaw':
         """Return the law with forces in N, of nodes of ``mass`` [kg]."""
-        return replace(self, **{
+        changed: dict[str, Any] = {
             name: tuple(mass * value for value in getattr(self, name))
-            for name in ('stiffness', 'damping', 'limit_stiffness', 'bending')})
+            for name in ('stiffness', 'damping', 'limit_stiffness', 'bending')}
+        return replace(self, **changed)
 
     @property
     def largest_weight(self) -> float:
@@ -159,7 +166,7 @@ def edge_law(
         tuple(kind.damping(scene) / mass * is_spring[family]
               for family, kind in zip(_FAMILY_OF, REST_KINDS)),
         tuple(shortest), tuple(longest),
-        limits, geometric, tuple(value / mass for value in scene.bending),
+        limits, geometric, (scene.bending[0] / mass, scene.bending[1] / mass),
         scene['bending.damping'])
 
 

@@ -16,11 +16,15 @@ MOST_LEVELS = 16
 _CLOTH_VECTORS = 8
 # With bend edges, and with damped bending, two fields more for each.
 _CLOTH_SYSTEM, _MORE_SYSTEM = 7, 2
+_CONTACT_VECTORS, _CONTACT_SYSTEM = 5, 1
 _COARSE_VECTORS = 3
 _COARSE_SYSTEM = 10
 # Nodes along each side of an invocation, an even number, and invocations of a workgroup.
 # Software runs whole workgroups even where a level ends, so small ones leave less idle.
 _ON_SOFTWARE = (4, (8, 2))
+# What a tile has to hold for damped bending, or for rigidity beside bend edges: with 4 x 4 nodes
+# a program of it takes llvmpipe minutes to compile.
+_ON_SOFTWARE_WITH_MUCH = (2, (8, 2))
 _ON_GPU = (2, (8, 8))
 _BYTES = 16
 
@@ -32,21 +36,28 @@ class Levels:
     :param state: how the state is stored, which tells what suits the device
     :param coarsen: False keeps to the cloth alone
     :param has_bend: whether there are bend edges in the system
+    :param has_rigidity: whether there is rigidity in it
     :param has_bending_damping: whether there is damped bending in it
+    :param has_contact: whether nodes can touch something
     """
 
     def __init__(
             self, state: Layout, *, coarsen: bool, has_bend: bool,
-            has_bending_damping: bool = False) -> None:
+            has_rigidity: bool = False, has_bending_damping: bool = False,
+            has_contact: bool = False) -> None:
         """Lay out all levels."""
-        self.layouts = [_layout(state, state.rows, state.cols)]
+        has_much = has_bending_damping or (has_bend and has_rigidity)
+        self.layouts = [_layout(state, state.rows, state.cols, has_much)]
         while coarsen and (len(self.layouts) == 1 or self._coarsest_side > COARSEST_SIDE):
             finer = self.layouts[-1]
             self.layouts.append(
-                _layout(state, -(-finer.rows // 2), -(-finer.cols // 2)))
-        vectors = [_CLOTH_VECTORS] + [_COARSE_VECTORS] * (len(self.layouts) - 1)
-        of_cloth = _CLOTH_SYSTEM + _MORE_SYSTEM * (has_bend + has_bending_damping)
-        system = [of_cloth] + [_COARSE_SYSTEM] * (len(self.layouts) - 1)
+                _layout(state, -(-finer.rows // 2), -(-finer.cols // 2), has_much))
+        coarse = len(self.layouts) - 1
+        vectors = [_CLOTH_VECTORS + _CONTACT_VECTORS * has_contact] + [_COARSE_VECTORS] * coarse
+        of_cloth = (
+            _CLOTH_SYSTEM + _MORE_SYSTEM * (has_bend + has_bending_damping)
+            + _CONTACT_SYSTEM * has_contact)
+        system = [of_cloth] + [_COARSE_SYSTEM] * coarse
         stored = np.array([layout.stored for layout in self.layouts])
         ends = np.cumsum([stored * vectors, stored * system], axis=1)
         self._begins = (ends - [stored * vectors, stored * system]).T
@@ -83,7 +94,8 @@ class _InLine(Layout):
         return -(-across * down // math.prod(self.local)), 1
 
 
-def _layout(state: Layout, rows: int, cols: int) -> Layout:
+def _layout(state: Layout, rows: int, cols: int, has_much: bool) -> Layout:
     if state.texture_loads:
-        return _InLine(rows, cols, 'fused', True, *_ON_SOFTWARE)
+        return _InLine(
+            rows, cols, 'fused', True, *(_ON_SOFTWARE_WITH_MUCH if has_much else _ON_SOFTWARE))
     return Layout(rows, cols, 'fused', False, *_ON_GPU)

@@ -68,7 +68,8 @@ class Multigrid:
 
 def _restrict_groups(layout: Layout) -> tuple[int, int]:
     # Two nodes along each side an invocation.
-    return tuple(-(-groups // 2) for groups in layout.node_groups)
+    across, down = (-(-groups // 2) for groups in layout.node_groups)
+    return across, down
 
 
 class _Smoothing:

@@ -31,6 +31,7 @@ from cloth_sim_ros.sim.solver.solver_buffers import SOLUTION
 from cloth_sim_ros.sim.solver.solver_buffers import SolverBuffers
 from cloth_sim_ros.sim.solver.solver_buffers import START
 from cloth_sim_ros.sim.solver.solver_buffers import TENSION
+from cloth_sim_ros.sim.solver.solver_contacts import SolverContacts
 from cloth_sim_ros.sim.solver.solver_pass import SolverPass
 from cloth_sim_ros.sim.solver.solver_programs import POINT_LOCAL
 from cloth_sim_ros.sim.solver.solver_programs import POINTS
@@ -83,21 +84,27 @@ class Solver:
         self._cloth = state
         levels = Levels(
             state, coarsen=kind.is_multigrid, has_bend='bend' in families,
-            has_bending_damping=scene.has_bending_damping)
+            has_rigidity=scene.has_rigidity, has_bending_damping=scene.has_bending_damping,
+            has_contact=scene.has_contact)
         self._programs = SolverPrograms(
             state, levels, families, is_multigrid=kind.is_multigrid,
-            has_rigidity=scene.has_rigidity, has_bending_damping=scene.has_bending_damping)
+            has_rigidity=scene.has_rigidity, has_bending_damping=scene.has_bending_damping,
+            has_contact=scene.has_contact)
         self._damps_bending = scene.has_bending_damping
-        self._right_sides, self._searches = (
-            {is_further: kind_of_pass(
-                scene, state, self._programs, levels, is_further=is_further,
-                foresees_turn=foresees_turn) for is_further in (False, True)}
-            for kind_of_pass in (RightSide, LimitSearch))
+        self._right_sides = {is_further: RightSide(
+            scene, state, self._programs, levels, is_further=is_further,
+            foresees_turn=foresees_turn) for is_further in (False, True)}
+        self._searches = {is_further: LimitSearch(
+            scene, state, self._programs, levels, is_further=is_further,
+            foresees_turn=foresees_turn) for is_further in (False, True)}
         self._tally = Tally(self._programs, tolerance)
+        self._contacts = SolverContacts(
+            scene, state, self._programs, levels.cloth.node_groups,
+            levels.cloth.groups) if scene.has_contact else None
         self._preconditioner = kind(self._programs, levels)
         self._iterations = max_iterations
         self._tolerance = tolerance
-        self._law: EdgeLaw | None = None
+        self._last_law: EdgeLaw | None = None
         self._batch = 1 if state.texture_loads else _BATCH
         self._first_batch = self._batch
         self._has_bend = 'bend' in families
@@ -109,10 +116,36 @@ class Solver:
 
     def set_law(self, law: EdgeLaw) -> None:
         """Take the weights of the edges and the length of the step from ``law``."""
-        if law != self._law:
-            self._law = law
+        if law != self._last_law:
+            self._last_law = law
             self._programs.set_law(law)
             self._preconditioner.set_law(law)
+
+    @property
+    def _law(self) -> EdgeLaw:
+        assert self._last_law is not None  # set_law comes first
+        return self._last_law
+
+    def meet_colliders(self, state: State, forcing: Forcing, kick: float) -> None:
+        """
+        Begin a substep of a scene with colliders: find which nodes touch one.
+
+        :param kick: that ``forcing`` acts for [s]
+        """
+        assert self._contacts is not None
+        length = self._law.length
+        self._buffers.bind()
+        self._contacts.begin(state, forcing, length, kick, length * self._last_rate)
+
+    def resolve_contacts(self, state: State, forcing: Forcing, *, is_last: bool) -> None:
+        """
+        Let colliders act on a solution that was applied; what touches them may change.
+
+        :param is_last: True to end the substep, once no further solve is due
+        """
+        assert self._contacts is not None
+        self._buffers.bind()
+        self._contacts.after_solve(state, forcing, self._law.length, is_last=is_last)
 
     def prepare(
             self, state: State, forcing: Forcing, *, kick: float | None = None,
@@ -138,6 +171,8 @@ class Solver:
         self._right_sides[is_further].run(
             self._law, forcing, kick, self._start,
             knows_tension=is_further or self._last_rate > 0.0)
+        if self._contacts is not None:
+            self._contacts.hold()
         damping = (self._damp,) if self._damps_bending and not is_further else ()
         for each in (*damping, self._assemble, *self._preconditioner.assembly):
             each.run()
@@ -289,8 +324,12 @@ class Solver:
         self._buffers.delete()
         self._tally.delete()
         self._programs.delete()
-        for part in (*self._right_sides.values(), *self._searches.values()):
-            part.delete()
+        for right_side in self._right_sides.values():
+            right_side.delete()
+        for search in self._searches.values():
+            search.delete()
+        if self._contacts is not None:
+            self._contacts.delete()
 
     def _compile(self, levels: Levels) -> None:
         cloth = levels.cloth

@@ -2,11 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 
 // The matrix times a vector on the cloth, for a block: value in, product out. The mass, and what
-// edges resist along and across their directions, over the node mass; the rows of pinned nodes
-// are zero.
+// edges resist along and across their directions, over the node mass; the rows of pinned nodes,
+// and of nodes that touch a collider what is not along it, are zero.
 
 #include "solver/cloth_tile.glsl"
 #include "solver/cloth_edges.glsl"
+#include "solver/free_directions.glsl"
 #if HAS_RIGIDITY
 #include "bending.glsl"
 
@@ -35,7 +36,8 @@ void load_values(ivec2 first, int field) {
     }
 }
 
-void make_product(ivec2 first) {
+// In all directions, also those in which a node can't follow.
+void make_whole_product(ivec2 first) {
     FOR_TILE {
         product[row][col] = value[row][col];
     }
@@ -50,9 +52,12 @@ void make_product(ivec2 first) {
 #if HAS_BENDING_DAMPING
     ADD_BENT_LINES(product, value, first)
 #endif
+}
+
+void make_product(ivec2 first) {
+    make_whole_product(first);
     FOR_BLOCK {
-        if (!is_free(node[row][col])) {
-            product[row][col] = vec3(0.0);
-        }
+        product[row][col] = is_free(node[row][col])
+            ? in_free_directions(tile_index(first, row, col), product[row][col]) : vec3(0.0);
     }
 }

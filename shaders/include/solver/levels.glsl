@@ -26,6 +26,11 @@ uniform int level;
 #define SOLUTION 5
 #define CHANGE 6          // of the velocity in the whole step
 #define START 7           // of a solve that goes on from another
+#define BEGIN_POSITION 8  // with contact, as those that follow: where the substep began
+#define BEGIN_VELOCITY 9  // and with which velocity
+#define REACTION 10       // change of velocity that colliders have made in the substep
+#define GIVEN 11          // impulse of colliders that the next solve has to add, over the node mass
+#define RIGHT 12          // the right side, also where a node can't follow it
 
 // The system.
 #define INVERSE 0  // two fields: inverse of the node's diagonal block, zero where it can't move
@@ -40,6 +45,8 @@ uniform int level;
 #define BENT_LINES (7 + 2 * HAS_BEND)  // level 0, with damped bending, two fields: of the lines of
                    // three nodes around a node along a row and along a column, the direction of
                    // their bend, times the root of what damping weighs, and their skew
+#define CONTACT (7 + 2 * HAS_BEND + 2 * HAS_BENDING_DAMPING)  // level 0, with contact: normal of the
+                   // surface that a node slides on, and whether it is free, sticks or slides
 #define GROUND 2   // coarse levels, two fields: mass, and what ties the node to pinned ones
 #define EDGES 4    // coarse levels, six fields: the tensors of the edges that begin here
 

@@ -5,6 +5,7 @@
 
 from contextlib import closing
 
+from cloth_sim_ros.sim.edge_kinds import EDGE_KINDS
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.simulation import Simulation
@@ -24,6 +25,9 @@ LONG_CASES = [
     ('unit', 32, 20.0, 0.15, 0.12)]
 LIMP = {'stiffness.structural': 5.0, 'stiffness.shear': 5.0, 'stiffness.bend': 0.5,
         'damping.structural': 1e-4, 'damping.shear': 1e-4, 'damping.bend': 1e-4}
+
+# Of a limit: what float32 can't tell apart.
+NEARLY = 3e-5
 
 
 def scene_of(kind, nodes, push, dt, **changes):
@@ -81,11 +85,12 @@ def test_the_papers_scheme_fails_as_it_reports():
     assert runs[1].peak_kinetic_energy > 20.0 * runs[0].peak_kinetic_energy
 
 
-@pytest.mark.parametrize('threshold', [
-    pytest.param(0.005, marks=pytest.mark.long), 0.02, pytest.param(0.5, marks=pytest.mark.long)])
-def test_the_threshold_is_the_limit(threshold):
+@pytest.mark.parametrize(('threshold', 'seconds'), [
+    (0.02, 0.8),
+    *(pytest.param(threshold, 1.6, marks=pytest.mark.long) for threshold in (0.005, 0.02, 0.5))])
+def test_the_threshold_is_the_limit(threshold, seconds):
     """A limit other than 10 % is not held, or not reached."""
-    run = limit_run(unit_scene(10, 5.0, 0.01, **{'adaptive.threshold': threshold}), 1.6)
+    run = limit_run(unit_scene(10, 5.0, 0.01, **{'adaptive.threshold': threshold}), seconds)
     assert run.finite
     assert threshold < run.max_strain < 2.0 * threshold
 
@@ -175,6 +180,68 @@ def test_edges_at_the_limit_are_shown_and_counted(context):
         simulation.set_mode('mass_spring')
         assert not (simulation.snapshot().flags & FLAG_AT_LIMIT).any()
         assert simulation.snapshot().active_constraints == 0
+
+
+def thrown(context):
+    """Return a cloth that is thrown so that its edges come to their limits and leave them."""
+    simulation = Simulation(Scene({
+        **LIMP, 'rows': 9, 'cols': 7, 'pins': ['none'], 'gravity': [0.0, 0.0, 0.0],
+        'mode': 'adaptive', 'dt': 0.005}), context=context)
+    start = simulation.positions().astype(float)
+    random = np.random.default_rng(3)
+    simulation.set_state(start, 1.5 * random.standard_normal(start.shape))
+    return closing(simulation)
+
+
+def shares_of_limit(simulation):
+    """Return the ends of the edges of each kind that has a limit, and the share they take."""
+    scene, positions = simulation.scene, simulation.positions().astype(float)
+    for kind in (kind for kind in EDGE_KINDS if kind.family != 'bend'):
+        ends = kind.everywhere(scene.rows, scene.cols)
+        lengths = np.linalg.norm(positions[ends[1]] - positions[ends[0]], axis=-1)
+        strain = np.abs(lengths / kind.rest_length(scene) - 1.0)
+        yield ends, strain / scene['adaptive.threshold']
+
+
+def test_both_ends_of_each_edge_at_its_limit_are_shown(context):
+    """One end of some edges would look as if nothing held it."""
+    alone = set()
+    with thrown(context) as simulation:
+        for _ in range(40):
+            simulation.step()
+            shown = (simulation.snapshot().flags & FLAG_AT_LIMIT) != 0
+            at_limit, in_doubt = [], np.zeros_like(shown)
+            for ends, share in shares_of_limit(simulation):
+                for end in ends:
+                    at_limit.append(np.zeros_like(shown))
+                    at_limit[-1][end] = share > 1.0
+                    in_doubt[end] |= np.abs(share - 1.0) < NEARLY
+            count = np.sum(at_limit, axis=0)
+            assert np.array_equal(shown[~in_doubt], (count > 0)[~in_doubt])
+            alone |= {
+                number for number, nodes in enumerate(at_limit)
+                if np.any(nodes & (count == 1) & ~in_doubt)}
+    assert alone == set(range(8))
+
+
+def test_an_edge_is_engaged_until_it_is_back_at_half_its_limit(context):
+    """Each edge that swings at its limit would count as a switch at each swing."""
+    engaged = in_doubt = None
+    switched = held_below = 0
+    with thrown(context) as simulation:
+        for _ in range(40):
+            simulation.step()
+            snapshot = simulation.snapshot()
+            shares = np.concatenate([share.ravel() for _, share in shares_of_limit(simulation)])
+            if engaged is None:
+                engaged = in_doubt = np.zeros(shares.shape, dtype=bool)
+            before, engaged = engaged, (shares > 1.0) | ((shares > 0.5) & engaged)
+            in_doubt = in_doubt | (np.abs(shares - np.where(before, 0.5, 1.0)) < NEARLY)
+            switches = np.count_nonzero(engaged != before)
+            assert abs(snapshot.constraint_switches - switches) <= in_doubt.sum()
+            switched += switches
+            held_below += np.count_nonzero(engaged & (shares < 1.0))
+    assert switched > 100 and held_below > 100 and in_doubt.sum() < 10
 
 
 def test_a_run_with_switches_and_pushes_is_repeatable(context):

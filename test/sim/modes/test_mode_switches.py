@@ -16,10 +16,17 @@ from pushed_scenes import paper_scene
 from pushed_scenes import unit_scene
 import pytest
 
+PAPER, UNIT = paper_scene(5.0, 0.005, node_mass=0.3), unit_scene(12, 5.0, 0.005)
+PAIRS = list(permutations(AVAILABLE, 2))
+# Many of its edges are at their limit then.
+LIMITED = ('adaptive', 'mass_spring')
 
-@pytest.mark.parametrize('values', [
-    paper_scene(5.0, 0.005, node_mass=0.3), unit_scene(12, 5.0, 0.005)], ids=['paper', 'unit'])
-@pytest.mark.parametrize(('before', 'after'), list(permutations(AVAILABLE, 2)))
+
+@pytest.mark.parametrize(('before', 'after', 'values'), [
+    *(pytest.param(*pair, PAPER, id=f'{"-".join(pair)}-paper') for pair in PAIRS),
+    pytest.param(*LIMITED, UNIT, id=f'{"-".join(LIMITED)}-unit'),
+    *(pytest.param(*pair, UNIT, id=f'{"-".join(pair)}-unit', marks=pytest.mark.long)
+      for pair in PAIRS if pair != LIMITED)])
 def test_a_switch_keeps_the_state_and_its_energy(context, before, after, values):
     """The switch moves nodes, or a mode goes on with what it remembers of another time."""
     with closing(Simulation(Scene({**values, 'mode': before}), context=context)) as simulation:

@@ -37,6 +37,24 @@ FORCE_SCENES = {
 LAYOUTS = ('fused', 'paper')
 
 
+@pytest.hookimpl(tryfirst=True)
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """
+    Have what another test shows as well wait for --long.
+
+    Layout paper is that of the passes over springs, which mode constraint has not: it only reads
+    storage then, one node per invocation, as in test_constraint_against_reference.py. Cloths in
+    air of 64 x 64 nodes run in mode mass_spring, and those of 16 x 16 in the others too.
+    """
+    for item in items:
+        values = item.callspec.params if hasattr(item, 'callspec') else {}
+        mode = values.get('any_mode')
+        is_paper = (mode, values.get('layout')) == ('constraint', 'paper')
+        is_fine = mode in ('adaptive', 'constraint') and values.get('side') == 64
+        if is_paper or is_fine:
+            item.add_marker(pytest.mark.long)
+
+
 @pytest.fixture(scope='session', params=SPRING_MODES)
 def mode(request: pytest.FixtureRequest) -> str:
     """Return each mode that moves as its springs do."""

@@ -11,7 +11,6 @@ import numpy as np
 import pytest
 
 RHO, CN, G = 1.225, 1.17, 9.81
-SIDES = (16, 32, 64)
 AIR = {'air.density': RHO}
 FREE = {**AIR, 'pins': ['none']}
 WEIGHTLESS = {**FREE, 'gravity': [0.0, 0.0, 0.0]}
@@ -28,7 +27,7 @@ def start(simulate):
     return simulate
 
 
-@pytest.fixture(params=SIDES)
+@pytest.fixture(params=[16, pytest.param(32, marks=pytest.mark.long), 64])
 def side(request):
     """Return each number of nodes along a side."""
     return request.param
@@ -42,7 +41,10 @@ def sheet(start, mode, side, velocity=(0.0, 0.0, 0.0), **values):
     return run
 
 
-@pytest.mark.parametrize(('sigma', 'dt'), FALLS)
+@pytest.mark.parametrize(('side', 'sigma', 'dt'), [
+    *((16, *fall) for fall in FALLS), (64, *FALLS[2]),
+    *(pytest.param(side, *fall, marks=pytest.mark.long) for side in (32, 64) for fall in FALLS
+      if (side, fall) != (64, FALLS[2]))], indirect=['side'])
 def test_terminal_speed(start, any_mode, side, sigma, dt):
     """A cloth would come down too fast, or at a speed that depends on the step."""
     speed = math.sqrt(2.0 * sigma * G / (RHO * CN))

@@ -6,10 +6,13 @@
 from cloth_sim_ros.study.random_limits import largest_gain
 from cloth_sim_ros.study.random_limits import random_scene
 from force_tremor import SCENES
+import pytest
 
 # Undamped, without shear, hung by its upper corners: it falls until its upper row catches it all
 # but straight, where tensions are many times the weight. The push comes later than is looked.
 _CAUGHT = {**random_scene(20), 'pushes.start': [1.0]}
+# Steps until it has swung back; a limit catches it sooner than springs do.
+LOOKED_AT = {'adaptive': 30}
 # Springs so soft that the limit carries the cloth.
 _HANGING = SCENES['15 x 4 nodes, limit 2 %']
 
@@ -18,7 +21,7 @@ def test_a_caught_cloth_is_not_thrown(simulate, within, mode):
     """What brings edges back to their length throws the cloth, by most of what it fell with."""
     simulation = simulate({**_CAUGHT, 'mode': mode})
     energies, kinetic = [], []
-    for _ in range(60):
+    for _ in range(LOOKED_AT.get(mode, 60)):
         simulation.step()
         now = simulation.measure()
         energies.append(now.total_energy)
@@ -27,13 +30,14 @@ def test_a_caught_cloth_is_not_thrown(simulate, within, mode):
            largest_gain(energies) / max(kinetic), 0.3)
 
 
-def test_a_cloth_at_its_limit_does_not_sink(simulate, within):
+@pytest.mark.parametrize('seconds', [2, pytest.param(3, marks=pytest.mark.long)])
+def test_a_cloth_at_its_limit_does_not_sink(simulate, within, seconds):
     """Edges that tremble at their limit lose energy, and would be ever longer."""
     simulation, strains = simulate(_HANGING), []
-    for _ in range(3):
+    for _ in range(seconds):
         simulation.advance(1.0)
         strains.append(simulation.measure().max_strain / _HANGING['adaptive.threshold'])
-    within('strain over its limit at 1 to 3 s', max(strains), 1.15)
+    within(f'strain over its limit at 1 to {seconds} s', max(strains), 1.15)
 
 
 def test_a_push_that_no_limit_holds_is_reported(simulate):

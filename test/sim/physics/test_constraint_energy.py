@@ -23,9 +23,10 @@ def _chain(links: int, dt: float, **values) -> dict:
 
 
 @pytest.mark.parametrize(('links', 'dt'), [
-    (1, 0.02), (2, 0.02), (3, 0.02), (2, 0.01),
+    (1, 0.02), (3, 0.02),
     *(pytest.param(links, dt, marks=pytest.mark.long)
-      for links, dt in ((1, 0.01), (3, 0.01), (1, 0.005), (2, 0.005), (3, 0.005)))])
+      for links, dt in ((2, 0.02), (1, 0.01), (2, 0.01), (3, 0.01), (1, 0.005), (2, 0.005),
+                        (3, 0.005)))])
 def test_a_chain_from_level_keeps_its_energy(simulate, within, links, dt):
     """A double pendulum would swing higher than it began, or come to rest without friction."""
     simulation = simulate(_chain(links, dt))

@@ -42,7 +42,7 @@ def test_pendulum_of_the_paper(simulate, within, dt):
     within('length of a rod over (omega dt)^2 / 2, less 1', abs(longer / foreseen - 1.0), 0.1)
 
 
-@pytest.mark.parametrize('dt', [0.02, 0.01])
+@pytest.mark.parametrize('dt', [0.02, pytest.param(0.01, marks=pytest.mark.long)])
 def test_pendulum(simulate, within, dt):
     """The turn that the first solve foresees is not the one that the second finds."""
     offsets, _ = _swing(simulate, 1.0, 10.0, dt=dt)
@@ -50,7 +50,9 @@ def test_pendulum(simulate, within, dt):
     within('length of a rod', np.max(np.abs(np.linalg.norm(offsets, axis=1) - 1.0)), 3e-6)
 
 
-@pytest.mark.parametrize('values', [PAPER, {}], ids=['one solve', 'two solves'])
+@pytest.mark.parametrize('values', [
+    pytest.param(PAPER, id='one solve', marks=pytest.mark.long),
+    pytest.param({}, id='two solves')])
 def test_pendulum_keeps_its_energy(simulate, within, values):
     """A swing of 20 s is damped or driven."""
     offsets, velocities = _swing(simulate, 1.0, 20.0, dt=0.01, **values)

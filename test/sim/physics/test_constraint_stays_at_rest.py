@@ -15,7 +15,7 @@ def _calm(simulation, seconds, interval=0.1, kept=0.8):
         simulation.set_state(seen.positions, kept * seen.velocities)
 
 
-@pytest.mark.parametrize('slack', [0.0, 0.05])
+@pytest.mark.parametrize('slack', [pytest.param(0.0, marks=pytest.mark.long), 0.05])
 @pytest.mark.parametrize(('nodes', 'calm', 'rest'), [
     (12, 25.0, 4.0), pytest.param(64, 60.0, 10.0, marks=pytest.mark.long)])
 def test_a_light_cloth_stays_at_rest(simulate, within, nodes, calm, rest, slack):

@@ -12,6 +12,8 @@ STIFFNESS = 100.0
 MASS = 0.01
 
 
+@pytest.mark.parametrize(
+    'layout', ['fused', pytest.param('paper', marks=pytest.mark.long)], indirect=True)
 @pytest.mark.parametrize('wave', [1, 8, 24])
 @pytest.mark.parametrize('dt', [0.004, 0.001])
 def test_dispersion(simulate, within, mode, layout, wave, dt):

@@ -17,7 +17,8 @@ def root_mean_square(vectors: np.ndarray) -> float:
     return float(np.sqrt(np.mean(np.sum(vectors.astype(np.float64)**2, axis=-1))))
 
 
-@pytest.mark.parametrize(('nodes', 'allowed'), [(32, 2e-3), (64, 4e-3), (128, 8e-3)])
+@pytest.mark.parametrize(('nodes', 'allowed'), [
+    (32, 2e-3), (64, 4e-3), pytest.param(128, 8e-3, marks=pytest.mark.long)])
 def test_rounding_makes_the_velocities_of_fine_cloth_noisy(context, nodes: int, allowed: float):
     """The noise would be more than docs/explanation/numerics.md tells, or reach the positions."""
     scene = Scene({

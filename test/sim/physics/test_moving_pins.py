@@ -203,10 +203,13 @@ def test_a_sudden_move_keeps_the_limit(simulate, within):
     within('strain behind pins that set off at 3 m/s', max(strains), 0.0625)
 
 
-def test_a_shaken_towel_does_not_stretch(simulate, within):
+@pytest.mark.parametrize(('side', 'seconds'), [
+    (8, 0.5), pytest.param(10, 1.0, marks=pytest.mark.long)])
+def test_a_shaken_towel_does_not_stretch(simulate, within, side, seconds):
     """Moving pins tear the edges next to them beyond the limit."""
-    simulation = simulate({**TOWEL, 'rows': 10, 'cols': 10, 'areal_density': 0.05})
-    strains = shake(simulation, 2.0)[100:]
+    simulation = simulate({**TOWEL, 'rows': side, 'cols': side, 'areal_density': 0.05})
+    strains = shake(simulation, seconds)
+    strains = strains[len(strains) // 2:]
     within('strain of a shaken towel', strains.max(), 0.02)
     within('its median', np.median(strains), 0.012)
 

@@ -36,7 +36,7 @@ def _crossings(stretch, dt):
     return (before + stretch[before] / (stretch[before] - stretch[before + 1])) * dt
 
 
-@pytest.mark.parametrize('dt', [0.01, 0.001])
+@pytest.mark.parametrize('dt', [0.01, pytest.param(0.001, marks=pytest.mark.long)])
 def test_period_and_trajectory(simulate, within, mode, layout, dt):
     """The spring's frequency is not that of cos(Omega dt) = 1 - (omega dt)^2 / 2."""
     stretch = _trajectory(simulate, mode, layout, dt, 2.0, damping=0.0)[:, 0]
@@ -53,7 +53,7 @@ def test_period_and_trajectory(simulate, within, mode, layout, dt):
            np.abs(stretch - exact).max() / AMPLITUDE, 2e-4)
 
 
-@pytest.mark.parametrize('dt', [0.005, 0.001])
+@pytest.mark.parametrize('dt', [0.005, pytest.param(0.001, marks=pytest.mark.long)])
 def test_damped_decay(simulate, within, mode, layout, dt):
     """Damping takes away more or less than -ln(1 - k_d dt / m) / (2 dt)."""
     damping = 0.2

@@ -24,60 +24,95 @@ IN_A_PROCESS = """
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.simulation import Simulation
 import json, sys
-simulation = Simulation(Scene(json.loads(sys.argv[1])))
-for seconds, mode in json.loads(sys.argv[2]):
-    simulation.set_mode(mode)
-    simulation.push((0.0, 0.3, 0.5), start=simulation.time + 0.013, duration=0.04,
-                    region='sphere', center=(0.1, 0.0, 1.0), radius=0.3)
-    simulation.pin(5, 5)
-    simulation.advance(seconds)
-    simulation.release(5, 5)
-simulation.advance(0.1)
-print(simulation.snapshot().state_sha256)
+for values, spans in json.loads(sys.argv[1]):
+    simulation = Simulation(Scene(values))
+    for seconds, mode in spans:
+        simulation.set_mode(mode)
+        simulation.push((0.0, 0.3, 0.5), start=simulation.time + 0.013, duration=0.04,
+                        region='sphere', center=(0.1, 0.0, 1.0), radius=0.3)
+        simulation.pin(5, 5)
+        simulation.advance(seconds)
+        simulation.release(5, 5)
+    simulation.advance(0.1)
+    print(simulation.snapshot().state_sha256)
+    simulation.close()
 """
 
 
-def _hash_of_a_process(values, spans=None, **environment):
-    """Return the hash after ``spans`` of seconds and mode, with pushes and pins; or 0.1 s."""
-    spans = spans or []
+def _hashes_of_a_process(*runs, **environment):
+    """
+    Make some runs in a process, one after the other, and return the hash of the end of each.
+
+    :param runs: the values of each, and its spans of seconds and mode, with pushes and pins
+    """
     done = subprocess.run(
-        [sys.executable, '-c', IN_A_PROCESS, json.dumps(values), json.dumps(spans)], check=True,
-        text=True, capture_output=True, env={**os.environ, **environment})
-    return done.stdout.strip()
+        [sys.executable, '-c', IN_A_PROCESS, json.dumps(runs)], check=True, text=True,
+        capture_output=True, env={**os.environ, **environment})
+    hashes = done.stdout.split()
+    assert len(hashes) == len(runs)
+    return hashes
 
 
-@pytest.mark.parametrize('loads_and_block', [
-    ('auto', 0), *(pytest.param(each, marks=pytest.mark.long)
-                   for each in (('texture', 1), ('storage', 2)))])
-def test_two_processes_give_one_state(any_mode, loads_and_block):
-    """A run depends on thread timing or on memory nobody wrote."""
+@pytest.fixture(scope='module')
+def hashes_of_two(any_mode):
+    """Make runs in one process, and in the opposite order in another; return their hashes."""
+    runs = {
+        'plain': ({**SCENE, 'mode': any_mode}, ()),
+        'paper': ({**SCENE, 'mode': any_mode, 'layout': 'paper'}, ()),
+        'switches': ({**LIMITED, 'mode': any_mode}, (
+            (0.12, any_mode), *((0.08, other) for other in (*modes.AVAILABLE, any_mode)))),
+    }
+    # A cloth of this size has no worker threads by itself; see test_threads_do_not_show.
+    first = _hashes_of_a_process(*runs.values(), LP_NUM_THREADS='0')
+    second = _hashes_of_a_process(*reversed(runs.values()))
+    return dict(zip(runs, zip(first, reversed(second))))
+
+
+def test_two_processes_give_one_state(hashes_of_two):
+    """A run depends on thread timing, on memory nobody wrote or on the run before."""
+    first, second = hashes_of_two['plain']
+    assert first == second
+
+
+@pytest.mark.long
+@pytest.mark.parametrize('loads_and_block', [('texture', 1), ('storage', 2)])
+def test_two_processes_give_one_state_by_other_ways(any_mode, loads_and_block):
+    """One of these ways through the shaders depends on thread timing or on memory nobody wrote."""
     loads, block = loads_and_block
-    values = {**SCENE, 'mode': any_mode, 'loads': loads, 'block': block}
-    assert _hash_of_a_process(values) == _hash_of_a_process(values)
+    run = ({**SCENE, 'mode': any_mode, 'loads': loads, 'block': block}, ())
+    assert _hashes_of_a_process(run) == _hashes_of_a_process(run)
 
 
-def test_paper_layout_too(any_mode):
+def test_paper_layout_too(hashes_of_two):
     """The paper's layout depends on thread timing or on memory nobody wrote."""
-    values = {**SCENE, 'mode': any_mode, 'layout': 'paper'}
-    assert _hash_of_a_process(values) == _hash_of_a_process(values)
+    first, second = hashes_of_two['paper']
+    assert first == second
 
 
-def test_switches_and_pushes_at_fixed_times_too(any_mode):
+def test_switches_and_pushes_at_fixed_times_too(hashes_of_two):
     """A mode keeps something of an earlier run or reads memory nobody wrote."""
-    values = {**LIMITED, 'mode': any_mode}
-    spans = [(0.12, any_mode)] + [(0.08, other) for other in (*modes.AVAILABLE, any_mode)]
-    first = _hash_of_a_process(values, spans)
-    assert first == _hash_of_a_process(values, spans)
-    # The times of the switches are what counts.
-    spans[0] = (0.2, any_mode)
-    assert first != _hash_of_a_process(values, spans)
+    first, second = hashes_of_two['switches']
+    assert first == second
 
 
-def test_threads_do_not_show(any_mode):
+@pytest.mark.parametrize('any_mode', [
+    'mass_spring', *(pytest.param(mode, marks=pytest.mark.long)
+                     for mode in modes.AVAILABLE if mode != 'mass_spring')], indirect=True)
+def test_the_times_of_switches_count(any_mode):
+    """A switch would come at another time than it is told, and nobody would know."""
+    first, second = _hashes_of_a_process(*(
+        ({**LIMITED, 'mode': any_mode},
+         [(seconds, any_mode), *((0.08, other) for other in modes.AVAILABLE)])
+        for seconds in (0.12, 0.2)))
+    assert first != second
+
+
+def test_threads_do_not_show(any_mode, hashes_of_two):
     """The number of the driver's threads changes the result."""
-    values = {**SCENE, 'mode': any_mode}
-    assert _hash_of_a_process(values, LP_NUM_THREADS='0') == _hash_of_a_process(
-        values, LP_NUM_THREADS='2')
+    run = ({**SCENE, 'mode': any_mode}, ())
+    with_two, = _hashes_of_a_process(run, LP_NUM_THREADS='2')
+    without, _ = hashes_of_two['plain']
+    assert with_two == without
 
 
 def test_reset_starts_the_same_run(simulate, any_mode, layout):

@@ -5,8 +5,11 @@
 
 from cloth_sim_ros.reference.mass_spring import MassSpringReference
 import numpy as np
+import pytest
 
 
+@pytest.mark.parametrize(
+    'layout', ['fused', pytest.param('paper', marks=pytest.mark.long)], indirect=True)
 def test_rest_shape_is_an_equilibrium(simulate, within, mode, layout):
     """The cloth comes to rest where the springs do not hold its weight."""
     simulation = simulate({

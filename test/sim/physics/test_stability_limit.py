@@ -37,7 +37,8 @@ def _strain_after(simulate, values, over_limit, steps):
 
 
 @pytest.mark.parametrize('damping_ratio', [0.0, 0.05, 0.2, 1.0, 5.0])
-@pytest.mark.parametrize('nodes', [12, 24, 48, 64])
+@pytest.mark.parametrize(
+    'nodes', [12, *(pytest.param(nodes, marks=pytest.mark.long) for nodes in (24, 48)), 64])
 def test_limit_separates_calm_from_blow_up(simulate, unlimited_mode, nodes, damping_ratio):
     """The limit is too high, or so low that it costs steps for nothing."""
     values = _values(unlimited_mode, nodes, damping_ratio, shear=1.0, bend=1.0)

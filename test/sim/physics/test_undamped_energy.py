@@ -6,6 +6,7 @@
 from cloth_sim_ros.reference.mass_spring import MassSpringReference
 from cloth_sim_ros.sim.scene import Scene
 import numpy as np
+import pytest
 
 WEIGHT = 0.2 * 9.81
 
@@ -36,6 +37,8 @@ def _largest_errors(simulate, mode, layout, dt):
     return np.abs(plain).max() / WEIGHT, np.abs(centred).max() / WEIGHT
 
 
+@pytest.mark.parametrize(
+    'layout', ['fused', pytest.param('paper', marks=pytest.mark.long)], indirect=True)
 def test_energy_stays_and_its_error_follows_dt(simulate, within, mode, layout):
     """Energy drifts, or its error does not shrink as symplectic Euler's does."""
     coarse, coarse_centred = _largest_errors(simulate, mode, layout, 1e-3)

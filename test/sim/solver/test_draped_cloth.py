@@ -24,13 +24,13 @@ STEPS = [('springs', 0.01), ('springs', 0.005), ('hard', 0.01), ('hard', 0.005)]
 
 
 @pytest.fixture(scope='module')
-def draped(context) -> Callable[[int, float], tuple[np.ndarray, np.ndarray]]:
+def draped(shared_context) -> Callable[[int, float], tuple[np.ndarray, np.ndarray]]:
     """Return a function from nodes a side and time [s] to the unit scene's state."""
     states = {}
 
     def state(nodes: int, time: float) -> tuple[np.ndarray, np.ndarray]:
         if nodes not in states:
-            states[nodes] = dict(zip(TIMES, draped_states(nodes, TIMES, context)))
+            states[nodes] = dict(zip(TIMES, draped_states(nodes, TIMES, shared_context)))
         return states[nodes][time]
 
     return state

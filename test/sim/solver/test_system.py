@@ -12,7 +12,8 @@ import pytest
 SHAPES = [(1, 2), (1, 9), (9, 1), (2, 2), (2, 30), (30, 2), (5, 7), (13, 16), (17, 12)]
 PINS = [['none'], ['top_left', 'top_right'], ['top_edge', '4,3'], ['all']]
 LAYOUTS = [
-    {'loads': 'texture', 'block': 1}, {'loads': 'texture', 'block': 3},
+    {'loads': 'texture', 'block': 1},
+    pytest.param({'loads': 'texture', 'block': 3}, marks=pytest.mark.long),
     {'loads': 'storage', 'block': 1}, {'loads': 'storage', 'block': 4}]
 
 

@@ -1,0 +1,274 @@
+# SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
+# SPDX-License-Identifier: Apache-2.0
+
+"""Grasps: nodes that are held rigidly to a frame, which can be moved and turned."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from dataclasses import replace
+
+from cloth_sim_ros.files.echo import shown
+from cloth_sim_ros.sim.errors import ClothSimError
+from cloth_sim_ros.sim.frame_paths import FrameMove
+from cloth_sim_ros.sim.frame_paths import FramePath
+from cloth_sim_ros.sim.frame_paths import FramePaths
+from cloth_sim_ros.sim.grasp_request import GraspRequest
+from cloth_sim_ros.sim.pin_forces import PinForces
+from cloth_sim_ros.sim.pin_motion import PinMotion
+from cloth_sim_ros.sim.pin_motion import PinRequests
+from cloth_sim_ros.sim.pins import check_node
+from cloth_sim_ros.sim.pose import Pose
+from cloth_sim_ros.sim.state import State
+from cloth_sim_ros.sim.stepping import Stepping
+import numpy as np
+
+
+@dataclass(frozen=True)
+class Grasp:
+    """
+    Nodes that are held.
+
+    :param name: of the grasp
+    :param pose: of its frame now
+    :param nodes: their rows and columns, (n, 2)
+    :param max_force: pull of the cloth at which it is lost [N]; 0 for never
+    """
+
+    name: str
+    pose: Pose
+    nodes: np.ndarray
+    max_force: float
+
+
+@dataclass(frozen=True)
+class GraspForce:
+    """
+    What a gripper feels.
+
+    :param name: of the grasp
+    :param force: of the cloth on it [N], (3,)
+    :param torque: about the origin of its frame [N m], (3,)
+    """
+
+    name: str
+    force: np.ndarray
+    torque: np.ndarray
+
+
+class Grasps:
+    """
+    The grasps of a run; each of their nodes is a pin that follows its frame.
+
+    :param state: whose nodes are held
+    :param pins: which move them
+    """
+
+    def __init__(self, state: State, pins: PinMotion) -> None:
+        """Begin without any."""
+        self._state = state
+        self._pins = pins
+        self._held: dict[str, Grasp] = {}
+        self._paths = FramePaths({})
+
+    def present(self, now: float) -> tuple[Grasp, ...]:
+        """Return those that hold something ``now`` [s]."""
+        return tuple(
+            replace(grasp, pose=self._paths.pose(name, now))
+            for name, grasp in self._held.items())
+
+    def under_way(self, now: float) -> tuple[FramePath, ...]:
+        """Return the paths of those that move."""
+        return self._paths.under_way(now)
+
+    def begin(self, grasp: Grasp) -> None:
+        """Hold the nodes of ``grasp``, which are free, where they are."""
+        for row, col in grasp.nodes.tolist():
+            self._pins.hold(row, col)
+        self._held[grasp.name] = grasp
+        self._paths.put(grasp.name, grasp.pose)
+
+    def end(self, name: str) -> None:
+        """Let the nodes of a grasp go, with the velocity that they have; none if it has ended."""
+        if name not in self._held:
+            return
+        for row, col in self._held.pop(name).nodes.tolist():
+            self._pins.release(row, col)
+        self._paths.drop(name)
+
+    def move(self, move: FrameMove) -> None:
+        """Set a grasp off; nothing if it has ended."""
+        if move.name not in self._held:
+            return
+        path = self._paths.add(move)
+        nodes = self._held[move.name].nodes.tolist()
+        here = np.array([self._pins.position(row, col, move.start) for row, col in nodes])
+        arms = path.origin.seen_from(here)
+        for (row, col), arm in zip(nodes, arms):
+            self._pins.follow(row, col, CarriedNode(path, arm))
+
+    def foresee(self, move: FrameMove) -> FramePath:
+        """Return the path that ``move`` would take."""
+        return self._paths.foresee(move)
+
+    def stop(self, now: float) -> None:
+        """Have their frames at rest where they are: their nodes have been put elsewhere."""
+        for grasp in self.present(now):
+            self._paths.put(grasp.name, grasp.pose)
+
+    def forces(self, pins: PinForces, positions: np.ndarray, now: float) -> tuple[GraspForce, ...]:
+        """
+        Return what each of them feels.
+
+        :param pins: the forces on the cloth at all pinned nodes
+        :param positions: (rows, cols, 3) [m]
+        """
+        by_node = {tuple(node): -force for node, force in zip(pins.nodes.tolist(), pins.forces)}
+        found = []
+        for grasp in self.present(now):
+            forces = np.array([by_node[tuple(node)] for node in grasp.nodes.tolist()])
+            arms = positions[tuple(grasp.nodes.T)].astype(float) - np.array(grasp.pose.position)
+            found.append(GraspForce(
+                grasp.name, forces.sum(axis=0), np.cross(arms, forces).sum(axis=0)))
+        return tuple(found)
+
+
+class GraspRequests:
+    """
+    Grasp, move and release, now or at the end of the step under way.
+
+    :param grasps: of the run
+    :param reach: how far the nearest node may be from a grasp without a radius [m]
+    """
+
+    def __init__(
+            self, grasps: Grasps, pins: PinRequests, stepping: Stepping, reach: float) -> None:
+        """Begin with the present ones."""
+        self._grasps = grasps
+        self._pins = pins
+        self._stepping = stepping
+        self._reach = reach
+        # What the step under way still has otherwise; None for what is released.
+        self._to_be: dict[str, Grasp | None] = {}
+
+    def present(self) -> dict[str, Grasp]:
+        """Return those that hold something, with the changes yet to be made, by name."""
+        if not self._stepping.is_mid_step:
+            self._to_be.clear()
+        found: dict[str, Grasp | None] = {
+            grasp.name: grasp for grasp in self._grasps.present(self._stepping.time)}
+        found.update(self._to_be)
+        return {name: grasp for name, grasp in found.items() if grasp is not None}
+
+    def begin(
+            self, request: GraspRequest, positions: np.ndarray,
+            nodes: Sequence[Sequence[int]] | None = None) -> Grasp:
+        """
+        Hold what ``request`` asks for.
+
+        :param positions: (rows, cols, 3) [m]
+        :param nodes: to hold these in place of the ones that it chooses
+        """
+        present = self.present()
+        if request.name in present:
+            raise ClothSimError(
+                f'grasp {request.name} holds {len(present[request.name].nodes)} nodes: release '
+                'it first, or give another name')
+        pinned = self._pins.pinned_nodes()
+        chosen = (
+            request.chosen(positions, pinned, self._reach) if nodes is None
+            else _given_nodes(request.name, nodes, pinned))
+        grasp = Grasp(request.name, request.pose, chosen, request.max_force)
+        self._pins.expect(chosen, True)
+        self._change(grasp.name, grasp)
+        self._stepping.at_rest(lambda: self._grasps.begin(grasp))
+        return grasp
+
+    def begin_timed(self, request: GraspRequest, positions: np.ndarray) -> None:
+        """Hold what a scene asks for at this time; nothing where there is no free node."""
+        try:
+            self.begin(request, positions)
+        except ClothSimError:
+            return
+
+    def end(self, name: str) -> Grasp:
+        """Let go; return what was held."""
+        grasp = self.holding(name)
+        self._pins.expect(grasp.nodes, False)
+        self._change(name, None)
+        self._stepping.at_rest(lambda: self._grasps.end(name))
+        return grasp
+
+    def move(self, move: FrameMove) -> FramePath:
+        """Set a grasp off; return its path, as far as it can be told now."""
+        path = self.foresee(move)
+        self._stepping.at_rest(lambda: self._grasps.move(move))
+        return path
+
+    def foresee(self, move: FrameMove) -> FramePath:
+        """Return the path that ``move`` would take."""
+        grasp = self.holding(move.name)
+        return (
+            FramePath(move, grasp.pose) if move.name in self._to_be
+            else self._grasps.foresee(move))
+
+    def holding(self, name: str) -> Grasp:
+        """Return the grasp ``name``, or raise ClothSimError when it holds nothing."""
+        present = self.present()
+        if name not in present:
+            names = ', '.join(present) or 'none'
+            raise ClothSimError(
+                f'there is no grasp {shown(name)}: grasp first, or give one of those that hold '
+                f'nodes, {names}')
+        return present[name]
+
+    def refuse_held(self, row: int, col: int) -> None:
+        """Raise ClothSimError when a grasp holds the node (row, col)."""
+        for grasp in self.present().values():
+            if np.any(np.all(grasp.nodes == (row, col), axis=-1)):
+                raise ClothSimError(
+                    f'grasp {grasp.name} holds node ({row}, {col}): move or release the grasp')
+
+    def _change(self, name: str, grasp: Grasp | None) -> None:
+        if self._stepping.is_mid_step:
+            self._to_be[name] = grasp
+
+
+def _given_nodes(
+        name: str, nodes: Sequence[Sequence[int]], pinned: np.ndarray) -> np.ndarray:
+    """Return ``nodes`` as (n, 2), or raise ClothSimError where they can't be held."""
+    chosen = np.array(nodes, dtype=int).reshape(-1, 2)
+    if not len(chosen):
+        raise ClothSimError(f'grasp {name} has no node: give some, or a radius')
+    for row, col in chosen.tolist():
+        check_node(row, col, *pinned.shape)
+        if pinned[row, col]:
+            raise ClothSimError(
+                f'grasp {name} cannot have node ({row}, {col}), which is pinned: release it '
+                'first')
+    return np.unique(chosen, axis=0)
+
+
+class CarriedNode:
+    """
+    The way of a node that a frame carries.
+
+    :param path: of the frame
+    :param arm: where the node is in the frame [m], (3,)
+    """
+
+    def __init__(self, path: FramePath, arm: np.ndarray) -> None:
+        """Follow the frame until it arrives."""
+        self._path = path
+        self._arm = arm
+        self.begin = path.begin
+        self.arrival = path.arrival
+
+    def position(self, time: float) -> np.ndarray:
+        """Return where the node is at ``time`` [s], (3,) [m]."""
+        return self._path.pose(time).in_world(self._arm)
+
+    def velocity(self, begin: float, end: float, at_begin: np.ndarray) -> np.ndarray:
+        """Return what takes it from ``at_begin`` at ``begin`` to its place at ``end`` [m/s]."""
+        if not self._path.turns and self._path.is_under_way(begin, end):
+            return self._path.velocity
+        return (self.position(end) - at_begin) / (end - begin)

@@ -1,0 +1,109 @@
+# SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
+# SPDX-License-Identifier: Apache-2.0
+
+"""Position and orientation of a body, and the rotation from one orientation to another."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+import math
+
+from cloth_sim_ros.files.echo import shown
+from cloth_sim_ros.sim.errors import ClothSimError
+import numpy as np
+
+# Farther out float32 holds no cloth any more.
+FARTHEST = 1e5
+# Shorter ones are no rotation.
+_LEAST_QUATERNION = 1e-6
+# What a length of 1 comes to after rounding: made a unit again, it would have other bits.
+_ROUNDING = 1e-15
+
+Vector = tuple[float, float, float]
+Quaternion = tuple[float, float, float, float]
+NO_ROTATION: Quaternion = (0.0, 0.0, 0.0, 1.0)
+
+
+@dataclass(frozen=True)
+class Pose:
+    """
+    Where a body is.
+
+    :param position: x y z [m]
+    :param orientation: unit quaternion x y z w
+    """
+
+    position: Vector
+    orientation: Quaternion = NO_ROTATION
+
+    @property
+    def axes(self) -> np.ndarray:
+        """Return its x, y and z axis as the rows of a matrix, (3, 3)."""
+        x, y, z, w = self.orientation
+        return np.array([
+            (1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y + z * w), 2.0 * (x * z - y * w)),
+            (2.0 * (x * y - z * w), 1.0 - 2.0 * (x * x + z * z), 2.0 * (y * z + x * w)),
+            (2.0 * (x * z + y * w), 2.0 * (y * z - x * w), 1.0 - 2.0 * (x * x + y * y))])
+
+    def seen_from(self, points: np.ndarray) -> np.ndarray:
+        """Return ``points`` of the world, (n, 3) [m], in the frame of this pose."""
+        return (points - np.array(self.position)) @ self.axes.T
+
+    def in_world(self, points: np.ndarray) -> np.ndarray:
+        """Return ``points`` of the frame of this pose, (n, 3) [m], in the world."""
+        return np.array(self.position) + points @ self.axes
+
+
+def checked_position(position: Sequence[float], of: str) -> Vector:
+    """Return ``position``, or raise ClothSimError; ``of`` says what it is: 'the target of ...'."""
+    if len(position) != 3 or not all(math.isfinite(part) for part in position):
+        raise ClothSimError(
+            f'{of} must be 3 finite numbers [m], got {shown(list(position))}: give x, y and z')
+    if max(map(abs, position)) > FARTHEST:
+        raise ClothSimError(
+            f'{of} must be at most {FARTHEST:g} m along each axis, got {shown(list(position))}: '
+            'keep the cloth near the origin')
+    x, y, z = map(float, position)
+    return x, y, z
+
+
+def unit_quaternion(orientation: Sequence[float], of: str) -> Quaternion:
+    """Return ``orientation`` x y z w of length 1, or raise ClothSimError; ``of`` names it."""
+    if len(orientation) != 4 or not all(math.isfinite(part) for part in orientation):
+        raise ClothSimError(
+            f'{of} needs 4 finite numbers, got {shown(list(orientation))}: write [x, y, z, w]')
+    length = math.hypot(*orientation)
+    if not _LEAST_QUATERNION < length < math.inf:
+        raise ClothSimError(
+            f'{of} {shown(list(orientation))} has no direction: give a quaternion x y z w, '
+            '[0.0, 0.0, 0.0, 1.0] for none')
+    divisor = length if abs(length - 1.0) > _ROUNDING else 1.0
+    x, y, z, w = (float(part) / divisor for part in orientation)
+    return x, y, z, w
+
+
+def rotation_between(first: Quaternion, second: Quaternion) -> tuple[Vector, float]:
+    """Return unit axis and angle [rad], 0 to pi, of what turns ``first`` into ``second``."""
+    x, y, z, w = _product(second, (-first[0], -first[1], -first[2], first[3]))
+    sine = math.hypot(x, y, z)
+    if sine == 0.0:
+        return (0.0, 0.0, 1.0), 0.0
+    # The shorter way round.
+    sign = math.copysign(1.0 / sine, w)
+    return (x * sign, y * sign, z * sign), 2.0 * math.atan2(sine, abs(w))
+
+
+def rotated(orientation: Quaternion, axis: Vector, angle: float) -> Quaternion:
+    """Return ``orientation`` turned by ``angle`` [rad] about the unit ``axis`` of the world."""
+    sine = math.sin(0.5 * angle)
+    x, y, z = axis
+    found = _product((x * sine, y * sine, z * sine, math.cos(0.5 * angle)), orientation)
+    length = math.hypot(*found)
+    return found[0] / length, found[1] / length, found[2] / length, found[3] / length
+
+
+def _product(a: Quaternion, b: Quaternion) -> Quaternion:
+    ax, ay, az, aw = a
+    bx, by, bz, bw = b
+    return (
+        aw * bx + ax * bw + ay * bz - az * by, aw * by - ax * bz + ay * bw + az * bx,
+        aw * bz + ax * by - ay * bx + az * bw, aw * bw - ax * bx - ay * by - az * bz)

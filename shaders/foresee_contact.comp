@@ -1,0 +1,32 @@
+// SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
+// SPDX-License-Identifier: Apache-2.0
+
+#version 430 core
+// The velocity that each node has on its way through a time ahead, with what is applied and what
+// colliders stop: a node that they stop falls behind its neighbours, which no edge foresees.
+
+#include "lattice.glsl"
+#include "state_in.glsl"
+#include "applied_acceleration.glsl"
+#include "contact.glsl"
+
+layout(local_size_x = LOCAL_X, local_size_y = LOCAL_Y) in;
+
+layout(std430, binding = VELOCITY_OUT) buffer VelocityOut { vec4 velocity_out[]; };
+
+uniform float substep;  // [s] the time ahead
+
+void main() {
+    int col = int(gl_GlobalInvocationID.x);
+    int row = int(gl_GlobalInvocationID.y);
+    if (row >= ROWS || col >= COLS) {
+        return;
+    }
+    int index = node_index(row, col);
+    vec4 v = load_velocity(index);
+    if (v.w > 0.0) {
+        vec3 without = v.xyz + substep * applied_acceleration(index);
+        v.xyz = contact_at(load_position(index).xyz, without, substep).velocity;
+    }
+    velocity_out[index] = v;
+}

@@ -1,0 +1,222 @@
+// SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
+// SPDX-License-Identifier: Apache-2.0
+
+// What colliders do to the velocity that a node has without them, docs/explanation/contact.md:
+// no node comes nearer to a surface than it is thick, and friction takes what it moves along it,
+// up to mu times the impulse along the normal. A node that sticks has exactly the velocity of the
+// surface.
+
+#include "collider_shapes.glsl"
+
+// A node is held by so many at most: by those that it is nearest to.
+#define MOST_TOUCHED (COLLIDERS < 4 ? COLLIDERS : 4)
+#define MOST_ROUNDS 32
+
+#define FREE 0
+#define STICKS 1
+#define SLIDES 2
+#define SLIDES_ON_TWO 3
+
+uniform vec3 collider_velocity[COLLIDERS];    // [m/s] mean one of the centre in the substep
+uniform vec3 collider_turn[3 * COLLIDERS];    // [1/s] rows of (R - 1) / h, R the rotation in it
+uniform float collider_friction[COLLIDERS];
+uniform float collider_thickness[COLLIDERS];  // [m] of a way through it, at least
+uniform float clearance;                      // [m] half the thickness of the cloth
+
+// Speed at which a node that is inside is moved out [m/s].
+const float way_out_speed = 1.0;
+
+struct Contact {
+    vec3 velocity;
+    vec3 normal;  // of the surface that it slides on, or the direction of the line of two
+    int kind;
+};
+
+// Of the last node that was asked for: which colliders it touches, and the change of velocity that
+// each of them makes.
+int touched_count;
+int touched[MOST_TOUCHED];
+vec4 surface[MOST_TOUCHED];  // normal, and distance less the clearance [m]
+vec3 given[MOST_TOUCHED];
+
+// What positions are rounded by: surfaces as near as this are touched.
+float rounding(vec3 x, int collider) {
+    vec3 most = max(abs(x), abs(collider_centre[collider]));
+    return 4e-7 * max(max(most.x, most.y), most.z) + 1e-9;
+}
+
+vec4 gap_at(int collider, vec3 x) {
+    return distance_to_collider(collider, x - collider_centre[collider])
+        - vec4(0.0, 0.0, 0.0, clearance);
+}
+
+// Mean velocity in the substep of what is at x as it begins and goes with the collider: it ends
+// where the collider takes it, so that nothing creeps on one that turns.
+vec3 surface_velocity(int collider, vec3 x) {
+    vec3 arm = x - collider_centre[collider];
+    return collider_velocity[collider] + vec3(
+        dot(collider_turn[3 * collider], arm), dot(collider_turn[3 * collider + 1], arm),
+        dot(collider_turn[3 * collider + 2], arm));
+}
+
+// The same as gap_at, as the substep of h seconds ends.
+vec4 gap_at_end(int collider, vec3 x, float h) {
+    vec3 row_x = collider_turn[3 * collider];
+    vec3 row_y = collider_turn[3 * collider + 1];
+    vec3 row_z = collider_turn[3 * collider + 2];
+    vec3 arm = x - collider_centre[collider] - h * collider_velocity[collider];
+    arm += h * (arm.x * row_x + arm.y * row_y + arm.z * row_z);
+    vec4 near = distance_to_collider(collider, arm);
+    near.xyz += h * vec3(dot(row_x, near.xyz), dot(row_y, near.xyz), dot(row_z, near.xyz));
+    return near - vec4(0.0, 0.0, 0.0, clearance);
+}
+
+// Remember the surfaces that a node at x with the velocity v can come to in the time h.
+void find_surfaces(vec3 x, vec3 v, float h) {
+    touched_count = 0;
+    for (int collider = 0; collider < COLLIDERS; ++collider) {
+        vec4 near = gap_at(collider, x);
+        float way = h * length(v - surface_velocity(collider, x));
+        if (!(near.w < way + rounding(x, collider))) {
+            continue;
+        }
+        int place = touched_count;
+        if (touched_count == MOST_TOUCHED) {
+            place = 0;
+            for (int i = 1; i < MOST_TOUCHED; ++i) {
+                place = surface[i].w > surface[place].w ? i : place;
+            }
+            if (near.w >= surface[place].w) {
+                continue;
+            }
+        } else {
+            ++touched_count;
+        }
+        touched[place] = collider;
+        surface[place] = near;
+        given[place] = vec3(0.0);
+    }
+    // The plane along a curved surface reaches beyond it. A node that passes by is not held there;
+    // one that could pass through a thin collider is.
+    if (touched_count == 1) {
+        int collider = touched[0];
+        vec3 w = v - surface_velocity(collider, x);
+        bool is_short = 2.0 * h * length(w) < collider_thickness[collider];
+        if (surface[0].w > rounding(x, collider) && is_short
+                && gap_at_end(collider, x + h * v, h).w >= 0.0) {
+            touched_count = 0;
+        }
+    }
+}
+
+// Speed along its normal that the velocity v of a node at x lacks for ending at the surface i.
+float lacking(int i, vec3 x, vec3 v, float h) {
+    int collider = touched[i];
+    float least = -max(surface[i].w - rounding(x, collider), 0.0) / h;
+    return least - dot(surface[i].xyz, v - surface_velocity(collider, x));
+}
+
+// What one surface makes of the velocity w relative to it.
+vec3 held(vec3 w, vec4 near, float closest, float h, float friction, out int kind) {
+    float least = -max(near.w - closest, 0.0) / h;
+    float along_normal = dot(near.xyz, w);
+    float impulse = max(least - along_normal, 0.0);
+    vec3 along = w - along_normal * near.xyz;
+    float speed = length(along);
+    bool sticks = friction > 0.0 && speed <= friction * impulse;
+    kind = impulse > 0.0 ? sticks ? STICKS : SLIDES : FREE;
+    if (kind == FREE) {
+        return w;
+    }
+    return max(along_normal, least) * near.xyz
+        + (sticks ? vec3(0.0) : (1.0 - friction * impulse / max(speed, 1e-30)) * along);
+}
+
+// Let each surface in turn act on the velocity of a node at x; return how far that changed it.
+float act_in_turn(vec3 x, float h, inout Contact found) {
+    int sliding = 0;
+    bool sticks = false;
+    vec3 before = found.velocity;
+    for (int i = 0; i < touched_count; ++i) {
+        int collider = touched[i];
+        int kind;
+        vec3 without = found.velocity - given[i];
+        vec3 u = surface_velocity(collider, x);
+        vec3 with = u + held(
+            without - u, surface[i], rounding(x, collider), h, collider_friction[collider], kind);
+        given[i] = kind == FREE ? vec3(0.0) : with - without;
+        found.velocity = kind == FREE ? without : with;
+        sticks = sticks || kind == STICKS;
+        sliding += kind == SLIDES ? 1 : 0;
+        found.normal = kind == SLIDES ? surface[i].xyz : found.normal;
+    }
+    // What slides on three surfaces has no direction left: it is held for the substep.
+    found.kind = sticks || sliding > 2 ? STICKS : sliding == 2 ? SLIDES_ON_TWO
+        : sliding == 1 ? SLIDES : FREE;
+    return length(found.velocity - before);
+}
+
+// What slides on two surfaces has the direction of their line left. Where they meet at a sharp
+// angle the rounds come to that slowly: what is lacking across the line is made right at once.
+void slide_on_two(vec3 x, float h, inout Contact found) {
+    int first = -1;
+    int second = -1;
+    for (int i = 0; i < touched_count; ++i) {
+        if (given[i] != vec3(0.0)) {
+            second = first;
+            first = i;
+        }
+    }
+    vec3 n = surface[first].xyz;
+    vec3 m = surface[second].xyz;
+    float c = dot(n, m);
+    vec3 line = cross(n, m);
+    float sine = length(line);
+    if (sine < 1e-3) {
+        // They are parallel, facing each other or the same way.
+        found.kind = STICKS;
+        return;
+    }
+    float lacks_n = lacking(first, x, found.velocity, h);
+    float lacks_m = lacking(second, x, found.velocity, h);
+    vec3 by_n = (lacks_n - c * lacks_m) / (sine * sine) * n;
+    vec3 by_m = (lacks_m - c * lacks_n) / (sine * sine) * m;
+    given[first] += by_n;
+    given[second] += by_m;
+    found.velocity += by_n + by_m;
+    found.normal = line / sine;
+}
+
+// The velocity of a node at x in the next h seconds, v without colliders.
+Contact contact_at(vec3 x, vec3 v, float h) {
+    find_surfaces(x, v, h);
+    Contact found = Contact(v, vec3(0.0), FREE);
+    if (touched_count == 0) {
+        return found;
+    }
+    float change = act_in_turn(x, h, found);
+#if COLLIDERS > 1
+    for (int round = 1; round < MOST_ROUNDS && touched_count > 1; ++round) {
+        if (change <= 1e-6 * length(v)) {
+            break;
+        }
+        change = act_in_turn(x, h, found);
+    }
+    if (found.kind == SLIDES_ON_TWO) {
+        slide_on_two(x, h, found);
+    }
+#endif
+    return found;
+}
+
+// Where a node that has come to x in h seconds is moved to if that is inside.
+vec3 moved_out(vec3 x, float h) {
+    for (int i = 0; i < touched_count; ++i) {
+        int collider = touched[i];
+        vec4 near = gap_at_end(collider, x, h);
+        if (near.w < -rounding(x, collider)) {
+            x += min(-near.w, h * way_out_speed) * near.xyz;
+        }
+    }
+    return x;
+}

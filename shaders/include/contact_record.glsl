@@ -1,0 +1,26 @@
+// SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
+// SPDX-License-Identifier: Apache-2.0
+
+// What colliders have done in the present step of dt: for each of them and each node the sum of
+// the changes of velocity [m/s], and in w whether the node sticks or slides, as it touched last.
+
+uniform float serial;        // of the substep
+uniform float decision;     // number of the decision
+uniform int record_stride;  // entries of a collider
+
+layout(std430, binding = CONTACTS) buffer Contacts { vec4 contacts[]; };
+
+// Leave a mark that another solve is due.
+void note_change() { contacts[COLLIDERS * record_stride].y = decision; }
+
+// Leave a mark that a node touches a collider in this substep.
+void note_contact() { contacts[COLLIDERS * record_stride].x = serial; }
+
+void record_contacts(int index, int kind) {
+    for (int i = 0; i < touched_count; ++i) {
+        if (given[i] != vec3(0.0)) {
+            int entry = touched[i] * record_stride + index;
+            contacts[entry] = vec4(contacts[entry].xyz + given[i], float(min(kind, SLIDES)));
+        }
+    }
+}

@@ -1,0 +1,113 @@
+# SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
+# SPDX-License-Identifier: Apache-2.0
+
+"""Random scenes with colliders: no node inside, no energy from nothing, the same bits twice."""
+
+from body_distance import distance_to
+from cloth_sim_ros.sim.pose import rotation_between
+import numpy as np
+import pytest
+
+SHAPES = {'sphere': 1, 'capsule': 2, 'cylinder': 2, 'box': 3}
+GRAVITY = 9.81
+
+
+def draw(seed):
+    """Return the values of a scene in which a cloth falls upon some bodies, some of which move."""
+    random = np.random.default_rng([*np.atleast_1d(seed), 16])
+    rows, cols = (int(count) for count in random.integers(6, 17, 2))
+    side = float(random.uniform(0.3, 0.8))
+    values = {
+        'rows': rows, 'cols': cols, 'width': side * cols / 12, 'height': side * rows / 12,
+        'areal_density': float(10.0**random.uniform(-1.0, 0.0)), 'pins': ['none'],
+        'start.z': 0.5, 'dt': 0.005,
+        # Hard edges that come stretched by more are closed in on, which does work on them.
+        'start.jitter': 0.002, 'start.seed': int(random.integers(1000)),
+        'stiffness.structural': float(10.0**random.uniform(1.5, 3.0)),
+        'contact.thickness': float(random.choice([0.0, 0.002]))}
+    names = ['floor', *(f'body_{number}' for number in range(random.integers(0, 4)))]
+    values['colliders.names'] = names
+    for name in names:
+        shape = 'plane' if name == 'floor' else str(random.choice(list(SHAPES)))
+        friction = float(random.choice([0.0, random.uniform(0.0, 1.0)]))
+        place = random.uniform([-0.3, -0.3, 0.0], [0.3, 0.3, 0.35])
+        turn = random.standard_normal(4) * (1.0, 1.0, 1.0, 3.0)
+        size = random.uniform(0.04, 0.15, SHAPES.get(shape, 0))
+        values |= {
+            f'colliders.{name}.shape': shape, f'colliders.{name}.friction': friction,
+            f'colliders.{name}.size': size.tolist()}
+        if name != 'floor':
+            values |= {
+                f'colliders.{name}.position': place.tolist(),
+                f'colliders.{name}.orientation': turn.tolist()}
+    movers = [name for name in names[1:] if random.random() < 0.4]
+    if movers:
+        values |= {
+            'collider_moves.name': movers,
+            'collider_moves.start': random.uniform(0.0, 0.8, len(movers)).tolist(),
+            'collider_moves.target': random.uniform(
+                [-0.3, -0.3, 0.0], [0.3, 0.3, 0.5], (len(movers), 3)).ravel().tolist(),
+            'collider_moves.orientation': random.standard_normal(4 * len(movers)).tolist(),
+            'collider_moves.speed': random.uniform(0.1, 1.0, len(movers)).tolist(),
+            'collider_moves.angular_speed': random.uniform(0.5, 5.0, len(movers)).tolist()}
+    return values
+
+
+def work_of(forces, before, after):
+    """Return the work that colliders have done on the cloth in a step [J]."""
+    work = 0.0
+    for force, first, last in zip(forces, before, after):
+        axis, angle = rotation_between(first.orientation, last.orientation)
+        way = np.array(last.position) - np.array(first.position)
+        work -= force.force @ way + angle * (force.torque @ axis)
+    return work
+
+
+def check(simulate, within, mode, seed, seconds):
+    """Run the scene of ``seed``, hold it to what is true of every one, and return its end."""
+    simulation = simulate({'mode': mode, **draw(seed)})
+    scene = simulation.scene
+    scale = scene.node_mass * scene.node_count * GRAVITY * 0.5
+    clearance = 0.5 * scene['contact.thickness']
+    least = simulation.measure().total_energy
+    started_inside = {
+        body.name: distance_to(body, simulation.positions()) < clearance
+        for body in simulation.colliders}
+    deepest, rise, work, moved = 0.0, 0.0, 0.0, 0.0
+    # Velocities belong to the middle of a substep: energies swing where forces change at once.
+    latest = []
+    while simulation.time < seconds:
+        before = simulation.colliders
+        simulation.step()
+        done = work_of(simulation.contact_forces(), before, simulation.colliders)
+        work, moved = work + done, moved + abs(done)
+        positions = simulation.positions()
+        for body in simulation.colliders:
+            gap = distance_to(body, positions) - clearance
+            deepest = max(deepest, -float(gap[~started_inside[body.name]].min(initial=0.0)))
+        latest = [*latest[-9:], simulation.measure().total_energy - work]
+        rise = max(rise, min(latest) - least)
+        least = min(least, min(latest))
+    within(f'scene {seed}: deepest node [m]', deepest, 1e-6)
+    within(f'scene {seed}: energy gained over M g 0.5 m and work', rise / (scale + moved), 0.01)
+    return simulation.positions()
+
+
+@pytest.mark.parametrize('seed', range(4))
+def test_random_scenes(simulate, within, any_mode, seed):
+    """A body would let cloth in, or throw it."""
+    check(simulate, within, any_mode, seed, 0.6)
+
+
+@pytest.mark.long
+def test_200_random_scenes(simulate, within, request):
+    """A body of a rarer kind would let cloth in, or throw it."""
+    seed = request.config.getoption('--seed') or int(np.random.default_rng().integers(2**31))
+    print(f'seed {seed}')
+    for number in range(200):
+        print(f'{number}:')
+        mode = ('mass_spring', 'constraint', 'adaptive')[number % 3]
+        first = check(simulate, within, mode, (seed, number), 2.0)
+        if number % 20 == 0:
+            np.testing.assert_array_equal(
+                first, check(simulate, within, mode, (seed, number), 2.0))
