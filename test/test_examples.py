@@ -10,6 +10,7 @@ import subprocess
 import sys
 
 from cloth_sim_ros import Recording
+from cloth_sim_ros.sim.scene_file import load_parameters
 from matplotlib.image import imread
 from node_process import NodeProcess
 import numpy as np
@@ -30,7 +31,7 @@ def run_example(name, folder, *arguments):
 
 def test_each_is_short_says_how_to_run_it_and_is_run_here():
     """An example would be too long to read, or rot."""
-    assert len(EXAMPLES) == 8
+    assert len(EXAMPLES) == 9
     tests = Path(__file__).read_text(encoding='utf-8')
     for path in EXAMPLES:
         text = path.read_text(encoding='utf-8')
@@ -109,6 +110,22 @@ def test_a_client_carries_a_towel(tmp_path):
             '--speed', 1.0)
     moved = ast.literal_eval(re.search(r'moved by (.*) m', shown)[1])
     np.testing.assert_allclose(moved, [[0.2, 0.0, 0.1]] * 2, atol=2e-3)
+
+
+def test_a_client_picks_up_a_corner(tmp_path):
+    """A robot program could not grasp, carry and feel a towel."""
+    parameters = {
+        **load_parameters(ROOT / 'config' / 'towel_on_floor.yaml'), 'rows': 12, 'cols': 12,
+        'real_time_factor': 0.0, 'publish.rate': 20.0}
+    with NodeProcess(tmp_path, parameters, '-r', '__ns:=/picked'):
+        shown = run_example('pick_up_a_corner', tmp_path, '--node', '/picked/cloth_sim')
+    assert re.search(r'grasp hand holds \d+ nodes', shown)
+    felt = [
+        list(map(float, force.split())) for force in re.findall(r'the hand feels (.*) N', shown)]
+    # In the axes of the hand, whose y axis points up in the end: the towel weighs 0.39 N.
+    assert len(felt) == 3 and np.all(np.linalg.norm(felt, axis=1) < 2.0), shown
+    assert felt[2][1] < -0.1, shown
+    assert 'nodes of grasp hand are free' in shown
 
 
 def test_two_stiffnesses_share_a_plot(tmp_path):

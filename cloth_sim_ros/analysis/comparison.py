@@ -3,6 +3,7 @@
 
 """Two recordings of one cloth, node by node, at the times both have a frame."""
 
+from collections.abc import Iterable
 from collections.abc import Iterator
 from dataclasses import dataclass
 
@@ -62,7 +63,7 @@ def compare(first: Recording, second: Recording, watch: Watch = not_watched) -> 
     """
     sides = [_Side(first, watch), _Side(second, watch)]
     distances = {
-        time: _distances(*frames, sides) for time, *frames in _matched_frames(*sides)}
+        time: _distances(one, other, sides) for time, one, other in _matched_frames(*sides)}
     figures = [side.rest() for side in sides]
     times = np.array(sorted({*distances, *_matched_times(*figures)}))
     if not len(times):
@@ -74,7 +75,7 @@ def compare(first: Recording, second: Recording, watch: Watch = not_watched) -> 
         (_at(times, figures[1]) - _at(times, figures[0])).T)
     return Comparison(
         sides[0].name, sides[1].name, times, rms, largest, strain, energy,
-        tuple(side.count - len(times) for side in sides))
+        (sides[0].count - len(times), sides[1].count - len(times)))
 
 
 class _Side:
@@ -121,7 +122,7 @@ def _matched_frames(first: _Side, second: _Side) -> Iterator[tuple[float, Frame,
             other = next(second.frames, None)
 
 
-def _matched_times(first: dict, second: dict) -> list[float]:
+def _matched_times(first: Iterable[float], second: Iterable[float]) -> list[float]:
     mine, others = np.array(sorted(first)), np.array(sorted(second))
     return mine[_nearest_distance(mine, others) <= SAME_TIME].tolist()
 

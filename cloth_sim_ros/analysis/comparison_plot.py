@@ -14,7 +14,7 @@ from cloth_sim_ros.analysis.time_plot import PANEL_HEIGHT
 from cloth_sim_ros.analysis.time_plot import TITLE_HEIGHT
 from cloth_sim_ros.analysis.time_plot import WIDTH
 from cloth_sim_ros.analysis.time_plot import with_breaks
-from matplotlib import colormaps
+from matplotlib import color_sequences
 from matplotlib.figure import Figure
 import numpy as np
 
@@ -39,7 +39,7 @@ def overlay_plot(runs: Sequence[Run], names: Sequence[str]) -> Figure:
     figure = Figure(
         figsize=(WIDTH, TITLE_HEIGHT + PANEL_HEIGHT * len(panels)), layout='constrained')
     all_axes = np.atleast_1d(figure.subplots(len(panels), 1, sharex=True))
-    colors = colormaps['tab10'].colors
+    colors = color_sequences['tab10']
     for axes, (column, label, scale) in zip(all_axes, panels):
         for number, (run, name) in enumerate(zip(runs, names)):
             if run.has(column):
@@ -60,7 +60,7 @@ def comparison_plot(comparisons: Sequence[Comparison]) -> Figure:
     figure = Figure(
         figsize=(WIDTH, TITLE_HEIGHT + PANEL_HEIGHT * len(panels)), layout='constrained')
     all_axes = np.atleast_1d(figure.subplots(len(panels), 1, sharex=True))
-    colors = colormaps['tab10'].colors
+    colors = color_sequences['tab10']
     for axes, (name, label, scale) in zip(all_axes, panels):
         for number, each in enumerate(comparisons):
             axes.plot(

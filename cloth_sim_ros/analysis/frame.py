@@ -8,6 +8,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any
+from typing import Literal
 
 from cloth_sim_ros.messages.push_arrows import push_arrows
 from cloth_sim_ros.sim.errors import ClothSimError
@@ -97,7 +98,8 @@ class Frame:
 def _layout(fields: tuple[tuple[str, int, int], ...], size: int, big_endian: bool) -> np.dtype:
     """Return the type of a point; all clouds of a recording have one."""
     names, kinds, offsets = zip(*fields)
-    order = '>' if big_endian else '<'
-    return np.dtype({
+    order: Literal['<', '>'] = '>' if big_endian else '<'
+    layout: Any = {
         'names': names, 'formats': [np.dtype(_KINDS[kind]).newbyteorder(order) for kind in kinds],
-        'offsets': offsets, 'itemsize': size})
+        'offsets': offsets, 'itemsize': size}
+    return np.dtype(layout)

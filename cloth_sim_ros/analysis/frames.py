@@ -36,9 +36,10 @@ def frames_at(recording: Recording, times: Sequence[float]) -> list[Frame]:
     before = None
     for frame in read_frames(recording):
         while wanted and frame.time >= wanted[0]:
-            is_before_nearer = (
-                before is not None and wanted[0] - before.time < frame.time - wanted[0])
-            chosen.append(before if is_before_nearer else frame)
+            if before is not None and wanted[0] - before.time < frame.time - wanted[0]:
+                chosen.append(before)
+            else:
+                chosen.append(frame)
             wanted.pop(0)
         before = frame
         if not wanted:
@@ -51,7 +52,7 @@ def frames_at(recording: Recording, times: Sequence[float]) -> list[Frame]:
 def default_times(recording: Recording, count: int) -> list[float]:
     """Return ``count`` times [s] that show what happens; ClothSimError without a frame."""
     times: list[float] = []
-    pushes: dict[tuple, Push] = {}
+    pushes: dict[tuple[float, tuple[float, float, float]], Push] = {}
     for frame in read_frames(recording):
         times.append(frame.time)
         # As it was last seen: an early end shortens it.

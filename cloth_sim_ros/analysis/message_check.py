@@ -20,6 +20,12 @@ _VALUE = {
     'string_value': str, 'bool_array_value': _LIST, 'integer_array_value': _LIST,
     'double_array_value': _LIST, 'string_array_value': _LIST}
 _PARAMETER = {'name': str, **{f'value.{name}': kind for name, kind in _VALUE.items()}}
+_POSE = {
+    **{f'pose.position.{axis}': _NUMBER for axis in _POINT},
+    **{f'pose.orientation.{axis}': _NUMBER for axis in (*_POINT, 'w')}}
+_FRAME_TARGET = {
+    **_STAMP, 'name': str, **_POSE, 'keep_orientation': int, 'speed': _NUMBER,
+    'angular_speed': _NUMBER}
 
 # By topic: what is read, with the type that it must have.
 _NEEDED: dict[str, dict[str, Any]] = {
@@ -38,6 +44,11 @@ _NEEDED: dict[str, dict[str, Any]] = {
     'inputs/pin_target': {
         **_STAMP, 'row': int, 'col': int, 'speed': _NUMBER,
         **{f'target.{axis}': _NUMBER for axis in _POINT}},
+    'inputs/grasp': {
+        **_STAMP, 'name': str, 'grasped': int, **_POSE, 'rows': _LIST, 'cols': _LIST,
+        'max_force': _NUMBER, 'by_force': int},
+    'inputs/grasp_target': _FRAME_TARGET,
+    'inputs/collider_target': _FRAME_TARGET,
     'inputs/wind': {**_STAMP, **{f'vector.{axis}': _NUMBER for axis in _POINT}},
     'inputs/mode': {**_STAMP, 'mode': str},
     'inputs/command': {**_STAMP, 'command': str},

@@ -5,6 +5,7 @@
 """The pushes of a recording, in its own time."""
 
 from dataclasses import replace
+from typing import Any
 
 from cloth_sim_ros.analysis.recording import Entry
 from cloth_sim_ros.sim.push import Push
@@ -48,5 +49,5 @@ def _ended(push: Push, time: float) -> Push:
     return replace(push, duration=min(push.duration, time - push.start))
 
 
-def _parts(vector: object) -> tuple[float, float, float]:
+def _parts(vector: Any) -> tuple[float, float, float]:
     return (vector.x, vector.y, vector.z)

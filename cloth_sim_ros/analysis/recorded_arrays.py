@@ -26,7 +26,9 @@ def arrays_of(key: str, entries: Iterable[Entry]) -> dict[str, np.ndarray]:
 
 
 def _of_points(entries: Iterable[Entry]) -> dict[str, np.ndarray]:
-    times, resets, frames = [], [], []
+    times: list[float] = []
+    resets: list[int] = []
+    frames: list[np.ndarray] = []
     for entry in entries:
         records = Frame.from_points(entry.time, entry.message).records
         if frames and records.shape != frames[0].shape:
@@ -37,7 +39,7 @@ def _of_points(entries: Iterable[Entry]) -> dict[str, np.ndarray]:
         times.append(entry.time)
         resets.append(entry.resets)
         frames.append(records)
-    names = frames[0].dtype.names if frames else ()
+    names = frames[0].dtype.names or () if frames else ()
     arrays = {'time': np.array(times, float), 'resets': np.array(resets, int)}
     for name, parts in _VECTORS.items():
         if set(parts) <= set(names):

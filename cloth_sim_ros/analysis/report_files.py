@@ -14,6 +14,7 @@ import math
 import os
 from pathlib import Path
 from typing import Any
+from typing import cast
 
 from cloth_sim_ros.analysis.comparison import Comparison
 from cloth_sim_ros.analysis.recording import Recording
@@ -94,7 +95,8 @@ def write_points(recording: Recording, path: Path) -> None:
     arrays = recording.arrays('points')
     try:
         with open(path, 'wb') as file:
-            np.savez(file, **arrays)
+            # Its types take any name for that of an option.
+            np.savez(file, **cast(dict[str, Any], arrays))
     except OSError as error:
         raise _no_file(path, error) from error
 

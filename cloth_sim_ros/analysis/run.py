@@ -22,6 +22,7 @@ from cloth_sim_ros.analysis.recording import Entry
 from cloth_sim_ros.analysis.recording import Recording
 from cloth_sim_ros.analysis.strain_histogram import StrainHistogram
 from cloth_sim_ros.sim.errors import ClothSimError
+from cloth_sim_ros.sim.push import Push
 import numpy as np
 
 # ClothState.STOPPED: a recording is read without the interfaces.
@@ -82,7 +83,7 @@ class Run:
         return self._modes
 
     @property
-    def pushes(self) -> list:
+    def pushes(self) -> list[Push]:
         """Get the pushes, with ``start`` in the time of the recording."""
         return self._pushes.pushes
 

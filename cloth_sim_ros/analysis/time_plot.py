@@ -144,7 +144,7 @@ def with_breaks(run: Run, values: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 
 def _mark(axes: Axes, run: Run) -> None:
     begin, end = run.columns['time'][0], run.columns['time'][-1]
-    label = 'push'
+    label: str | None = 'push'
     for push in run.pushes:
         first, last = max(push.start, begin), min(push.end, end)
         if first < last:

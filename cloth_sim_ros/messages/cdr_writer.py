@@ -16,7 +16,7 @@ class CdrWriter:
 
     def __init__(self) -> None:
         """Start an empty message."""
-        self._parts = [_ENCAPSULATION]
+        self._parts: list[bytes | memoryview] = [_ENCAPSULATION]
         self._size = 0  # alignment counts from behind the encapsulation
 
     def put(self, code: str, *values: float) -> None:

@@ -3,6 +3,8 @@
 
 """The health of a run, in words."""
 
+from typing import Any
+
 from builtin_interfaces.msg import Time
 from cloth_sim_ros.sim.snapshot import Snapshot
 from diagnostic_msgs.msg import DiagnosticArray
@@ -13,6 +15,8 @@ from std_msgs.msg import Header
 SLOW = 0.9          # share of the wanted real-time factor below which a run is slow
 SAFE_MARGIN = 0.85  # what auto_substeps keeps
 LOOSE_RESIDUAL = 1e-2
+
+_Verdict = tuple[bytes, str, dict[str, Any]]  # level, words, values
 
 OK = DiagnosticStatus.OK
 WARN = DiagnosticStatus.WARN
@@ -80,14 +84,14 @@ def _text(value: object) -> str:
     return f'{value:.6g}' if isinstance(value, float) else str(value)
 
 
-def _device(snapshot: Snapshot | None, device: str) -> tuple[bytes, str, dict]:
+def _device(snapshot: Snapshot | None, device: str) -> _Verdict:
     text = device if snapshot is not None else f'{device} is compiling the first shaders'
     return OK, text, {'renderer': device}
 
 
 def _pace(
         snapshot: Snapshot, paused: bool, achieved: float, wanted: float,
-        automatic: bool) -> tuple[bytes, str, dict]:
+        automatic: bool) -> _Verdict:
     values = {'achieved': float(achieved), 'wanted': float(wanted), 'paused': paused}
     if paused:
         return OK, 'paused', values
@@ -99,7 +103,7 @@ def _pace(
     return OK, f'{achieved:.3g} x real time', values
 
 
-def _solver(snapshot: Snapshot) -> tuple[bytes, str, dict]:
+def _solver(snapshot: Snapshot) -> _Verdict:
     values = {
         'mode': snapshot.mode,
         'iterations': int(snapshot.solver_iterations),
@@ -120,7 +124,7 @@ def _solver(snapshot: Snapshot) -> tuple[bytes, str, dict]:
     return OK, text, values
 
 
-def _stability(snapshot: Snapshot, problem: str) -> tuple[bytes, str, dict]:
+def _stability(snapshot: Snapshot, problem: str) -> _Verdict:
     margin = float(snapshot.stability_margin)
     values = {
         'margin': margin,
@@ -145,7 +149,7 @@ def _stability(snapshot: Snapshot, problem: str) -> tuple[bytes, str, dict]:
     return OK, text, values
 
 
-def _pins(snapshot: Snapshot) -> tuple[bytes, str, dict]:
+def _pins(snapshot: Snapshot) -> _Verdict:
     values = {'stalled': int(snapshot.stalled_pins)}
     if snapshot.stalled_pins:
         return WARN, (
@@ -154,21 +158,21 @@ def _pins(snapshot: Snapshot) -> tuple[bytes, str, dict]:
     return OK, 'no moving pin is stalled', values
 
 
-def _turns(margin: float, values: dict) -> tuple[bytes, str, dict]:
+def _turns(margin: float, values: dict[str, Any]) -> _Verdict:
     text = f'edges rotate by {margin**2:.3g} times the accurate limit per substep'
     if margin > 1.0 + 1e-3:
         return WARN, f'{text}: raise constraint.max_substeps, or use a shorter dt', values
     return OK, text, values
 
 
-def _recorder(path: str, error: str, is_whole: bool) -> tuple[bytes, str, dict]:
+def _recorder(path: str, error: str, is_whole: bool) -> _Verdict:
     values = {'path': path}
     if error:
         return WARN if is_whole else ERROR, error, values
     return OK, f'recording to {path}' if path else 'not recording', values
 
 
-def _program(faults: int, latest: str, ignored: int) -> tuple[bytes, str, dict]:
+def _program(faults: int, latest: str, ignored: int) -> _Verdict:
     values = {'unexpected errors': faults, 'latest': latest, 'ignored messages': ignored}
     if faults:
         return WARN, (

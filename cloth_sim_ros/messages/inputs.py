@@ -9,14 +9,21 @@ from collections.abc import Sequence
 from typing import Any
 
 from cloth_sim_interfaces.msg import Command
+from cloth_sim_interfaces.msg import FrameTarget
+from cloth_sim_interfaces.msg import GraspChange
 from cloth_sim_interfaces.msg import ModeChange
 from cloth_sim_interfaces.msg import PinChange
 from cloth_sim_interfaces.msg import PinTarget
 from cloth_sim_interfaces.msg import Push as PushMessage
+from cloth_sim_ros.messages.body_frames import pose_message
 from cloth_sim_ros.messages.parameter_event import parameter_value
 from cloth_sim_ros.messages.stamp import stamp
 from cloth_sim_ros.sim.field import Field
+from cloth_sim_ros.sim.frame_paths import FrameMove
+from cloth_sim_ros.sim.grasps import Grasp
 from cloth_sim_ros.sim.pin_path import PinMove
+from cloth_sim_ros.sim.pose import NO_ROTATION
+from cloth_sim_ros.sim.pose import Pose
 from cloth_sim_ros.sim.push import Push
 from geometry_msgs.msg import Point
 from geometry_msgs.msg import Vector3
@@ -50,6 +57,37 @@ def pin_target_message(move: PinMove, sim_time: float, frame_id: str) -> PinTarg
     return PinTarget(
         header=Header(stamp=stamp(sim_time), frame_id=frame_id), row=move.row, col=move.col,
         target=Point(x=x, y=y, z=z), speed=move.speed)
+
+
+def grasp_message(grasp: Grasp, sim_time: float, frame_id: str) -> GraspChange:
+    """Return ``grasp``, which began at ``sim_time`` [s] or holds its nodes there."""
+    rows, cols = grasp.nodes.T.tolist()
+    return GraspChange(
+        header=Header(stamp=stamp(sim_time), frame_id=frame_id), name=grasp.name, grasped=True,
+        pose=pose_message(grasp.pose), rows=rows, cols=cols, max_force=grasp.max_force)
+
+
+def release_message(
+        name: str, by_force: bool, sim_time: float, frame_id: str) -> GraspChange:
+    """Return the end of the grasp ``name`` at ``sim_time`` [s]."""
+    return GraspChange(
+        header=Header(stamp=stamp(sim_time), frame_id=frame_id), name=name, by_force=by_force)
+
+
+def frame_target_message(move: FrameMove, sim_time: float, frame_id: str) -> FrameTarget:
+    """Return ``move``, which was given at ``sim_time`` [s] or goes on from there."""
+    return FrameTarget(
+        header=Header(stamp=stamp(sim_time), frame_id=frame_id), name=move.name,
+        pose=pose_message(Pose(move.target, move.orientation or NO_ROTATION)),
+        keep_orientation=move.orientation is None, speed=move.speed,
+        angular_speed=move.angular_speed)
+
+
+def place_message(name: str, pose: Pose, sim_time: float, frame_id: str) -> FrameTarget:
+    """Return that the collider ``name`` is at ``pose`` at ``sim_time`` [s]."""
+    return FrameTarget(
+        header=Header(stamp=stamp(sim_time), frame_id=frame_id), name=name,
+        pose=pose_message(pose))
 
 
 def wind_message(

@@ -4,14 +4,19 @@
 """The cloth as markers, already in the bytes that go out."""
 
 from collections.abc import Iterable
+from collections.abc import Sequence
+from typing import Any
 
 from builtin_interfaces.msg import Time
 from cloth_sim_ros.messages.cdr_writer import CdrWriter
+from cloth_sim_ros.messages.collider_markers import collider_markers
 from cloth_sim_ros.messages.push_arrows import push_arrows
 from cloth_sim_ros.messages.stamp import stamp
 from cloth_sim_ros.messages.surface import MOST_DRAWN
 from cloth_sim_ros.messages.surface import strain_colors
 from cloth_sim_ros.messages.surface import Surface
+from cloth_sim_ros.sim.colliders import Collider
+from cloth_sim_ros.sim.grasps import Grasp
 from cloth_sim_ros.sim.push import Push
 from cloth_sim_ros.sim.snapshot import FLAG_AT_LIMIT
 from cloth_sim_ros.sim.snapshot import FLAG_PINNED
@@ -25,6 +30,7 @@ _NO_COLORS = np.empty((0, 4), '<f4')
 PIN_COLOR = (0.9, 0.1, 0.1, 1.0)
 LIMIT_COLOR = (1.0, 0.45, 0.0, 1.0)
 PUSH_COLOR = (0.1, 0.4, 1.0, 1.0)
+GRASP_COLOR = (0.9, 0.1, 0.1, 0.5)
 
 
 def put_marker(
@@ -32,18 +38,22 @@ def put_marker(
         action: int = Marker.ADD, kind: int = 0,
         scale: tuple[float, float, float] = (0.0, 0.0, 0.0),
         color: tuple[float, float, float, float] = (0.0, 0.0, 0.0, 0.0),
-        points: np.ndarray = _NO_POINTS, colors: np.ndarray = _NO_COLORS) -> None:
+        points: np.ndarray = _NO_POINTS, colors: np.ndarray = _NO_COLORS,
+        position: tuple[float, float, float] = (0.0, 0.0, 0.0),
+        orientation: tuple[float, float, float, float] = _NO_TURN) -> None:
     """
     Put a visualization_msgs/Marker.
 
     :param kind: Marker.TRIANGLE_LIST and so on
     :param points: (n, 3) float64
     :param colors: (n, 4) float32, or empty for ``color`` everywhere
+    :param position: of the marker, to which points are relative [m]
+    :param orientation: quaternion x y z w
     """
     _put_header(writer, time, frame_id)
     writer.put_string(namespace)
     writer.put('i', number, kind, action)
-    writer.put('d', 0.0, 0.0, 0.0, *_NO_TURN, *scale)
+    writer.put('d', *position, *orientation, *scale)
     writer.put('f', *color)
     writer.put('i', 0)  # lifetime: for ever
     writer.put('I', 0)
@@ -70,7 +80,7 @@ def _put_header(writer: CdrWriter, time: Time, frame_id: str) -> None:
 
 class MarkersMessage:
     """
-    MarkerArray of one cloth: the surface coloured by strain, pins, nodes at their limit, pushes.
+    MarkerArray of one cloth: surface coloured by strain, pins, limits, pushes, grasps, colliders.
 
     Each marker keeps its namespace and number. One that has gone is deleted in every message
     from then on, so that a viewer which missed a message does not keep it.
@@ -86,9 +96,24 @@ class MarkersMessage:
         self._cells = max(rows, cols) - 1
         self._shown: set[tuple[str, int]] = set()
 
-    def serialise(self, snapshot: Snapshot, pushes: Iterable[Push] = ()) -> bytes:
-        """Return the CDR bytes of the MarkerArray of ``snapshot`` and of ``pushes`` that act."""
+    def serialise(
+            self, snapshot: Snapshot, pushes: Iterable[Push] = (),
+            colliders: Sequence[Collider] = (), grasps: Sequence[Grasp] = ()) -> bytes:
+        """
+        Return the CDR bytes of the MarkerArray.
+
+        :param pushes: those that act
+        :param colliders: where they are now
+        :param grasps: those that hold nodes
+        """
         markers = self._markers(snapshot, pushes)
+        for number, grasp in enumerate(grasps):
+            markers.append({
+                'namespace': 'grasps', 'number': number, 'kind': Marker.CUBE,
+                'scale': (2.0 * self._node_size(snapshot),) * 3, 'color': GRASP_COLOR,
+                'position': grasp.pose.position, 'orientation': grasp.pose.orientation})
+        if colliders:
+            markers += collider_markers(colliders, _size(snapshot.positions))
         shown = {(marker['namespace'], marker['number']) for marker in markers}
         self._shown |= shown
         markers += [
@@ -101,10 +126,8 @@ class MarkersMessage:
             put_marker(writer, time=time, frame_id=self._frame_id, **marker)
         return writer.finish()
 
-    def _markers(self, snapshot: Snapshot, pushes: Iterable[Push]) -> list[dict]:
-        size = _size(snapshot.positions)
-        # Half the distance of nodes, but still to be seen on a fine cloth.
-        node_size = size * max(0.5 / self._cells, 0.01)
+    def _markers(self, snapshot: Snapshot, pushes: Iterable[Push]) -> list[dict[str, Any]]:
+        size, node_size = _size(snapshot.positions), self._node_size(snapshot)
         drawn = self._surface.sample(snapshot.positions)
         markers = [self._cloth(drawn, snapshot.strain, node_size)]
         flags = np.ascontiguousarray(snapshot.flags)
@@ -125,7 +148,11 @@ class MarkersMessage:
             for number, arrow in enumerate(arrows)]
         return markers
 
-    def _cloth(self, drawn: np.ndarray, strain: np.ndarray, node_size: float) -> dict:
+    def _node_size(self, snapshot: Snapshot) -> float:
+        # Half the distance of nodes, but still to be seen on a fine cloth.
+        return _size(snapshot.positions) * max(0.5 / self._cells, 0.01)
+
+    def _cloth(self, drawn: np.ndarray, strain: np.ndarray, node_size: float) -> dict[str, Any]:
         is_chain = self._surface.is_chain
         return {
             'namespace': 'surface', 'number': 0,

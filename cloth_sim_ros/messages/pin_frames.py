@@ -40,9 +40,15 @@ class PinFrames:
         self._template = bytearray()
         self._fields: list[tuple[int, int]] = []
 
-    def serialise(self, snapshot: Snapshot) -> bytes:
-        """Return the CDR bytes of the frames of ``snapshot``, row by row of the pins."""
+    def serialise(self, snapshot: Snapshot, held: np.ndarray | None = None) -> bytes:
+        """
+        Return the CDR bytes of the frames of ``snapshot``, row by row of the pins.
+
+        :param held: (rows, cols) bool, nodes to leave out: they have the frame of their grasp
+        """
         pinned = snapshot.flags & FLAG_PINNED != 0
+        if held is not None:
+            pinned &= ~held
         pins = np.argwhere(pinned).tolist()
         if pins != self._pins:
             self._make_template(pins)

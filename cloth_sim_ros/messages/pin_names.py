@@ -5,12 +5,14 @@
 
 import re
 
+from cloth_sim_ros.messages.frame_names import frame_prefix
+
 _PIN = re.compile(r'_pin_(\d{1,9})_(\d{1,9})$')
 
 
 def pin_frame(node_name: str, row: int, col: int) -> str:
-    """Return the name of a pin's frame; names of frames have no slashes, unlike those of nodes."""
-    return f'{node_name.strip("/").replace("/", "_")}_pin_{row}_{col}'
+    """Return the name of a pin's frame."""
+    return f'{frame_prefix(node_name)}_pin_{row}_{col}'
 
 
 def node_of_pin(frame: str) -> tuple[int, int] | None:

@@ -38,9 +38,8 @@ class PointsMessage:
             width=cols,
             fields=[
                 PointField(
-                    name=name, offset=POINT_DTYPE.fields[name][1], count=1,
-                    datatype=_DATATYPES[POINT_DTYPE.fields[name][0].str])
-                for name in POINT_DTYPE.names],
+                    name=name, offset=field[1], count=1, datatype=_DATATYPES[field[0].str])
+                for name, field in (POINT_DTYPE.fields or {}).items()],
             is_bigendian=False,
             point_step=POINT_DTYPE.itemsize,
             row_step=POINT_DTYPE.itemsize * cols,

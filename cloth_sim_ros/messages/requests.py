@@ -8,12 +8,16 @@ from dataclasses import dataclass
 from cloth_sim_interfaces.msg import PinTarget
 from cloth_sim_interfaces.msg import Push
 from cloth_sim_interfaces.srv import ApplyPush
+from cloth_sim_interfaces.srv import Grasp
+from cloth_sim_interfaces.srv import MoveFrame
 from cloth_sim_interfaces.srv import MovePin
+from cloth_sim_interfaces.srv import Release
 from cloth_sim_interfaces.srv import SetMode
 from cloth_sim_interfaces.srv import SetPin
 from cloth_sim_interfaces.srv import StartRecording
 from cloth_sim_interfaces.srv import Step
 from geometry_msgs.msg import PointStamped
+from geometry_msgs.msg import PoseStamped
 from geometry_msgs.msg import Vector3Stamped
 from std_srvs.srv import SetBool
 from std_srvs.srv import Trigger
@@ -49,8 +53,14 @@ SERVICES = (
             'one nearest to a point'),
     Request('~/move_pin', MovePin, 'move a pin to a target in a straight line; returns the time '
             'of arrival'),
-    Request('~/reset', Trigger, 'restore the initial pose, pins and time, and the pushes and pin '
-            'moves of the scene'),
+    Request('~/grasp', Grasp, 'hold free nodes rigidly to a frame; returns their number'),
+    Request('~/release', Release, 'release a grasp, or all of them'),
+    Request('~/move_grasp', MoveFrame, 'move a grasp in a straight line, and turn it; returns the '
+            'time of arrival'),
+    Request('~/move_collider', MoveFrame, 'move a collider in a straight line, and turn it; '
+            'returns the time of arrival'),
+    Request('~/reset', Trigger, 'restore the initial pose, pins and time, and the pushes, grasps '
+            'and moves of the scene'),
     Request('~/pause', SetBool, 'pause or resume simulated time'),
     Request('~/step', Step, 'advance a paused simulation by a number of time steps; responds '
             'when they are done'),
@@ -61,6 +71,9 @@ SERVICES = (
 SUBSCRIPTIONS = (
     Request('~/push', Push, 'push the cloth, now or at a later simulated time'),
     Request('~/pins/target', PinTarget, 'stream targets to a pin'),
+    Request('~/grasps/NAME/target', PoseStamped, 'stream targets to a grasp, from when it holds '
+            'nodes; from the start for those of the scene'),
+    Request('~/colliders/NAME/pose', PoseStamped, 'stream targets to a collider'),
     Request('~/wind', Vector3Stamped, 'set the steady wind, if the scene has air'),
     Request('/clicked_point', PointStamped, 'push the cloth around a point clicked in RViz or '
             'Foxglove, as set by the parameters `clicked_point.*`'),

@@ -8,6 +8,8 @@ from dataclasses import dataclass
 from cloth_sim_interfaces.msg import ClothState
 from cloth_sim_interfaces.msg import ClothStats
 from cloth_sim_interfaces.msg import Command
+from cloth_sim_interfaces.msg import FrameTarget
+from cloth_sim_interfaces.msg import GraspChange
 from cloth_sim_interfaces.msg import ModeChange
 from cloth_sim_interfaces.msg import PinChange
 from cloth_sim_interfaces.msg import PinTarget
@@ -69,7 +71,7 @@ TOPICS = {
         Topic('points', PointCloud2, depth=10, text='one point per node, organised as rows and '
               'columns: position, velocity, normal, strain, flags'),
         Topic('markers', MarkerArray, depth=1, recorded=False, text='the surface coloured by '
-              'strain, pins, nodes at their strain limit, and pushes'),
+              'strain, pins, nodes at their strain limit, pushes, grasps, and the colliders'),
         Topic('topology', Mesh, depth=1, transient_local=True, text='the cloth at rest as a '
               'triangle mesh'),
         Topic('stats', ClothStats, depth=10, text='energies, largest strain, solver, constraints '
@@ -77,11 +79,15 @@ TOPICS = {
         # A message a pin: a whole frame of them must have room.
         Topic('pins/wrenches', WrenchStamped, depth=MOST_PINS, text='force that the cloth '
               'exerts on each pin, one message per pin'),
+        Topic('grasps/wrenches', WrenchStamped, depth=100, text='force and torque that the cloth '
+              'exerts on each grasp, one message per grasp'),
+        Topic('colliders/wrenches', WrenchStamped, depth=100, text='force and torque that the '
+              'cloth exerts on each collider, one message per collider'),
         Topic('state', ClothState, depth=1, transient_local=True, text='mode, run state, device '
               'and recording'),
         # As tf2's own broadcasters have it.
-        Topic('tf', TFMessage, depth=100, is_global=True, text='a frame for each pin, such as '
-              '`cloth_sim_pin_0_31`'),
+        Topic('tf', TFMessage, depth=100, is_global=True, text='a frame for each pin, grasp '
+              'and collider, such as `cloth_sim_pin_0_31`'),
         Topic('clock', Clock, depth=10, is_global=True, text='simulated time, when '
               '`publish.clock` is true'),
         Topic('diagnostics', DiagnosticArray, depth=10, is_global=True, text='health of the '
@@ -90,6 +96,12 @@ TOPICS = {
         Topic('inputs/push', Push, depth=100, text='each accepted push'),
         Topic('inputs/pin', PinChange, depth=100, text='each node that was pinned or released'),
         Topic('inputs/pin_target', PinTarget, depth=100, text='each accepted target of a pin'),
+        Topic('inputs/grasp', GraspChange, depth=100, text='each grasp, and each release or loss '
+              'of one'),
+        Topic('inputs/grasp_target', FrameTarget, depth=100, text='each accepted target of a '
+              'grasp'),
+        Topic('inputs/collider_target', FrameTarget, depth=100, text='each accepted target of a '
+              'collider'),
         Topic('inputs/wind', Vector3Stamped, depth=100, text='each change of the steady wind'),
         Topic('inputs/mode', ModeChange, depth=100, text='each mode switch'),
         Topic('inputs/command', Command, depth=100, text='each reset, and each cancellation of '

@@ -11,6 +11,7 @@ from cloth_sim_ros.sim.snapshot import Snapshot
 from geometry_msgs.msg import Vector3
 from geometry_msgs.msg import Wrench
 from geometry_msgs.msg import WrenchStamped
+import numpy as np
 from rclpy.serialization import serialize_message
 from std_msgs.msg import Header
 
@@ -39,12 +40,20 @@ class WrenchMessages:
         self._node_name = node_name
         self._templates: dict[tuple[int, int], tuple[bytearray, int]] = {}
 
-    def serialise(self, snapshot: Snapshot) -> list[bytes]:
-        """Return the CDR bytes of each message of ``snapshot``, row by row of the pins."""
+    def serialise(
+            self, snapshot: Snapshot, held: np.ndarray | None = None) -> list[bytes]:
+        """
+        Return the CDR bytes of each message of ``snapshot``, row by row of the pins.
+
+        :param held: (rows, cols) bool, nodes to leave out: their grasp has a wrench
+        """
         time = stamp(snapshot.time)
         messages = []
-        held = snapshot.pin_forces
-        for node, force in zip(held.nodes.tolist(), (-held.forces).tolist()):
+        pins = snapshot.pin_forces
+        assert pins is not None  # Frames asks for them where this topic is read
+        for node, force in zip(pins.nodes.tolist(), (-pins.forces).tolist()):
+            if held is not None and held[tuple(node)]:
+                continue
             data, place = self._template(*node)
             _STAMP.pack_into(data, _STAMP_AT, time.sec, time.nanosec)
             _FORCE.pack_into(data, place, *force)

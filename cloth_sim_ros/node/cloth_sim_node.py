@@ -4,6 +4,7 @@
 """The ROS node: puts the parts together, and holds no physics."""
 
 from collections.abc import Callable
+from collections.abc import Sequence
 import time
 from typing import Any
 
@@ -11,7 +12,11 @@ from cloth_sim_interfaces.msg import Command
 from cloth_sim_ros.messages.diagnostics import diagnostics_message
 from cloth_sim_ros.messages.surface import serialise_topology
 from cloth_sim_ros.node.clock_topic import ClockTopic
+from cloth_sim_ros.node.frame_targets import MoveServices
+from cloth_sim_ros.node.frame_targets import PoseStreams
 from cloth_sim_ros.node.frames import Frames
+from cloth_sim_ros.node.grasp_services import GraspServices
+from cloth_sim_ros.node.grasp_services import LostGrasps
 from cloth_sim_ros.node.guarded_node import GuardedNode
 from cloth_sim_ros.node.ignored_messages import IgnoredMessages
 from cloth_sim_ros.node.inputs import Inputs
@@ -39,8 +44,8 @@ from cloth_sim_ros.node.wind_topic import WindTopic
 from cloth_sim_ros.recording.recording_faults import RecordingError
 from cloth_sim_ros.recording.recording_faults import RecordingFull
 from cloth_sim_ros.recording.recording_options import RecordingOptions
+from cloth_sim_ros.sim.collider_fields import fields_with_colliders
 from cloth_sim_ros.sim.scene import Scene
-from cloth_sim_ros.sim.scene_fields import SCENE_FIELDS
 from cloth_sim_ros.sim.simulation import Simulation
 from rclpy.clock import Clock
 from rclpy.clock import ClockType
@@ -55,17 +60,20 @@ class ClothSimNode(GuardedNode):
     A cloth that ROS can watch and push. ~ stands for the node's name.
 
     Publishes: ~/points (PointCloud2), ~/markers (MarkerArray), ~/topology (Mesh), ~/stats
-    (ClothStats), ~/pins/wrenches (WrenchStamped), /tf (TFMessage, a frame for each pin), ~/state
-    (ClothState), /diagnostics (DiagnosticArray), /clock (Clock, when publish.clock is true), and
-    what was done to the cloth: ~/inputs/push (Push), ~/inputs/pin (PinChange),
-    ~/inputs/pin_target (PinTarget), ~/inputs/wind (Vector3Stamped), ~/inputs/mode (ModeChange),
-    ~/inputs/command (Command), ~/inputs/parameters (ParameterEvent).
+    (ClothStats), ~/pins/wrenches, ~/grasps/wrenches and ~/colliders/wrenches (WrenchStamped), /tf
+    (TFMessage, a frame for each pin, grasp and collider), ~/state (ClothState), /diagnostics
+    (DiagnosticArray), /clock (Clock, when publish.clock is true), and what was done to the cloth:
+    ~/inputs/push (Push), ~/inputs/pin (PinChange), ~/inputs/pin_target (PinTarget),
+    ~/inputs/grasp (GraspChange), ~/inputs/grasp_target and ~/inputs/collider_target
+    (FrameTarget), ~/inputs/wind (Vector3Stamped), ~/inputs/mode (ModeChange), ~/inputs/command
+    (Command), ~/inputs/parameters (ParameterEvent).
 
-    Listens to: ~/push (Push), ~/pins/target (PinTarget), ~/wind (Vector3Stamped), /clicked_point
-    (PointStamped).
+    Listens to: ~/push (Push), ~/pins/target (PinTarget), ~/grasps/NAME/target and
+    ~/colliders/NAME/pose (PoseStamped), ~/wind (Vector3Stamped), /clicked_point (PointStamped).
 
     Serves: ~/set_mode (SetMode), ~/apply_push (ApplyPush), ~/clear_pushes (Trigger), ~/set_pin
-    (SetPin), ~/move_pin (MovePin), ~/reset (Trigger), ~/pause (SetBool), ~/step (Step),
+    (SetPin), ~/move_pin (MovePin), ~/grasp (Grasp), ~/release (Release), ~/move_grasp and
+    ~/move_collider (MoveFrame), ~/reset (Trigger), ~/pause (SetBool), ~/step (Step),
     ~/start_recording (StartRecording), ~/stop_recording (Trigger).
 
     Parameters: those of sim/scene_fields.py and node/node_fields.py.
@@ -83,7 +91,8 @@ class ClothSimNode(GuardedNode):
         name = self.get_fully_qualified_name()
         self._values = values
         self._simulation = Simulation(
-            Scene({field.name: values[field.name] for field in SCENE_FIELDS}), compiles=False)
+            Scene({field.name: values[field.name] for field in fields_with_colliders(values)}),
+            compiles=False)
         self._recording = RecordingSession(
             values['recording.directory'], name, self._on_recording_lost,
             options=RecordingOptions.from_values(values), wake=self._on_recording_ended)
@@ -155,6 +164,12 @@ class ClothSimNode(GuardedNode):
         PinService(self, self._simulation, self._inputs)
         for topic in (PinTargets, WindTopic):
             topic(self, self._simulation, self._inputs, self._values['frame_id'], self._ignored)
+        self._streams = PoseStreams(
+            self, self._simulation, self._inputs, self._values['frame_id'], self._ignored)
+        MoveServices(self, self._simulation, self._inputs)
+        GraspServices(self, self._simulation, self._inputs, self._streams.follow_grasps)
+        self._simulation.listener = LostGrasps(
+            self._inputs, self.get_logger().warning, self._streams.follow_grasps)
         RunServices(
             self, self._simulation, self._run_loop, reset=self._reset, changed=self._state.send)
         RecordingServices(
@@ -206,6 +221,7 @@ class ClothSimNode(GuardedNode):
         self._inputs.command(Command.RESET)
         self._recording.rewind(self._simulation.time)
         self._simulation.reset()
+        self._streams.follow_grasps()
         self._run_loop.restart()
         self._state.send()
         self._show()
@@ -236,7 +252,7 @@ class ClothSimNode(GuardedNode):
             [Parameter('mode', Parameter.Type.STRING, self._simulation.mode)])
         self._state.send()
 
-    def _on_parameters_changed(self, parameters: list[Parameter]) -> None:
+    def _on_parameters_changed(self, parameters: Sequence[Parameter]) -> None:
         self._inputs.parameters(parameters)
         if self._values['real_time_factor'] != self._pacing.factor:
             self._pacing.factor = self._values['real_time_factor']

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-"""What a frame is made of: the cloud, markers, plain numbers and pins of one moment."""
+"""What a frame is made of: the cloud, markers, plain numbers, pins and bodies of one moment."""
 
 from collections.abc import Callable
 from collections.abc import Mapping
@@ -12,6 +12,9 @@ from cloth_sim_ros.messages.markers import MarkersMessage
 from cloth_sim_ros.messages.points import PointsMessage
 from cloth_sim_ros.messages.stamp import stamp
 from cloth_sim_ros.messages.stats import stats_message
+from cloth_sim_ros.node.body_topics import body_messages
+from cloth_sim_ros.node.body_topics import GRASPS
+from cloth_sim_ros.node.body_topics import wanted_of_bodies
 from cloth_sim_ros.node.outlet import Outlet
 from cloth_sim_ros.node.pin_topics import PinTopics
 from cloth_sim_ros.node.pin_topics import WRENCHES
@@ -43,6 +46,7 @@ class Frames:
         self._points = PointsMessage(scene.rows, scene.cols, self._frame_id)
         self._markers = MarkersMessage(scene.rows, scene.cols, self._frame_id)
         self._pins = PinTopics(simulation, outlet, values, node_name, warn)
+        self._node_name = node_name
 
     def send(
             self, *, worked: float = 0.0, steps: int = 0, real_time_factor: float = 0.0,
@@ -64,16 +68,19 @@ class Frames:
             part for part in _PARTS if self._values[f'publish.{part}']
             and self._outlet.wanted(part, by_recording=to_recording)]
         of_pins = self._pins.wanted(by_recording=to_recording)
-        if not made and not of_pins:
+        of_bodies = wanted_of_bodies(
+            simulation, self._values, self._outlet, by_recording=to_recording)
+        if not (made or of_pins or of_bodies):
             return
         begin = time.monotonic()
-        snapshot = simulation.snapshot(pin_forces=WRENCHES in of_pins)
+        snapshot = simulation.snapshot(pin_forces=WRENCHES in of_pins or GRASPS in of_bodies)
         # The device may still be at work when the steps return: the read-back waits for it.
         worked += time.monotonic() - begin
         makers = {
             'points': lambda: self._points.serialise(snapshot),
             'markers': lambda: self._markers.serialise(
-                snapshot, [applied.push for applied in simulation.pushes]),
+                snapshot, [applied.push for applied in simulation.pushes],
+                simulation.colliders, simulation.grasps),
             'stats': lambda: serialize_message(stats_message(
                 snapshot, self._frame_id, step_wall_time=worked / max(steps, 1),
                 real_time_factor=real_time_factor,
@@ -82,3 +89,6 @@ class Frames:
         for part in made:
             self._outlet.send(part, makers[part], now, to_recording=to_recording)
         self._pins.send(snapshot, of_pins, to_recording=to_recording)
+        for key, message in body_messages(
+                simulation, snapshot, of_bodies, self._node_name, self._frame_id):
+            self._outlet.send_message(key, message, now, to_recording=to_recording)

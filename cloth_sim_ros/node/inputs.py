@@ -9,15 +9,20 @@ from typing import Any
 from typing import Protocol
 
 from cloth_sim_ros.messages.inputs import command_message
+from cloth_sim_ros.messages.inputs import frame_target_message
+from cloth_sim_ros.messages.inputs import grasp_message
 from cloth_sim_ros.messages.inputs import mode_message
 from cloth_sim_ros.messages.inputs import parameters_message
 from cloth_sim_ros.messages.inputs import pin_message
 from cloth_sim_ros.messages.inputs import pin_target_message
 from cloth_sim_ros.messages.inputs import push_message
+from cloth_sim_ros.messages.inputs import release_message
 from cloth_sim_ros.messages.inputs import wind_message
 from cloth_sim_ros.messages.parameter_event import serialise_parameter_event
 from cloth_sim_ros.node.parameters import FIELDS
 from cloth_sim_ros.node.parameters import plain_value
+from cloth_sim_ros.sim.frame_paths import FrameMove
+from cloth_sim_ros.sim.grasps import Grasp
 from cloth_sim_ros.sim.pin_path import PinMove
 from cloth_sim_ros.sim.push import Push
 from cloth_sim_ros.sim.simulation import Simulation
@@ -67,6 +72,25 @@ class Inputs:
         self._outlet.send_message(
             'inputs/pin_target', pin_target_message(move, now, self._frame_id), now)
 
+    def grasp(self, grasp: Grasp) -> None:
+        """Tell that nodes are held."""
+        now = self._simulation.stepping.edit_time
+        self._outlet.send_message('inputs/grasp', grasp_message(grasp, now, self._frame_id), now)
+
+    def grasp_release(self, name: str, by_force: bool) -> None:
+        """Tell that nodes are let go; ``by_force``: as the cloth has pulled too hard."""
+        now = self._simulation.stepping.edit_time
+        self._outlet.send_message(
+            'inputs/grasp', release_message(name, by_force, now, self._frame_id), now)
+
+    def grasp_move(self, move: FrameMove) -> None:
+        """Tell that a grasp sets off."""
+        self._frame_move('inputs/grasp_target', move)
+
+    def collider_move(self, move: FrameMove) -> None:
+        """Tell that a collider sets off."""
+        self._frame_move('inputs/collider_target', move)
+
     def wind(self, velocity: Sequence[float]) -> None:
         """Tell that another steady wind blows [m/s]."""
         now = self._simulation.stepping.edit_time
@@ -96,3 +120,7 @@ class Inputs:
             message = parameters_message(values, FIELDS, now, self._node_name, is_change=True)
             self._outlet.send(
                 'inputs/parameters', lambda: serialise_parameter_event(message), now)
+
+    def _frame_move(self, key: str, move: FrameMove) -> None:
+        now = self._simulation.stepping.edit_time
+        self._outlet.send_message(key, frame_target_message(move, now, self._frame_id), now)

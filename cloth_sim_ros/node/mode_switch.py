@@ -92,7 +92,7 @@ class ModeSwitch:
         """Let a preparation end; waits for the program that is being compiled."""
         if self._preparation is not None:
             self._preparation.cancel()
-            self._thread.join()
+            self._join()
 
     def _prepare(self, mode: str) -> None:
         preparation = self._simulation.engines.preparation(mode)
@@ -109,9 +109,14 @@ class ModeSwitch:
         self._report_timer.reset()
         self._changed()
 
+    def _join(self) -> None:
+        if self._thread is not None:
+            self._thread.join()
+
     def _on_prepared(self) -> None:
-        self._thread.join()
+        self._join()
         preparation, self._preparation = self._preparation, None
+        assert preparation is not None  # it has just ended
         self._report_timer.cancel()
         if self._is_reported:
             self._logger.info(

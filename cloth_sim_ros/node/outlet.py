@@ -9,6 +9,7 @@ from typing import Any
 from cloth_sim_ros.messages.topics import TOPICS
 from cloth_sim_ros.node.recording_session import RecordingSession
 from rclpy.node import Node
+from rclpy.publisher import Publisher
 from rclpy.qos import DurabilityPolicy
 from rclpy.qos import QoSProfile
 from rclpy.qos import ReliabilityPolicy
@@ -22,7 +23,7 @@ class Outlet:
         """Make the publishers of every topic but /clock, which may belong to somebody else."""
         self._recording = recording
         self._node = node
-        self._publishers = {}
+        self._publishers: dict[str, Publisher] = {}
         for key in TOPICS:
             if key != 'clock':
                 self.open_topic(key)

@@ -9,6 +9,7 @@ from typing import Any
 from cloth_sim_ros.messages.parameter_event import parameter_value
 from cloth_sim_ros.node.node_fields import check_together
 from cloth_sim_ros.node.node_fields import NODE_FIELDS
+from cloth_sim_ros.sim.collider_fields import fields_with_colliders
 from cloth_sim_ros.sim.field import Field
 from cloth_sim_ros.sim.given_values import completed
 from cloth_sim_ros.sim.scene import refuse_unknown
@@ -39,23 +40,24 @@ def declare_fields(node: Node, overrides: Mapping[str, Parameter]) -> dict[str, 
     given = {
         name: plain_value(parameter) for name, parameter in overrides.items()
         if name not in _RCLPY_OWN and not name.startswith(_RCLPY_OWN_PREFIX)}
-    refuse_unknown(given, FIELDS)
+    fields = fields_with_colliders(given, FIELDS)
+    refuse_unknown(given, fields)
     given = completed(given)
     values = {}
-    for field in FIELDS:
+    for field in fields:
         value = given.get(field.name, field.default)
         # An empty list has no type in a parameter file: rcl reads it as "not set".
         values[field.name] = field.check(() if value is None and field.is_array else value)
     check_together(values)
     # rclpy takes an empty list for a list of bytes, so the type is declared first, the value set
     # then, and only then can the parameter become read-only.
-    for field in FIELDS:
+    for field in fields:
         node.declare_parameter(
             field.name, _type(field, values[field.name]), ParameterDescriptor(),
             ignore_override=True)
     node.set_parameters_atomically(
-        [as_parameter(field, values[field.name]) for field in FIELDS])
-    for field in FIELDS:
+        [as_parameter(field, values[field.name]) for field in fields])
+    for field in fields:
         node.set_descriptor(field.name, descriptor(field, values[field.name]))
     return values
 
@@ -79,22 +81,22 @@ def as_field_type(parameter: Parameter) -> Parameter:
 
 def descriptor(field: Field, value: Any) -> ParameterDescriptor:
     """Describe ``field``, which has ``value``, for ROS tools."""
-    bounded = field.low is not None and field.high is not None
+    low, high = field.low, field.high
     is_list = isinstance(value, tuple)
     unit = f' [{field.unit}]' if field.unit else ''
     constraints = f'one of {", ".join(field.choices)}' if field.choices else ''
-    if bounded and is_list:
-        constraints = f'each from {field.low:g} to {field.high:g}'
+    if low is not None and high is not None and is_list:
+        constraints = f'each from {low:g} to {high:g}'
     described = ParameterDescriptor(
         name=field.name, type=_type(field, value).value,
         description=f'{field.text}{unit}', additional_constraints=constraints,
         read_only=not field.live)
-    if bounded and field.kind is int:
+    if low is not None and high is not None and field.kind is int:
         described.integer_range = [
-            IntegerRange(from_value=int(field.low), to_value=int(field.high))]
-    if bounded and field.kind is float and not is_list:
+            IntegerRange(from_value=int(low), to_value=int(high))]
+    if low is not None and high is not None and field.kind is float and not is_list:
         described.floating_point_range = [
-            FloatingPointRange(from_value=float(field.low), to_value=float(field.high))]
+            FloatingPointRange(from_value=float(low), to_value=float(high))]
     return described
 
 

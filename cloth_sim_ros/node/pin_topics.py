@@ -7,6 +7,7 @@
 from collections.abc import Callable
 from collections.abc import Collection
 from collections.abc import Mapping
+from functools import partial
 from typing import Any
 
 from cloth_sim_ros.messages.pin_frames import PinFrames
@@ -49,7 +50,8 @@ class PinTopics:
             if self._values[parameter] and self._outlet.wanted(key, by_recording=by_recording))
         if not wanted:
             return wanted
-        pins = int(np.count_nonzero(self._simulation.pinned_nodes()))
+        pins = int(np.count_nonzero(
+            self._simulation.pinned_nodes() & ~self._simulation.grasped_nodes()))
         reason = too_many_pins(pins)
         if reason and not self._reason:
             self._warn(reason)
@@ -60,11 +62,12 @@ class PinTopics:
             self, snapshot: Snapshot, wanted: Collection[str], *,
             to_recording: bool = True) -> None:
         """Send what is ``wanted`` of ``snapshot``, the frames before what is given in them."""
+        held = self._simulation.grasped_nodes()
         if FRAMES in wanted:
             self._outlet.send(
-                FRAMES, lambda: self._frames.serialise(snapshot), snapshot.time,
+                FRAMES, lambda: self._frames.serialise(snapshot, held), snapshot.time,
                 to_recording=to_recording)
         if WRENCHES in wanted:
-            for data in self._wrenches.serialise(snapshot):
+            for data in self._wrenches.serialise(snapshot, held):
                 self._outlet.send(
-                    WRENCHES, lambda data=data: data, snapshot.time, to_recording=to_recording)
+                    WRENCHES, partial(bytes, data), snapshot.time, to_recording=to_recording)

@@ -71,7 +71,7 @@ def _init(args: Sequence[str]) -> None:
     # rcl would log the same problem once more.
     set_logger_level('rcl', LoggingSeverity.FATAL)
     try:
-        rclpy.init(args=args)
+        rclpy.init(args=list(args))
     except RuntimeError as error:
         if is_about_security(error):
             raise no_node(error) from error

@@ -14,7 +14,7 @@ from cloth_sim_ros.node.ignored_messages import check_frame
 from cloth_sim_ros.node.ignored_messages import IgnoredMessages
 from cloth_sim_ros.node.inputs import Inputs
 from cloth_sim_ros.sim.errors import ClothSimError
-from cloth_sim_ros.sim.simulation import AppliedPush
+from cloth_sim_ros.sim.push_field import AppliedPush
 from cloth_sim_ros.sim.simulation import Simulation
 from geometry_msgs.msg import PointStamped
 from geometry_msgs.msg import Vector3

@@ -11,10 +11,13 @@ from pathlib import Path
 from typing import Any
 from typing import TYPE_CHECKING
 
+from cloth_sim_ros.messages.inputs import frame_target_message
+from cloth_sim_ros.messages.inputs import grasp_message
 from cloth_sim_ros.messages.inputs import mode_message
 from cloth_sim_ros.messages.inputs import parameters_message
 from cloth_sim_ros.messages.inputs import pin_message
 from cloth_sim_ros.messages.inputs import pin_target_message
+from cloth_sim_ros.messages.inputs import place_message
 from cloth_sim_ros.messages.inputs import push_message
 from cloth_sim_ros.messages.inputs import wind_message
 from cloth_sim_ros.messages.parameter_event import serialise_parameter_event
@@ -25,6 +28,7 @@ from cloth_sim_ros.recording.bag_folder import DIRECTORY_SETTING
 from cloth_sim_ros.recording.recording_faults import RecordingError
 from cloth_sim_ros.recording.recording_faults import refusal
 from cloth_sim_ros.recording.recording_options import RecordingOptions
+from cloth_sim_ros.sim.collider_fields import fields_with_colliders
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.simulation import Simulation
 import numpy as np
@@ -40,8 +44,9 @@ def write_opening(
     """
     Record the rest shape, and as inputs all that holds now.
 
-    Pins are written where they differ from the parameter, and their targets where they are under
-    way; pushes where they act or will act; the wind where it is not that of the parameter.
+    Pins are written where they differ from the parameter, grasps where they hold nodes, colliders
+    where they are not where the scene has them; targets of these where they are under way; pushes
+    where they act or will act; the wind where it is not that of the parameter.
 
     :param values: parameter values by name
     :param node_name: with its namespace
@@ -49,15 +54,25 @@ def write_opening(
     now = simulation.time
     frame_id = values['frame_id']
     recording.write('topology', serialise_topology(simulation.scene), now)
-    parameters = parameters_message(values, FIELDS, now, node_name)
+    parameters = parameters_message(
+        values, fields_with_colliders(values, FIELDS), now, node_name)
     recording.write('inputs/parameters', serialise_parameter_event(parameters), now)
     inputs = [('inputs/mode', mode_message(simulation.mode, '', now, frame_id))]
-    pinned = simulation.pinned_nodes()
+    pinned = simulation.pinned_nodes() & ~simulation.grasped_nodes()
     for row, col in np.argwhere(pinned != simulation.scene.pinned_nodes()).tolist():
         inputs.append(
             ('inputs/pin', pin_message(row, col, bool(pinned[row, col]), now, frame_id)))
     for move in simulation.pin_moves:
         inputs.append(('inputs/pin_target', pin_target_message(move, now, frame_id)))
+    for grasp in simulation.grasps:
+        inputs.append(('inputs/grasp', grasp_message(grasp, now, frame_id)))
+    for path in simulation.grasp_paths:
+        inputs.append(('inputs/grasp_target', frame_target_message(path.move, now, frame_id)))
+    for moved in simulation.moved_colliders:
+        key = 'inputs/collider_target'
+        inputs.append((key, place_message(moved.name, moved.pose, now, frame_id)))
+        if moved.path is not None:
+            inputs.append((key, frame_target_message(moved.path.move, now, frame_id)))
     for applied in simulation.pushes:
         inputs.append(('inputs/push', push_message(applied.push, now, frame_id)))
     if simulation.loads.wind not in (None, simulation.scene['air.wind']):

@@ -4,13 +4,13 @@
 """Advance the simulation frame by frame: running, paused, or stopped by a blow-up."""
 
 from collections.abc import Callable
-from collections.abc import Iterator
 import time
 
 from cloth_sim_interfaces.msg import ClothState
 from cloth_sim_ros.gl.errors import DeviceError
 from cloth_sim_ros.node.pacing import Pacing
 from cloth_sim_ros.sim.errors import ClothSimError
+from cloth_sim_ros.sim.modes import Pieces
 from cloth_sim_ros.sim.simulation import Simulation
 from rclpy.clock import Clock
 from rclpy.clock import ClockType
@@ -54,7 +54,7 @@ class RunLoop:
         self._paused = paused
         self._problem = ''
         # Pieces of the step under way, and when the slice ends.
-        self._work: Iterator[None] | None = None
+        self._work: Pieces | None = None
         self._deadline = 0.0
         # What a caller of step waits for.
         self._answer: Future | None = None

@@ -5,6 +5,8 @@
 
 from collections.abc import Iterable
 import time
+from typing import Any
+from typing import Literal
 
 from builtin_interfaces.msg import Time
 from cloth_sim_ros.messages.topics import TOPICS
@@ -27,7 +29,7 @@ PATIENCE = 1.0
 _SLICE = 0.01
 
 
-def has_header(message_class: type) -> bool:
+def has_header(message_class: Any) -> bool:
     """Tell whether messages of this class begin with a std_msgs/Header."""
     fields = message_class.get_fields_and_field_types()
     return next(iter(fields.items()), None) == ('header', 'std_msgs/Header')
@@ -35,7 +37,7 @@ def has_header(message_class: type) -> bool:
 
 def header_stamp(data: bytes) -> Time:
     """Return the stamp of ``data``, a serialised message that begins with a header."""
-    order = 'little' if data[1] & 1 else 'big'
+    order: Literal['little', 'big'] = 'little' if data[1] & 1 else 'big'
     parts = data[_ENCAPSULATION:_ENCAPSULATION + _STAMP]
     return Time(
         sec=int.from_bytes(parts[:4], order, signed=True),

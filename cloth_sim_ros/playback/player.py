@@ -115,7 +115,7 @@ class Player:
         """Yield what a reader that comes at the start needs of all before it, in its order."""
         if self._start <= self._begin:
             return
-        kept: dict[tuple[str, str], deque] = {
+        kept: dict[tuple[str, str], deque[tuple[int, RawMessage]]] = {
             key: deque(maxlen=topic.kept) for key, topic in self._topics.items() if topic.kept}
         names = {name for name, _ in kept}
         for number, message in enumerate(self._bag.messages(names, end=self._start)):

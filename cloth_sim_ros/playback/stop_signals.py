@@ -5,6 +5,7 @@
 
 import signal
 from types import FrameType
+from typing import Any
 
 _SIGNALS = (signal.SIGINT, signal.SIGTERM)
 
@@ -15,7 +16,7 @@ class StopSignals:
     def __init__(self) -> None:
         """Note nothing yet."""
         self.came = False
-        self._before: dict[signal.Signals, object] = {}
+        self._before: dict[signal.Signals, Any] = {}
 
     def __enter__(self) -> 'StopSignals':
         """Listen."""

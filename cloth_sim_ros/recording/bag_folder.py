@@ -4,7 +4,6 @@
 """The fresh folder of a recording."""
 
 from datetime import datetime
-from itertools import count
 import os
 from pathlib import Path
 import re
@@ -100,10 +99,13 @@ def _make_named(folder: Path) -> Path:
 
 def _make_dated(parent: Path) -> Path:
     stem = datetime.now().strftime('cloth_%Y_%m_%d-%H_%M_%S')
-    for number in count():
-        folder = parent / (f'{stem}_{number}' if number else stem)
+    folder = parent / stem
+    number = 0
+    while True:
         try:
             folder.mkdir()
         except FileExistsError:
+            number += 1
+            folder = parent / f'{stem}_{number}'
             continue
         return folder

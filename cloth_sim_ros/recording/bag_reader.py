@@ -46,7 +46,7 @@ class BagReader:
     def __init__(self, path: str | Path) -> None:
         """Open the files."""
         self.path = Path(path)
-        self._decompressed: TemporaryDirectory | None = None
+        self._decompressed: TemporaryDirectory[str] | None = None
         self._compression = compression_of(self.path) if is_folder(self.path) else 'none'
         self._unread: list[str] = []
         self._storages: list[Storage] = self._open()

@@ -62,11 +62,13 @@ class BrokenMcap:
         channels = McapChannels()
         counts: Counter[int] = Counter()
         indexed: Counter[int] = Counter()  # what the index of the last chunk says
-        chunk = None
+        chunk: Chunk | None = None
 
         def unpack() -> Counter[int]:
             found: Counter[int] = Counter()
-            for record in self._unpacked(chunk) if chunk else ():
+            if chunk is None:
+                return found
+            for record in self._unpacked(chunk):
                 channels.read(record)
                 if isinstance(record, Message):
                     found[record.channel_id] += 1
@@ -109,14 +111,14 @@ class BrokenMcap:
 
         Those from ``begin`` on and before ``end`` [ns], where these are given.
         """
-        begin = -math.inf if begin is None else begin
-        end = math.inf if end is None else end
+        first = -math.inf if begin is None else begin
+        past = math.inf if end is None else end
         channels = McapChannels()
         for record in self._flat_records():
             channels.read(record)
             if isinstance(record, Message) and record.channel_id in channels:
                 topic, type_name = channels.name(record.channel_id)
-                if begin <= record.log_time < end and (names is None or topic in names):
+                if first <= record.log_time < past and (names is None or topic in names):
                     yield RawMessage(topic, type_name, record.log_time, record.data)
 
     def _flat_records(self) -> Iterator[McapRecord]:

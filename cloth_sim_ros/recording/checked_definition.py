@@ -4,6 +4,7 @@
 """Message definitions of a bag, parsed: they can be hostile as well."""
 
 import re
+from typing import cast
 
 from cloth_sim_ros.files.echo import shown
 from rosbags.interfaces import MessageDefinition
@@ -66,7 +67,9 @@ def _check_arrays(types: Typesdict) -> None:
         for field, (kind, parts) in fields:
             if kind != Nodetype.ARRAY:
                 continue
-            (element, described), length = parts
+            # The types of rosbags leave open which kind has which parts.
+            (element, described), length = cast(
+                tuple[tuple[Nodetype, tuple[str, int]], int], parts)
             if length < 1:
                 # Nested, arrays of such would be walked through forever within a few bytes.
                 raise ValueError(f'{field} of {name} is an array of length {length}')

@@ -13,6 +13,7 @@ import time
 
 from cloth_sim_ros.messages.stamp import nanoseconds
 from cloth_sim_ros.messages.topics import TOPICS
+from cloth_sim_ros.recording.bag_channel import BagChannel
 from cloth_sim_ros.recording.bag_folder import DIRECTORY_SETTING
 from cloth_sim_ros.recording.bag_folder import make_bag_folder
 from cloth_sim_ros.recording.bag_folder import remove_bag_folder
@@ -62,20 +63,21 @@ class Recorder:
         self.path = make_bag_folder(directory, name, setting)
         self._setting = setting
         self._on_end = on_end
-        self._queue: SimpleQueue = SimpleQueue()
+        self._queue: SimpleQueue[tuple[BagChannel, bytes, int] | None] = SimpleQueue()
         # Each is changed by one thread only, so that neither needs a lock.
         self._taken_bytes = 0
         self._written_bytes = 0
         self._closed = False
         self._error: RecordingError | None = None
         self._ended = False
-        self._bag: BagWriter | None = None
         try:
             self._bag = BagWriter(self.path, options)
-            threading.Thread(target=self._work, name='recorder').start()
-        except (OSError, RuntimeError) as error:
-            if self._bag is not None:
+            try:
+                threading.Thread(target=self._work, name='recorder').start()
+            except RuntimeError:
                 self._bag.abandon()
+                raise
+        except (OSError, RuntimeError) as error:
             remove_bag_folder(self.path)
             raise refusal(self.path, error, setting) from error
 

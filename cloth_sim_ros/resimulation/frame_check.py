@@ -52,15 +52,20 @@ class FrameCheck:
     missing_fields: tuple[str, ...] = ()
     other_grids: int = 0
 
-    def compare(self, time: float, recorded: np.ndarray, made: np.ndarray) -> None:
+    def compare(
+            self, time: float, recorded: np.ndarray, made: np.ndarray,
+            unknown_flags: int = 0) -> None:
         """
-        Take a frame.
+        Compare a frame.
 
         :param time: of the recorded frame [s]
         :param recorded: (rows, cols) records with fields of POINT_DTYPE
         :param made: the same of this run, of POINT_DTYPE
+        :param unknown_flags: those that this run can't know yet, and are not compared
         """
         self.frames += 1
+        if unknown_flags and 'flags' in (recorded.dtype.names or ()):
+            recorded, made = _without(recorded, unknown_flags), _without(made, unknown_flags)
         names = tuple(name for name in _FIELDS if name in (recorded.dtype.names or ()))
         self.missing_fields = tuple(name for name in _FIELDS if name not in names)
         unequal = {name: _bits(recorded, name) != _bits(made, name) for name in names}
@@ -82,6 +87,12 @@ class FrameCheck:
             self.first = difference
         if self.largest is None or difference.distance > self.largest.distance:
             self.largest = difference
+
+
+def _without(records: np.ndarray, flags: int) -> np.ndarray:
+    left = records.copy()
+    left['flags'] &= np.uint32(~flags & 0xffffffff)
+    return left
 
 
 def _bits(records: np.ndarray, name: str) -> np.ndarray:

@@ -10,12 +10,17 @@ from cloth_sim_ros.files.echo import shown
 from cloth_sim_ros.resimulation.listener import Listener
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.input_listener import CLEAR_PUSHES
+from cloth_sim_ros.sim.input_listener import InputListener
 from cloth_sim_ros.sim.input_listener import RESET
+from cloth_sim_ros.sim.pose import checked_position
+from cloth_sim_ros.sim.pose import Pose
+from cloth_sim_ros.sim.pose import unit_quaternion
 from cloth_sim_ros.sim.push import Push
 from cloth_sim_ros.sim.simulation import Simulation
 
 _SECOND = 1_000_000_000
 _NOTHING = 1e-6
+_LARGEST = 2**32 - 1
 
 
 def recorded_push(message: Any) -> Push:
@@ -28,6 +33,20 @@ def recorded_push(message: Any) -> Push:
 def parts(vector: Any) -> tuple[float, float, float]:
     """Return the components of a decoded Point or Vector3."""
     return (vector.x, vector.y, vector.z)
+
+
+def recorded_nodes(message: Any) -> list[tuple[int, int]]:
+    """Return the nodes of a decoded GraspChange message; ClothSimError if it has none."""
+    rows, cols = list(message.rows), list(message.cols)
+    try:
+        nodes = [(int(row), int(col)) for row, col in zip(rows, cols)]
+    except (OverflowError, TypeError, ValueError):  # the bag has defined them in another way
+        nodes = []
+    if not nodes or len(rows) != len(cols) or max(map(max, nodes)) > _LARGEST:
+        raise ClothSimError(
+            f'a recorded grasp has {len(rows)} rows and {len(cols)} columns of nodes: it needs as '
+            'many numbers of each, record it again')
+    return nodes
 
 
 class StepClock:
@@ -61,7 +80,12 @@ class StepClock:
         return round((stamp.sec * _SECOND + stamp.nanosec) / (self._recorded_dt * _SECOND))
 
 
-# As cloth_sim_interfaces/msg/Command has them, which is not needed to read a recording.
+def recorded_pose(message: Any) -> Pose:
+    """Return the decoded Pose ``message``; ClothSimError if it is none."""
+    return Pose(
+        checked_position(parts(message.position), 'a recorded position'),
+        unit_quaternion(
+            (*parts(message.orientation), message.orientation.w), 'a recorded orientation'))
 
 
 class InputReplay:
@@ -81,9 +105,14 @@ class InputReplay:
         self._simulation = simulation
         self._listener = listener
         self._keep_mode = keep_mode
+        # When each grasp was lost that was [s].
+        self._lost: dict[str, float] = {}
+        simulation.listener = _Losses(simulation, listener, self._lost)
         self._takers = {
             'inputs/push': self._push, 'inputs/pin': self._pin,
-            'inputs/pin_target': self._pin_target, 'inputs/mode': self._mode,
+            'inputs/pin_target': self._pin_target, 'inputs/grasp': self._grasp,
+            'inputs/grasp_target': self._grasp_target,
+            'inputs/collider_target': self._collider_target, 'inputs/mode': self._mode,
             'inputs/wind': self._wind, 'inputs/command': self._command,
             'inputs/parameters': self._parameters}
         self.refused: list[str] = []
@@ -122,6 +151,38 @@ class InputReplay:
         self.inputs += 1
         self._listener.pin_target(path.move)
 
+    def _grasp(self, message: Any) -> None:
+        # What is lost by force is lost again, by itself.
+        if message.by_force:
+            return
+        if not message.grasped:
+            if message.name not in self._names_held():
+                return
+            self._simulation.release_grasp(message.name)
+            self._listener.grasp_release(message.name, False)
+        else:
+            grasp = self._simulation.grasp(
+                message.name, parts(message.pose.position),
+                (*parts(message.pose.orientation), message.pose.orientation.w),
+                max_force=message.max_force, nodes=recorded_nodes(message))
+            self._listener.grasp(grasp)
+        self.inputs += 1
+
+    def _grasp_target(self, message: Any) -> None:
+        if self._lost.get(message.name) == self._simulation.time:
+            return
+        path = self._simulation.move_grasp(*_frame_move(message))
+        self.inputs += 1
+        self._listener.grasp_move(path.move)
+
+    def _collider_target(self, message: Any) -> None:
+        path = self._simulation.move_collider(*_frame_move(message))
+        self.inputs += 1
+        self._listener.collider_move(path.move)
+
+    def _names_held(self) -> list[str]:
+        return [grasp.name for grasp in self._simulation.grasps]
+
     def _wind(self, message: Any) -> None:
         velocity = parts(message.vector)
         self._simulation.set_wind(velocity)
@@ -159,3 +220,31 @@ class InputReplay:
             raise ClothSimError(
                 f'this version cannot change {", ".join(physical)} while running: the change is '
                 'ignored')
+
+
+def _frame_move(message: Any) -> tuple[Any, ...]:
+    """Return the arguments of move_grasp and move_collider; a speed of 0 is any speed."""
+    orientation = None if message.keep_orientation else (
+        *parts(message.pose.orientation), message.pose.orientation.w)
+    return (
+        message.name, parts(message.pose.position), orientation, message.speed or None,
+        message.angular_speed or None)
+
+
+class _Losses(InputListener):
+    """
+    Hears of grasps that are lost in this run.
+
+    :param times: is given when [s], by the names of the grasps
+    """
+
+    def __init__(
+            self, simulation: Simulation, listener: Listener, times: dict[str, float]) -> None:
+        self._simulation = simulation
+        self._listener = listener
+        self._times = times
+
+    def grasp_release(self, name: str, by_force: bool) -> None:
+        if by_force:
+            self._times[name] = self._simulation.time
+            self._listener.grasp_release(name, True)

@@ -12,10 +12,15 @@ class Listener(InputListener):
 
     The simulation is at the moment they belong to. To be derived from; does nothing by itself.
 
-    ``problem`` is why what was heard is not kept whole; empty where it is.
+    ``path`` is where what was heard is kept; empty where it is not.
     """
 
-    problem = ''
+    path = ''
+
+    @property
+    def problem(self) -> str:
+        """Why what was heard is not kept whole; empty where it is."""
+        return ''
 
     def begin(self) -> None:
         """Hear that all is set that holds at the beginning."""

@@ -16,8 +16,9 @@ from cloth_sim_ros.sim.errors import ClothSimError
 
 _PARAMETERS = 'inputs/parameters'
 _INPUTS = (
-    _PARAMETERS, 'inputs/mode', 'inputs/pin', 'inputs/pin_target', 'inputs/push',
-    'inputs/wind', 'inputs/command')
+    _PARAMETERS, 'inputs/mode', 'inputs/pin', 'inputs/pin_target', 'inputs/grasp',
+    'inputs/grasp_target', 'inputs/collider_target', 'inputs/push', 'inputs/wind',
+    'inputs/command')
 _SHOWN = ('points', 'stats', 'state')
 
 
@@ -26,7 +27,7 @@ class RecordedRun:
     Reads the beginning of a recording; the rest when it is asked for, one message at a time.
 
     The simulator begins each recording with inputs that stand for all that went before: the
-    parameters, the mode, changed pins, pins under way, and pushes that act or will act.
+    parameters, the mode, changed pins, grasps, moves under way, and pushes that act or will act.
 
     ``path``, ``name`` and ``node`` are the recording's, ``scene`` has the parameters and the mode,
     ``begin`` is the stamp of the beginning, ``opening`` has the inputs there, ``device`` is the

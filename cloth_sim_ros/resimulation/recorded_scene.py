@@ -10,10 +10,10 @@ from typing import Any
 
 from cloth_sim_ros.recording.bag_metadata import folder_metadata
 from cloth_sim_ros.recording.project_version import PACKAGE
+from cloth_sim_ros.sim.collider_fields import fields_with_colliders
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.field import Field
 from cloth_sim_ros.sim.scene import Scene
-from cloth_sim_ros.sim.scene_fields import SCENE_FIELDS
 
 # By the numbers of rcl_interfaces/msg/ParameterType.
 _SLOTS = {
@@ -22,7 +22,6 @@ _SLOTS = {
 _ARRAY_SLOTS = {
     6: ('bool_array_value', bool), 7: ('integer_array_value', int),
     8: ('double_array_value', float), 9: ('string_array_value', str)}
-_FIELDS = {field.name: field for field in SCENE_FIELDS}
 
 
 def plain_value(value: Any) -> Any:
@@ -74,14 +73,15 @@ class RecordedScene:
         given = {parameter.name: plain_value(parameter.value) for parameter in parameters}
         if mode:
             given['mode'] = mode
+        names = {field.name for field in fields_with_colliders(given)}
         return cls(
-            {name: value for name, value in given.items() if name in _FIELDS},
-            {name: value for name, value in given.items() if name not in _FIELDS})
+            {name: value for name, value in given.items() if name in names},
+            {name: value for name, value in given.items() if name not in names})
 
     @property
     def missing(self) -> tuple[Field, ...]:
         """Return the parameters of a scene that the recording lacks: they take their default."""
-        return tuple(field for name, field in _FIELDS.items() if name not in self.values)
+        return tuple(field for name, field in self._fields.items() if name not in self.values)
 
     def unknown(self, fields: tuple[Field, ...]) -> tuple[str, ...]:
         """Return the recorded names that are neither the scene's nor among ``fields``."""
@@ -117,18 +117,22 @@ class RecordedScene:
         """Return the names of the recorded values that ``scene`` has otherwise."""
         return tuple(
             name for name, value in self.values.items()
-            if not self._is_valid(name) or _FIELDS[name].check(value) != scene[name])
+            if not self._is_valid(name) or self._fields[name].check(value) != scene[name])
+
+    @property
+    def _fields(self) -> dict[str, Field]:
+        return {field.name: field for field in fields_with_colliders(self.values)}
 
     def _is_valid(self, name: str) -> bool:
         try:
-            _FIELDS[name].check(self.values[name])
+            self._fields[name].check(self.values[name])
         except ClothSimError:
             return False
         return True
 
     def _check(self, name: str) -> None:
         try:
-            _FIELDS[name].check(self.values[name])
+            self._fields[name].check(self.values[name])
         except ClothSimError as error:
             raise ClothSimError(
                 f'the recording has a parameter that this version does not accept: {error}; '

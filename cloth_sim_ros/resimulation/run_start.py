@@ -3,14 +3,20 @@
 
 """Bring a simulation to where a recording begins."""
 
+from typing import Any
+
 from cloth_sim_ros.analysis.frame import Frame
 from cloth_sim_ros.analysis.recording import Entry
 from cloth_sim_ros.resimulation.input_replay import InputReplay
+from cloth_sim_ros.resimulation.input_replay import recorded_nodes
+from cloth_sim_ros.resimulation.input_replay import recorded_pose
 from cloth_sim_ros.resimulation.input_replay import recorded_push
 from cloth_sim_ros.resimulation.listener import Listener
 from cloth_sim_ros.resimulation.recorded_run import RecordedRun
 from cloth_sim_ros.sim.errors import ClothSimError
+from cloth_sim_ros.sim.grasps import Grasp
 from cloth_sim_ros.sim.modes import AVAILABLE
+from cloth_sim_ros.sim.pose import Pose
 from cloth_sim_ros.sim.push import Push
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.simulation import Simulation
@@ -39,6 +45,7 @@ class RunStart:
         self._push_entries = self._opening('inputs/push')
         self._pushes = tuple(recorded_push(entry.message) for entry in self._push_entries)
         self._recorded_own = recorded.timed_pushes()
+        self._has_same_grasps = recorded.timed_grasps() == simulation.scene.timed_grasps()
         self.unknown: tuple[str, ...] = ()
 
     @property
@@ -58,7 +65,18 @@ class RunStart:
             self._begin()
 
     def _begin(self) -> None:
-        for key in ('inputs/pin', 'inputs/pin_target', 'inputs/wind'):
+        # What the scene holds from the start may have been let go, or be held otherwise.
+        recorded = {entry.message.name: entry.message for entry in self._opening('inputs/grasp')}
+        for grasp in self._simulation.grasps:
+            message = recorded.get(grasp.name)
+            if self._has_same_grasps and not (message and _is_same(grasp, message)):
+                self._simulation.release_grasp(grasp.name)
+        self._take('inputs/pin')
+        for entry in self._opening('inputs/grasp'):
+            if not any(grasp.name == entry.message.name for grasp in self._simulation.grasps):
+                self._replay.take(entry.key, entry.message)
+        for key in ('inputs/pin_target', 'inputs/grasp_target', 'inputs/collider_target',
+                    'inputs/wind'):
             self._take(key)
         # The simulation has those of its scene, which are first unless all were removed.
         own = len(self._recorded_own)
@@ -74,14 +92,22 @@ class RunStart:
         records = self._records(now)
         simulation.go_on_from(
             steps, _vectors(records, 'xyz'), _vectors(records, _VELOCITY),
-            pinned=self._pinned(), pushes=self._pushes_at(now))
-        for key in ('inputs/pin_target', 'inputs/wind'):
+            pinned=self._pinned(), pushes=self._pushes_at(now), colliders=self._colliders())
+        for key in ('inputs/pin_target', 'inputs/grasp', 'inputs/grasp_target', 'inputs/wind'):
             self._take(key)
+        collider_targets = [
+            entry for entry in self._opening('inputs/collider_target') if entry.message.speed]
+        for entry in collider_targets:
+            self._replay.take(entry.key, entry.message)
         unknown = []
         if AVAILABLE[simulation.mode].has_memory:
             unknown.append(f'what mode {simulation.mode} carried over from earlier steps')
         if self._opening('inputs/pin_target'):
             unknown.append('where the moving pins started')
+        if self._opening('inputs/grasp_target'):
+            unknown.append('where the moving grasps started')
+        if collider_targets:
+            unknown.append('where the moving colliders started')
         if any(push.region == 'sphere' and push.start < now for push in self._pushes):
             unknown.append('which nodes an active push selected when it began')
         self.unknown = tuple(unknown)
@@ -99,7 +125,7 @@ class RunStart:
                 f'the recording begins in the middle of a run, at {now:.6g} s, with '
                 f'{records.shape[0]} x {records.shape[1]} nodes, from which {rows} x {cols} '
                 'cannot continue: leave rows and cols as they are, or record from the start')
-        missing = [name for name in _VELOCITY if name not in records.dtype.names]
+        missing = [name for name in _VELOCITY if name not in (records.dtype.names or ())]
         if missing:
             raise ClothSimError(
                 f'the recording begins in the middle of a run, at {now:.6g} s, and its points '
@@ -117,6 +143,13 @@ class RunStart:
             pinned[node] = entry.message.pinned
         return pinned
 
+    def _colliders(self) -> dict[str, Pose]:
+        names = {collider.name for collider in self._simulation.colliders}
+        return {
+            entry.message.name: recorded_pose(entry.message.pose)
+            for entry in self._opening('inputs/collider_target')
+            if not entry.message.speed and entry.message.name in names}
+
     def _pushes_at(self, now: float) -> list[Push]:
         own = self._simulation.scene.timed_pushes()
         if own == self._recorded_own:
@@ -130,6 +163,12 @@ class RunStart:
 
     def _opening(self, key: str) -> list[Entry]:
         return [entry for entry in self._run.opening if entry.key == key]
+
+
+def _is_same(grasp: Grasp, message: Any) -> bool:
+    return (
+        grasp.nodes.tolist() == [list(node) for node in recorded_nodes(message)]
+        and grasp.pose == recorded_pose(message.pose) and grasp.max_force == message.max_force)
 
 
 def _vectors(records: np.ndarray, names: tuple[str, ...] | str) -> np.ndarray:

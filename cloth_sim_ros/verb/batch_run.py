@@ -7,6 +7,7 @@ import math
 from pathlib import Path
 import time
 from typing import Any
+from typing import TYPE_CHECKING
 
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.errors import NonFiniteStateError
@@ -15,6 +16,9 @@ from cloth_sim_ros.sim.simulation import Simulation
 from cloth_sim_ros.verb.compile_notice import compile_notice
 from cloth_sim_ros.verb.termination import sayer
 from tqdm import tqdm
+
+if TYPE_CHECKING:
+    from cloth_sim_ros.api.run_recording import RunRecording
 
 # Of a step: what a sum of frame times may fall short of it, as in Simulation.advance.
 _ROUNDING = 1e-6
@@ -43,7 +47,7 @@ class BatchRun:
         self._record_directory = record_directory
         self._setting = setting
         self._frame_seconds = max(1.0 / node_values['publish.rate'], simulation.dt)
-        self._recording = None
+        self._recording: RunRecording | None = None
         self.steps = 0
         self.wall_seconds = 0.0
         self.peak_strain = 0.0

@@ -15,6 +15,9 @@ residual of 1e-2, and error against a direct float64 solve.
 factor, stretch, work and energy gain. The modes alternate every 20 ms of simulated time;
 docs/notes/performance.md defines the figures.
 
+--contact compares a cloth that is dropped over a sphere with the same cloth without it, and among
+20 spheres, in modes mass_spring and constraint. They alternate every 20 ms of simulated time.
+
 For example:
   cloth_sim bench
   cloth_sim bench --sizes 512 1024 --rounds 9 --json
@@ -22,6 +25,7 @@ For example:
   cloth_sim bench --solver
   cloth_sim bench --solver --baseline paper
   cloth_sim bench --modes --grids 32,64
+  cloth_sim bench --contact --sizes 64
   cloth_sim bench --start-up config/drape.yaml
 """
 
@@ -33,6 +37,7 @@ import json
 import statistics
 
 from cloth_sim_ros.files.echo import shown
+from cloth_sim_ros.study.contact_speed import measure_contact
 from cloth_sim_ros.study.modes.comparison import compare_modes
 from cloth_sim_ros.study.modes.contenders import CONTENDERS
 from cloth_sim_ros.study.modes.report import comparison_table
@@ -50,22 +55,23 @@ _SOLVER_SIZES = [52, 128]
 # The paper's matrix takes time and memory with the square of the edges.
 _PAPER_SOLVER_SIZES = [20]
 _GRIDS = [32, 64, 128]
+_CONTACT_SIZES = [64]
 _ROUNDS = 7
-# Of --modes, whose rounds on fine grids take minutes.
+# Of --modes and --contact, whose rounds on fine grids take minutes.
 _MODES_ROUNDS = 3
 
 
 def add_arguments(parser: ArgumentParser) -> None:
     """Add the arguments of this verb."""
     parser.add_argument('--sizes', type=int, nargs='+', metavar='N',
-                        help='nodes along each side (default: 128 512 1024; with --solver 52 128, '
-                             'with --baseline paper 20)')
+                        help='nodes along each side (default: 128 512 1024; with --contact 64, '
+                             'with --solver 52 128, with --baseline paper 20)')
     parser.add_argument('--variants', nargs='+', metavar='name=value,...',
                         default=['layout=fused', 'layout=paper'],
                         help='scene parameters of each variant (default: %(default)s)')
     parser.add_argument('--rounds', type=int, metavar='N',
-                        help=f'rounds of each variant (default: {_ROUNDS}, with --modes '
-                             f'{_MODES_ROUNDS})')
+                        help=f'rounds of each variant (default: {_ROUNDS}, with --modes or '
+                             f'--contact {_MODES_ROUNDS})')
     parser.add_argument('--round-seconds', type=float, default=0.4, metavar='T',
                         help='wall time of a round [s] (default: %(default)s)')
     parser.add_argument('--solver', action='store_true',
@@ -74,11 +80,13 @@ def add_arguments(parser: ArgumentParser) -> None:
                         help='solver to compare it with, in interleaved rounds')
     parser.add_argument('--modes', action='store_true',
                         help='compare whole modes on a falling cloth instead')
+    parser.add_argument('--contact', action='store_true',
+                        help='compare a cloth with and without colliders instead')
     parser.add_argument('--grids', type=_parse_grids, default=_GRIDS, metavar='N,N,...',
                         help='nodes along each side with --modes (default: '
                              f'{",".join(map(str, _GRIDS))})')
     parser.add_argument('--seconds', type=float, default=1.2, metavar='T',
-                        help='simulated time of a round with --modes [s] '
+                        help='simulated time of a round with --modes or --contact [s] '
                              '(default: %(default)s)')
     parser.add_argument('--only', nargs='+', choices=CONTENDERS, default=list(CONTENDERS),
                         metavar='NAME', help='modes to compare with --modes, of '
@@ -95,6 +103,8 @@ def main(args: Namespace) -> int:
     """Measure and print."""
     if args.modes:
         return _compare_modes(args)
+    if args.contact:
+        return _compare_contact(args)
     if args.rounds is None:
         args.rounds = _ROUNDS
     if args.start_up:
@@ -133,6 +143,16 @@ def _compare_modes(args: Namespace) -> int:
         progress=partial(tqdm, unit=' frames', leave=False, disable=None))
     print(json.dumps(comparison.as_dict(), allow_nan=False) if args.json
           else comparison_table(comparison))
+    return 0
+
+
+def _compare_contact(args: Namespace) -> int:
+    for nodes in args.sizes or _CONTACT_SIZES:
+        for mode in ('mass_spring', 'constraint'):
+            found = measure_contact(
+                mode, nodes, seconds=args.seconds,
+                rounds=_MODES_ROUNDS if args.rounds is None else args.rounds)
+            print(json.dumps(found.as_dict()) if args.json else found.in_words(), flush=True)
     return 0
 
 

@@ -11,11 +11,14 @@ code; its docstring is its help text. Only the module of the verb asked for is i
 from argparse import ArgumentParser
 from argparse import RawDescriptionHelpFormatter
 from collections.abc import Sequence
+import difflib
 from importlib import import_module
 import sys
 from typing import NoReturn
 
 from cloth_sim_ros.files.echo import cut
+from cloth_sim_ros.files.echo import MOST_SHOWN
+from cloth_sim_ros.files.echo import shown
 from cloth_sim_ros.gl.errors import DeviceError
 from cloth_sim_ros.node.missing_module import way_out
 from cloth_sim_ros.sim.errors import ClothSimError
@@ -29,6 +32,8 @@ VERBS = {
     'mode': 'switch the simulation mode of a running node',
     'push': 'push the cloth of a running node, or cancel all pushes',
     'pin': 'pin, move or release a node of the cloth',
+    'grasp': 'grasp nodes of the cloth, or move a grasp',
+    'release': 'release a grasp',
     'pause': 'pause a running node',
     'resume': 'resume a paused node',
     'step': 'advance a paused node by a number of time steps',
@@ -46,6 +51,7 @@ VERBS = {
     'study': 'measure error, cost and stability of a scene, and choose settings',
 }
 _MOST_TOLD = 500
+_WRONG_USE = 2
 # 128 and the number of the signal, as shells have it.
 INTERRUPTED = 130
 TERMINATED = 143
@@ -90,6 +96,9 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 
 def _no_verb(arguments: list[str]) -> int:
+    if arguments and not arguments[0].startswith('-'):
+        print(f'cloth_sim: {_unknown_verb(arguments[0])}', file=sys.stderr)
+        return _WRONG_USE
     verbs = '\n'.join(f'  {name:10} {text}' for name, text in VERBS.items())
     parser = _Parser(
         prog='cloth_sim', usage='cloth_sim VERB ...', formatter_class=RawDescriptionHelpFormatter,
@@ -98,3 +107,10 @@ def _no_verb(arguments: list[str]) -> int:
     parser.add_argument('verb', choices=VERBS, metavar='VERB', help='one of the verbs above')
     parser.parse_args(arguments[:1])
     return 0
+
+
+def _unknown_verb(name: str) -> str:
+    # What is longer than what is shown is like nothing, which takes long to find.
+    close = difflib.get_close_matches(name[:MOST_SHOWN].lower(), VERBS, n=1)
+    hint = f'did you mean {close[0]}?' if close else 'choose one that cloth_sim --help lists'
+    return f'there is no verb {shown(name)}: {hint}'

@@ -29,9 +29,9 @@ from cloth_sim_ros.resimulation.recorded_scene import recorded_version
 from cloth_sim_ros.resimulation.rerun import Rerun
 from cloth_sim_ros.resimulation.verdict import Verdict
 from cloth_sim_ros.resimulation.verdict import version_lines
+from cloth_sim_ros.sim.collider_fields import fields_with_colliders
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.scene import refuse_unknown
-from cloth_sim_ros.sim.scene_fields import SCENE_FIELDS
 from cloth_sim_ros.verb import analyze
 from cloth_sim_ros.verb.fresh_name import fresh_name
 from cloth_sim_ros.verb.recording_arguments import add_recording_arguments
@@ -57,10 +57,11 @@ def add_arguments(parser: ArgumentParser) -> None:
 def main(args: Namespace) -> int:
     """Run again, and tell how that compares."""
     changes = dict(parse_change(change) for change in args.changes)
-    _check_names(changes)
+    _refuse_node_names(changes)
     recording = open_recording(args)
     with _folder(args) as folder:
         run = RecordedRun(recording)
+        refuse_unknown(changes, fields_with_colliders({**run.scene.values, **changes}))
         rerun = Rerun(run, changes)
         listener = _listener(run, rerun, folder)
         try:
@@ -98,14 +99,13 @@ def _compare(run: RecordedRun, new: str, out: str | None) -> None:
         print(error)
 
 
-def _check_names(changes: dict[str, Any]) -> None:
+def _refuse_node_names(changes: dict[str, Any]) -> None:
     node_names = [field.name for field in NODE_FIELDS]
     for name in changes:
         if name in node_names:
             raise ClothSimError(
                 f'{name} is not a scene parameter: frames and inputs come from the recording, and '
                 'only the scene can be changed')
-    refuse_unknown(changes, SCENE_FIELDS)
 
 
 def _listener(run: RecordedRun, rerun: Rerun, folder: str | None) -> Listener:

@@ -9,6 +9,8 @@ from cloth_sim_interfaces.msg import Command
 from cloth_sim_ros.api.run_recording import RunRecording
 from cloth_sim_ros.node.inputs import Inputs
 from cloth_sim_ros.resimulation.listener import Listener
+from cloth_sim_ros.sim.frame_paths import FrameMove
+from cloth_sim_ros.sim.grasps import Grasp
 from cloth_sim_ros.sim.pin_path import PinMove
 from cloth_sim_ros.sim.push import Push
 from cloth_sim_ros.sim.simulation import Simulation
@@ -60,6 +62,22 @@ class ResimulatedRecording(Listener):
         """Write that a pin sets off."""
         self._inputs.pin_target(move)
 
+    def grasp(self, grasp: Grasp) -> None:
+        """Write a grasp."""
+        self._inputs.grasp(grasp)
+
+    def grasp_release(self, name: str, by_force: bool) -> None:
+        """Write the end of a grasp."""
+        self._inputs.grasp_release(name, by_force)
+
+    def grasp_move(self, move: FrameMove) -> None:
+        """Write that a grasp sets off."""
+        self._inputs.grasp_move(move)
+
+    def collider_move(self, move: FrameMove) -> None:
+        """Write that a collider sets off."""
+        self._inputs.collider_move(move)
+
     def wind(self, velocity: tuple[float, float, float]) -> None:
         """Write another steady wind."""
         self._inputs.wind(velocity)
@@ -72,17 +90,22 @@ class ResimulatedRecording(Listener):
         """Write a command."""
         self._inputs.command(command)
         if command == Command.RESET:
-            self.recording.rewind()
+            self._begun.rewind()
 
     def frame(self, step_wall_time: float, real_time_factor: float) -> None:
         """Write the present moment, unless it is the beginning, which is written already."""
         is_written, self._is_written = self._is_written, False
         if not is_written or step_wall_time:
-            self.recording.write(step_wall_time, real_time_factor)
+            self._begun.write(step_wall_time, real_time_factor)
 
     def stop(self) -> None:
         """Write that the run has stopped."""
-        self.recording.write_stop()
+        self._begun.write_stop()
+
+    @property
+    def _begun(self) -> RunRecording:
+        assert self.recording is not None  # begin comes first
+        return self.recording
 
     @property
     def problem(self) -> str:

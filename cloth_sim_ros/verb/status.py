@@ -42,13 +42,15 @@ def main(args: Namespace) -> int:
     with open_node(args) as node:
         if args.until is not None:
             _wait_until(node, args.until)
-        content = {'state': _plain(_state(node)), 'stats': None}
+        state = _plain(_state(node))
+        stats: dict[str, Any] = {}
         try:
-            content['stats'] = _plain(node.read(ClothStats, 'stats', _FRAMES))
+            stats = _plain(node.read(ClothStats, 'stats', _FRAMES))
         except ClothSimError as error:
             # A node may have publish.stats off; what it is doing is known all the same.
             print(f'cloth_sim status: {error}', file=sys.stderr)
-    print(json.dumps(content) if args.json else _text(content))
+    print(json.dumps({'state': state, 'stats': stats or None}) if args.json else
+          _text({**state, **stats}))
     return 0
 
 
@@ -84,9 +86,8 @@ def _plain(message: Any) -> dict[str, Any]:
     return {name: getattr(message, name) for name in fields}
 
 
-def _text(content: dict[str, dict[str, Any] | None]) -> str:
-    merged = {**content['state'], **(content['stats'] or {})}
-    return '\n'.join(f'{name:22} {_word(value)}' for name, value in merged.items())
+def _text(values: dict[str, Any]) -> str:
+    return '\n'.join(f'{name:22} {_word(value)}' for name, value in values.items())
 
 
 def _word(value: Any) -> str:

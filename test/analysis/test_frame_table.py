@@ -33,7 +33,7 @@ def test_it_grows():
     """A long run would lose frames, or fail."""
     table = FrameTable()
     for number in range(5000):
-        table.put(0, number / 8, {name: number for name in COLUMNS[2:]})
+        table.put(0, number / 8, dict.fromkeys(COLUMNS[2:], number))
     columns = table.columns()
     assert len(table) == 5000
     for name in COLUMNS[2:]:

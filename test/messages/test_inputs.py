@@ -4,18 +4,29 @@
 """What was done to the cloth."""
 
 from cloth_sim_interfaces.msg import Command
+from cloth_sim_interfaces.msg import FrameTarget
+from cloth_sim_interfaces.msg import GraspChange
 from cloth_sim_interfaces.msg import PinTarget
 from cloth_sim_interfaces.msg import Push as PushMessage
+from cloth_sim_ros.messages.body_frames import pose_message
 from cloth_sim_ros.messages.inputs import command_message
+from cloth_sim_ros.messages.inputs import frame_target_message
+from cloth_sim_ros.messages.inputs import grasp_message
 from cloth_sim_ros.messages.inputs import mode_message
 from cloth_sim_ros.messages.inputs import parameters_message
 from cloth_sim_ros.messages.inputs import pin_message
 from cloth_sim_ros.messages.inputs import pin_target_message
+from cloth_sim_ros.messages.inputs import place_message
 from cloth_sim_ros.messages.inputs import push_message
+from cloth_sim_ros.messages.inputs import release_message
+from cloth_sim_ros.sim.frame_paths import FrameMove
+from cloth_sim_ros.sim.grasps import Grasp
 from cloth_sim_ros.sim.pin_path import PinMove
+from cloth_sim_ros.sim.pose import Pose
 from cloth_sim_ros.sim.push import Push
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.scene_fields import SCENE_FIELDS
+import numpy as np
 from rclpy.parameter import Parameter
 from rclpy.serialization import deserialize_message
 from rclpy.serialization import serialize_message
@@ -44,6 +55,37 @@ def test_a_target_is_told_in_full():
     assert message.header.stamp.nanosec == 500000000 and message.header.frame_id == 'world'
     assert (message.row, message.col, message.speed) == (3, 4, 0.25)
     assert (message.target.x, message.target.y, message.target.z) == move.target
+
+
+def test_a_grasp_is_told_in_full():
+    """A run could not hold the same nodes again, at the same place."""
+    pose = Pose((1.0, 2.0, 3.0), (0.6, 0.0, 0.0, 0.8))
+    grasp = Grasp('hand', pose, np.array([[3, 4], [7, 0]]), 2.5)
+    message = deserialize_message(
+        serialize_message(grasp_message(grasp, 0.5, 'world')), GraspChange)
+    assert message.header.stamp.nanosec == 500000000 and message.header.frame_id == 'world'
+    assert (message.name, message.grasped, message.max_force) == ('hand', True, 2.5)
+    assert list(zip(message.rows, message.cols)) == [(3, 4), (7, 0)]
+    assert message.pose == pose_message(pose)
+    assert not release_message('hand', False, 0.5, 'world').by_force
+    lost = release_message('hand', True, 0.5, 'world')
+    assert (lost.name, lost.grasped, lost.by_force) == ('hand', False, True)
+
+
+def test_a_move_of_a_frame_is_told_in_full():
+    """A collider could not be moved again as it was."""
+    turn = (0.6, 0.0, 0.0, 0.8)
+    for orientation in (None, turn):
+        move = FrameMove('ball', (1.0, 2.0, 3.0), orientation, 0.25, 0.75, 0.5)
+        message = deserialize_message(
+            serialize_message(frame_target_message(move, 0.5, 'world')), FrameTarget)
+        assert message.header.stamp.nanosec == 500000000
+        assert (message.name, message.speed, message.angular_speed) == ('ball', 0.25, 0.75)
+        assert message.keep_orientation == (orientation is None)
+        assert orientation is None or message.pose == pose_message(Pose(move.target, turn))
+    # A speed of 0 says that it is there.
+    place = place_message('ball', Pose((1.0, 2.0, 3.0), turn), 0.5, 'world')
+    assert (place.speed, place.pose.position.y) == (0.0, 2.0)
 
 
 def test_pin_mode_and_command_are_told_with_their_time():

@@ -8,6 +8,8 @@ from contextlib import closing
 from cloth_sim_ros.messages.markers import MarkersMessage
 from cloth_sim_ros.messages.surface import strain_colors
 from cloth_sim_ros.messages.surface import triangles
+from cloth_sim_ros.sim.grasps import Grasp
+from cloth_sim_ros.sim.pose import Pose
 from cloth_sim_ros.sim.push import Push
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.simulation import Simulation
@@ -102,6 +104,20 @@ def test_pushes_are_shown_while_they_act():
     assert tip[2] > tail[2] and tip[0] == tail[0] and tip[1] == tail[1]
     later = decode(message.serialise(make_snapshot(5, 7, time=1.5), [PUSH, PUSH]))
     assert [later['pushes', number].action for number in (0, 1)] == [Marker.DELETE] * 2
+
+
+def test_grasps_are_shown_while_they_hold():
+    """A gripper would not be seen, or stay where it let go."""
+    message = MarkersMessage(5, 7, 'world')
+    pose = Pose((0.1, 0.2, 0.3), (0.6, 0.0, 0.0, 0.8))
+    grasp = Grasp('hand', pose, np.array([[0, 0]]), 0.0)
+    cube = decode(message.serialise(make_snapshot(5, 7), grasps=[grasp]))['grasps', 0]
+    place, turn = cube.pose.position, cube.pose.orientation
+    assert (place.x, place.y, place.z) == pose.position
+    assert (turn.x, turn.y, turn.z, turn.w) == pose.orientation
+    assert cube.type == Marker.CUBE and cube.scale.x > 0.0
+    later = decode(message.serialise(make_snapshot(5, 7)))
+    assert later['grasps', 0].action == Marker.DELETE
 
 
 def test_what_has_gone_is_deleted_until_it_comes_back():

@@ -60,6 +60,16 @@ def test_each_pin_has_its_place():
             assert (turn.x, turn.y, turn.z, turn.w) == (0.0, 0.0, 0.0, 1.0)
 
 
+def test_nodes_of_a_grasp_have_no_frame_of_a_pin():
+    """A viewer would show grippers at nodes that another one holds."""
+    snapshot = snapshot_with([(0, 0), (1, 1)])
+    held = snapshot.flags * 0 == 1
+    held[1, 1] = True
+    frame, = deserialize_message(
+        PinFrames('cloth_sim', 'world').serialise(snapshot, held), TFMessage).transforms
+    assert frame.child_frame_id == 'cloth_sim_pin_0_0'
+
+
 def test_as_many_pins_as_there_may_be():
     """The last frames of a cloth with many pins would hold garbage."""
     pins = [(row, col) for row in range(8) for col in range(128)]

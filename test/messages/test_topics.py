@@ -34,6 +34,8 @@ def test_type_name_is_that_of_the_message():
     ('topology', 'shape_msgs/msg/Mesh', 1, True),
     ('stats', 'cloth_sim_interfaces/msg/ClothStats', 10, False),
     ('pins/wrenches', 'geometry_msgs/msg/WrenchStamped', 1024, False),
+    ('grasps/wrenches', 'geometry_msgs/msg/WrenchStamped', 100, False),
+    ('colliders/wrenches', 'geometry_msgs/msg/WrenchStamped', 100, False),
     ('state', 'cloth_sim_interfaces/msg/ClothState', 1, True),
     ('tf', 'tf2_msgs/msg/TFMessage', 100, False),
     ('clock', 'rosgraph_msgs/msg/Clock', 10, False),
@@ -50,8 +52,9 @@ def test_all_inputs_are_recorded():
     """A run could not be simulated again from its recording."""
     inputs = {key for key in TOPICS if key.startswith('inputs/')}
     assert inputs == {
-        'inputs/push', 'inputs/pin', 'inputs/pin_target', 'inputs/wind', 'inputs/mode',
-        'inputs/command', 'inputs/parameters'}
+        'inputs/push', 'inputs/pin', 'inputs/pin_target', 'inputs/grasp', 'inputs/grasp_target',
+        'inputs/collider_target', 'inputs/wind', 'inputs/mode', 'inputs/command',
+        'inputs/parameters'}
     assert all(TOPICS[key].recorded for key in inputs)
     assert TOPICS['topology'].recorded and TOPICS['clock'].recorded
     assert TOPICS['pins/wrenches'].recorded and TOPICS['tf'].recorded

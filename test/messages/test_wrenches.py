@@ -42,6 +42,15 @@ def test_a_holder_feels_the_opposite_of_what_it_holds_with():
     assert (torque.x, torque.y, torque.z) == (0.0, 0.0, 0.0)
 
 
+def test_nodes_of_a_grasp_have_no_wrench_of_a_pin():
+    """The force on a gripper would be counted twice."""
+    pins = PinForces(np.array([(0, 0), (2, 3)]), np.ones((2, 3)))
+    held = np.zeros((3, 4), dtype=bool)
+    held[2, 3] = True
+    data, = WrenchMessages('/arm/cloth').serialise(make_snapshot(3, 4, pin_forces=pins), held)
+    assert deserialize_message(data, WrenchStamped).header.frame_id == 'arm_cloth_pin_0_0'
+
+
 def test_a_cloth_without_pins_has_no_messages():
     """A wrench of nothing would be published."""
     assert decode([], []) == []

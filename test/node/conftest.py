@@ -8,6 +8,8 @@ from collections.abc import Iterator
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.simulation import Simulation
 from cloth_under_test import ClothUnderTest
+from cloth_under_test import HANDLED
+from cloth_under_test import HANDLED_NAME
 from cloth_under_test import NAMESPACE
 from cloth_under_test import PAUSED
 from cloth_under_test import SCENE
@@ -37,6 +39,31 @@ def cloth(shared_cloth: ClothUnderTest) -> ClothUnderTest:
     """Bring the shared node back to its start, paused."""
     shared_cloth.restore()
     return shared_cloth
+
+
+@pytest.fixture(scope='session')
+def handled_cloth(
+        tmp_path_factory: pytest.TempPathFactory,
+        client: GraphClient) -> Iterator[ClothUnderTest]:  # noqa: F811
+    """Start a node with colliders, for the tests of what moves them and of grasps."""
+    folder = tmp_path_factory.mktemp('handled_node')
+    values = {**HANDLED, 'start_paused': True}
+    with NodeProcess(folder, values, '-r', f'__ns:={HANDLED_NAME.rpartition("/")[0]}'):
+        yield ClothUnderTest(client, values, HANDLED_NAME)
+
+
+@pytest.fixture
+def handled(handled_cloth: ClothUnderTest) -> ClothUnderTest:
+    """Bring the node with colliders back to its start, paused."""
+    handled_cloth.restore()
+    return handled_cloth
+
+
+@pytest.fixture
+def twin() -> Iterator[Simulation]:
+    """Make its cloth without a node, to compare with."""
+    with Simulation(Scene(HANDLED)) as simulation:
+        yield simulation
 
 
 @pytest.fixture

@@ -17,6 +17,7 @@ TYPES = {
     (int, False): ParameterType.PARAMETER_INTEGER,
     (float, False): ParameterType.PARAMETER_DOUBLE,
     (str, False): ParameterType.PARAMETER_STRING,
+    (int, True): ParameterType.PARAMETER_INTEGER_ARRAY,
     (float, True): ParameterType.PARAMETER_DOUBLE_ARRAY,
     (str, True): ParameterType.PARAMETER_STRING_ARRAY,
 }
@@ -25,6 +26,7 @@ VALUE_SLOTS = {
     ParameterType.PARAMETER_INTEGER: 'integer_value',
     ParameterType.PARAMETER_DOUBLE: 'double_value',
     ParameterType.PARAMETER_STRING: 'string_value',
+    ParameterType.PARAMETER_INTEGER_ARRAY: 'integer_array_value',
     ParameterType.PARAMETER_DOUBLE_ARRAY: 'double_array_value',
     ParameterType.PARAMETER_STRING_ARRAY: 'string_array_value',
 }

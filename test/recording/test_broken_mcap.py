@@ -63,3 +63,16 @@ def test_a_whole_file_that_rosbags_refuses_has_no_problem(written):
     formats = {topic.name: topic.definition.format for topic in bag.topics}
     assert formats == {
         '/early': MessageDefinitionFormat.MSG, '/late': MessageDefinitionFormat.NONE}
+
+
+@pytest.mark.parametrize('written', [{'compression': CompressionType.NONE}], indirect=True)
+def test_a_chunk_with_a_wrong_byte_is_not_believed(written):
+    """A number that a disk or a cable has changed would be taken for one of the recording."""
+    content = written.read_bytes()
+    assert content.count(b'%050d' % 190) == 1
+    written.write_bytes(content.replace(b'%050d' % 190, b'%050d' % 7))
+    bag = BagReader(written)
+    read = [(message.time, int(message.data)) for message in bag.messages()]
+    assert len(read) > MESSAGES // 2
+    assert all(time == number for time, number in read)
+    assert 'checksum' in ' '.join(bag.problems)

@@ -8,6 +8,8 @@ import random
 
 from builtin_interfaces.msg import Time
 from cloth_sim_interfaces.msg import Command
+from cloth_sim_interfaces.msg import FrameTarget
+from cloth_sim_interfaces.msg import GraspChange
 from cloth_sim_interfaces.msg import ModeChange
 from cloth_sim_ros.messages.inputs import parameters_message
 from cloth_sim_ros.node.parameters import FIELDS
@@ -49,6 +51,28 @@ def test_what_only_another_version_knows_is_named(tmp_path):
         assert [reason.partition(': ')[2][:38] for reason in rerun.refused] == [
             "this version has no command 'fold': it", "there is no mode 'rigid': choose one o",
             'this version cannot change gravity whi']
+        assert rerun.check.equal == 3
+
+
+def test_grasps_and_moves_that_make_no_sense_are_named(tmp_path):
+    """A recording of somebody else would hold other nodes, or end in a traceback."""
+    header = Header(stamp=Time(nanosec=20_000_000))
+    with Director(tmp_path, {'rows': 8, 'cols': 9}) as director:
+        director.step(4)
+        for rows, cols in (([1, 2], [1]), ([], []), ([2**32 - 1], [0]), ([0], [0])):
+            director.send('inputs/grasp', GraspChange(
+                header=header, name='hand', grasped=True, rows=rows, cols=cols))
+        director.send('inputs/grasp', GraspChange(header=header, name='hand'))
+        director.send('inputs/grasp', GraspChange(header=header, name='hand', by_force=True))
+        director.send('inputs/grasp_target', FrameTarget(header=header, name='hand', speed=1.0))
+        director.send('inputs/collider_target', FrameTarget(header=header, name='ball'))
+        director.step(4)
+    with made_again(director.path) as rerun:
+        found = [reason.partition(': ')[2] for reason in rerun.refused]
+        assert [reason[:30] for reason in found] == [
+            'a recorded grasp has 2 rows an', 'a recorded grasp has 0 rows an',
+            'there is no node (4294967295, ', 'grasp hand cannot have node (0',
+            "there is no grasp 'hand': gras", "there is no collider 'ball': g"]
         assert rerun.check.equal == 3
 
 

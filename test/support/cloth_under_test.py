@@ -8,7 +8,10 @@ import time
 from typing import Any
 
 from cloth_sim_interfaces.srv import ApplyPush
+from cloth_sim_interfaces.srv import Grasp
+from cloth_sim_interfaces.srv import MoveFrame
 from cloth_sim_interfaces.srv import MovePin
+from cloth_sim_interfaces.srv import Release
 from cloth_sim_interfaces.srv import SetMode
 from cloth_sim_interfaces.srv import SetPin
 from cloth_sim_interfaces.srv import StartRecording
@@ -42,6 +45,10 @@ SERVICES = {
     'clear_pushes': Trigger,
     'set_pin': SetPin,
     'move_pin': MovePin,
+    'grasp': Grasp,
+    'release': Release,
+    'move_grasp': MoveFrame,
+    'move_collider': MoveFrame,
     'reset': Trigger,
     'pause': SetBool,
     'step': Step,
@@ -53,6 +60,12 @@ SERVICES = {
     'set_parameters_atomically': SetParametersAtomically,
 }
 PAUSED = {**SCENE, 'start_paused': True}
+# The same cloth above a ball and a floor, which are its only colliders.
+HANDLED = {
+    **SCENE, 'colliders.names': ['ball', 'floor'], 'colliders.ball.size': [0.1],
+    'colliders.ball.position': [0.0, 0.0, 0.85], 'colliders.floor.shape': 'plane',
+    'colliders.floor.position': [0.0, 0.0, 0.2]}
+HANDLED_NAME = '/handled/cloth_sim'
 
 
 class ClothUnderTest:

@@ -105,3 +105,16 @@ def test_a_comparison_that_makes_no_sense_is_refused(arguments, reason):
     done = bench_modes(*arguments)
     assert done.returncode != 0 and reason in done.stderr
     assert 'Traceback' not in done.stderr
+
+
+def test_colliders_are_compared_with_none():
+    """What contact costs would be told of other work, or not at all."""
+    done = subprocess.run(
+        [sys.executable, '-m', 'cloth_sim_ros.verb', 'bench', '--contact', '--sizes', '6',
+         '--seconds', '0.04', '--rounds', '1', '--json'], capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    found = [json.loads(line) for line in done.stdout.splitlines()]
+    assert [each['mode'] for each in found] == ['mass_spring', 'constraint']
+    for each in found:
+        assert list(each['ratios']) == ['no collider', 'a sphere', '20 spheres']
+        assert each['ratios']['no collider'] == [1.0]

@@ -29,13 +29,27 @@ def test_lists_its_verbs(capsys):
     assert all(f'  {verb} ' in text for verb in VERBS)
 
 
-@pytest.mark.parametrize('arguments', [[], ['dance']])
-def test_refuses_what_is_no_verb(arguments, capsys):
-    """A mistyped verb would do nothing, in silence."""
+@pytest.mark.parametrize('arguments', [[], ['--seconds', '2']])
+def test_asks_for_a_verb(arguments, capsys):
+    """A command without a verb would do nothing, in silence."""
     with pytest.raises(SystemExit) as stop:
         main(arguments)
     assert stop.value.code == 2
     assert 'VERB' in capsys.readouterr().err
+
+
+@pytest.mark.parametrize('name, hint', [
+    ('rnu', 'did you mean run?'), ('analyse', 'did you mean analyze?'),
+    ('PUSH', 'did you mean push?'),
+    ('dance', 'choose one that cloth_sim --help lists'),
+    ('x' * 1000, 'choose one that cloth_sim --help lists')])
+def test_says_which_verb_may_be_meant(name, hint, capsys):
+    """A user would have to find a mistyped verb in the whole list, or run another one."""
+    assert main([name, 'scene.yaml']) == 2
+    told = capsys.readouterr()
+    assert told.out == ''
+    assert told.err.startswith(f"cloth_sim: there is no verb '{name[:100]}")
+    assert told.err.endswith(f': {hint}\n') and len(told.err) < 400
 
 
 def test_says_that_no_node_answers():

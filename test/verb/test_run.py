@@ -3,16 +3,19 @@
 
 """`cloth_sim run` simulates a file, says what came out, and repeats itself bit for bit."""
 
+from collections.abc import Callable
 import json
 from pathlib import Path
 import signal
 import subprocess
+from subprocess import CompletedProcess
 import sys
 import time
 
 from cloth_sim_ros.analysis.recording import Recording
 from cloth_sim_ros.analysis.summary import summarise
 from cloth_sim_ros.sim.snapshot import FLAG_PINNED
+from cloth_sim_ros.verb.main import main
 from mcap.reader import make_reader
 import numpy as np
 import pytest
@@ -33,49 +36,66 @@ _KEYS = [
     'mode', 'rows', 'cols', 'dt', 'substeps', 'sim_seconds', 'wall_seconds', 'steps',
     'node_steps_per_s', 'peak_strain', 'max_strain', 'kinetic_energy', 'total_energy', 'finite',
     'state_sha256', 'device']
+Run = Callable[..., CompletedProcess]
 
 
-@pytest.fixture
-def scene(tmp_path: Path) -> Path:
+@pytest.fixture(scope='module')
+def scene(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Give a scene file with a push and a parameter of the node."""
-    path = tmp_path / 'scene.yaml'
+    path = tmp_path_factory.mktemp('scene') / 'scene.yaml'
     path.write_text(_SCENE)
     return path
 
 
-def run(*arguments: object) -> subprocess.CompletedProcess:
+def run_in_a_process(*arguments: object) -> CompletedProcess:
     """Call `cloth_sim run` in a process of its own."""
     return subprocess.run(
         [sys.executable, '-m', 'cloth_sim_ros.verb', 'run', *map(str, arguments)],
         capture_output=True, text=True)
 
 
-def result_of(done: subprocess.CompletedProcess) -> dict:
+@pytest.fixture
+def run(capsys: pytest.CaptureFixture[str]) -> Run:
+    """Return a function that calls `cloth_sim run` in this process."""
+
+    def call(*arguments: object) -> CompletedProcess:
+        capsys.readouterr()
+        code = main(['run', *map(str, arguments)])
+        return CompletedProcess(arguments, code, *capsys.readouterr())
+
+    return call
+
+
+def result_of(done: CompletedProcess) -> dict:
     """Return the JSON object of the last line."""
     assert done.returncode == 0, done.stderr
     return json.loads(done.stdout.splitlines()[-1])
 
 
-def test_the_last_line_is_the_result(scene: Path):
+@pytest.fixture(scope='module')
+def result(scene: Path) -> dict:
+    """Return what a run of a second came to."""
+    return result_of(run_in_a_process(scene, '--seconds', 1.0, '--json'))
+
+
+def test_the_last_line_is_the_result(result: dict):
     """A script that reads the result would break."""
-    result = result_of(run(scene, '--seconds', 0.4, '--json'))
     assert list(result) == _KEYS
-    assert (result['rows'], result['cols'], result['steps']) == (9, 13, 100)
-    assert result['sim_seconds'] == pytest.approx(0.4)
+    assert (result['rows'], result['cols'], result['steps']) == (9, 13, 250)
+    assert result['sim_seconds'] == pytest.approx(1.0)
     assert result['finite'] is True
     assert result['peak_strain'] >= result['max_strain'] > 0.0
     assert result['node_steps_per_s'] * result['wall_seconds'] == pytest.approx(
-        9 * 13 * 100 * result['substeps'])
+        9 * 13 * 250 * result['substeps'])
 
 
-def test_two_processes_end_in_the_same_bits(scene: Path):
+def test_two_processes_end_in_the_same_bits(scene: Path, result: dict):
     """A result could not be reproduced, not even on the same machine."""
-    first, second = (
-        result_of(run(scene, '--seconds', 1.0, '--json')) for _ in range(2))
-    assert first['state_sha256'] == second['state_sha256']
+    second = result_of(run_in_a_process(scene, '--seconds', 1.0, '--json'))
+    assert second['state_sha256'] == result['state_sha256']
 
 
-def test_the_state_is_written(scene: Path, tmp_path: Path):
+def test_the_state_is_written(run: Run, scene: Path, tmp_path: Path):
     """The end of a run could not be looked at."""
     out = tmp_path / 'state.npz'
     result_of(run(scene, '--seconds', 0.2, '--json', '--out', out))
@@ -87,14 +107,14 @@ def test_the_state_is_written(scene: Path, tmp_path: Path):
         assert state['time'] == pytest.approx(0.2)
 
 
-def test_set_changes_a_parameter(scene: Path):
+def test_set_changes_a_parameter(run: Run, scene: Path):
     """A variation would need a file of its own."""
     result = result_of(run(
         scene, '--set', 'rows=5', '--set', 'pins=[top_edge]', '--seconds', 0.1, '--json'))
     assert result['rows'] == 5
 
 
-def test_a_run_is_recorded(scene: Path, tmp_path: Path):
+def test_a_run_is_recorded(run: Run, scene: Path, tmp_path: Path):
     """The recording would lack frames or inputs."""
     done = run(scene, '--seconds', 0.2, '--record', tmp_path / 'bags',
                '--set', 'recording.name=fall')
@@ -112,7 +132,7 @@ def test_a_run_is_recorded(scene: Path, tmp_path: Path):
         '/cloth_sim/inputs/parameters', '/cloth_sim/inputs/push'}
 
 
-def test_the_peak_strain_is_that_of_the_recording(scene: Path, tmp_path: Path):
+def test_the_peak_strain_is_that_of_the_recording(run: Run, scene: Path, tmp_path: Path):
     """A start that is the most stretched would count in `cloth_sim info` alone."""
     result = result_of(run(
         scene, '--seconds', 0.2, '--json', '--record', tmp_path, '--set', 'recording.name=bag',
@@ -123,7 +143,7 @@ def test_the_peak_strain_is_that_of_the_recording(scene: Path, tmp_path: Path):
     assert result['peak_strain'] > result['max_strain']
 
 
-def test_no_time_at_all_shows_the_start(scene: Path):
+def test_no_time_at_all_shows_the_start(run: Run, scene: Path):
     """The start pose could not be looked at."""
     result = result_of(run(scene, '--seconds', 0, '--json'))
     assert result['steps'] == 0
@@ -132,7 +152,7 @@ def test_no_time_at_all_shows_the_start(scene: Path):
 
 @pytest.mark.parametrize(('seconds', 'dt'), [(0.02, 1.0), (0.00499, 0.005)])
 def test_a_run_shorter_than_a_step_is_refused(
-        scene: Path, tmp_path: Path, seconds: float, dt: float):
+        run: Run, scene: Path, tmp_path: Path, seconds: float, dt: float):
     """Nothing would be simulated, and all of it be done."""
     done = run(scene, '--seconds', seconds, '--set', f'dt={dt}', '--record', tmp_path / 'bags')
     assert (done.returncode, done.stdout) == (1, '')
@@ -177,7 +197,8 @@ def test_a_signal_completes_the_recording(
     (['--out', '/proc/nothing/state.npz'], 'cannot be written'),
     (['--record', '/proc/nothing'], 'set --record to a writable folder'),
 ])
-def test_what_is_wrong_is_said_in_one_line(scene: Path, arguments: list[str], message: str):
+def test_what_is_wrong_is_said_in_one_line(
+        run: Run, scene: Path, arguments: list[str], message: str):
     """The user would get a traceback."""
     done = run(scene, *arguments)
     assert done.returncode == 1
@@ -185,7 +206,7 @@ def test_what_is_wrong_is_said_in_one_line(scene: Path, arguments: list[str], me
     assert 'Traceback' not in done.stderr
 
 
-def test_a_blow_up_is_a_failure_that_says_when(scene: Path, tmp_path: Path):
+def test_a_blow_up_is_a_failure_that_says_when(run: Run, scene: Path, tmp_path: Path):
     """A run of NaN would look like a result, or leave files that can't be read."""
     violent = tmp_path / 'violent.yaml'
     # So light and pushed so hard that squared distances leave the range of float32.
