@@ -6,9 +6,11 @@
 from collections.abc import Mapping
 from collections.abc import Sequence
 import math
+from types import MappingProxyType
 from typing import Any
 
-from cloth_sim_ros.files.echo import shown
+from cloth_sim_ros.gym.observations import Observation
+from cloth_sim_ros.gym.observations import Observer
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.errors import NonFiniteStateError
 from cloth_sim_ros.sim.pin_path import FARTHEST
@@ -18,18 +20,22 @@ import gymnasium
 from gymnasium import spaces
 import numpy as np
 
-OBSERVATIONS = {'positions': 3, 'state': 6}
 _DEFAULT = {'rows': 16, 'cols': 16, 'width': 0.4, 'height': 0.4, 'start.pose': 'hanging'}
 _NOTHING = 1e-9  # [m]
 
 
-class CarryCloth(gymnasium.Env[np.ndarray, np.ndarray]):
+class CarryCloth(gymnasium.Env[Observation, np.ndarray]):
     """
     An action moves every pin; the reward is higher the nearer the cloth is to its goal.
 
     An action is (pins, 3) from -1 to 1: along each axis, how fast a pin moves for a ``frame``,
-    over ``speed``. Pins are in the order of ``pins``, row by row. An observation is positions [m],
-    (rows, cols, 3) float32, or with ``observation='state'`` velocities [m/s] too, (rows, cols, 6).
+    over ``speed``. Pins are in the order of ``pins``, row by row.
+
+    An observation is an array of float32: ``positions`` [m], (rows, cols, 3); ``state``, with
+    velocities [m/s] too, (rows, cols, 6); or ``depth`` [m], (height, width), what a depth camera
+    at a fixed place sees, with the high of the space where it sees no cloth. A list of these names
+    makes it a dictionary of such arrays.
+
     The reward is minus the mean distance of the nodes from where they would be if the start pose
     had been moved by ``goal`` [m]. The episode terminates once that is within ``tolerance``, and
     is truncated where the state is lost; ``info`` has ``distance`` [m], ``time`` [s],
@@ -42,9 +48,12 @@ class CarryCloth(gymnasium.Env[np.ndarray, np.ndarray]):
     :param goal: x y z [m], from the start
     :param frame: simulated time of an action [s], rounded to whole steps of dt
     :param speed: of a pin along each axis at an action of 1 [m/s]
-    :param observation: positions or state
+    :param observation: positions, state or depth, or a list of them
     :param jitter: 0 to 0.5
     :param tolerance: mean distance that counts as there [m]
+    :param camera: azimuth, elevation and field_of_view [deg], zoom and target [m] of the depth
+        camera, by name; at zoom 1 it sees the whole cloth at its start and at its goal
+    :param picture_size: height and width of the depth picture [pixel]
     :raises ClothSimError: when the scene has no pin or a value is wrong
     """
 
@@ -53,8 +62,9 @@ class CarryCloth(gymnasium.Env[np.ndarray, np.ndarray]):
     def __init__(
             self, scene: Scene | Mapping[str, Any] | None = None, *,
             goal: Sequence[float] = (0.2, 0.0, 0.1), frame: float = 0.05, speed: float = 0.5,
-            observation: str = 'positions', jitter: float = 0.01,
-            tolerance: float = 0.02) -> None:
+            observation: str | Sequence[str] = 'positions', jitter: float = 0.01,
+            tolerance: float = 0.02, camera: Mapping[str, Any] = MappingProxyType({}),
+            picture_size: Sequence[int] = (64, 64)) -> None:
         """Make the simulation and the spaces."""
         if not isinstance(scene, Scene):
             scene = Scene(_DEFAULT if scene is None else scene)
@@ -62,10 +72,6 @@ class CarryCloth(gymnasium.Env[np.ndarray, np.ndarray]):
         if not len(self.pins):
             raise ClothSimError('the cloth is carried by its pins, but this scene has none: set '
                                 'pins')
-        if observation not in OBSERVATIONS:
-            raise ClothSimError(
-                f'an observation must be {" or ".join(OBSERVATIONS)}, got {shown(observation)}: '
-                'choose one')
         _check('frame', frame, 's')
         _check('speed', speed, 'm/s')
         if not 0.0 <= jitter <= 0.5:
@@ -75,21 +81,23 @@ class CarryCloth(gymnasium.Env[np.ndarray, np.ndarray]):
         if offset.shape != (3,) or not np.all(np.abs(offset) <= FARTHEST):
             raise ClothSimError(
                 f'the goal needs 3 numbers up to {FARTHEST:g} m, got {goal}: give x, y and z')
+        start = scene.rest_positions()
+        self._goal = start + offset
+        self._observer = Observer(
+            observation, start.shape[:2], np.concatenate([start, self._goal]).reshape(-1, 3),
+            camera, picture_size)
         self._simulation = Simulation(scene)
         self._steps = max(round(frame / scene['dt']), 1)
         self._reach = speed * self._steps * scene['dt']
-        self._observation = observation
         self._jitter = jitter * min(length for length in scene.spacing if length > 0.0)
         self._tolerance = tolerance
-        self._goal = scene.rest_positions() + offset
         self._free = ~scene.pinned_nodes()
         self.action_space = spaces.Box(-1.0, 1.0, (len(self.pins), 3), np.float32)
-        self.observation_space = spaces.Box(
-            -FARTHEST, FARTHEST, (scene.rows, scene.cols, OBSERVATIONS[observation]), np.float32)
+        self.observation_space = self._observer.space
 
     def reset(
             self, *, seed: int | None = None,
-            options: dict[str, Any] | None = None) -> tuple[np.ndarray, dict[str, Any]]:
+            options: dict[str, Any] | None = None) -> tuple[Observation, dict[str, Any]]:
         """
         Put the cloth back to its start.
 
@@ -107,7 +115,7 @@ class CarryCloth(gymnasium.Env[np.ndarray, np.ndarray]):
         return self._look(), self._info()
 
     def step(
-            self, action: np.ndarray) -> tuple[np.ndarray, float, bool, bool, dict[str, Any]]:
+            self, action: np.ndarray) -> tuple[Observation, float, bool, bool, dict[str, Any]]:
         """
         Move the pins for a frame.
 
@@ -139,12 +147,10 @@ class CarryCloth(gymnasium.Env[np.ndarray, np.ndarray]):
     def close(self) -> None:
         """Give the device back."""
         self._simulation.close()
+        self._observer.close()
 
-    def _look(self) -> np.ndarray:
-        positions = self._simulation.positions()
-        if self._observation == 'positions':
-            return positions
-        return np.concatenate([positions, self._simulation.velocities()], axis=-1)
+    def _look(self) -> Observation:
+        return self._observer.look(self._simulation)
 
     def _info(self, problem: str = '') -> dict[str, Any]:
         away = self._simulation.positions() - self._goal

@@ -41,14 +41,16 @@ class AvVideo:
                 f'{path} has no file extension of a video: name it *.mp4') from error
         rate = Fraction(fps).limit_denominator(_FINEST)
         try:
-            self._stream = self._container.add_stream(codec, rate=rate, options=_CODECS[codec])
+            stream = self._container.add_stream(codec, rate=rate, options=_CODECS[codec])
         except ValueError as error:
             self._container.close()
             raise ClothSimError(f'{path} takes no {codec} video: name it *.mp4') from error
-        self._stream.width, self._stream.height = size
-        self._stream.pix_fmt = 'yuv420p'
+        assert isinstance(stream, av.VideoStream)  # as all of _CODECS are
+        stream.width, stream.height = size
+        stream.pix_fmt = 'yuv420p'
         if codec != 'libx264':
-            self._stream.bit_rate = round(_BITS * size[0] * size[1] * fps)
+            stream.bit_rate = round(_BITS * size[0] * size[1] * fps)
+        self._stream = stream
         # What can't be written is told now, not after the first images.
         self._container.start_encoding()
 

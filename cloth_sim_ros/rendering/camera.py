@@ -49,18 +49,35 @@ class View:
     @property
     def matrix(self) -> np.ndarray:
         """Get the clip coordinates of OpenGL for points relative to the middle, (4, 4)."""
+        slope, offset = self._depth_line
+        shrink = 1.0 / self.distance
+        half_width = self.half_height * self.width / self.height
+        right, up, towards = self.axes
+        return np.stack([
+            np.append(right / half_width, 0.0), np.append(up / self.half_height, 0.0),
+            np.append(slope * towards, offset),
+            np.append(-shrink * towards, 1.0)])
+
+    def distances(self, depths: np.ndarray) -> np.ndarray:
+        """
+        Return how far from the camera, along its axis, something is [m]; with perspective only.
+
+        :param depths: of OpenGL, 0 at the near end to 1 at the far one
+        """
+        slope, offset = self._depth_line
+        device = 2.0 * depths.astype(float) - 1.0
+        return self.distance - (device - offset) / (slope + device / self.distance)
+
+    @property
+    def _depth_line(self) -> tuple[float, float]:
+        """Get slope and offset of the third clip coordinate, over what is nearer by [m]."""
         near = min(self.depth, (1.0 - _NEAREST) * self.distance)
         far = -self.depth
         shrink = 1.0 / self.distance
         # The fourth coordinate, 1 at the middle, is the distance over that of the middle.
         at_near, at_far = 1.0 - shrink * near, 1.0 - shrink * far
         slope = -(at_near + at_far) / (near - far)
-        half_width = self.half_height * self.width / self.height
-        right, up, towards = self.axes
-        return np.stack([
-            np.append(right / half_width, 0.0), np.append(up / self.half_height, 0.0),
-            np.append(slope * towards, at_far - slope * far),
-            np.append(-shrink * towards, 1.0)])
+        return slope, at_far - slope * far
 
     def project(self, points: np.ndarray) -> np.ndarray:
         """

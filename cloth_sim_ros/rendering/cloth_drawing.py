@@ -9,7 +9,6 @@ import math
 from cloth_sim_ros.analysis.frame import Frame
 from cloth_sim_ros.gl.buffer import Buffer
 from cloth_sim_ros.gl.draw_state import draw_over_all
-from cloth_sim_ros.gl.errors import DeviceError
 from cloth_sim_ros.gl.render_program import RenderProgram
 from cloth_sim_ros.rendering.camera import set_view
 from cloth_sim_ros.rendering.camera import View
@@ -24,10 +23,7 @@ from cloth_sim_ros.rendering.strain_scale import StrainScale
 from cloth_sim_ros.sim.snapshot import FLAG_AT_LIMIT
 import numpy as np
 
-_NODES_UNIT = 0             # render/nodes.glsl
-_WORDS = 8            # x y z strain, normal and flags
-UNKNOWN_STRAIN = -1.0
-_PALETTE_UNIT = 1             # render/strain_color.glsl
+_PALETTE_UNIT = 1     # render/strain_color.glsl
 
 PALETTE_DEFINES = {'PALETTE_SIZE': PALETTE_SIZE}
 _HEM_WIDTH = 0.9      # [pixel of the picture]
@@ -61,54 +57,6 @@ def _difference(positions: np.ndarray, axis: int) -> np.ndarray:
     if positions.shape[axis] < 2:
         return np.zeros_like(positions)
     return np.gradient(positions, axis=axis)
-
-
-class NodeBuffer:
-    """
-    Holds one frame at a time, and grows when a larger one comes.
-
-    :param most_texels: that a texture of the device has
-    """
-
-    def __init__(self, most_texels: int) -> None:
-        """Begin without memory."""
-        self._most_texels = most_texels
-        self._buffer: Buffer | None = None
-
-    def load(self, frame: Frame, middle: np.ndarray) -> None:
-        """
-        Take up ``frame`` and let shaders read it.
-
-        :param middle: that the shaders' positions are relative to [m]: far from the origin,
-            single precision would be too coarse
-        :raises DeviceError: when the cloth is too large for the device
-        """
-        rows, cols = frame.records.shape
-        if 2 * rows * cols > self._most_texels:
-            raise DeviceError(
-                f'a cloth of {rows} x {cols} nodes is too large for this device: it can render at '
-                f'most {self._most_texels // 2} nodes')
-        packed = np.empty((rows, cols, _WORDS), np.float32)
-        packed[..., :3] = frame.positions - middle
-        packed[..., 3] = np.nan_to_num(frame.strain, nan=UNKNOWN_STRAIN)
-        packed[..., 4:7] = frame.normals
-        packed[..., 7] = frame.records['flags']
-        self._load(packed)
-
-    def load_line(self, points: np.ndarray, middle: np.ndarray) -> None:
-        """Take up the ``points`` of a line, (n, 3) [m]."""
-        packed = np.full((len(points), _WORDS), UNKNOWN_STRAIN, np.float32)
-        packed[:, :3] = points - middle
-        self._load(packed)
-
-    def _load(self, packed: np.ndarray) -> None:
-        if self._buffer is None or self._buffer.bytes < packed.nbytes:
-            if self._buffer is not None:
-                self._buffer.delete()
-            self._buffer = Buffer(packed)
-        else:
-            self._buffer.write(packed)
-        self._buffer.bind_texture(_NODES_UNIT)
 
 
 class PaletteBuffer:

@@ -4,6 +4,7 @@
 """Where the parts of a sheet are."""
 
 from dataclasses import dataclass
+from typing import Any
 
 from cloth_sim_ros.rendering.camera import Camera
 import numpy as np
@@ -114,7 +115,7 @@ class Layout:
             self.top + row * (self.heading + self.panel[1]))
 
     @classmethod
-    def within(cls, width: int, height: int, **parts: object) -> 'Layout':
+    def within(cls, width: int, height: int, **parts: Any) -> 'Layout':
         """Return the layout whose sheet is about ``width`` x ``height`` pixels as a whole."""
         layout = cls(panel=(width // parts['columns'], height // parts['rows']), **parts)
         letters = layout.font

@@ -13,12 +13,12 @@ from cloth_sim_ros.gl.errors import DeviceError
 from cloth_sim_ros.gl.framebuffer import Framebuffer
 from cloth_sim_ros.rendering.camera import View
 from cloth_sim_ros.rendering.cloth_drawing import ClothDrawing
-from cloth_sim_ros.rendering.cloth_drawing import NodeBuffer
 from cloth_sim_ros.rendering.cloth_drawing import PaletteBuffer
 from cloth_sim_ros.rendering.look import BACKGROUND
 from cloth_sim_ros.rendering.look import LIMIT_COLOR
 from cloth_sim_ros.rendering.look import PIN_COLOR
 from cloth_sim_ros.rendering.look import PUSH_COLOR
+from cloth_sim_ros.rendering.node_buffer import NodeBuffer
 from cloth_sim_ros.rendering.solid_drawing import BallDrawing
 from cloth_sim_ros.rendering.solid_drawing import FloorDrawing
 from cloth_sim_ros.rendering.solid_drawing import PushDrawing
@@ -97,7 +97,7 @@ class Renderer:
 
     def _draw_rings(self, frame: Frame) -> None:
         for ring in region_rings(frame.acting_pushes, self.view.axes):
-            self._lines.load_line(ring, self.view.middle)
+            self._lines.load_points(ring, self.view.middle)
             for opacity in seen_and_hidden():
                 self._ribbon.draw(
                     len(ring), self.view, _RING_WIDTH, opacity=opacity, color=PUSH_COLOR)

@@ -4,6 +4,7 @@
 """Compose images, headings and a legend to a sheet."""
 
 from collections.abc import Sequence
+from typing import Any
 
 from cloth_sim_ros.rendering.camera import View
 from cloth_sim_ros.rendering.layout import Layout
@@ -32,7 +33,8 @@ def legend_handles(survey: Survey, grid: float, size: float) -> list[Line2D]:
     :param grid: distance of the grid's lines [m]
     :param size: of the marks [point]
     """
-    entries = [(f'grid {grid:g} m', {'color': GRID_COLOR, 'linewidth': 1.5})]
+    entries: list[tuple[str, dict[str, Any]]] = [
+        (f'grid {grid:g} m', {'color': GRID_COLOR, 'linewidth': 1.5})]
     if survey.shows_pins:
         entries.append(('pinned', _dot(PIN_COLOR, size)))
     if survey.shows_pushes:
@@ -45,7 +47,7 @@ def legend_handles(survey: Survey, grid: float, size: float) -> list[Line2D]:
     return [Line2D([0.0, 1.0], [0.0, 0.0], label=label, **look) for label, look in entries]
 
 
-def _dot(color: tuple[float, float, float], size: float) -> dict[str, object]:
+def _dot(color: tuple[float, float, float], size: float) -> dict[str, Any]:
     return {
         'linestyle': 'none', 'marker': 'o', 'color': color, 'markersize': size,
         'markevery': [0], 'markeredgewidth': 0.0}
@@ -142,7 +144,8 @@ class Sheet:
                     'arrowstyle': '->', 'color': _INK, 'shrinkA': 0.0, 'shrinkB': 0.0,
                     'mutation_scale': 0.7 * layout.font})
             axes.text(
-                *(1.4 * direction), name, color=_INK, fontsize=0.8 * layout.font, ha='center',
+                1.4 * direction[0], 1.4 * direction[1], name,
+                color=_INK, fontsize=0.8 * layout.font, ha='center',
                 va='center')
 
     def _explain(self, survey: Survey, note: str) -> None:

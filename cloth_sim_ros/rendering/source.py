@@ -73,12 +73,15 @@ def nearest_frames(frames: Iterable[Frame], times: Iterable[float]) -> Iterator[
     :param times: which grow
     """
     stream = iter(frames)
-    before = after = next(stream)
+    before = next(stream)
+    after: Frame | None = before
     for time in times:
         while after is not None and after.time < time:
             before, after = after, next(stream, None)
-        is_before_nearer = after is None or time - before.time < after.time - time
-        yield before if is_before_nearer else after
+        if after is None or time - before.time < after.time - time:
+            yield before
+        else:
+            yield after
 
 
 class RecordingSource(Source):

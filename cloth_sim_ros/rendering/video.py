@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from collections.abc import Sequence
 import math
 from pathlib import Path
+from typing import Any
 
 from cloth_sim_ros.analysis.frame import Frame
 from cloth_sim_ros.rendering.layout import Layout
@@ -54,7 +55,7 @@ def write_video(
     columns = min(len(sources), style.columns)
     title = title_of(sources, firsts) if style.title is None else style.title
     scale = StrainScale(survey.strains, style.strain_max)
-    parts = {
+    parts: dict[str, Any] = {
         'rows': -(-len(sources) // columns), 'columns': columns, 'has_title': bool(title),
         'has_bar': scale.is_known}
     layout = Layout(panel=style.panel, **parts) if style.panel else _usual_layout(parts)
@@ -116,7 +117,7 @@ def _in_step(
         yield [next(stream) for stream in streams]
 
 
-def _usual_layout(parts: dict[str, object]) -> Layout:
+def _usual_layout(parts: dict[str, Any]) -> Layout:
     rows, columns = parts['rows'], parts['columns']
     if rows * columns == 1:
         return Layout.within(*_SIZE, **parts)

@@ -42,6 +42,7 @@ class FfmpegVideo:
 
     def write(self, image: np.ndarray) -> None:
         """Append ``image``, (height, width, 3) uint8; OSError when it can't."""
+        assert self._process.stdin is not None  # a pipe
         try:
             self._process.stdin.write(np.ascontiguousarray(image).data)
         except BrokenPipeError:

@@ -18,7 +18,8 @@ from PIL import ImageFont
 
 INK = (48, 48, 48)
 _HALO = (255, 255, 255)
-_COLOR = tuple(round(255 * part) for part in PUSH_COLOR)
+_COLOR = (
+    round(255 * PUSH_COLOR[0]), round(255 * PUSH_COLOR[1]), round(255 * PUSH_COLOR[2]))
 
 
 def write_words(
@@ -73,5 +74,6 @@ def write_forces(
         words = f'{np.linalg.norm(push.force):.3g} N'
         # Words are wider than high.
         away = size * (0.9 + 0.32 * len(words) * abs(ahead[0]))
+        place = tip + away * ahead
         write_words(
-            image, words, tuple(tip + away * ahead), size, color=_COLOR, is_bold=True)
+            image, words, (place[0], place[1]), size, color=_COLOR, is_bold=True)

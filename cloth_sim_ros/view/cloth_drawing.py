@@ -58,7 +58,9 @@ class ClothDrawing:
         pins = frame.positions[frame.pinned].astype(np.float32)
         self._add_dots('/cloth/pins', pins, _PIN_COLOR)
 
-    def _add_dots(self, name: str, points: np.ndarray, colors: object) -> None:
+    def _add_dots(
+            self, name: str, points: np.ndarray,
+            colors: np.ndarray | tuple[int, int, int]) -> None:
         # Added anew each time, as their number changes.
         self._scene.add_point_cloud(
             name, points, colors, point_size=self._size, point_shape='circle',

@@ -34,6 +34,7 @@ class Controls:
         self._source = source
         self._answer = answer
         self._is_running = True
+        self._shown_mode = ''
         self._told = self._gui.add_markdown('')
         self._add_time()
         self._add_mode()
@@ -101,7 +102,8 @@ class Controls:
         self._pause = self._gui.add_button(_PAUSE)
         self._pause.on_click(lambda event: self._answer(
             event.client, lambda: self._source.set_paused(self._is_running)))
-        self._time = None
+        # The types of viser take the value of a handle for one that cannot be set.
+        self._time: Any = None
         if self._source.span is not None:
             begin, end = self._source.span
             self._time = self._gui.add_slider(
@@ -112,8 +114,7 @@ class Controls:
             self._button('Reset', self._source.reset)
 
     def _add_mode(self) -> None:
-        self._mode = None
-        self._shown_mode = ''
+        self._mode: Any = None
         if self._source.modes:
             self._mode = self._gui.add_dropdown('Mode', self._source.modes)
             self._when_set(self._mode, self._switch)
@@ -139,7 +140,7 @@ class Controls:
             lambda event: self._answer(event.client, action))
 
     def _when_set(self, handle: Any, action: Callable[[Any], Any]) -> None:
-        def act(event: viser.GuiEvent) -> None:
+        def act(event: viser.GuiEvent[Any]) -> None:
             # What the view itself has set comes from no page.
             if event.client is not None:
                 self._answer(event.client, lambda: action(handle.value))

@@ -52,19 +52,20 @@ class RecordingSource(Source):
         if not self._frames:
             raise recording.no_frame()
         self._times = [frame.time for frame in self._frames]
-        self.span = (self._times[0], self._times[-1])
+        self._begin, self._end = self._times[0], self._times[-1]
+        self.span = (self._begin, self._end)
         self.problems = recording.problems
         self._lock = Lock()
         self._is_paused = False
-        self._begin_at(self.span[0])
+        self._begin_at(self._begin)
 
     def latest(self) -> Moment:
         """Return the moment that is played now."""
         with self._lock:
             now = self._now()
-            if now >= self.span[1]:
+            if now >= self._end:
                 self._is_paused = True
-                self._begin_at(self.span[1])
+                self._begin_at(self._end)
             index = max(bisect_right(self._times, now + 1e-9) - 1, 0)
             run_state = PAUSED if self._is_paused else RUNNING
         frame = self._frames[index]
@@ -74,15 +75,15 @@ class RecordingSource(Source):
         """Stop, or go on; at the end, begin again."""
         with self._lock:
             now = self._now()
-            is_at_end = not is_paused and now >= self.span[1]
-            self._begin_at(self.span[0] if is_at_end else now)
+            is_at_end = not is_paused and now >= self._end
+            self._begin_at(self._begin if is_at_end else now)
             self._is_paused = is_paused
 
     def go_to(self, time: float) -> None:
         """Show the moment at ``time`` [s], and stay there."""
         with self._lock:
             self._is_paused = True
-            self._begin_at(min(max(time, self.span[0]), self.span[1]))
+            self._begin_at(min(max(time, self._begin), self._end))
 
     def close(self) -> None:
         """Forget the frames."""
@@ -91,7 +92,7 @@ class RecordingSource(Source):
 
     def _now(self) -> float:
         passed = 0.0 if self._is_paused else time.monotonic() - self._wall
-        return min(self._time + passed, self.span[1])
+        return min(self._time + passed, self._end)
 
     def _begin_at(self, moment: float) -> None:
         self._time, self._wall = moment, time.monotonic()

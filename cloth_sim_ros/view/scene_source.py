@@ -25,7 +25,7 @@ from cloth_sim_ros.view.source import RUNNING
 from cloth_sim_ros.view.source import Source
 from cloth_sim_ros.view.source import STOPPED
 
-_Request = tuple[Callable[[Simulation], Any], Future]
+_Request = tuple[Callable[[Simulation], Any], Future[None]]
 # Of wall time that was lost, what is caught up with [s]; the rest makes the view slower.
 _MOST_BEHIND = 0.1
 
@@ -124,7 +124,7 @@ class SceneSource(Source):
         self._requests.put((change, answer))
         answer.result()
 
-    def _work(self, started: Future) -> None:
+    def _work(self, started: Future[None]) -> None:
         try:
             simulation = Simulation(self._scene)
             self._show(simulation)
@@ -136,7 +136,8 @@ class SceneSource(Source):
             self._run(simulation)
         # Such as a device that is gone: what is asked for from now on is answered with it.
         except Exception as error:
-            self._latest = replace(self._latest, run_state=STOPPED, note=str(error))
+            if self._latest is not None:
+                self._latest = replace(self._latest, run_state=STOPPED, note=str(error))
             while (request := self._requests.get()) is not None:
                 request[1].set_exception(error)
         else:

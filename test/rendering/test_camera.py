@@ -31,6 +31,17 @@ def test_the_matrix_puts_points_where_project_says(field_of_view):
     assert (np.diff(device[np.argsort(-near), 2]) > 0.0).all()
 
 
+@pytest.mark.parametrize('field_of_view', [5.0, 25.0, 90.0])
+def test_depths_of_the_device_are_distances_again(field_of_view):
+    """A depth picture would be in units of the device, not in metres."""
+    points = np.random.default_rng(1).uniform(-1.0, 1.0, (30, 3)) + (5.0, 0.0, -2.0)
+    view = Camera(30.0, 15.0, field_of_view).looking_at(points, 320, 240)
+    clip = np.append(points - view.middle, np.ones((30, 1)), axis=1) @ view.matrix.T
+    depths = (clip[:, 2] / clip[:, 3] + 1.0) / 2.0
+    np.testing.assert_allclose(
+        view.distances(depths), view.distance - (points - view.middle) @ view.axes[2])
+
+
 def some_points(seed, scale=1.0):
     """Return points of a lopsided cloud."""
     random = np.random.default_rng(seed)

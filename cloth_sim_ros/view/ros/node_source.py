@@ -64,7 +64,7 @@ class NodeSource(Source):
                 'left/cloth_sim') from error
         self._timeout = timeout
         self._cloud: PointCloud2 | None = None
-        self._state: ClothState | None = None
+        self._state: ClothState = ClothState()  # until one has come
         self._moment: Moment | None = None
         self._shown_cloud = self._shown_state = None
         self._told = Event()

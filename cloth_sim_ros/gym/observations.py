@@ -1,0 +1,157 @@
+# SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
+# SPDX-License-Identifier: Apache-2.0
+
+"""What an environment shows of its cloth."""
+
+from abc import ABC
+from abc import abstractmethod
+from collections.abc import Mapping
+from collections.abc import Sequence
+from typing import Any
+
+from cloth_sim_ros.files.echo import shown
+from cloth_sim_ros.sim.errors import ClothSimError
+from cloth_sim_ros.sim.pin_path import FARTHEST
+from cloth_sim_ros.sim.simulation import Simulation
+from gymnasium import spaces
+import numpy as np
+
+_MOST_PIXELS = 4096
+Observation = np.ndarray | dict[str, np.ndarray]
+
+
+class Part(ABC):
+    """One array of an observation."""
+
+    space: spaces.Box
+
+    @abstractmethod
+    def look(self, simulation: Simulation) -> np.ndarray:
+        """Return the array at this time."""
+
+    def close(self) -> None:
+        """Give back what it holds on the device."""
+
+
+class Positions(Part):
+    """Where all nodes are [m], (rows, cols, 3) float32."""
+
+    def __init__(self, rows: int, cols: int) -> None:
+        """Make the space."""
+        self.space = spaces.Box(-FARTHEST, FARTHEST, (rows, cols, 3), np.float32)
+
+    def look(self, simulation: Simulation) -> np.ndarray:
+        """Return the array at this time."""
+        return simulation.positions()
+
+
+class PositionsAndVelocities(Part):
+    """Positions [m] and velocities [m/s] of all nodes, (rows, cols, 6) float32."""
+
+    def __init__(self, rows: int, cols: int) -> None:
+        """Make the space."""
+        self.space = spaces.Box(-FARTHEST, FARTHEST, (rows, cols, 6), np.float32)
+
+    def look(self, simulation: Simulation) -> np.ndarray:
+        """Return the array at this time."""
+        return np.concatenate([simulation.positions(), simulation.velocities()], axis=-1)
+
+
+class Depth(Part):
+    """
+    A depth picture [m], (height, width) float32, its uppermost line first.
+
+    :param points: what the camera has in view, (n, 3) [m]
+    :param camera: azimuth, elevation, field_of_view [deg] and zoom, where they differ from the
+        defaults of ``cloth_sim render``
+    :param size: height and width [pixel]
+    """
+
+    def __init__(
+            self, points: np.ndarray, camera: Mapping[str, Any], size: Sequence[int]) -> None:
+        """Place the camera."""
+        # Drawing takes longer to import than the rest, and most environments do without.
+        from cloth_sim_ros.rendering.camera import Camera
+        from cloth_sim_ros.rendering.depth_camera import DepthCamera
+        height, width = _checked_size(size)
+        try:
+            view = Camera(**camera).looking_at(points, width, height)
+        except TypeError as error:
+            raise ClothSimError(
+                f'the camera cannot be {shown(camera)}: give azimuth, elevation, field_of_view '
+                'and zoom as numbers, or target as x, y and z') from error
+        self._camera = DepthCamera(view)
+        self.space = spaces.Box(0.0, self._camera.far, (height, width), np.float32)
+
+    def look(self, simulation: Simulation) -> np.ndarray:
+        """Return the array at this time."""
+        return self._camera.draw(simulation.positions())
+
+    def close(self) -> None:
+        """Give back what it holds on the device."""
+        self._camera.close()
+
+
+PARTS = ('positions', 'state', 'depth')
+
+
+class Observer:
+    """
+    Looks at a simulation as the environment was asked to.
+
+    :param asked: one of PARTS for an array, or several for a dictionary of arrays
+    :param shape: rows and columns of the cloth
+    :param points: what a camera has in view, (n, 3) [m]
+    :raises ClothSimError: when a value is wrong
+    """
+
+    def __init__(
+            self, asked: str | Sequence[str], shape: tuple[int, int], points: np.ndarray,
+            camera: Mapping[str, Any], size: Sequence[int]) -> None:
+        """Make the parts and their space."""
+        names = _checked_names(asked)
+        if 'depth' in names and min(shape) < 2:
+            raise ClothSimError(
+                f'a depth picture needs a surface, but the cloth has {shape[0]} x {shape[1]} '
+                'nodes: give 2 or more along each side')
+        self._is_one = isinstance(asked, str)
+        self._parts: dict[str, Part] = {}
+        for name in names:
+            if name == 'depth':
+                self._parts[name] = Depth(points, camera, size)
+            elif name == 'state':
+                self._parts[name] = PositionsAndVelocities(*shape)
+            else:
+                self._parts[name] = Positions(*shape)
+        self.space: spaces.Space[Any] = (
+            self._parts[names[0]].space if self._is_one else
+            spaces.Dict({name: part.space for name, part in self._parts.items()}))
+
+    def look(self, simulation: Simulation) -> Observation:
+        """Return the observation at this time."""
+        seen = {name: part.look(simulation) for name, part in self._parts.items()}
+        return next(iter(seen.values())) if self._is_one else seen
+
+    def close(self) -> None:
+        """Give back what it holds on the device."""
+        for part in self._parts.values():
+            part.close()
+
+
+def _checked_names(asked: str | Sequence[str]) -> list[str]:
+    names = [asked] if isinstance(asked, str) else list(asked)
+    if not names or len(set(map(str, names))) < len(names) or not set(names) <= set(PARTS):
+        raise ClothSimError(
+            f'an observation must be {", ".join(PARTS[:-1])} or {PARTS[-1]}, or a list of them, '
+            f'got {shown(asked)}: choose one, or several for a dictionary')
+    return names
+
+
+def _checked_size(size: Sequence[int]) -> tuple[int, int]:
+    good = len(size) == 2 and all(
+        isinstance(side, (int, np.integer)) and 1 <= side <= _MOST_PIXELS for side in size)
+    if not good:
+        raise ClothSimError(
+            f'the size of a picture must be a height and a width from 1 to {_MOST_PIXELS} pixels, '
+            f'got {shown(size)}: give two whole numbers')
+    return int(size[0]), int(size[1])

@@ -1,0 +1,72 @@
+# SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
+# SPDX-License-Identifier: Apache-2.0
+
+"""See a cloth as a depth camera does."""
+
+import math
+
+from cloth_sim_ros.gl.context import Context
+from cloth_sim_ros.gl.depth_buffer import DepthBuffer
+from cloth_sim_ros.gl.draw_state import draw_nearest
+from cloth_sim_ros.gl.errors import DeviceError
+from cloth_sim_ros.gl.render_program import RenderProgram
+from cloth_sim_ros.rendering.camera import set_view
+from cloth_sim_ros.rendering.camera import View
+from cloth_sim_ros.rendering.node_buffer import NodeBuffer
+from cloth_sim_ros.sim.errors import ClothSimError
+import numpy as np
+
+
+class DepthCamera:
+    """
+    Draws how far away the surface of a cloth is, along the axis of the camera.
+
+    It has a GL context of its own.
+
+    :raises ClothSimError: when the view has no perspective, and the camera therefore no place
+    :raises DeviceError: when there is no GL device, or it can't draw so large a picture
+    """
+
+    def __init__(self, view: View) -> None:
+        """Make the context and the picture."""
+        if not math.isfinite(view.distance):
+            raise ClothSimError(
+                'a depth camera needs a field of view above 0 degrees, got 0: give one')
+        self.view = view
+        self._context = Context()
+        if not self._context.max_texture_texels:
+            raise DeviceError(
+                f'{self._context.device} lacks texture buffers, which rendering needs: render on '
+                'another device')
+        self._depths = DepthBuffer(view.width, view.height)
+        self._nodes = NodeBuffer(self._context.max_texture_texels)
+        self._surface = RenderProgram('render/cloth.vert', 'render/plain.frag')
+
+    @property
+    def far(self) -> float:
+        """Get what pixels have in which no cloth is seen [m]; farther off, nothing is."""
+        return float(np.float32(self.view.distance + self.view.depth))
+
+    def draw(self, positions: np.ndarray) -> np.ndarray:
+        """
+        Return the depth of each pixel.
+
+        :param positions: (rows, cols, 3) [m], of two rows and two columns or more
+        :return: (height, width) float32 [m], the uppermost line first
+        """
+        rows, cols = positions.shape[:2]
+        self._context.make_current()
+        self._depths.begin()
+        draw_nearest()
+        self._nodes.load_points(positions, self.view.middle)
+        self._surface.use()
+        set_view(self._surface, self.view)
+        self._surface.set_int('cols', cols)
+        self._surface.draw_strips(2 * cols, rows - 1)
+        drawn = self._depths.read()
+        depths = self.view.distances(drawn).astype(np.float32)
+        return np.where(drawn < 1.0, depths, np.float32(self.far))
+
+    def close(self) -> None:
+        """Give the device back."""
+        self._context.close()
