@@ -140,12 +140,12 @@ class RunningNode:
                     f'the node did not do what was waited for within {_PATIENCE:g} s: it said '
                     f'{shown(self._log.read().strip()[-MOST_SHOWN:])}')
 
-    def call(self, kind: type, service: str, **fields: Any) -> Any:
+    def call(self, kind: Any, service: str, **fields: Any) -> Any:
         """Send a request and return its future."""
         client = self._client(kind, service)
         return client.call_async(kind.Request(**fields))
 
-    def timed_call(self, times: Times, kind: type, service: str, **fields: Any) -> None:
+    def timed_call(self, times: Times, kind: Any, service: str, **fields: Any) -> None:
         """Call, wait for the answer, and add how long that took to ``times``."""
         self._client(kind, service)
         begin, before = time.monotonic(), self.processor_time()
@@ -229,7 +229,7 @@ def measure_services(mode: str, size: int, calls: int) -> tuple[str, dict[str, T
     from geometry_msgs.msg import Vector3
     from rcl_interfaces.srv import GetParameters
     from std_srvs.srv import SetBool
-    requests = {
+    requests: dict[str, tuple[Any, Callable[[int], dict[str, Any]]]] = {
         'apply_push': (ApplyPush, lambda number: {
             'force': Vector3(z=1e-3), 'region': 'sphere', 'radius': 2.0, 'duration': 1e-3}),
         'set_pin': (SetPin, lambda number: {

@@ -174,6 +174,7 @@ class EnergyAccount:
         """Return the free nodes, (n, 2), and the forces of gravity and edges on them [N]."""
         free = np.argwhere(~self._run.pinned_nodes())
         # What would hold a node still is the opposite of the force on it.
+        assert seen.tension is not None  # the snapshots are taken with it
         held = pin_forces(
             self._run.scene, seen.positions, seen.tension, free, np.zeros((len(free), 3)),
             velocities=seen.velocities)

@@ -5,8 +5,8 @@
 
 from typing import Any
 
+from cloth_sim_ros.sim.collider_fields import fields_with_colliders
 from cloth_sim_ros.sim.scene import Scene
-from cloth_sim_ros.sim.scene_fields import SCENE_FIELDS
 
 
 def given_values(scene: Scene) -> dict[str, Any]:
@@ -16,7 +16,7 @@ def given_values(scene: Scene) -> dict[str, Any]:
     What a preset has set is told value by value, so that another one in its place is taken.
     """
     values = {
-        field.name: scene[field.name] for field in SCENE_FIELDS
+        field.name: scene[field.name] for field in fields_with_colliders(scene.values)
         if field.name != 'preset' and scene[field.name] != field.check(field.default)}
     return {name: list(value) if isinstance(value, tuple) else value
             for name, value in values.items()}

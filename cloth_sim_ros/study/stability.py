@@ -63,8 +63,9 @@ def main(args: Namespace) -> int:
     # Matplotlib is slow to import.
     from cloth_sim_ros.study.stable.figures import draw_edges
     from cloth_sim_ros.study.stable.figures import draw_maps
-    maps, edge_figure = [*args.figures, *(
-        folder / name for name in ('maps.png', 'edges.png')[len(args.figures):])]
+    named = [Path(figure) for figure in args.figures]
+    named += [folder / name for name in ('maps.png', 'edges.png')[len(named):]]
+    maps, edge_figure = named
     draw_edges(found, edge_figure)
     if mapped:
         draw_maps(mapped, maps)

@@ -5,6 +5,7 @@
 """The solvers that can be timed side by side, each with its set-up, for one state and step."""
 
 from dataclasses import dataclass
+from typing import Any
 from typing import Protocol
 
 from cloth_sim_ros.gl.context import Context
@@ -78,7 +79,7 @@ class TimedSolver(Protocol):
 
 class _SolverStep:
     name: str
-    options: dict[str, int] = {}
+    options: dict[str, Any] = {}
 
     def __init__(self, context: Context, scene: Scene, state: Fields, step: Step) -> None:
         """Write the state and compile the passes."""

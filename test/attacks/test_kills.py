@@ -143,7 +143,7 @@ def attack(folder: Path, client: GraphClient, seed: int, number: int) -> None:
 
 def test_a_killed_node_loses_less_than_a_second(tmp_path, client, usual_seed):
     """A crash would take a recording, or the next start fail for what the last one left."""
-    attack(tmp_path, client, usual_seed, 8)
+    attack(tmp_path, client, usual_seed, 4)
 
 
 @pytest.mark.long

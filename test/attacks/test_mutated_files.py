@@ -18,7 +18,7 @@ import numpy as np
 import pytest
 
 CONFIG = Path(__file__).resolve().parents[2] / 'config'
-COUNTS = pytest.mark.parametrize('count', [40, pytest.param(1000, marks=pytest.mark.long)])
+COUNTS = pytest.mark.parametrize('count', [20, pytest.param(1000, marks=pytest.mark.long)])
 SECONDS = 10.0
 MEMORY = 1 << 30  # [bytes]
 # Of a few nodes and steps, so that what is damaged where it does not matter is quickly made.

@@ -138,7 +138,8 @@ def record(cloth: ClothUnderTest) -> Path:
     return path
 
 
-@pytest.mark.parametrize('running', [False, True], ids=['paused', 'running'])
+@pytest.mark.parametrize('running', [
+    pytest.param(False, id='paused', marks=pytest.mark.long), pytest.param(True, id='running')])
 @pytest.mark.parametrize('fault', FAULTS)
 def test_a_fault_is_reported_soon_and_the_simulation_goes_on(cloth, node, fault, running):
     """A run of hours would record into nothing, or end because it cannot be recorded."""

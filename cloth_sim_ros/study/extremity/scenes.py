@@ -4,6 +4,7 @@
 """Extreme scenes, by name: what `cloth_sim study extremes` runs, and the tests as well."""
 
 from itertools import product
+from typing import Any
 
 from cloth_sim_ros.sim.modes import AVAILABLE
 from cloth_sim_ros.study.extremity.extreme import Extreme
@@ -11,6 +12,7 @@ from cloth_sim_ros.study.extremity.extreme import of_all
 from cloth_sim_ros.study.extremity.extreme import OUTCOMES
 from cloth_sim_ros.study.extremity.extreme import REFUSED
 from cloth_sim_ros.study.extremity.extreme import RUNS
+from cloth_sim_ros.study.extremity.extreme import Start
 from cloth_sim_ros.study.extremity.extreme import STOPS
 from cloth_sim_ros.study.random_limits import random_scene
 import numpy as np
@@ -139,7 +141,7 @@ _PIN_MOVES = {
 }
 
 
-def _started(start: object, **others: object) -> Extreme:
+def _started(start: Start | None, **others: Any) -> Extreme:
     return Extreme(
         {}, 'start', start=start, steps=_FEW, expected=(RUNS, STOPS), holds_lengths=False,
         **others)
@@ -177,7 +179,7 @@ _LASTING = {
 }
 
 
-def _random(seed: int, **others: object) -> Extreme:
+def _random(seed: int, **others: Any) -> Extreme:
     values = random_scene(seed)
     seconds = values['pushes.start'][0] + 1.0
     return Extreme(

@@ -39,7 +39,7 @@ class FrameMaker:
         self._markers = MarkersMessage(scene.rows, scene.cols, _FRAME_ID)
         self._wrenches = WrenchMessages(_NODE_NAME)
         self._has_wrenches = 'wrenches' in outputs and not too_many_pins(
-            np.count_nonzero(run.pinned_nodes()))
+            int(np.count_nonzero(run.pinned_nodes())))
         self._folder = folder
         self._recorder: Recorder | None = None
 

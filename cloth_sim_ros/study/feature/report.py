@@ -65,7 +65,7 @@ def passes_report(
     return '\n'.join(lines) + '\n'
 
 
-def compiled(listed: Mapping[str, Any]) -> Counter:
+def compiled(listed: Mapping[str, Any]) -> Counter[tuple[str, str]]:
     """Return the passes of a list by shader and by what of the model is compiled in."""
     return Counter((each['shader'], modelled(each['defines'])) for each in listed['passes'])
 

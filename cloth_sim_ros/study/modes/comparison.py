@@ -152,12 +152,11 @@ def growth_exponents(speeds: Sequence[ModeSpeed]) -> dict[str, float]:
     exponents = {}
     for name in dict.fromkeys(speed.contender for speed in speeds):
         finished = [
-            speed for speed in speeds
+            (speed.grid, speed.real_time_factor) for speed in speeds
             if speed.contender == name and speed.real_time_factor is not None]
-        if len({speed.grid for speed in finished}) > 1:
-            slope, _ = np.polyfit(
-                np.log([speed.grid for speed in finished]),
-                -np.log([speed.real_time_factor for speed in finished]), 1)
+        grids, factors = np.array(finished, float).reshape(-1, 2).T
+        if len(set(grids)) > 1:
+            slope, _ = np.polyfit(np.log(grids), -np.log(factors), 1)
             exponents[name] = float(slope)
     return exponents
 
@@ -183,8 +182,9 @@ def _baseline(run: TimedRun, runs: Sequence[TimedRun]) -> TimedRun | None:
 def _speed(
         run: TimedRun, baseline: TimedRun | None, seconds: float, is_software: bool) -> ModeSpeed:
     contender = run.contender
-    who = {'contender': contender.name, 'grid': run.grid, 'values': dict(contender.values),
-           'bound': str(contender.bound)}
+    who: dict[str, Any] = {
+        'contender': contender.name, 'grid': run.grid, 'values': dict(contender.values),
+        'bound': str(contender.bound)}
     if run.failure is not None:
         return ModeSpeed(**who, is_within_bound=False, failure=run.failure)
     factors = tuple(seconds / wall for wall in run.wall_seconds)

@@ -31,7 +31,8 @@ def comparison_table(comparison: ModeComparison) -> str:
 def _row(speed: ModeSpeed) -> str:
     if speed.failure is not None:
         return f'| {speed.grid} | {speed.contender} | {speed.failure} |' + 9 * ' |'
-    stretch = speed.stretch
+    stretch, rise = speed.stretch, speed.energy_rise
+    assert stretch is not None and rise is not None  # it has no failure
     cells = [
         speed.grid, speed.contender, f'{speed.real_time_factor:.3g}', _ratio(speed),
         '-' if speed.processor_ratio is None else f'{speed.processor_ratio:.3g}',
@@ -39,7 +40,7 @@ def _row(speed: ModeSpeed) -> str:
         f'{100.0 * stretch.worst_frame_percentile:.2f} %, {100.0 * stretch.percentile:.2f} %',
         f'{speed.substep_rate:.0f}', f'{speed.solve_rate:.0f}' if speed.solve_rate else '-',
         '-' if speed.iterations_per_solve is None else f'{speed.iterations_per_solve:.1f}',
-        f'{100.0 * speed.energy_rise:.2f} %',
+        f'{100.0 * rise:.2f} %',
         f'{"yes" if speed.is_within_bound else "NO"} ({speed.bound})']
     return f'| {" | ".join(map(str, cells))} |'
 

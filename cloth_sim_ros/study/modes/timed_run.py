@@ -41,8 +41,14 @@ class TimedRun:
         self._run.engines.compile_all()
         self.wall_seconds: list[float] = []
         self.processor_seconds: list[float] = []
-        self.record: RunRecord | None = None
+        self._record: RunRecord | None = None
         self.failure: str | None = None
+
+    @property
+    def record(self) -> RunRecord:
+        """Return what the first round has shown."""
+        assert self._record is not None  # begin_round comes first
+        return self._record
 
     @property
     def is_first_round(self) -> bool:
@@ -55,7 +61,7 @@ class TimedRun:
         self.wall_seconds.append(0.0)
         self.processor_seconds.append(0.0)
         if self.is_first_round:
-            self.record = RunRecord(self._run.scene, self._run.snapshot())
+            self._record = RunRecord(self._run.scene, self._run.snapshot())
 
     def make_frame(self) -> None:
         """Simulate a frame; nothing once the state was lost, which ``failure`` explains."""

@@ -3,6 +3,7 @@
 
 """Make the runs of a study that are not there yet, and keep each as it ends."""
 
+from collections.abc import Generator
 from collections.abc import Iterable
 from collections.abc import Iterator
 from collections.abc import Sequence
@@ -169,10 +170,16 @@ def make_runs(
                     left = forecast.seconds_left(bar.format_dict['elapsed'])
                     bar.set_postfix_str(f'{in_minutes(left)} left' if left else '', refresh=False)
                     bar.update()
-    return [results.find(run.key) for run in runs]
+    return [_kept(results, run) for run in runs]
 
 
-def _make(runs: Sequence[Run], workers: Workers) -> Iterator[Result]:
+def _kept(results: ResultsFolder, run: Run) -> Result:
+    result = results.find(run.key)
+    assert result is not None  # it was there, or has been added
+    return result
+
+
+def _make(runs: Sequence[Run], workers: Workers) -> Generator[Result, None, None]:
     left = list(runs)
     while left:
         processes = min(workers.processes, len(left))
@@ -190,7 +197,7 @@ def _make(runs: Sequence[Run], workers: Workers) -> Iterator[Result]:
         yield from _make_alone(suspects)
 
 
-def _make_alone(runs: Iterable[Run]) -> Iterator[Result]:
+def _make_alone(runs: Iterable[Run]) -> Generator[Result, None, None]:
     for run in runs:
         with Workers().executor(1) as (executor, _):
             for _, result in _ended(executor, [run], 1):

@@ -8,6 +8,7 @@ import json
 import os
 from pathlib import Path
 from typing import Any
+from typing import cast
 
 from cloth_sim_ros.files.checked_npz import load_arrays
 from cloth_sim_ros.files.regular_file import open_regular
@@ -62,8 +63,10 @@ class ResultsFolder:
     def find(self, key: str) -> Result | None:
         """Return the result of the run ``key``; None when there is none, or half of one."""
         line = self._lines.get(key)
-        if line is None or not line['arrays']:
-            return line and Result(**{**line, 'arrays': {}})
+        if line is None:
+            return None
+        if not line['arrays']:
+            return Result(**{**line, 'arrays': {}})
         try:
             arrays = load_arrays(
                 self._array_path(key), 'file of results', 'start the study again')
@@ -107,7 +110,8 @@ class ResultsFolder:
         # Under its name a file is whole.
         half = path.with_suffix('.part')
         with open(half, 'wb') as file:
-            np.savez(file, **result.arrays)
+            # Its types take any name for that of an option.
+            np.savez(file, **cast(dict[str, Any], result.arrays))
         os.replace(half, path)
 
     def _array_path(self, key: str) -> Path:

@@ -105,19 +105,21 @@ def _draw_map(axes: Axes, results: Sequence[Result]) -> None:
         edgecolors='white', linewidth=0.4)
     _draw_line(axes, scene, factors, scale)
     axes.set(xscale='log', yscale='log')
-    axes.set_ylim(_borders(np.array(dts))[[0, -1]])
+    lowest, *_, highest = _borders(np.array(dts))
+    axes.set_ylim(lowest, highest)
 
 
 def _draw_line(
         axes: Axes, scene: Mapping[str, Any], factors: Sequence[float], scale: float) -> None:
-    stiffness = np.geomspace(*_borders(np.array(factors))[[0, -1]], _LINE_POINTS)
+    least, *_, most = _borders(np.array(factors))
+    stiffness = np.geomspace(least, most, _LINE_POINTS)
     mode = scene['mode']
     if AVAILABLE[mode].is_implicit:
         # Of hard edges: no stiffness is in it.
         limits = np.full(_LINE_POINTS, predicted_limit(scene, mode))
     else:
-        limits = [predicted_limit(with_stiffness(scene, factor), mode)
-                  for factor in stiffness]
+        limits = np.array([
+            predicted_limit(with_stiffness(scene, factor), mode) for factor in stiffness])
     axes.plot(scale * stiffness, limits, color='k', linewidth=1.6)
 
 

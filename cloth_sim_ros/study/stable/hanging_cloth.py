@@ -10,6 +10,7 @@ import math
 from typing import Any
 
 from cloth_sim_ros.gl.context import Context
+from cloth_sim_ros.reference.edges import Edges
 from cloth_sim_ros.reference.edges import edges_of
 from cloth_sim_ros.sim.scene import FAMILIES
 from cloth_sim_ros.sim.scene import Scene
@@ -88,7 +89,7 @@ def hang(scene: Scene) -> HangingCloth:
         2.0 / math.sqrt(_largest(first, second, pull, free) / scene.node_mass))
 
 
-def _stiffness(scene: Scene, edges: object) -> np.ndarray:
+def _stiffness(scene: Scene, edges: Edges) -> np.ndarray:
     """Return that of springs, and for hard edges one at which the cloth hardly gives [N/m]."""
     hard = 1e6 * max(
         scene.node_count * scene.node_mass * float(np.linalg.norm(scene['gravity']))

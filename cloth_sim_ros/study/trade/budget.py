@@ -20,8 +20,13 @@ class Budget(Protocol):
     ``option`` is its argument of the study, without the dashes; ``limit`` its value.
     """
 
-    option: str
-    limit: float
+    @property
+    def option(self) -> str:
+        """Get its argument of the study."""
+
+    @property
+    def limit(self) -> float:
+        """Get the value of that argument."""
 
     def choose(self, rows: Iterable[Row]) -> Row:
         """Return the setting to take; ClothSimError when none is within the bound."""
@@ -50,7 +55,7 @@ class ErrorBudget:
 
     def holds(self, row: Row) -> bool:
         """Tell whether the error is within the bound."""
-        return row.scene.position <= self.limit
+        return row.scene_errors.position <= self.limit
 
     def in_words(self) -> str:
         """Return what was chosen by."""

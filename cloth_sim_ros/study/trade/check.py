@@ -35,7 +35,8 @@ def check(
     row = measure_again(values, scene, grid, results, workers)
     holds = budget.holds(row)
     print(
-        f'{path} states: {told}\nmeasured again: error {row.scene.position:.2e} of the side, '
+        f'{path} states: {told}\n'
+        f'measured again: error {row.scene_errors.position:.2e} of the side, '
         f'real-time factor {1.0 / row.cost:.2f}, largest strain {row.peak_strain:.3f}: '
         f'{"holds" if holds else "does not hold"} ({budget.option}: {budget.limit:g})')
     return 0 if holds else 1

@@ -14,7 +14,7 @@ def front(rows: Iterable[Row], *, of_scene: bool) -> list[Row]:
     kept: list[Row] = []
     choices = [row for row in rows if row.is_choice(of_scene)]
     for row in sorted(choices, key=lambda row: row.cost):
-        if not kept or row.error(of_scene) < kept[-1].error(of_scene):
+        if not kept or row.known_error(of_scene) < kept[-1].known_error(of_scene):
             kept.append(row)
     return kept
 
@@ -24,16 +24,17 @@ def near_front(rows: Iterable[Row], margin: float, *, of_scene: bool) -> list[Ro
     useful = [row for row in rows if row.is_useful(of_scene)]
     return [
         row for row in useful if not any(
-            other.error(of_scene) <= row.error(of_scene) and margin * other.cost < row.cost
+            other.known_error(of_scene) <= row.known_error(of_scene)
+            and margin * other.cost < row.cost
             for other in useful)]
 
 
 def fastest_within(rows: Iterable[Row], error: float) -> Row:
     """Return the fastest timed row of which the error is ``error`` or less."""
     timed = _timed(rows)
-    fitting = [row for row in timed if row.error(True) <= error]
+    fitting = [row for row in timed if row.known_error(True) <= error]
     if not fitting:
-        least = min((row.error(True) for row in timed), default=float('nan'))
+        least = min((row.known_error(True) for row in timed), default=float('nan'))
         raise ClothSimError(
             f'no setting has an error of at most {error:g} of the side, the least is {least:.2g}: '
             'give a larger --budget-error, or finer settings in a --grid')
@@ -49,7 +50,7 @@ def most_accurate_at(rows: Iterable[Row], real_time_factor: float) -> Row:
         raise ClothSimError(
             f'no setting has a real-time factor of {real_time_factor:g}, the largest is '
             f'{most:.2g}: give a smaller --budget-rtf, or use fewer nodes')
-    return min(fitting, key=lambda row: row.error(True))
+    return min(fitting, key=lambda row: row.known_error(True))
 
 
 def within_strain(rows: Iterable[Row], strain: float) -> list[Row]:

@@ -67,7 +67,8 @@ def _timed(
         variant: plan.cost(variant, [row.setting for row in rows])
         for variant, rows in chosen.items() if rows}
     made = make_runs(list(runs.values()), results, Workers(), title='cost', alone=True)
-    rounds, shares = {}, {}
+    rounds: dict[tuple[Variant, str, str], tuple[float, ...]] = {}
+    shares: dict[Variant, float] = {}
     for variant, result in zip(runs, made):
         if result.is_done:
             own = [tuple(wall) for wall in result.values['wall_seconds']]

@@ -78,7 +78,7 @@ def _speeds(measured: Measured) -> str:
     rows = []
     for speed in _SPEEDS:
         fitting = [row for row in timed if 1.0 / row.cost >= speed]
-        best = min(fitting, key=lambda row: row.error(True), default=None)
+        best = min(fitting, key=lambda row: row.known_error(True), default=None)
         rows.append((f'{speed:g}', *(_told(best) if best else ('nothing is as fast', '', '', ''))))
     return _table(
         ('real-time factor', 'most exact setting', 'error', 'largest strain', 'cost [s]'), rows)
@@ -90,7 +90,7 @@ def _winners(measured: Measured) -> str:
         cells = []
         for error in _ERRORS:
             fitting = [row for row in measured.rows_of(variant)
-                       if row.is_choice(False) and row.own.position <= error]
+                       if row.is_choice(False) and row.own_errors.position <= error]
             best = min(fitting, key=lambda row: row.cost, default=None)
             cells.append(
                 f'{best.setting.method}, {best.setting.label}: {_cost(best)}' if best else '-')
@@ -114,9 +114,10 @@ def _crossing(measured: Measured) -> str:
             sentences.append(
                 f'- {variant.name}: below the {_cost(explicit[0])} s of mass_spring there is '
                 f'{first.setting.method}, {first.setting.label}: {_cost(first)} s, with an error '
-                f'of {first.own.position:.1e} against {explicit[0].own.position:.1e}, and a '
-                f'largest strain of {first.own.peak_strain:.2g} against '
-                f'{explicit[0].own.peak_strain:.2g}.')
+                f'of {first.own_errors.position:.1e} against '
+                f'{explicit[0].own_errors.position:.1e}, and a largest strain of '
+                f'{first.own_errors.peak_strain:.2g} against '
+                f'{explicit[0].own_errors.peak_strain:.2g}.')
         else:
             sentences.append(
                 f'- {variant.name}: nothing that was measured is cheaper than mass_spring with '
@@ -136,14 +137,15 @@ def _floors(measured: Measured) -> str:
         rows.append((variant.name, model, f'{apart:.1e}'))
     least = min(
         (row for row in measured.rows_of(Variant()) if row.scene is not None),
-        key=lambda row: row.scene.position)
+        key=lambda row: row.scene_errors.position)
     return (
         'Distance of each reference from that of the scene as it is, at common points of the '
         'cloth (bilinear between nodes). Another number of nodes has other random offsets at the '
         'start, where the scene asks for them.\n\n'
         + _table(('scene', 'model', 'model error'), rows)
-        + f'\n\nThe least error of any setting on the scene itself is {least.scene.position:.1e} '
-        f'({least.setting.method}, {least.setting.label}). {_rounding(measured)}')
+        + '\n\nThe least error of any setting on the scene itself is '
+        f'{least.scene_errors.position:.1e} ({least.setting.method}, '
+        f'{least.setting.label}). {_rounding(measured)}')
 
 
 def _rounding(measured: Measured) -> str:
@@ -151,7 +153,7 @@ def _rounding(measured: Measured) -> str:
              if row.setting.method == 'mass_spring' and row.own is not None][-2:]
     if len(finer) < 2:
         return ''
-    gain = finer[0].own.position / finer[1].own.position
+    gain = finer[0].own_errors.position / finer[1].own_errors.position
     told = f'The last refinement of mass_spring made it {gain:.1f} times as exact'
     if gain > 1.5:
         return f'{told}: finer ones would be more exact still.'
@@ -172,8 +174,8 @@ def _ends(measured: Measured) -> str:
 
 def _told(row: Row) -> tuple[str, str, str, str]:
     return (
-        f'{row.setting.method}, {row.setting.label}', f'{row.scene.position:.1e}',
-        f'{row.scene.peak_strain:.3f}', _cost(row))
+        f'{row.setting.method}, {row.setting.label}', f'{row.scene_errors.position:.1e}',
+        f'{row.scene_errors.peak_strain:.3f}', _cost(row))
 
 
 def _cost(row: Row) -> str:

@@ -3,6 +3,7 @@
 
 """Error against cost, drawn: a panel for each variant of the scene."""
 
+from collections.abc import Iterable
 from pathlib import Path
 
 from cloth_sim_ros.study.trade.compared import Measured
@@ -11,6 +12,7 @@ from cloth_sim_ros.study.trade.row import Row
 from cloth_sim_ros.study.trade.variant import Variant
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+import numpy as np
 
 _COLOURS = ('#0072b2', '#d55e00', '#009e73', '#cc79a7', '#e69f00', '#56b4e9')
 _COLUMNS = 2
@@ -46,16 +48,16 @@ def _draw(
             points = [row for row in rows
                       if row.setting.method == method and bool(row.rounds) == is_timed]
             panel.scatter(
-                [row.cost for row in points], [row.error(variant.is_scene) for row in points],
+                [row.cost for row in points], _errors(points, variant),
                 s=26, color=colour, facecolors=colour if is_timed else 'none',
                 label=method if is_timed else None, zorder=3)
     best = front(rows, of_scene=variant.is_scene)
     panel.plot(
-        [row.cost for row in best], [row.error(variant.is_scene) for row in best],
+        [row.cost for row in best], _errors(best, variant),
         color='0.4', linewidth=1.0, label='Pareto front')
     for row in best:
         panel.annotate(
-            row.setting.label, (row.cost, row.error(variant.is_scene)), fontsize=7,
+            row.setting.label, (row.cost, row.known_error(variant.is_scene)), fontsize=7,
             xytext=(4, 4), textcoords='offset points')
     panel.scatter([], [], s=26, color='0.4', facecolors='none', label='not timed: an estimate')
     panel.axvline(1.0, color='0.7', linewidth=1.0, linestyle='--', label='real time')
@@ -67,3 +69,8 @@ def _draw(
         f'{variant.name}: {first.get("rows", 32)} x {first.get("cols", 32)} nodes', fontsize=10)
     panel.grid(True, which='major', color='0.9')
     panel.margins(x=0.22, y=0.12)
+
+
+def _errors(rows: Iterable[Row], variant: Variant) -> np.ndarray:
+    """Return the error of each row; NaN, which is not drawn, where there is none."""
+    return np.array([row.error(variant.is_scene) for row in rows], float)

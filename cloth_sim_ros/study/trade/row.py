@@ -59,6 +59,24 @@ class Row:
         errors = self.scene if of_scene else self.own
         return errors.position if errors else None
 
+    def known_error(self, of_scene: bool) -> float:
+        """Return the error in position of a row that has one."""
+        error = self.error(of_scene)
+        assert error is not None
+        return error
+
+    @property
+    def own_errors(self) -> Errors:
+        """Return ``own`` of a row that has it."""
+        assert self.own is not None
+        return self.own
+
+    @property
+    def scene_errors(self) -> Errors:
+        """Return ``scene`` of a row that has it."""
+        assert self.scene is not None
+        return self.scene
+
     def is_useful(self, of_scene: bool) -> bool:
         """
         Tell whether it shows the same motion, and may be compared with the other rows.

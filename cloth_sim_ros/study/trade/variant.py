@@ -7,8 +7,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
+from cloth_sim_ros.sim.collider_fields import fields_with_colliders
 from cloth_sim_ros.sim.scene import Scene
-from cloth_sim_ros.sim.scene_fields import SCENE_FIELDS
 from cloth_sim_ros.study.scene_values import scaled_stiffness
 
 
@@ -54,7 +54,7 @@ class Variant:
 def without_defaults(values: Mapping[str, Any]) -> dict[str, Any]:
     """Return those of ``values`` that differ from their default, with lists for tuples."""
     given = {
-        field.name: values[field.name] for field in SCENE_FIELDS
+        field.name: values[field.name] for field in fields_with_colliders(values)
         if field.name in values and field.check(values[field.name]) != field.default}
     return {name: list(value) if isinstance(value, tuple) else value
             for name, value in given.items()}

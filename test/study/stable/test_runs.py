@@ -35,8 +35,10 @@ SCENES = {
 SMALL = {'rows': 6, 'cols': 6, 'dt': 0.01}
 
 
-@pytest.mark.parametrize('mode', ['mass_spring', 'adaptive'])
-@pytest.mark.parametrize('name', SCENES)
+@pytest.mark.parametrize(('name', 'mode'), [
+    *((name, 'mass_spring') for name in SCENES), ('damped', 'adaptive'),
+    *(pytest.param(name, 'adaptive', marks=pytest.mark.long) for name in SCENES
+      if name != 'damped')])
 def test_the_edge_is_within_5_percent_of_the_closed_form(name, mode):
     """The limit is not where the springs blow up."""
     # Springs that come near their strain limit are taken implicitly, which does not blow up.
@@ -81,21 +83,28 @@ def test_by_default_all_is_stable_or_refused():
     assert stiff['outcome'] == 'refused' and 'set dt' in stiff['detail']
 
 
-def test_a_study_goes_on_where_it_was(tmp_path):
-    """Runs would be made again, or a map have holes."""
+@pytest.fixture(scope='module')
+def mapped(tmp_path_factory):
+    """Make the runs of a map in two goes; return their number, what came out and the folder."""
+    folder = tmp_path_factory.mktemp('map')
     runs = [run for run in map_points(SMALL, 2) if run.scene['mode'] == 'mass_spring']
-    with ResultsFolder(tmp_path) as results:
+    with ResultsFolder(folder) as results:
         make_runs(runs[:3], results, Workers(jobs=1), title='test')
-    with ResultsFolder(tmp_path) as results:
+    with ResultsFolder(folder) as results:
         found = make_runs(runs, results, Workers(jobs=1), title='test')
+    return len(runs), found, folder
+
+
+def test_a_study_goes_on_where_it_was(mapped):
+    """Runs would be made again, or a map have holes."""
+    count, found, folder = mapped
     assert all(result.is_done for result in found)
-    assert len((tmp_path / LINES).read_text().splitlines()) == len(runs)
+    assert len((folder / LINES).read_text().splitlines()) == len(found) == count
 
 
-def test_tables_and_figures(tmp_path):
+def test_tables_and_figures(mapped, tmp_path):
     """A study would end without its tables and figures."""
-    points = [perform(run, False) for run in map_points(SMALL, 2)
-              if run.scene['mode'] == 'mass_spring']
+    _, points, _ = mapped
     found = [perform(run, False) for run in edges(SMALL)
              if run.settings['probe'] == 'rest' and run.settings['value'] == 8
              and run.scene['mode'] == 'mass_spring']
