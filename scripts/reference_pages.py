@@ -26,6 +26,7 @@ from cloth_sim_ros.messages.requests import SUBSCRIPTIONS
 from cloth_sim_ros.messages.topics import Topic
 from cloth_sim_ros.messages.topics import TOPICS
 from cloth_sim_ros.node.node_fields import NODE_FIELDS
+from cloth_sim_ros.sim.collider_fields import COLLIDER_FIELDS
 from cloth_sim_ros.sim.field import Field
 from cloth_sim_ros.sim.scene_fields import SCENE_FIELDS
 from cloth_sim_ros.verb.main import VERBS
@@ -70,6 +71,12 @@ Write decimal points in lists of numbers: ROS accepts `[0.0, 0.0, 1.5]` and refu
 ## Scene
 
 {table(header, map(parameter_cells, SCENE_FIELDS))}
+## Colliders
+
+Each name in `colliders.names` has these, with the name in place of NAME
+([contact](../how_to/contact.md)):
+
+{table(header, map(parameter_cells, COLLIDER_FIELDS))}
 ## Node
 
 {table(header, map(parameter_cells, NODE_FIELDS))}"""

@@ -16,6 +16,8 @@ case " $* " in
   *) scripts/setup.sh --tests ;;
 esac
 . scripts/env.sh
+# Else each of the many processes that tests start would compile the package anew.
+unset PYTHONDONTWRITEBYTECODE
 # Files stay together: their tests share nodes and simulations.
 [ $# -gt 0 ] || set -- --numprocesses=auto --maxprocesses=4 --dist=loadfile
 exec python -m pytest "$@"

@@ -58,3 +58,11 @@ def test_a_page_without_a_place_is_an_error(copied):
     """A page would be in no menu."""
     (copied / 'docs' / 'lost.md').write_text('# Lost\n', encoding='utf-8')
     assert build(copied).returncode != 0
+
+
+def test_the_index_links_every_page():
+    """A page would be in the menu of the site alone, which nobody sees in the repository."""
+    docs = ROOT / 'docs'
+    index = (docs / 'index.md').read_text(encoding='utf-8')
+    assert [str(page) for page in sorted(docs.rglob('*.md'))
+            if page.name != 'index.md' and f'({page.relative_to(docs)})' not in index] == []

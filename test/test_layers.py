@@ -4,6 +4,8 @@
 """Hold the imports to the layers of the architecture: each room looks only at those below it."""
 
 import ast
+from graphlib import CycleError
+from graphlib import TopologicalSorter
 from pathlib import Path
 import sys
 
@@ -25,7 +27,7 @@ ROOMS = {
     'view': {'analysis', 'messages', 'sim', 'files'},
     'view/ros': {'view', 'node', 'analysis', 'messages', 'sim', 'files'},
     'resimulation': {'analysis', 'recording', 'sim', 'files'},
-    'gym': {'sim', 'files'},
+    'gym': {'rendering', 'sim', 'files'},
     'api': {'node', 'resimulation', 'analysis', 'recording', 'messages', 'sim'},
     'verb': {
         'view', 'view/ros', 'api', 'node', 'study', 'resimulation', 'rendering', 'analysis',
@@ -80,6 +82,23 @@ def test_imports_go_down_only():
         offenders += [
             f'{path.relative_to(PACKAGE)}: {other}' for other in used - {room} - ROOMS[room]]
     assert offenders == []
+
+
+def test_no_modules_import_each_other():
+    """One of two files could not be understood, changed or imported without the other."""
+    modules = {
+        '.'.join(path.relative_to(PACKAGE.parent).with_suffix('').parts): path
+        for path in SOURCES}
+    used = {}
+    for module, path in modules.items():
+        names = imported_modules(path)
+        names |= {name.rpartition('.')[0] for name in names}
+        used[module] = (names & set(modules)) - {module}
+    try:
+        TopologicalSorter(used).prepare()
+    except CycleError as error:
+        circle = ' is imported by '.join(error.args[1])
+        raise AssertionError(circle) from None
 
 
 def test_no_ros_below_the_messages():

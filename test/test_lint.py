@@ -8,12 +8,18 @@ Each linter gets the paths by name: at the root of a checkout it would also read
 """
 
 import ast
+import json
 from pathlib import Path
+import re
+import subprocess
+import sys
 from xml.etree import ElementTree
 
 from ament_flake8.main import main_with_errors as flake8_with_errors
 from ament_pep257.main import main as pep257
 from catkin_pkg.package import parse_package
+from flake8_docstrings import pep257Checker
+from pycodestyle import StyleGuide
 import pytest
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -48,14 +54,131 @@ def files_in(places: tuple[str, ...], suffixes: tuple[str, ...]) -> list[Path]:
 PYTHON_FILES = files_in(PYTHON_PLACES, ('.py',))
 
 
-def test_flake8():
-    """Names that don't exist, unused imports, wrong quotes or import order would be left."""
+# A file for each kind of rule, named after a rule that it breaks; flake8 gives those of imports
+# other numbers.
+FLAWS = {
+    'A001': 'list = 3\n',
+    'A002': 'def function(id):\n    return id\n',
+    'C400': 'numbers = list(n for n in range(3))\n',
+    'C408': 'empty = dict()\n',
+    'C416': 'numbers = [n for n in range(3)]\n',
+    'D200': 'def function():\n    """\n    Do it.\n    """\n',
+    'D205': 'def function():\n    """\n    Do it.\n    Then this.\n    """\n',
+    'D213': 'def function():\n    """Do it.\n\n    Then this.\n    """\n',
+    'D300': "def function():\n    '''Do it.'''\n",
+    'D400': 'def function():\n    """Do it"""\n',
+    'D401': 'def function():\n    """Does it."""\n',
+    'D403': 'def function():\n    """do it."""\n',
+    'E111': 'if True:\n  number = 3\n',
+    'E128': 'number = max(3,\n    4)\n',
+    'E131': 'numbers = {\n    3:\n        4,\n    5:\n            6}\n',
+    'E201': 'numbers = [ 3]\n',
+    'E225': 'number= 3\n',
+    'E231': 'numbers = [3,4]\n',
+    'E251': 'number = max(3, key = abs)\n',
+    'E261': 'number = 3 # so\n',
+    'E302': 'number = 3\ndef function():\n    pass\n',
+    'E303': 'number = 3\n\n\n\nother = 4\n',
+    'E305': 'def function():\n    pass\nnumber = 3\n',
+    'E501': f'number = {"1" * 99}\n',
+    'E502': 'number = max(3, \\\n             4)\n',
+    'E701': 'if True: number = 3\n',
+    'E711': 'number = 3\nif number == None:\n    number = 4\n',
+    'E722': 'try:\n    number = 3\nexcept:\n    number = 4\n',
+    'E731': 'function = lambda: 3\n',
+    'E741': 'l = 3\n',
+    'F401': 'import os\n',
+    'F541': "text = f'x'\n",
+    'F821': 'number = other\n',
+    'F841': 'def function():\n    number = 3\n',
+    'I001': 'import sys\nimport os\nprint(os, sys)\n',
+    'I001_of_parts': 'from os import path, sep\nprint(path, sep)\n',
+    'I001_of_groups': 'import numpy\n\nimport os\nprint(numpy, os)\n',
+    'I001_of_names': 'from os import sep\nfrom os import path\nprint(path, sep)\n',
+    'Q000': 'text = "x"\n',
+    'Q001': "text = '''x\ny'''\n",
+    'Q003': "text = 'It\\'s'\n",
+    'W191': 'if True:\n\tnumber = 3\n',
+    'W291': 'number = 3 \n',
+    'W292': 'number = 3',
+    'W391': 'number = 3\n\n',
+    'W605': "text = '\\d'\n",
+}
+
+
+def ruff(paths: list[Path]) -> str:
+    """Return what ruff finds by the rules of ruff.toml, a finding a line."""
+    done = subprocess.run(
+        [sys.executable, '-m', 'ruff', 'check', '--no-cache', '--quiet', '--output-format',
+         'json-lines', '--config', ROOT / 'ruff.toml', *paths], capture_output=True, text=True)
+    assert not done.stderr, done.stderr
+    return '\n'.join(
+        f'{finding["filename"]}:{finding["location"]["row"]}: {finding["code"]} '
+        f'{finding["message"]}' for finding in map(json.loads, done.stdout.splitlines()))
+
+
+def continuation_lines(paths: list[Path]) -> int:
+    """Print and count lines that are not indented as the bracket they are in asks for."""
+    guide = StyleGuide(paths=[], config_file=False)
+    # All else that pycodestyle knows, ruff does too.
+    for checks in ('physical_checks', 'logical_checks', 'ast_checks'):
+        setattr(guide.options, checks, [
+            check for check in getattr(guide.options, checks)
+            if check[0] == 'continued_indentation'])
+    return guide.check_files([str(path) for path in paths]).total_errors
+
+
+def test_ruff():
+    """Names that don't exist, unused imports, wrong quotes or docstrings would be left."""
+    found = ruff(PYTHON_FILES)
+    assert not found, found
+
+
+def test_continuation_lines(capsys):
+    """Lines within brackets would be indented in many ways."""
+    assert continuation_lines(PYTHON_FILES) == 0, capsys.readouterr().out
+
+
+@pytest.fixture
+def flawed(tmp_path: Path) -> list[Path]:
+    """Write a file for each flaw."""
+    for name, text in FLAWS.items():
+        (tmp_path / f'{name}.py').write_text(text, encoding='utf-8')
+    return sorted(tmp_path.iterdir())
+
+
+def test_each_kind_of_flaw_is_found(flawed, capsys):
+    """A file of settings that ruff reads otherwise would let everything pass."""
+    continuation_lines(flawed)
+    found = ruff(flawed) + capsys.readouterr().out
+    missed = [path.stem for path in flawed if not re.search(
+        rf'{path.name}:.*\b{path.stem[:4]}\b', found)]
+    assert not missed, found
+
+
+@pytest.mark.long
+def test_the_flaws_are_those_of_ament(flawed, monkeypatch, capsys, caplog):
+    """The quick tests would hold the sources to another style than ament's."""
+    caplog.set_level('WARNING')
+    _, errors = flake8_with_errors(argv=[str(path) for path in flawed])
+    assert pep257(argv=[str(path) for path in flawed]) == 1
+    found = '\n'.join(errors) + capsys.readouterr().out + caplog.text
+    missed = [path.stem for path in flawed if path.name not in found]
+    assert not missed, found
+
+
+@pytest.mark.long
+def test_flake8(monkeypatch):
+    """A rule of ament that ruff lacks would be broken."""
+    # What it asks of docstrings is a part of what test_pep257 asks, by the same pydocstyle.
+    monkeypatch.setattr(pep257Checker, 'run', lambda _: ())
     code, errors = flake8_with_errors(argv=[str(path) for path in PYTHON_FILES])
     assert code == 0, '\n'.join(errors)
 
 
+@pytest.mark.long
 def test_pep257(caplog):
-    """Docstrings would be missing or not in the imperative style of the rest of ROS."""
+    """A rule of ament on docstrings that ruff lacks would be broken."""
     caplog.set_level('WARNING')
     assert pep257(argv=[str(path) for path in PYTHON_FILES]) == 0
 

@@ -82,7 +82,7 @@ def test_services_are_those_of_the_code():
 
 def test_subscriptions_are_those_of_the_code():
     """The page would lack a topic that the node listens to, or give another type."""
-    made = re.compile(r"create_subscription\((\w+), '([~/\w]+)'")
+    made = re.compile(r"create_subscription\(\s*(\w+), '([~/\w]+)'")
     listed = rows(reference('topics'), '## Subscribed')
     assert {row[0]: row[1].rpartition('/')[2] for row in listed} == created(made)
     assert {topic.name for topic in SUBSCRIPTIONS} == set(created(made))
