@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from dataclasses import replace
 import math
 
+from cloth_sim_ros.files.echo import cut
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.pose import checked_position
 from cloth_sim_ros.sim.pose import Pose
@@ -50,16 +51,17 @@ class FrameMove:
             cls, *, name: str, target: Sequence[float], orientation: Sequence[float] | None,
             speed: float, angular_speed: float, start: float) -> 'FrameMove':
         """Return a FrameMove, or raise ClothSimError saying which value is wrong."""
+        named = cut(name)
         for quantity, value, unit in (
                 ('speed', speed, 'm/s'), ('angular_speed', angular_speed, 'rad/s')):
             if not _SLOWEST <= value <= _FASTEST:
                 raise ClothSimError(
-                    f'the {quantity} of {name} must be from {_SLOWEST:g} to {_FASTEST:g} {unit}, '
+                    f'the {quantity} of {named} must be from {_SLOWEST:g} to {_FASTEST:g} {unit}, '
                     f'got {value} {unit}: give it in simulated time')
         return cls(
-            name, checked_position(target, f'the target of {name}'),
+            name, checked_position(target, f'the target of {named}'),
             None if orientation is None
-            else unit_quaternion(orientation, f'the orientation of {name}'),
+            else unit_quaternion(orientation, f'the orientation of {named}'),
             float(speed), float(angular_speed), float(start))
 
     def slowed(self, duration: float, origin: Pose) -> 'FrameMove':

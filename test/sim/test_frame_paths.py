@@ -15,10 +15,10 @@ import pytest
 HERE = Pose((0.0, 0.0, 0.0))
 
 
-def a_move(target, start, *, speed=1.0, orientation=None, angular_speed=1.0):
-    """Return a checked move of the frame 'ball'."""
+def a_move(target, start, *, speed=1.0, orientation=None, angular_speed=1.0, name='ball'):
+    """Return a checked move of a frame."""
     return FrameMove.checked(
-        name='ball', target=target, orientation=orientation, speed=speed,
+        name=name, target=target, orientation=orientation, speed=speed,
         angular_speed=angular_speed, start=start)
 
 
@@ -143,3 +143,10 @@ def test_bad_moves_are_refused(values, rule):
     """A body would leave for nowhere, or never arrive."""
     with pytest.raises(ClothSimError, match=rule):
         a_move(**{'target': (0.0, 0.0, 0.0), 'start': 0.0, **values})
+
+
+def test_a_long_name_is_cut():
+    """An answer would be as long as what a client sent."""
+    with pytest.raises(ClothSimError) as found:
+        a_move(name=5000 * 'a', target=(0.0, 0.0, 0.0), speed=0.0, start=0.0)
+    assert len(str(found.value)) < 400
