@@ -293,6 +293,9 @@ class Contacts:
         program.set_floats('collider_thickness', [
             min(collider.thickness, _ENDLESS) for collider in self.colliders])
         program.set_float('clearance', self.clearance)
+        scene = self._scene
+        area = scene['width'] * scene['height'] / scene.node_count
+        program.set_float('compression', scene['contact.compression'] * area / scene.node_mass)
         program.set_int('record_stride', self._layout.stored)
 
 

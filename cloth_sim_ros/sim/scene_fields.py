@@ -192,6 +192,9 @@ SCENE_FIELDS = (
           'sets none, and the most of those that follow a topic', 'rad/s', low=1e-6, high=1e3),
     Field('contact.thickness', float, 0.001, 'thickness of the cloth, half of which its nodes '
           'keep from colliders', 'm', low=0.0, high=1.0),
+    Field('contact.compression', float, 1e4, 'pressure at which a cloth between two colliders '
+          'would be compressed to nothing; it grows in proportion to the compression', 'Pa',
+          low=0.0, high=1e9),
     Field('layout', str, 'fused', 'fused: forces and update in one shader pass; paper: the two '
           'passes of the paper, a baseline for benchmarks', choices=('fused', 'paper')),
     Field('loads', str, 'auto', 'how shaders read the state; auto chooses the faster one on this '

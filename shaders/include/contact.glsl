@@ -11,6 +11,9 @@
 // A node is held by so many at most: by those that it is nearest to.
 #define MOST_TOUCHED (COLLIDERS < 4 ? COLLIDERS : 4)
 #define MOST_ROUNDS 32
+// Surfaces face each other where the cosine between their normals is below minus this, and are one
+// where it is above.
+#define FACING 0.9
 
 #define FREE 0
 #define STICKS 1
@@ -22,6 +25,7 @@ uniform vec3 collider_turn[3 * COLLIDERS];    // [1/s] rows of (R - 1) / h, R th
 uniform float collider_friction[COLLIDERS];
 uniform float collider_thickness[COLLIDERS];  // [m] of a way through it, at least
 uniform float clearance;                      // [m] half the thickness of the cloth
+uniform float compression;                    // [m/s2] what compression to nothing presses with
 
 // Speed at which a node that is inside is moved out [m/s].
 const float way_out_speed = 1.0;
@@ -38,6 +42,10 @@ int touched_count;
 int touched[MOST_TOUCHED];
 vec4 surface[MOST_TOUCHED];  // normal, and distance less the clearance [m]
 vec3 given[MOST_TOUCHED];
+vec3 carried[MOST_TOUCHED];   // velocity of the surface at the node [m/s]
+float pressed[MOST_TOUCHED];  // change of velocity that a compressed cloth presses with [m/s]
+int held_on;                  // how many, not parallel to each other, act on it
+ivec2 held_by;                // the first two of them
 
 // What positions are rounded by: surfaces as near as this are touched.
 float rounding(vec3 x, int collider) {
@@ -95,12 +103,14 @@ void find_surfaces(vec3 x, vec3 v, float h) {
         touched[place] = collider;
         surface[place] = near;
         given[place] = vec3(0.0);
+        carried[place] = surface_velocity(collider, x);
+        pressed[place] = 0.0;
     }
     // The plane along a curved surface reaches beyond it. A node that passes by is not held there;
     // one that could pass through a thin collider is.
     if (touched_count == 1) {
         int collider = touched[0];
-        vec3 w = v - surface_velocity(collider, x);
+        vec3 w = v - carried[0];
         bool is_short = 2.0 * h * length(w) < collider_thickness[collider];
         if (surface[0].w > rounding(x, collider) && is_short
                 && gap_at_end(collider, x + h * v, h).w >= 0.0) {
@@ -109,18 +119,43 @@ void find_surfaces(vec3 x, vec3 v, float h) {
     }
 }
 
-// Speed along its normal that the velocity v of a node at x lacks for ending at the surface i.
-float lacking(int i, vec3 x, vec3 v, float h) {
-    int collider = touched[i];
-    float least = -max(surface[i].w - rounding(x, collider), 0.0) / h;
-    return least - dot(surface[i].xyz, v - surface_velocity(collider, x));
+// Two surfaces that face each other leave a node no room where they are nearer than the cloth is
+// thick. It is compressed then: the node stays between them, and they press on it. What each lacks
+// in room is shared, and so is what they differ by in their velocities along the normal.
+void find_compression(float h) {
+    for (int i = 1; i < touched_count; ++i) {
+        for (int j = 0; j < i; ++j) {
+            vec3 n = normalize(surface[i].xyz - surface[j].xyz);
+            float closing = dot(n, carried[i] - carried[j]);
+            float room = surface[i].w + surface[j].w;
+            float room_at_end = room - h * closing;
+            if (dot(surface[i].xyz, surface[j].xyz) > -FACING || min(room, room_at_end) >= 0.0) {
+                continue;
+            }
+            surface[i] = vec4(n, surface[i].w - 0.5 * min(room, 0.0));
+            surface[j] = vec4(-n, surface[j].w - 0.5 * min(room, 0.0));
+            carried[i] -= 0.5 * closing * n;
+            carried[j] += 0.5 * closing * n;
+            float share = clamp(-room_at_end / max(2.0 * clearance, 1e-30), 0.0, 1.0);
+            pressed[i] += h * compression * share;
+            pressed[j] += h * compression * share;
+        }
+    }
 }
 
-// What one surface makes of the velocity w relative to it.
-vec3 held(vec3 w, vec4 near, float closest, float h, float friction, out int kind) {
+// Speed along its normal that the velocity v of a node at x lacks for ending at the surface i.
+float lacking(int i, vec3 x, vec3 v, float h) {
+    float least = -max(surface[i].w - rounding(x, touched[i]), 0.0) / h;
+    return least - dot(surface[i].xyz, v - carried[i]);
+}
+
+// What the surface i makes of the velocity w relative to it.
+vec3 held(int i, vec3 w, float closest, float h, out int kind) {
+    vec4 near = surface[i];
+    float friction = collider_friction[touched[i]];
     float least = -max(near.w - closest, 0.0) / h;
     float along_normal = dot(near.xyz, w);
-    float impulse = max(least - along_normal, 0.0);
+    float impulse = max(least - along_normal, 0.0) + pressed[i];
     vec3 along = w - along_normal * near.xyz;
     float speed = length(along);
     bool sticks = friction > 0.0 && speed <= friction * impulse;
@@ -132,59 +167,54 @@ vec3 held(vec3 w, vec4 near, float closest, float h, float friction, out int kin
         + (sticks ? vec3(0.0) : (1.0 - friction * impulse / max(speed, 1e-30)) * along);
 }
 
+bool are_parallel(int i, int j) {
+    return abs(dot(surface[i].xyz, surface[j].xyz)) > FACING;
+}
+
 // Let each surface in turn act on the velocity of a node at x; return how far that changed it.
 float act_in_turn(vec3 x, float h, inout Contact found) {
-    int sliding = 0;
     bool sticks = false;
+    held_on = 0;
     vec3 before = found.velocity;
     for (int i = 0; i < touched_count; ++i) {
-        int collider = touched[i];
         int kind;
         vec3 without = found.velocity - given[i];
-        vec3 u = surface_velocity(collider, x);
-        vec3 with = u + held(
-            without - u, surface[i], rounding(x, collider), h, collider_friction[collider], kind);
+        vec3 with = carried[i] + held(
+            i, without - carried[i], rounding(x, touched[i]), h, kind);
         given[i] = kind == FREE ? vec3(0.0) : with - without;
         found.velocity = kind == FREE ? without : with;
         sticks = sticks || kind == STICKS;
-        sliding += kind == SLIDES ? 1 : 0;
-        found.normal = kind == SLIDES ? surface[i].xyz : found.normal;
+        // Parallel surfaces, facing each other or the same way, take one direction.
+        if (kind != FREE && (held_on < 1 || !are_parallel(i, held_by.x))
+                && (held_on < 2 || !are_parallel(i, held_by.y))) {
+            held_by = held_on == 0 ? ivec2(i) : held_on == 1 ? ivec2(held_by.x, i) : held_by;
+            ++held_on;
+        }
     }
     // What slides on three surfaces has no direction left: it is held for the substep.
-    found.kind = sticks || sliding > 2 ? STICKS : sliding == 2 ? SLIDES_ON_TWO
-        : sliding == 1 ? SLIDES : FREE;
+    found.kind = sticks || held_on > 2 ? STICKS : held_on == 2 ? SLIDES_ON_TWO
+        : held_on == 1 ? SLIDES : FREE;
+    found.normal = surface[held_on > 0 ? held_by.x : 0].xyz;
     return length(found.velocity - before);
+}
+
+// What the velocity v of a node at x lacks along the normals of two surfaces that hold it.
+vec2 lacking_on_two(vec3 x, vec3 v, float h) {
+    float c = dot(surface[held_by.x].xyz, surface[held_by.y].xyz);
+    vec2 lacks = vec2(lacking(held_by.x, x, v, h), lacking(held_by.y, x, v, h));
+    return (lacks - c * lacks.yx) / (1.0 - c * c);
 }
 
 // What slides on two surfaces has the direction of their line left. Where they meet at a sharp
 // angle the rounds come to that slowly: what is lacking across the line is made right at once.
 void slide_on_two(vec3 x, float h, inout Contact found) {
-    int first = -1;
-    int second = -1;
-    for (int i = 0; i < touched_count; ++i) {
-        if (given[i] != vec3(0.0)) {
-            second = first;
-            first = i;
-        }
-    }
-    vec3 n = surface[first].xyz;
-    vec3 m = surface[second].xyz;
-    float c = dot(n, m);
-    vec3 line = cross(n, m);
-    float sine = length(line);
-    if (sine < 1e-3) {
-        // They are parallel, facing each other or the same way.
-        found.kind = STICKS;
-        return;
-    }
-    float lacks_n = lacking(first, x, found.velocity, h);
-    float lacks_m = lacking(second, x, found.velocity, h);
-    vec3 by_n = (lacks_n - c * lacks_m) / (sine * sine) * n;
-    vec3 by_m = (lacks_m - c * lacks_n) / (sine * sine) * m;
-    given[first] += by_n;
-    given[second] += by_m;
-    found.velocity += by_n + by_m;
-    found.normal = line / sine;
+    vec3 n = surface[held_by.x].xyz;
+    vec3 m = surface[held_by.y].xyz;
+    vec2 lacks = lacking_on_two(x, found.velocity, h);
+    given[held_by.x] += lacks.x * n;
+    given[held_by.y] += lacks.y * m;
+    found.velocity += lacks.x * n + lacks.y * m;
+    found.normal = normalize(cross(n, m));
 }
 
 // The velocity of a node at x in the next h seconds, v without colliders.
@@ -194,6 +224,9 @@ Contact contact_at(vec3 x, vec3 v, float h) {
     if (touched_count == 0) {
         return found;
     }
+#if COLLIDERS > 1
+    find_compression(h);
+#endif
     float change = act_in_turn(x, h, found);
 #if COLLIDERS > 1
     for (int round = 1; round < MOST_ROUNDS && touched_count > 1; ++round) {
@@ -209,11 +242,26 @@ Contact contact_at(vec3 x, vec3 v, float h) {
     return found;
 }
 
+// What the surface i, near as the substep ends, shares of the room that a node at x has too little.
+float room_lacking(int i, vec4 near, vec3 x, float h) {
+    float lacking = 0.0;
+#if COLLIDERS > 1
+    for (int j = 0; j < touched_count; ++j) {
+        vec4 other = gap_at_end(touched[j], x, h);
+        if (j != i && dot(near.xyz, other.xyz) <= -FACING) {
+            lacking = max(lacking, -0.5 * (near.w + other.w));
+        }
+    }
+#endif
+    return lacking;
+}
+
 // Where a node that has come to x in h seconds is moved to if that is inside.
 vec3 moved_out(vec3 x, float h) {
     for (int i = 0; i < touched_count; ++i) {
         int collider = touched[i];
         vec4 near = gap_at_end(collider, x, h);
+        near.w += room_lacking(i, near, x, h);
         if (near.w < -rounding(x, collider)) {
             x += min(-near.w, h * way_out_speed) * near.xyz;
         }

@@ -18,9 +18,10 @@ void note_contact() { contacts[COLLIDERS * record_stride].x = serial; }
 
 void record_contacts(int index, int kind) {
     for (int i = 0; i < touched_count; ++i) {
-        if (given[i] != vec3(0.0)) {
+        if (given[i] != vec3(0.0) || pressed[i] > 0.0) {
             int entry = touched[i] * record_stride + index;
-            contacts[entry] = vec4(contacts[entry].xyz + given[i], float(min(kind, SLIDES)));
+            vec3 change = given[i] + pressed[i] * surface[i].xyz;
+            contacts[entry] = vec4(contacts[entry].xyz + change, float(min(kind, SLIDES)));
         }
     }
 }

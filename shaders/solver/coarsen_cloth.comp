@@ -29,7 +29,7 @@ Symmetric finer_edge(ivec2 at, int direction) {
 
 // 1 for a node that stays where it is.
 bool is_fixed(ivec2 at) {
-    return load_node(at).w < 0.0 || sticks(node_index(at.x, at.y));
+    return load_node(at).w < 0.0 || is_held(node_index(at.x, at.y));
 }
 
 // What ties a free node to a fixed one: by an edge that begins here, or ends here.
@@ -114,5 +114,13 @@ void main() {
             ground += all_ties(at);
         }
     }
+#if HAS_CONTACT
+    for (int i = 0; i < 4; ++i) {
+        ivec2 at = first + ivec2(i / 2, i % 2);
+        if (inside(0, at.x, at.y)) {
+            ground += grip_tensor(node_index(at.x, at.y));
+        }
+    }
+#endif
     store_symmetric(level, GROUND, index, ground);
 }

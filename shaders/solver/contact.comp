@@ -2,16 +2,23 @@
 // SPDX-License-Identifier: Apache-2.0
 
 #version 430 core
-// Decide which nodes touch a collider, docs/explanation/contact.md. Where one can't go on as it
-// does, its velocity is made right in that direction; what the impulse along the surface lacks is
-// left to the next solve.
+// Decide how nodes touch colliders, docs/explanation/contact.md. A velocity is made right at once
+// in directions that a surface takes; friction acts in the next solve: as a force where a node
+// slides, and as a steep resistance where it does not.
 // STAGE BEGIN: before the first solve of a substep, by the velocities that are expected.
 // STAGE AGAIN: after a solve, by the velocity that a node would have without its colliders.
-// STAGE END: after the last one. Whatever was not found by then is held off the surface.
+// STAGE END: after the last one. What does not slide has the velocity of the surface, and what was
+// not found by then is held off it.
 
 #define BEGIN 0
 #define AGAIN 1
 #define END 2
+
+// What has become of a node in a substep: it has stuck at the end of the last one, was let go, or
+// has begun to slide or to stick so often, as hard edges can have it do to and fro.
+#define STUCK 1.0
+#define LET_GO 16.0
+#define MOST_TURNS 3.0
 
 #include "solver/levels.glsl"
 #include "solver/vectors.glsl"
@@ -32,31 +39,77 @@ uniform float substep;        // [s]
 uniform float kick;           // [s] that what is applied acts for
 uniform float guess;          // share of the last change that is expected; 0: none known
 #else
+uniform bool ends_turns;       // whether friction is to resist only, which throws no node
 uniform float most_unsolved;  // [m] that a node may be moved by without another solve
 #endif
 
-void keep(int index, Contact contact, vec3 reaction, vec3 left) {
-    system_data[cloth_entry(CONTACT, index)] = vec4(contact.normal, float(contact.kind));
+// How a node touches: what is left to a solve is grip and impulse.
+struct Hold {
+    int kind;      // FREE, SLIDES or SLIDES_ON_TWO by the directions that are left to it; STICKS: none
+    vec3 normal;
+    vec3 change;   // of the velocity at once
+    float grip;
+    vec3 impulse;  // that friction and what was let go add to the next solve
+};
+
+void keep(int index, Hold hold, vec3 reaction) {
+    system_data[cloth_entry(CONTACT, index)] = vec4(hold.normal, float(hold.kind));
+    system_data[cloth_entry(GRIP, index)] = vec4(hold.grip, 0.0, 0.0, 0.0);
     store_vector(cloth_entry(REACTION, index), reaction);
-    store_vector(cloth_entry(GIVEN, index), left);
-    if (contact.kind != FREE) {
+    store_vector(cloth_entry(GIVEN, index), hold.impulse);
+    if (hold.kind != FREE) {
         note_contact();
     }
 }
 
-// The part of an impulse in directions in which the node can go.
-vec3 along_surface(Contact contact, vec3 impulse) {
-    vec3 along = dot(contact.normal, impulse) * contact.normal;
-    return contact.kind == SLIDES ? impulse - along
-        : contact.kind == SLIDES_ON_TWO ? along : vec3(0.0);
+// The part of v in directions in which the node can go.
+vec3 along_surface(Hold hold, vec3 v) {
+    vec3 along = dot(hold.normal, v) * hold.normal;
+    return hold.kind == SLIDES ? v - along : hold.kind == SLIDES_ON_TWO ? along : vec3(0.0);
 }
 
-// What the velocity v has to change by at once: all but that.
-vec3 change_at_once(Contact contact, vec3 v) {
-    vec3 change = contact.velocity - v;
-    return contact.kind == FREE ? vec3(0.0) : change - along_surface(contact, change);
+// Where the surfaces that act by the law leave a node of velocity v to go, without friction yet.
+Hold hold_of(Contact contact, vec3 v) {
+    Hold hold = Hold(FREE, vec3(0.0), vec3(0.0), 0.0, vec3(0.0));
+    if (contact.kind == FREE) {
+        return hold;
+    }
+    hold.kind = held_on == 1 ? SLIDES : held_on == 2 ? SLIDES_ON_TWO : STICKS;
+    hold.normal = surface[held_by.x].xyz;
+    if (held_on == 2) {
+        hold.normal = normalize(cross(hold.normal, surface[held_by.y].xyz));
+    }
+    hold.change = contact.velocity - v;
+    hold.change -= along_surface(hold, hold.change);
+    return hold;
 }
 
+// The most that friction changes the velocity by in the substep.
+float most_friction() {
+    float most = 0.0;
+    for (int i = 0; i < touched_count; ++i) {
+        float normal_impulse = max(dot(given[i], surface[i].xyz), 0.0) + pressed[i];
+        most += collider_friction[touched[i]] * normal_impulse;
+    }
+    return most;
+}
+
+// How fast a node of velocity v slides.
+vec3 sliding(Hold hold, vec3 v) { return along_surface(hold, v - carried[held_by.x]); }
+
+// Up to this speed [m/s] a node does not slide: positions are rounded by as much.
+float slowest(vec3 x) { return rounding(x, touched[0]) / substep; }
+
+// What positions are rounded by is as much force in hard edges: it lets nothing slide that sticks.
+bool is_slow(Hold hold, Contact contact, vec3 x) {
+    return length(sliding(hold, contact.velocity)) < slowest(x);
+}
+
+// Have friction resist with most at the speed at which a node begins to slide.
+void hold_fast(inout Hold hold, float most, float speed, vec3 slid, vec3 done) {
+    hold.grip = most / speed;
+    hold.impulse = -hold.grip * slid - done;
+}
 
 #if STAGE == BEGIN
 void decide(int at, int index, inout vec4 x, inout vec4 v) {
@@ -70,72 +123,94 @@ void decide(int at, int index, inout vec4 x, inout vec4 v) {
         ? guess * (last - load_vector(cloth_entry(REACTION, index)))
         : kick * applied_acceleration(at);
     vec3 without = v.xyz + expected;
-    Contact contact = contact_at(x.xyz, without, substep);
-    vec3 change = change_at_once(contact, v.xyz);
-    // The impulse of the last substep may be none of this one: where edges that are let go have
-    // made it large, friction by it would throw the node that it is to stop.
-    vec3 friction = along_surface(contact, contact.velocity - without);
-    float most = length(along_surface(contact, v.xyz - surface_velocity(touched[0], x.xyz)))
-        + kick * length(applied_acceleration(at));
-    friction *= min(most / max(length(friction), 1e-30), 1.0);
-    keep(index, contact, change, friction);
+    bool touched_before = guess > 0.0 && system_data[cloth_entry(CONTACT, index)].w > 0.0;
+    float end = touched_before ? vectors[cloth_entry(REACTION, index)].w : 0.0;
     vectors[cloth_entry(REACTION, index)].w = 0.0;
-    v.xyz += change;
-    if (contact.kind == STICKS) {
-        v.xyz = contact.velocity;
-        store_vector(cloth_entry(CHANGE, index), vec3(0.0));
-    } else if (contact.kind != FREE) {
+    Contact contact = contact_at(x.xyz, without, substep);
+    Hold hold = hold_of(contact, v.xyz);
+    bool sticks = contact.kind == STICKS || end == STUCK && is_slow(hold, contact, x.xyz);
+    if (sticks) {
+        hold.change -= sliding(hold, v.xyz + hold.change);
+        hold.kind = STICKS;
+    }
+    v.xyz += hold.change;
+    if (hold.kind == SLIDES || hold.kind == SLIDES_ON_TWO) {
+        // The impulse of the last substep may be none of this one: where edges that are let go
+        // have made it large, friction by it would throw the node that it is to stop.
+        vec3 friction = along_surface(hold, contact.velocity - without);
+        float most = length(sliding(hold, v.xyz)) + kick * length(applied_acceleration(at));
+        hold.impulse = friction * min(most / max(length(friction), 1e-30), 1.0);
+    }
+    keep(index, hold, hold.change);
+    if (hold.kind != FREE) {
         // What the solve starts with is nothing where the node can't go.
-        store_vector(cloth_entry(CHANGE, index), along_surface(contact, last));
+        store_vector(cloth_entry(CHANGE, index), along_surface(hold, last));
     }
 }
 #elif STAGE == AGAIN
+// Let friction hold a node or have it slide, by its velocity v after a solve.
+void rub(inout Hold hold, Contact contact, vec3 v, vec3 x, vec3 reaction, int was,
+         float was_grip, inout float turns) {
+    vec3 slid = sliding(hold, v);
+    vec3 done = along_surface(hold, reaction);
+    bool sticks_again = was > STICKS && contact.kind == STICKS && turns > 0.0;
+    bool slides_on = contact.kind != STICKS && ends_turns;
+    if (was_grip > 0.0 || sticks_again || slides_on) {
+        hold_fast(hold, most_friction(), max(length(slid), slowest(x)), slid, done);
+        return;
+    }
+    if (contact.kind == STICKS || was == STICKS && is_slow(hold, contact, x)) {
+        hold.change -= slid;
+        hold.kind = STICKS;
+        return;
+    }
+    turns += was == STICKS ? 1.0 : 0.0;
+    hold.impulse = along_surface(hold, contact.velocity - (v - hold.change - reaction)) - done;
+}
+
 void decide(int at, int index, inout vec4 x, inout vec4 v) {
     int was = int(system_data[cloth_entry(CONTACT, index)].w);
+    float was_grip = system_data[cloth_entry(GRIP, index)].x;
     vec3 begin = load_vector(cloth_entry(BEGIN_POSITION, index));
     vec3 reaction = load_vector(cloth_entry(REACTION, index));
-    vec3 without = v.xyz - reaction;
-    Contact contact = contact_at(begin, without, substep);
-    // Hard edges would have nodes change to and fro: in a substep, one that sticks goes on to,
-    // and one that was let go once does neither stick nor is it let go again.
-    float was_let_go = vectors[cloth_entry(REACTION, index)].w;
-    bool goes_on = was == STICKS && (contact.kind == SLIDES || contact.kind == SLIDES_ON_TWO)
-        || was != FREE && contact.kind == FREE && was_let_go == 1.0;
-    if (goes_on) {
-        contact = Contact(v.xyz, system_data[cloth_entry(CONTACT, index)].xyz, was);
-    } else if (contact.kind == STICKS && was_let_go == 1.0 && touched_count == 1) {
-        contact.kind = SLIDES;
-        contact.normal = surface[0].xyz;
-    } else if (was != FREE && contact.kind == FREE) {
-        vectors[cloth_entry(REACTION, index)].w = 1.0;
-    }
+    float turns = vectors[cloth_entry(REACTION, index)].w;
+    Contact contact = contact_at(begin, v.xyz - reaction, substep);
     if (v.w == 0.0 || (was == FREE && contact.kind == FREE)) {
         store_vector(cloth_entry(GIVEN, index), vec3(0.0));
         return;
     }
-    vec3 change = change_at_once(contact, v.xyz);
-    vec3 wanted = contact.velocity - without;
-    vec3 left = goes_on ? vec3(0.0)
-        : contact.kind == FREE ? -reaction : along_surface(contact, wanted - reaction);
-    if (substep * max(length(change), length(left)) > most_unsolved) {
+    Hold hold = hold_of(contact, v.xyz);
+    if (contact.kind == FREE && turns >= LET_GO) {
+        // What was let go once goes on to touch.
+        hold.kind = was;
+        hold.normal = system_data[cloth_entry(CONTACT, index)].xyz;
+        hold.grip = was_grip;
+    } else if (contact.kind == FREE) {
+        hold.impulse = -reaction;
+        turns = LET_GO;
+    } else if (hold.kind != STICKS) {
+        rub(hold, contact, v.xyz + hold.change, begin, reaction, was, was_grip, turns);
+    }
+    vectors[cloth_entry(REACTION, index)].w = turns;
+    if (substep * max(length(hold.change), length(hold.impulse)) > most_unsolved) {
         note_change();
     }
-    vec3 to = contact.kind == STICKS ? contact.velocity : v.xyz + change;
     // What is let go has no reaction once the next solve is done.
-    reaction = contact.kind == FREE ? vec3(0.0) : reaction + (to - v.xyz);
-    keep(index, contact, reaction, left);
-    if (to != v.xyz) {
-        v.xyz = to;
-        x.xyz = begin + substep * to;
+    keep(index, hold, hold.kind == FREE ? vec3(0.0) : reaction + hold.change);
+    if (hold.change != vec3(0.0)) {
+        v.xyz += hold.change;
+        x.xyz = begin + substep * v.xyz;
         store_vector(
-            cloth_entry(CHANGE, index), to - load_vector(cloth_entry(BEGIN_VELOCITY, index)));
+            cloth_entry(CHANGE, index), v.xyz - load_vector(cloth_entry(BEGIN_VELOCITY, index)));
     }
 }
 #else
 void decide(int at, int index, inout vec4 x, inout vec4 v) {
     vec4 was = system_data[cloth_entry(CONTACT, index)];
+    float was_grip = system_data[cloth_entry(GRIP, index)].x;
     vec3 begin = load_vector(cloth_entry(BEGIN_POSITION, index));
     vec3 reaction = load_vector(cloth_entry(REACTION, index));
+    vectors[cloth_entry(REACTION, index)].w = 0.0;
     if (v.w == 0.0) {
         return;
     }
@@ -147,18 +222,26 @@ void decide(int at, int index, inout vec4 x, inout vec4 v) {
         given[0] = reaction;
     }
     vec3 to = v.xyz;
+    bool sticks = int(was.w) == STICKS;
+    if (was.w > float(STICKS)) {
+        Hold hold = Hold(int(was.w), was.xyz, vec3(0.0), 0.0, vec3(0.0));
+        vec3 slid = sliding(hold, to);
+        sticks = was_grip > 0.0 && length(slid) <= 2.0 * slowest(begin);
+        to -= sticks ? slid : vec3(0.0);
+    }
     for (int i = 0; i < touched_count; ++i) {
         vec3 change = max(lacking(i, begin, to, substep), 0.0) * surface[i].xyz;
         given[i] += change;
         to += change;
     }
     if (to != v.xyz) {
+        store_vector(cloth_entry(REACTION, index), reaction + (to - v.xyz));
         v.xyz = to;
         x.xyz = begin + substep * to;
-        store_vector(cloth_entry(REACTION, index), reaction + (to - v.xyz));
     }
     x.xyz = moved_out(x.xyz, substep);
-    record_contacts(at, was.w > 0.0 ? int(was.w) : SLIDES);
+    vectors[cloth_entry(REACTION, index)].w = sticks ? STUCK : 0.0;
+    record_contacts(at, sticks ? STICKS : SLIDES);
 }
 #endif
 

@@ -36,6 +36,8 @@ _NOTHING = 1e-9
 _MOST_SOLVES = 32
 # Of a substep, until it is known what touches a collider.
 _MOST_CONTACT_SOLVES = 8
+# After so many, friction only resists.
+_MOST_CONTACT_TURNS = 4
 
 
 class ImplicitStep(ABC):
@@ -207,23 +209,24 @@ class ImplicitStep(ABC):
         yield from self._solve(state, forcing_of, kick=kick)
         self._solver.apply(state, common_change=common_change)
         yield
-        is_due = self._resolve_contacts(state, forcing_of())
+        is_due = self._resolve_contacts(state, forcing_of(), 1)
         solves = 1
         while solves < self._solves or (is_due and solves < _MOST_CONTACT_SOLVES):
             yield from self._solve(state, forcing_of, kick=kick, is_further=True)
             self._solver.apply(state, further=True)
             yield
-            is_due = self._resolve_contacts(state, forcing_of())
             solves += 1
+            is_due = self._resolve_contacts(state, forcing_of(), solves)
         if forcing_of().touch is not None:
             self._solver.resolve_contacts(state, forcing_of(), is_last=True)
             yield
 
-    def _resolve_contacts(self, state: State, forcing: Forcing) -> bool:
+    def _resolve_contacts(self, state: State, forcing: Forcing, solves: int) -> bool:
         """Let colliders act on what was solved; return whether another solve is due for it."""
         if forcing.touch is None:
             return False
-        self._solver.resolve_contacts(state, forcing, is_last=False)
+        self._solver.resolve_contacts(
+            state, forcing, ends_turns=solves >= _MOST_CONTACT_TURNS)
         return forcing.touch.is_solve_due()
 
     def _solve(

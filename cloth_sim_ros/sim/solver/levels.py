@@ -16,7 +16,7 @@ MOST_LEVELS = 16
 _CLOTH_VECTORS = 8
 # With bend edges, and with damped bending, two fields more for each.
 _CLOTH_SYSTEM, _MORE_SYSTEM = 7, 2
-_CONTACT_VECTORS, _CONTACT_SYSTEM = 5, 1
+_CONTACT_VECTORS, _CONTACT_SYSTEM = 5, 2
 _COARSE_VECTORS = 3
 _COARSE_SYSTEM = 10
 # Nodes along each side of an invocation, an even number, and invocations of a workgroup.

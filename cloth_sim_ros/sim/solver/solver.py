@@ -137,7 +137,9 @@ class Solver:
         self._buffers.bind()
         self._contacts.begin(state, forcing, length, kick, length * self._last_rate)
 
-    def resolve_contacts(self, state: State, forcing: Forcing, *, is_last: bool) -> None:
+    def resolve_contacts(
+            self, state: State, forcing: Forcing, *, is_last: bool = False,
+            ends_turns: bool = False) -> None:
         """
         Let colliders act on a solution that was applied; what touches them may change.
 
@@ -145,7 +147,8 @@ class Solver:
         """
         assert self._contacts is not None
         self._buffers.bind()
-        self._contacts.after_solve(state, forcing, self._law.length, is_last=is_last)
+        self._contacts.after_solve(
+            state, forcing, self._law.length, is_last=is_last, ends_turns=ends_turns)
 
     def prepare(
             self, state: State, forcing: Forcing, *, kick: float | None = None,

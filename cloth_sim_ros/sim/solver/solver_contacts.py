@@ -59,13 +59,15 @@ class SolverContacts:
         self._hold.run()
 
     def after_solve(
-            self, state: State, forcing: Forcing, length: float, *, is_last: bool) -> None:
+            self, state: State, forcing: Forcing, length: float, *, is_last: bool,
+            ends_turns: bool) -> None:
         """Decide anew once a solve is applied; once more with ``is_last`` to end the substep."""
         if not is_last:
             self._react.run()
         touch_of(forcing).begin_decision()
         program = self._use('END' if is_last else 'AGAIN', forcing, length, length)
         program.set_float('most_unsolved', self._most_unsolved)
+        program.set_int('ends_turns', int(ends_turns))
         self._run(program, state)
 
     def delete(self) -> None:

@@ -58,6 +58,7 @@ void make_product(ivec2 first) {
     make_whole_product(first);
     FOR_BLOCK {
         product[row][col] = is_free(node[row][col])
-            ? in_free_directions(tile_index(first, row, col), product[row][col]) : vec3(0.0);
+            ? held_product(tile_index(first, row, col), value[row][col], product[row][col])
+            : vec3(0.0);
     }
 }

@@ -1,14 +1,16 @@
 // SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Where a node of the cloth can go in a solve: nowhere while it sticks to a collider, along the
-// surface while it slides on one, along their common line while it slides on two. Its velocity is
-// right in all other directions before.
+// Where a node of the cloth can go in a solve: along the surface that it touches, along the common
+// line of two, nowhere where there are more. Its velocity is right in all other directions before.
+// Friction that holds it resists in these directions.
 
 #if HAS_CONTACT
 vec4 load_contact(int index) { return load_system(cloth_entry(CONTACT, index)); }
 
-bool sticks(int index) { return load_contact(index).w == 1.0; }
+float grip_of(int index) { return load_system(cloth_entry(GRIP, index)).x; }
+
+bool is_held(int index) { return load_contact(index).w == 1.0; }
 
 vec3 in_free_directions(int index, vec3 v) {
     vec4 contact = load_contact(index);
@@ -16,8 +18,19 @@ vec3 in_free_directions(int index, vec3 v) {
     return contact.w == 0.0 ? v : contact.w == 1.0 ? vec3(0.0)
         : contact.w == 2.0 ? v - along : along;
 }
-#else
-bool sticks(int index) { return false; }
 
-vec3 in_free_directions(int index, vec3 v) { return v; }
+// Of a row of the matrix times a vector, value at the node itself.
+vec3 held_product(int index, vec3 value, vec3 product) {
+    return in_free_directions(index, product + grip_of(index) * value);
+}
+
+Symmetric grip_tensor(int index) {
+    vec4 contact = load_contact(index);
+    Symmetric along = outer_square(contact.xyz);
+    return grip_of(index) * (contact.w == 2.0 ? scaled_identity(1.0) - along : along);
+}
+#else
+bool is_held(int index) { return false; }
+
+vec3 held_product(int index, vec3 value, vec3 product) { return product; }
 #endif

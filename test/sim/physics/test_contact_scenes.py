@@ -63,6 +63,32 @@ def work_of(forces, before, after):
     return work
 
 
+def depth(bodies, positions, clearance, started_inside):
+    """Return how deep the deepest node is in a body that another one does not press it into."""
+    gaps = [distance_to(body, positions) - clearance for body in bodies]
+    deepest = 0.0
+    for number, body in enumerate(bodies):
+        inside = (gaps[number] < 0.0) & ~started_inside[body.name]
+        if not inside.any():
+            continue
+        normal = normals(body, positions)
+        for other, gap in zip(bodies, gaps):
+            # Where two bodies face each other there may be no room.
+            facing = np.sum(normal * normals(other, positions), axis=-1) < -0.85
+            inside &= ~(facing & (gap + gaps[number] < 0.0))
+        deepest = max(deepest, -float(gaps[number][inside].min(initial=0.0)))
+    return deepest
+
+
+def normals(body, positions):
+    """Return the directions in which the distance from ``body`` grows, (..., 3)."""
+    ways = 1e-5 * np.eye(3)
+    slopes = np.stack([
+        distance_to(body, positions + way) - distance_to(body, positions - way)
+        for way in ways], axis=-1)
+    return slopes / np.maximum(np.linalg.norm(slopes, axis=-1, keepdims=True), 1e-30)
+
+
 def check(simulate, within, mode, seed, seconds):
     """Run the scene of ``seed``, hold it to what is true of every one, and return its end."""
     simulation = simulate({'mode': mode, **draw(seed)})
@@ -82,9 +108,7 @@ def check(simulate, within, mode, seed, seconds):
         done = work_of(simulation.contact_forces(), before, simulation.colliders)
         work, moved = work + done, moved + abs(done)
         positions = simulation.positions()
-        for body in simulation.colliders:
-            gap = distance_to(body, positions) - clearance
-            deepest = max(deepest, -float(gap[~started_inside[body.name]].min(initial=0.0)))
+        deepest = max(deepest, depth(simulation.colliders, positions, clearance, started_inside))
         latest = [*latest[-9:], simulation.measure().total_energy - work]
         rise = max(rise, min(latest) - least)
         least = min(least, min(latest))
