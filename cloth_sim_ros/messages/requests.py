@@ -21,6 +21,7 @@ from geometry_msgs.msg import PoseStamped
 from geometry_msgs.msg import Vector3Stamped
 from std_srvs.srv import SetBool
 from std_srvs.srv import Trigger
+from tf2_msgs.msg import TFMessage
 
 
 @dataclass(frozen=True)
@@ -77,4 +78,7 @@ SUBSCRIPTIONS = (
     Request('~/wind', Vector3Stamped, 'set the steady wind, if the scene has air'),
     Request('/clicked_point', PointStamped, 'push the cloth around a point clicked in RViz or '
             'Foxglove, as set by the parameters `clicked_point.*`'),
+    Request('/tf', TFMessage, 'transforms of the frames in which inputs are given, if '
+            '`tf.listen` is true'),
+    Request('/tf_static', TFMessage, 'the same, of frames that do not move'),
 )

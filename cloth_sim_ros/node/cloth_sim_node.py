@@ -19,6 +19,7 @@ from cloth_sim_ros.node.grasp_services import GraspServices
 from cloth_sim_ros.node.grasp_services import LostGrasps
 from cloth_sim_ros.node.guarded_node import GuardedNode
 from cloth_sim_ros.node.ignored_messages import IgnoredMessages
+from cloth_sim_ros.node.input_frames import InputFrames
 from cloth_sim_ros.node.inputs import Inputs
 from cloth_sim_ros.node.large_messages import cloud_bytes
 from cloth_sim_ros.node.large_messages import SharedMemory
@@ -27,6 +28,7 @@ from cloth_sim_ros.node.mode_switch import ModeService
 from cloth_sim_ros.node.mode_switch import ModeSwitch
 from cloth_sim_ros.node.namesake import Namesake
 from cloth_sim_ros.node.outlet import Outlet
+from cloth_sim_ros.node.own_frames import OwnFrames
 from cloth_sim_ros.node.pacing import PaceReport
 from cloth_sim_ros.node.pacing import Pacing
 from cloth_sim_ros.node.parameter_requests import with_reasons
@@ -69,7 +71,8 @@ class ClothSimNode(GuardedNode):
     (Command), ~/inputs/parameters (ParameterEvent).
 
     Listens to: ~/push (Push), ~/pins/target (PinTarget), ~/grasps/NAME/target and
-    ~/colliders/NAME/pose (PoseStamped), ~/wind (Vector3Stamped), /clicked_point (PointStamped).
+    ~/colliders/NAME/pose (PoseStamped), ~/wind (Vector3Stamped), /clicked_point (PointStamped),
+    /tf and /tf_static (TFMessage).
 
     Serves: ~/set_mode (SetMode), ~/apply_push (ApplyPush), ~/clear_pushes (Trigger), ~/set_pin
     (SetPin), ~/move_pin (MovePin), ~/grasp (Grasp), ~/release (Release), ~/move_grasp and
@@ -98,10 +101,15 @@ class ClothSimNode(GuardedNode):
             options=RecordingOptions.from_values(values), wake=self._on_recording_ended)
         # The thread that writes triggers it; the check runs where all else does.
         self._recording_ended = self.create_guard_condition(self._recording.check)
-        self._outlet = Outlet(self, self._recording)
+        self._ignored = IgnoredMessages(self.get_logger().warning)
+        own = OwnFrames(self._simulation, name, values['frame_id'])
+        self._input_frames = InputFrames(
+            self, own, values['frame_id'], self._ignored, listens=values['tf.listen'])
+        self._outlet = Outlet(
+            self, self._recording, heard_here=('tf',) if values['tf.listen'] else ())
         self._inputs = Inputs(self._outlet, self._simulation, values['frame_id'], name)
         self._frames = Frames(
-            self._simulation, self._outlet, values, name, self.get_logger().warning)
+            self._simulation, self._outlet, values, name, own, self.get_logger().warning)
         self._pacing = Pacing(values['real_time_factor'])
         self._pace_report = PaceReport(
             self._simulation, self._pacing, warn=self.get_logger().warning,
@@ -121,7 +129,6 @@ class ClothSimNode(GuardedNode):
         self._clock_topic = ClockTopic(self, self._outlet, values['publish.clock'])
         LiveParameters(
             self, values, ask_mode=self._switch.ask, changed=self._on_parameters_changed)
-        self._ignored = IgnoredMessages(self.get_logger().warning)
         self._serve()
         self.create_timer(
             _WATCH_PERIOD, self._watch, clock=Clock(clock_type=ClockType.STEADY_TIME))
@@ -160,14 +167,17 @@ class ClothSimNode(GuardedNode):
 
     def _serve(self) -> None:
         ModeService(self, self._simulation, self._switch)
-        PushRequests(self, self._simulation, self._inputs, self._values, self._ignored)
-        PinService(self, self._simulation, self._inputs)
+        frames = self._input_frames
+        PushRequests(
+            self, self._simulation, self._inputs, self._values, frames, self._ignored)
+        PinService(self, self._simulation, self._inputs, frames)
         for topic in (PinTargets, WindTopic):
-            topic(self, self._simulation, self._inputs, self._values['frame_id'], self._ignored)
+            topic(self, self._simulation, self._inputs, frames, self._ignored)
         self._streams = PoseStreams(
-            self, self._simulation, self._inputs, self._values['frame_id'], self._ignored)
-        MoveServices(self, self._simulation, self._inputs)
-        GraspServices(self, self._simulation, self._inputs, self._streams.follow_grasps)
+            self, self._simulation, self._inputs, frames, self._ignored)
+        MoveServices(self, self._simulation, self._inputs, frames)
+        GraspServices(
+            self, self._simulation, self._inputs, frames, self._streams.follow_grasps)
         self._simulation.listener = LostGrasps(
             self._inputs, self.get_logger().warning, self._streams.follow_grasps)
         RunServices(
@@ -199,6 +209,7 @@ class ClothSimNode(GuardedNode):
         self._send_diagnostics()
 
     def _on_frame(self, worked: float, steps: int) -> None:
+        self._input_frames.take_waiting()
         too_slow = self._run_loop.running and self._pacing.too_slow
         self._frames.send(
             worked=worked, steps=steps, real_time_factor=self._run_loop.real_time_factor,
@@ -221,6 +232,7 @@ class ClothSimNode(GuardedNode):
         self._inputs.command(Command.RESET)
         self._recording.rewind(self._simulation.time)
         self._simulation.reset()
+        self._input_frames.forget()
         self._streams.follow_grasps()
         self._run_loop.restart()
         self._state.send()
@@ -260,6 +272,7 @@ class ClothSimNode(GuardedNode):
 
     def _watch(self) -> None:
         """Once a second: the health of the run, and a still picture for those who come late."""
+        self._input_frames.take_waiting()
         self._clock_topic.watch()
         self._namesake.watch()
         self._recording.check()

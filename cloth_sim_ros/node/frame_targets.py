@@ -8,11 +8,9 @@ from functools import partial
 
 from cloth_sim_interfaces.srv import MoveFrame
 from cloth_sim_ros.node.answer import answer
-from cloth_sim_ros.node.ignored_messages import check_frame
 from cloth_sim_ros.node.ignored_messages import IgnoredMessages
+from cloth_sim_ros.node.input_frames import InputFrames
 from cloth_sim_ros.node.inputs import Inputs
-from cloth_sim_ros.node.pose_parts import orientation_parts
-from cloth_sim_ros.node.pose_parts import position_parts
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.frame_paths import FrameMove
 from cloth_sim_ros.sim.frame_paths import FramePath
@@ -31,32 +29,38 @@ Tell = Callable[[FrameMove], None]
 
 
 class MoveServices:
-    """Serve ~/move_grasp and ~/move_collider."""
+    """
+    Serve ~/move_grasp and ~/move_collider.
 
-    def __init__(self, node: Node, simulation: Simulation, inputs: Inputs) -> None:
+    :param frames: says what headers mean
+    """
+
+    def __init__(
+            self, node: Node, simulation: Simulation, inputs: Inputs,
+            frames: InputFrames) -> None:
         """Make the services."""
         node.create_service(MoveFrame, '~/move_grasp', answer(
-            partial(_on_request, 'grasp', simulation.move_grasp, inputs.grasp_move)))
-        node.create_service(MoveFrame, '~/move_collider', answer(
-            partial(_on_request, 'collider', simulation.move_collider, inputs.collider_move)))
+            partial(_on_request, 'grasp', simulation.move_grasp, inputs.grasp_move, frames)))
+        node.create_service(MoveFrame, '~/move_collider', answer(partial(
+            _on_request, 'collider', simulation.move_collider, inputs.collider_move, frames)))
 
 
 class PoseStreams:
     """
     Listen to ~/grasps/NAME/target of each grasp and ~/colliders/NAME/pose of each collider.
 
-    :param frame_id: of the cloth
+    :param frames: says what headers mean
     :param ignored: is given the messages that make no sense
     """
 
     def __init__(
-            self, node: Node, simulation: Simulation, inputs: Inputs, frame_id: str,
+            self, node: Node, simulation: Simulation, inputs: Inputs, frames: InputFrames,
             ignored: IgnoredMessages) -> None:
         """Make the subscriptions of the scene's colliders and grasps."""
         self._node = node
         self._simulation = simulation
         self._inputs = inputs
-        self._frame_id = frame_id
+        self._frames = frames
         self._ignored = ignored
         self._of_scene = {grasp.name for grasp in simulation.scene.timed_grasps()}
         self._subscriptions: dict[str, Subscription] = {}
@@ -88,10 +92,10 @@ class PoseStreams:
         def on_message(message: PoseStamped) -> None:
             duration = intervals.before(self._simulation.stepping.edit_time)
             try:
-                check_frame(message.header.frame_id, self._frame_id)
+                given = self._frames.given(message.header)
                 path = move(
-                    name, position_parts(message.pose), orientation_parts(message.pose),
-                    duration=duration)
+                    name, given.point(message.pose.position),
+                    given.orientation(message.pose.orientation), duration=duration)
             except ClothSimError as error:
                 self._ignored.note(topic.replace('NAME', name), error)
             else:
@@ -123,15 +127,16 @@ class Intervals:
 
 # Fields that are not set are 0 in ROS: that speed means the usual one.
 def _on_request(
-        kind: str, move: Move, tell: Tell, request: MoveFrame.Request,
+        kind: str, move: Move, tell: Tell, frames: InputFrames, request: MoveFrame.Request,
         response: MoveFrame.Response) -> str:
+    given = frames.given(request.header)
+    x, y, z = target = given.point(request.pose.position)
     path = move(
-        request.name, position_parts(request.pose),
-        None if request.keep_orientation else orientation_parts(request.pose),
+        request.name, target,
+        None if request.keep_orientation else given.orientation(request.pose.orientation),
         request.speed or None, request.angular_speed or None)
     tell(path.move)
     response.arrival = path.arrival
-    x, y, z = position_parts(request.pose)
     return (
         f'{kind} {request.name} moves to ({x:g}, {y:g}, {z:g}) and arrives at '
         f'{path.arrival:g} s')

@@ -16,6 +16,7 @@ from cloth_sim_ros.node.body_topics import body_messages
 from cloth_sim_ros.node.body_topics import GRASPS
 from cloth_sim_ros.node.body_topics import wanted_of_bodies
 from cloth_sim_ros.node.outlet import Outlet
+from cloth_sim_ros.node.own_frames import OwnFrames
 from cloth_sim_ros.node.pin_topics import PinTopics
 from cloth_sim_ros.node.pin_topics import WRENCHES
 from cloth_sim_ros.sim.simulation import Simulation
@@ -31,12 +32,13 @@ class Frames:
 
     :param values: the node's parameter values, read at each frame
     :param node_name: with its namespace
+    :param own: is told where pins, grasps and colliders are in each frame
     :param warn: called with what a user should know
     """
 
     def __init__(
             self, simulation: Simulation, outlet: Outlet, values: Mapping[str, Any],
-            node_name: str, warn: Callable[[str], None]) -> None:
+            node_name: str, own: OwnFrames, warn: Callable[[str], None]) -> None:
         """Prepare the messages of this cloth."""
         scene = simulation.scene
         self._simulation = simulation
@@ -46,6 +48,7 @@ class Frames:
         self._points = PointsMessage(scene.rows, scene.cols, self._frame_id)
         self._markers = MarkersMessage(scene.rows, scene.cols, self._frame_id)
         self._pins = PinTopics(simulation, outlet, values, node_name, warn)
+        self._own = own
         self._node_name = node_name
 
     def send(
@@ -88,6 +91,10 @@ class Frames:
         }
         for part in made:
             self._outlet.send(part, makers[part], now, to_recording=to_recording)
+        if of_pins:
+            self._own.note_pins(snapshot)
+        if of_bodies:
+            self._own.note_bodies()
         self._pins.send(snapshot, of_pins, to_recording=to_recording)
         for key, message in body_messages(
                 simulation, snapshot, of_bodies, self._node_name, self._frame_id):

@@ -8,9 +8,8 @@ from collections.abc import Callable
 from cloth_sim_interfaces.srv import Grasp
 from cloth_sim_interfaces.srv import Release
 from cloth_sim_ros.node.answer import answer
+from cloth_sim_ros.node.input_frames import InputFrames
 from cloth_sim_ros.node.inputs import Inputs
-from cloth_sim_ros.node.pose_parts import orientation_parts
-from cloth_sim_ros.node.pose_parts import position_parts
 from cloth_sim_ros.sim.input_listener import InputListener
 from cloth_sim_ros.sim.simulation import Simulation
 from rclpy.node import Node
@@ -20,23 +19,27 @@ class GraspServices:
     """
     Serve ~/grasp and ~/release.
 
+    :param frames: says what headers mean
     :param changed: called when there are other grasps than before
     """
 
     def __init__(
-            self, node: Node, simulation: Simulation, inputs: Inputs,
+            self, node: Node, simulation: Simulation, inputs: Inputs, frames: InputFrames,
             changed: Callable[[], None]) -> None:
         """Make the services."""
         self._simulation = simulation
         self._inputs = inputs
+        self._frames = frames
         self._changed = changed
         node.create_service(Grasp, '~/grasp', answer(self._on_grasp))
         node.create_service(Release, '~/release', answer(self._on_release))
 
     def _on_grasp(self, request: Grasp.Request, response: Grasp.Response) -> str:
+        given = self._frames.given(request.header)
         grasp = self._simulation.grasp(
-            request.name, position_parts(request.pose), orientation_parts(request.pose),
-            radius=request.radius, count=request.count, max_force=request.max_force)
+            request.name, given.point(request.pose.position),
+            given.orientation(request.pose.orientation), radius=request.radius,
+            count=request.count, max_force=request.max_force)
         self._inputs.grasp(grasp)
         self._changed()
         response.nodes = len(grasp.nodes)

@@ -6,19 +6,8 @@
 from collections.abc import Callable
 import time
 
-from cloth_sim_ros.files.echo import shown
-from cloth_sim_ros.sim.errors import ClothSimError
-
 _MOST_KINDS = 100
 QUIET = 1.0  # [s] of wall time between two warnings of one topic
-
-
-def check_frame(given: str, own: str) -> None:
-    """Raise ClothSimError unless the frame ``given`` is the cloth's ``own``, or empty."""
-    if given not in ('', own):
-        raise ClothSimError(
-            f'its frame is {shown(given)} but the frame of the cloth is {shown(own)}: transform '
-            'it to the latter, or choose that as the fixed frame')
 
 
 class LogThrottle:

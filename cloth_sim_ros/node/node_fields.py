@@ -28,6 +28,8 @@ NODE_FIELDS = (
           live=True),
     Field('publish.clock', bool, False, 'publish simulated time on /clock, unless another '
           'node does'),
+    Field('tf.listen', bool, True, 'take inputs in other frames than `frame_id`, by the '
+          'transforms on /tf and /tf_static'),
     Field('recording.directory', str, 'bags', 'directory in which recordings are created'),
     Field('recording.enabled', bool, False, 'start recording when the node starts'),
     Field('recording.name', str, '', 'name of that recording; empty to generate one'),

@@ -4,6 +4,7 @@
 """Where every message leaves the node: to its topic and into the recording, as the same bytes."""
 
 from collections.abc import Callable
+from collections.abc import Collection
 from typing import Any
 
 from cloth_sim_ros.messages.topics import TOPICS
@@ -17,10 +18,17 @@ from rclpy.serialization import serialize_message
 
 
 class Outlet:
-    """Publish and record messages, serialised once, and only those that somebody reads."""
+    """
+    Publish and record messages, serialised once, and only those that somebody reads.
 
-    def __init__(self, node: Node, recording: RecordingSession) -> None:
+    :param heard_here: the topics to which the node itself subscribes, once
+    """
+
+    def __init__(
+            self, node: Node, recording: RecordingSession,
+            heard_here: Collection[str] = ()) -> None:
         """Make the publishers of every topic but /clock, which may belong to somebody else."""
+        self._heard_here = heard_here
         self._recording = recording
         self._node = node
         self._publishers: dict[str, Publisher] = {}
@@ -77,7 +85,8 @@ class Outlet:
 
     def _subscribed(self, key: str) -> bool:
         publisher = self._publishers.get(key)
-        return publisher is not None and publisher.get_subscription_count() > 0
+        return publisher is not None and (
+            publisher.get_subscription_count() > int(key in self._heard_here))
 
 
 def _quality(topic: Any) -> QoSProfile:

@@ -3,17 +3,16 @@
 
 """Pins that are held, let go and moved from outside: ~/set_pin, ~/move_pin and ~/pins/target."""
 
-from typing import Any
-
 from cloth_sim_interfaces.msg import PinTarget
 from cloth_sim_interfaces.srv import MovePin
 from cloth_sim_interfaces.srv import SetPin
 from cloth_sim_ros.node.answer import answer
-from cloth_sim_ros.node.ignored_messages import check_frame
 from cloth_sim_ros.node.ignored_messages import IgnoredMessages
+from cloth_sim_ros.node.input_frames import InputFrames
 from cloth_sim_ros.node.inputs import Inputs
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.pin_path import PinPath
+from cloth_sim_ros.sim.pose import Vector
 from cloth_sim_ros.sim.simulation import Simulation
 from rclpy.node import Node
 
@@ -22,21 +21,27 @@ _DEPTH = 100
 
 
 class PinService:
-    """Serve ~/set_pin."""
+    """
+    Serve ~/set_pin.
 
-    def __init__(self, node: Node, simulation: Simulation, inputs: Inputs) -> None:
+    :param frames: says what headers mean
+    """
+
+    def __init__(
+            self, node: Node, simulation: Simulation, inputs: Inputs,
+            frames: InputFrames) -> None:
         """Make the service."""
         self._simulation = simulation
         self._inputs = inputs
+        self._frames = frames
         node.create_service(SetPin, '~/set_pin', answer(self._set_pin))
 
     def _set_pin(self, request: SetPin.Request, response: SetPin.Response) -> str:
         row, col = request.row, request.col
         if request.use_point:
             # Fields that are not set are 0 in ROS: that distance means the usual one.
-            near = self._simulation.nearest_node(
-                (request.point.x, request.point.y, request.point.z),
-                request.max_distance or None)
+            point = self._frames.given(request.header).point(request.point)
+            near = self._simulation.nearest_node(point, request.max_distance or None)
             row, col, response.distance = near.row, near.col, near.distance
         response.row, response.col = row, col
         if request.release:
@@ -52,31 +57,32 @@ class PinTargets:
     """
     Serve ~/move_pin and listen to ~/pins/target.
 
-    :param frame_id: of the cloth
+    :param frames: says what headers mean
     :param ignored: is given the messages that make no sense
     """
 
     def __init__(
-            self, node: Node, simulation: Simulation, inputs: Inputs, frame_id: str,
+            self, node: Node, simulation: Simulation, inputs: Inputs, frames: InputFrames,
             ignored: IgnoredMessages) -> None:
         """Make the service and the subscription."""
         self._ignored = ignored
         self._simulation = simulation
         self._inputs = inputs
-        self._frame_id = frame_id
+        self._frames = frames
         node.create_service(MovePin, '~/move_pin', answer(self._on_request))
         node.create_subscription(PinTarget, '~/pins/target', self._on_message, _DEPTH)
 
     # Fields that are not set are 0 in ROS: that distance or speed means the usual one.
     def _on_request(self, request: MovePin.Request, response: MovePin.Response) -> str:
         row, col = request.row, request.col
+        given = self._frames.given(request.header)
         if request.use_point:
             near = self._simulation.nearest_pin(
-                _parts(request.point), request.max_distance or None)
+                given.point(request.point), request.max_distance or None)
             row, col, response.distance = near.row, near.col, near.distance
         response.row, response.col = row, col
-        response.arrival = self._move(row, col, request).arrival
-        x, y, z = _parts(request.target)
+        x, y, z = target = given.point(request.target)
+        response.arrival = self._move(row, col, target, request.speed).arrival
         place = f', {response.distance:.3f} m from the point,' if request.use_point else ''
         return (
             f'node ({row}, {col}){place} moves to ({x:g}, {y:g}, {z:g}) and arrives at '
@@ -84,17 +90,12 @@ class PinTargets:
 
     def _on_message(self, message: PinTarget) -> None:
         try:
-            check_frame(message.header.frame_id, self._frame_id)
-            self._move(message.row, message.col, message)
+            given = self._frames.given(message.header)
+            self._move(message.row, message.col, given.point(message.target), message.speed)
         except ClothSimError as error:
             self._ignored.note('~/pins/target', error)
 
-    def _move(self, row: int, col: int, request: Any) -> PinPath:
-        path = self._simulation.move_pin(
-            row, col, _parts(request.target), request.speed or None)
+    def _move(self, row: int, col: int, target: Vector, speed: float) -> PinPath:
+        path = self._simulation.move_pin(row, col, target, speed or None)
         self._inputs.pin_target(path.move)
         return path
-
-
-def _parts(point: Any) -> tuple[float, float, float]:
-    return (point.x, point.y, point.z)

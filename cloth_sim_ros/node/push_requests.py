@@ -10,8 +10,8 @@ from cloth_sim_interfaces.msg import Command
 from cloth_sim_interfaces.msg import Push
 from cloth_sim_interfaces.srv import ApplyPush
 from cloth_sim_ros.node.answer import answer
-from cloth_sim_ros.node.ignored_messages import check_frame
 from cloth_sim_ros.node.ignored_messages import IgnoredMessages
+from cloth_sim_ros.node.input_frames import InputFrames
 from cloth_sim_ros.node.inputs import Inputs
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.push_field import AppliedPush
@@ -29,26 +29,30 @@ class PushRequests:
     Serve ~/apply_push and ~/clear_pushes, listen to ~/push and /clicked_point.
 
     :param values: the node's parameter values, read at each click
+    :param frames: says what headers mean
     :param ignored: is given the messages that make no sense
     """
 
     def __init__(
             self, node: Node, simulation: Simulation, inputs: Inputs,
-            values: Mapping[str, Any], ignored: IgnoredMessages) -> None:
+            values: Mapping[str, Any], frames: InputFrames, ignored: IgnoredMessages) -> None:
         """Make the services and subscriptions."""
         self._ignored = ignored
         self._simulation = simulation
         self._inputs = inputs
         self._values = values
+        self._frames = frames
         node.create_service(ApplyPush, '~/apply_push', answer(self._apply))
         node.create_service(Trigger, '~/clear_pushes', answer(self._clear))
         node.create_subscription(Push, '~/push', self._on_push, _DEPTH)
         node.create_subscription(PointStamped, '/clicked_point', self._on_click, _DEPTH)
 
     def _apply(self, request: ApplyPush.Request, response: ApplyPush.Response) -> str:
+        given = self._frames.given(request.header)
         applied = self._push(
-            force=_parts(request.force), region=request.region or Push.ALL,
-            center=_parts(request.center), radius=request.radius, duration=request.duration)
+            force=given.vector(request.force), region=request.region or Push.ALL,
+            center=given.point(request.center), radius=request.radius,
+            duration=request.duration)
         response.nodes = applied.nodes
         x, y, z = applied.impulse
         response.impulse = Vector3(x=x, y=y, z=z)
@@ -60,20 +64,20 @@ class PushRequests:
 
     def _on_push(self, message: Push) -> None:
         try:
-            check_frame(message.header.frame_id, self._values['frame_id'])
+            given = self._frames.given(message.header)
             self._push(
-                force=_parts(message.force), region=message.region or Push.ALL,
-                center=_parts(message.center), radius=message.radius,
+                force=given.vector(message.force), region=message.region or Push.ALL,
+                center=given.point(message.center), radius=message.radius,
                 duration=message.duration, start=message.start or None)
         except ClothSimError as error:
             self._ignored.note('~/push', error)
 
     def _on_click(self, message: PointStamped) -> None:
         try:
-            check_frame(message.header.frame_id, self._values['frame_id'])
+            center = self._frames.given(message.header).point(message.point)
             self._push(
-                force=self._values['clicked_point.force'], region=Push.SPHERE,
-                center=_parts(message.point), radius=self._values['clicked_point.radius'],
+                force=self._values['clicked_point.force'], region=Push.SPHERE, center=center,
+                radius=self._values['clicked_point.radius'],
                 duration=self._values['clicked_point.duration'])
         except ClothSimError as error:
             self._ignored.note('/clicked_point', error)
@@ -82,7 +86,3 @@ class PushRequests:
         applied = self._simulation.push(**request)
         self._inputs.push(applied.push)
         return applied
-
-
-def _parts(vector: Any) -> tuple[float, float, float]:
-    return (vector.x, vector.y, vector.z)

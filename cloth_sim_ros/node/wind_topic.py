@@ -3,8 +3,8 @@
 
 """The wind, as a topic: ~/wind."""
 
-from cloth_sim_ros.node.ignored_messages import check_frame
 from cloth_sim_ros.node.ignored_messages import IgnoredMessages
+from cloth_sim_ros.node.input_frames import InputFrames
 from cloth_sim_ros.node.inputs import Inputs
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.simulation import Simulation
@@ -19,24 +19,23 @@ class WindTopic:
     """
     Listen to ~/wind: each message blows until the next one, from the end of the step under way.
 
-    :param frame_id: of the cloth
+    :param frames: says what headers mean
     :param ignored: is given the messages that make no sense
     """
 
     def __init__(
-            self, node: Node, simulation: Simulation, inputs: Inputs, frame_id: str,
+            self, node: Node, simulation: Simulation, inputs: Inputs, frames: InputFrames,
             ignored: IgnoredMessages) -> None:
         """Make the subscription."""
         self._simulation = simulation
         self._inputs = inputs
-        self._frame_id = frame_id
+        self._frames = frames
         self._ignored = ignored
         node.create_subscription(Vector3Stamped, '~/wind', self._on_message, _DEPTH)
 
     def _on_message(self, message: Vector3Stamped) -> None:
-        velocity = (message.vector.x, message.vector.y, message.vector.z)
         try:
-            check_frame(message.header.frame_id, self._frame_id)
+            velocity = self._frames.given(message.header).vector(message.vector)
             self._simulation.set_wind(velocity)
             self._inputs.wind(velocity)
         except ClothSimError as error:

@@ -44,6 +44,22 @@ class Pose:
             (2.0 * (x * y - z * w), 1.0 - 2.0 * (x * x + z * z), 2.0 * (y * z + x * w)),
             (2.0 * (x * z + y * w), 2.0 * (y * z - x * w), 1.0 - 2.0 * (x * x + y * y))])
 
+    @property
+    def inverse(self) -> 'Pose':
+        """Return the pose of the world, seen from here."""
+        x, y, z, w = self.orientation
+        back = (-x, -y, -z, w)
+        px, py, pz = turned(self.position, back)
+        return Pose((-px, -py, -pz), back)
+
+    def placed(self, inner: 'Pose') -> 'Pose':
+        """Return ``inner``, a pose in the frame of this one, in the world."""
+        x, y, z = turned(inner.position, self.orientation)
+        px, py, pz = self.position
+        orientation = product(self.orientation, inner.orientation)
+        return Pose(
+            (px + x, py + y, pz + z), unit_quaternion(orientation, 'an orientation'))
+
     def seen_from(self, points: np.ndarray) -> np.ndarray:
         """Return ``points`` of the world, (n, 3) [m], in the frame of this pose."""
         return (points - np.array(self.position)) @ self.axes.T
@@ -83,7 +99,7 @@ def unit_quaternion(orientation: Sequence[float], of: str) -> Quaternion:
 
 def rotation_between(first: Quaternion, second: Quaternion) -> tuple[Vector, float]:
     """Return unit axis and angle [rad], 0 to pi, of what turns ``first`` into ``second``."""
-    x, y, z, w = _product(second, (-first[0], -first[1], -first[2], first[3]))
+    x, y, z, w = product(second, (-first[0], -first[1], -first[2], first[3]))
     sine = math.hypot(x, y, z)
     if sine == 0.0:
         return (0.0, 0.0, 1.0), 0.0
@@ -96,12 +112,31 @@ def rotated(orientation: Quaternion, axis: Vector, angle: float) -> Quaternion:
     """Return ``orientation`` turned by ``angle`` [rad] about the unit ``axis`` of the world."""
     sine = math.sin(0.5 * angle)
     x, y, z = axis
-    found = _product((x * sine, y * sine, z * sine, math.cos(0.5 * angle)), orientation)
+    found = product((x * sine, y * sine, z * sine, math.cos(0.5 * angle)), orientation)
     length = math.hypot(*found)
     return found[0] / length, found[1] / length, found[2] / length, found[3] / length
 
 
-def _product(a: Quaternion, b: Quaternion) -> Quaternion:
+def between(first: Pose, second: Pose, share: float) -> Pose:
+    """Return the pose after a ``share``, 0 to 1, of the way from ``first`` to ``second``."""
+    ax, ay, az = first.position
+    bx, by, bz = second.position
+    axis, angle = rotation_between(first.orientation, second.orientation)
+    return Pose(
+        (ax + share * (bx - ax), ay + share * (by - ay), az + share * (bz - az)),
+        rotated(first.orientation, axis, share * angle))
+
+
+def turned(vector: Vector, orientation: Quaternion) -> Vector:
+    """Return ``vector`` of a frame with the unit ``orientation``, in the world."""
+    x, y, z = vector
+    qx, qy, qz, qw = orientation
+    found = product(product(orientation, (x, y, z, 0.0)), (-qx, -qy, -qz, qw))
+    return found[:3]
+
+
+def product(a: Quaternion, b: Quaternion) -> Quaternion:
+    """Return the quaternion that turns by ``b`` and then by ``a``."""
     ax, ay, az, aw = a
     bx, by, bz, bw = b
     return (

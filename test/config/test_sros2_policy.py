@@ -99,6 +99,6 @@ def test_an_operator_acts_by_services_and_targets(endpoints):
         if 'parameter' in name or name.endswith('get_type_description')}
     assert allowed['services', 'request'] == endpoints['services', 'reply'] - of_parameters
     assert allowed['topics', 'publish'] - OF_EVERY_NODE == (
-        endpoints['topics', 'subscribe'] - {'/clicked_point'})
+        endpoints['topics', 'subscribe'] - {'/clicked_point', '/tf', '/tf_static'})
     assert allowed['topics', 'subscribe'] == {'/cloth_sim/state', '/cloth_sim/stats'}
     assert not allowed['services', 'reply']

@@ -3,24 +3,8 @@
 
 """Warnings of messages that make no sense."""
 
-from cloth_sim_ros.node.ignored_messages import check_frame
 from cloth_sim_ros.node.ignored_messages import IgnoredMessages
 from cloth_sim_ros.node.ignored_messages import LogThrottle
-from cloth_sim_ros.sim.errors import ClothSimError
-import pytest
-
-
-@pytest.mark.parametrize('frame', ['', 'world'])
-def test_takes_its_own_frame(frame: str):
-    """Points of the cloth's own frame would be refused."""
-    check_frame(frame, 'world')
-
-
-def test_refuses_another():
-    """A point would be taken for another one, far away."""
-    with pytest.raises(
-            ClothSimError, match="is 'tool0' but the frame of the cloth is 'world': transform"):
-        check_frame('tool0', 'world')
 
 
 def test_one_of_a_kind_is_logged_now_and_then():

@@ -3,9 +3,13 @@
 
 """Names, types and quality of service of the topics."""
 
+from cloth_sim_interfaces.msg import ClothStats
 from cloth_sim_ros.messages.topics import TOPICS
+from cloth_sim_ros.node.outlet import Outlet
+from cloth_sim_ros.node.recording_session import RecordingSession
 from cloth_under_test import NAMESPACE
 import pytest
+import rclpy
 from rclpy.qos import DurabilityPolicy
 from rclpy.qos import ReliabilityPolicy
 from shape_msgs.msg import Mesh
@@ -87,6 +91,22 @@ def test_listens_to_pushes_targets_clicks_and_wind(cloth):
     assert listened[f'{cloth.name}/pins/target'] == ['cloth_sim_interfaces/msg/PinTarget']
     assert listened[f'{cloth.name}/wind'] == ['geometry_msgs/msg/Vector3Stamped']
     assert listened['/clicked_point'] == ['geometry_msgs/msg/PointStamped']
+    assert listened['/tf'] == listened['/tf_static'] == ['tf2_msgs/msg/TFMessage']
+
+
+def test_who_listens_to_itself_is_no_reader(client, tmp_path):
+    """The node would make transforms of all its pins in every frame, with nobody to read them."""
+    node = rclpy.create_node('echo', context=client.node.context)
+    outlet = Outlet(node, RecordingSession(str(tmp_path), 'echo', print), heard_here=('stats',))
+    publisher, = (each for each in node.publishers if each.topic_name == '/echo/stats')
+    node.create_subscription(ClothStats, '~/stats', print, 10)
+    client.spin_until(lambda: publisher.get_subscription_count() == 1, 'its own subscription')
+    assert not outlet.wanted('stats')
+    subscription = client.node.create_subscription(ClothStats, '/echo/stats', print, 10)
+    client.spin_until(lambda: outlet.wanted('stats'), 'a reader is known')
+    client.node.destroy_subscription(subscription)
+    client.spin_until(lambda: not outlet.wanted('stats'), 'the reader has gone')
+    node.destroy_node()
 
 
 def test_topology_is_kept_for_those_who_come_late(cloth, simulation):

@@ -101,8 +101,8 @@ def test_push_message_does_what_the_service_does(cloth, simulation):
     cloth.client.node.destroy_publisher(publisher)
 
 
-def test_push_message_of_another_frame_is_ignored(cloth):
-    """A push given in the frame of a gripper would act elsewhere, in a direction nobody meant."""
+def test_push_message_of_an_unknown_frame_is_ignored(cloth):
+    """A push given in a frame that nobody knows would act somewhere, in some direction."""
     publisher = cloth.client.node.create_publisher(Push, f'{cloth.name}/push', 10)
     cloth.client.spin_until(publisher.get_subscription_count, 'the node listens')
     for frame, z in (('tool0', 1.0), ('world', 2.0), ('', 3.0)):

@@ -9,6 +9,7 @@ from pathlib import Path
 
 from cloth_sim_interfaces.srv import StartRecording
 from cloth_sim_interfaces.srv import Step
+from cloth_sim_ros.sim.pose import Pose
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.simulation import Simulation
 from cloth_under_test import ClothUnderTest
@@ -22,6 +23,8 @@ import pytest
 from recorded import Recorded
 from std_msgs.msg import Header
 from std_srvs.srv import Trigger
+from transform_teller import Teller
+from transform_teller import transform
 
 NAMESPACE = '/windy'
 NAME = f'{NAMESPACE}/cloth_sim'
@@ -81,3 +84,15 @@ def test_the_wind_blows_as_it_is_told_and_as_it_was_recorded(cloth, publisher):
     assert [cloth.steps_of(each) for each in told] == [0, 7]
     for path in paths:
         assert_same(path, node=NAME)
+
+
+def test_the_wind_of_a_turned_sensor(cloth, publisher):
+    """A wind would blow in the direction that it has in the axes of the sensor, or be moved."""
+    teller = Teller(cloth)
+    sensor = Pose((5.0, 6.0, 7.0), (0.0, 0.0, math.sqrt(0.5), math.sqrt(0.5)))
+    teller.tell(transform('sensor', 'world', sensor), is_fixed=True)
+    publisher.publish(Vector3Stamped(
+        header=Header(frame_id='sensor'), vector=Vector3(x=3.0, z=1.0)))
+    wind = cloth.wait_for('inputs/wind').vector
+    assert (wind.x, wind.y, wind.z) == pytest.approx((0.0, 3.0, 1.0), abs=1e-12)
+    teller.close()
