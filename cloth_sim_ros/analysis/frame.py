@@ -11,6 +11,7 @@ from typing import Any
 from typing import Literal
 
 from cloth_sim_ros.messages.push_arrows import push_arrows
+from cloth_sim_ros.sim.colliders import Collider
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.push import Push
 from cloth_sim_ros.sim.snapshot import FLAG_PINNED
@@ -31,14 +32,18 @@ class Frame:
     :param time: [s] simulated, going on where a reset put the clock back
     :param records: (rows, cols), the fields of ~/points
     :param pushes: those known so far, with ``start`` in the same time
+    :param colliders: where they are at this time; none where that is not known
     """
 
     time: float
     records: np.ndarray
     pushes: Sequence[Push] = ()
+    colliders: tuple[Collider, ...] = ()
 
     @classmethod
-    def from_points(cls, time: float, cloud: Any, pushes: Sequence[Push] = ()) -> 'Frame':
+    def from_points(
+            cls, time: float, cloud: Any, pushes: Sequence[Push] = (),
+            colliders: tuple[Collider, ...] = ()) -> 'Frame':
         """Return the frame of a decoded PointCloud2; ClothSimError when it is no cloth."""
         names = {field.name for field in cloud.fields}
         missing = [name for name in _NEEDED if name not in names]
@@ -58,7 +63,7 @@ class Frame:
         if not records.size:
             raise ClothSimError(
                 f'the cloud at {time:g} s has no points: give a recording of a cloth_sim node')
-        return cls(time, records, tuple(pushes))
+        return cls(time, records, tuple(pushes), colliders)
 
     @property
     def positions(self) -> np.ndarray:

@@ -7,8 +7,10 @@ from collections.abc import Iterable
 from collections.abc import Iterator
 from collections.abc import Sequence
 
+from cloth_sim_ros.analysis import collider_history
+from cloth_sim_ros.analysis import push_history
+from cloth_sim_ros.analysis.collider_history import ColliderHistory
 from cloth_sim_ros.analysis.frame import Frame
-from cloth_sim_ros.analysis.push_history import KEYS
 from cloth_sim_ros.analysis.push_history import PushHistory
 from cloth_sim_ros.analysis.recording import Recording
 from cloth_sim_ros.sim.push import Push
@@ -16,13 +18,17 @@ import numpy as np
 
 
 def read_frames(recording: Recording) -> Iterator[Frame]:
-    """Yield every frame with the pushes given before it; one is in memory at a time."""
-    history = PushHistory()
-    for entry in recording.entries('points', *KEYS):
+    """Yield every frame, with pushes given before it and colliders; one is in memory at a time."""
+    pushes, colliders = PushHistory(), ColliderHistory()
+    for entry in recording.entries('points', *push_history.KEYS, *collider_history.KEYS):
         if entry.key == 'points':
-            yield Frame.from_points(entry.time, entry.message, history.pushes)
-        else:
-            history.read(entry)
+            yield Frame.from_points(
+                entry.time, entry.message, pushes.pushes, colliders.at(entry.message.header.stamp))
+            continue
+        if entry.key in push_history.KEYS:
+            pushes.read(entry)
+        if entry.key in collider_history.KEYS:
+            colliders.read(entry)
 
 
 def frames_at(recording: Recording, times: Sequence[float]) -> list[Frame]:

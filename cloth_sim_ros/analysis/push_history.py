@@ -5,8 +5,8 @@
 """The pushes of a recording, in its own time."""
 
 from dataclasses import replace
-from typing import Any
 
+from cloth_sim_ros.analysis.recorded_values import parts
 from cloth_sim_ros.analysis.recording import Entry
 from cloth_sim_ros.sim.push import Push
 
@@ -38,16 +38,12 @@ def _push(entry: Entry) -> Push:
     message = entry.message
     stamp = message.header.stamp
     return Push(
-        force=_parts(message.force),
+        force=parts(message.force),
         # From the time of the run, which a reset puts back, to the time of the recording.
         start=message.start + entry.time - (stamp.sec + 1e-9 * stamp.nanosec),
-        duration=message.duration, region=message.region, center=_parts(message.center),
+        duration=message.duration, region=message.region, center=parts(message.center),
         radius=message.radius)
 
 
 def _ended(push: Push, time: float) -> Push:
     return replace(push, duration=min(push.duration, time - push.start))
-
-
-def _parts(vector: Any) -> tuple[float, float, float]:
-    return (vector.x, vector.y, vector.z)

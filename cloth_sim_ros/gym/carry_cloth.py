@@ -33,7 +33,7 @@ class CarryCloth(gymnasium.Env[Observation, np.ndarray]):
 
     An observation is an array of float32: ``positions`` [m], (rows, cols, 3); ``state``, with
     velocities [m/s] too, (rows, cols, 6); or ``depth`` [m], (height, width), what a depth camera
-    at a fixed place sees, with the high of the space where it sees no cloth. A list of these names
+    at a fixed place sees, with the high of the space where it sees nothing. A list of these names
     makes it a dictionary of such arrays.
 
     The reward is minus the mean distance of the nodes from where they would be if the start pose

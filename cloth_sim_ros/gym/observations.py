@@ -85,7 +85,7 @@ class Depth(Part):
 
     def look(self, simulation: Simulation) -> np.ndarray:
         """Return the array at this time."""
-        return self._camera.draw(simulation.positions())
+        return self._camera.draw(simulation.positions(), simulation.colliders)
 
     def close(self) -> None:
         """Give back what it holds on the device."""

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import math
 
 from cloth_sim_ros.gl.render_program import RenderProgram
+from cloth_sim_ros.sim.colliders import Collider
 from cloth_sim_ros.sim.errors import ClothSimError
 import numpy as np
 
@@ -67,6 +68,16 @@ class View:
         slope, offset = self._depth_line
         device = 2.0 * depths.astype(float) - 1.0
         return self.distance - (device - offset) / (slope + device / self.distance)
+
+    def sees(self, collider: Collider) -> bool:
+        """Tell whether it is no plane, or the camera is on the side of it that cloth is on."""
+        if collider.shape != 'plane':
+            return True
+        normal = collider.axes[2]
+        if not math.isfinite(self.distance):
+            return bool(normal @ self.axes[2] > 0.0)
+        eye = self.middle + self.distance * self.axes[2]
+        return bool(normal @ (eye - np.array(collider.position)) > 0.0)
 
     @property
     def _depth_line(self) -> tuple[float, float]:

@@ -110,7 +110,11 @@ class ClothDrawing:
 
     def draw_shadow(self, frame: Frame, view: View, floor: float) -> None:
         """Draw the shadow on the floor at the height ``floor`` [m], over all before."""
-        rows, cols = frame.records.shape
+        self.draw_shadow_of(frame.records.shape, view, floor)
+
+    def draw_shadow_of(self, shape: tuple[int, ...], view: View, floor: float) -> None:
+        """Draw that of another surface of ``shape``, rows and columns, in the node buffer."""
+        rows, cols = shape
         program = self._shadow
         program.use()
         set_view(program, view)

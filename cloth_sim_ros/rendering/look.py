@@ -15,6 +15,9 @@ PUSH_COLOR = (0.08, 0.38, 0.88)
 LIMIT_COLOR = (0.16, 0.86, 0.84)    # stands out from strained and from slack cloth
 UNKNOWN_COLOR = (0.72, 0.76, 0.82)  # of a cloth whose strain is not known
 
+COLLIDER_COLOR = (0.70, 0.68, 0.65)  # as quiet as the floor, and darker
+GROUND_COLOR = (0.955, 0.95, 0.94)
+
 HEM_SHADE = 0.45      # how much darker the border of a cloth is
 HIDDEN = 0.22         # opacity of a pin or an arrow behind the cloth
 GRID_LINES = 8        # across the longest side

@@ -50,6 +50,20 @@ class NodeBuffer:
         packed[..., :3] = points - middle
         self._load(packed)
 
+    def load_surface(self, points: np.ndarray, normals: np.ndarray, middle: np.ndarray) -> None:
+        """
+        Take up a surface without strain or flags.
+
+        :param points: (rows, cols, 3) [m]
+        :param normals: (rows, cols, 3)
+        :raises DeviceError: when it has too many points for the device
+        """
+        packed = np.zeros((*points.shape[:-1], _WORDS), np.float32)
+        packed[..., :3] = points - middle
+        packed[..., 3] = UNKNOWN_STRAIN
+        packed[..., 4:7] = normals
+        self._load(packed)
+
     def _load(self, packed: np.ndarray) -> None:
         nodes = packed.size // _WORDS
         if 2 * nodes > self._most_texels:

@@ -5,6 +5,7 @@
 
 from functools import cached_property
 
+from cloth_sim_ros.analysis.collider_surface import ground
 from cloth_sim_ros.analysis.frame import Frame
 from cloth_sim_ros.gl.context import Context
 from cloth_sim_ros.gl.draw_state import blend_by_opacity
@@ -14,6 +15,7 @@ from cloth_sim_ros.gl.framebuffer import Framebuffer
 from cloth_sim_ros.rendering.camera import View
 from cloth_sim_ros.rendering.cloth_drawing import ClothDrawing
 from cloth_sim_ros.rendering.cloth_drawing import PaletteBuffer
+from cloth_sim_ros.rendering.collider_drawing import ColliderDrawing
 from cloth_sim_ros.rendering.look import BACKGROUND
 from cloth_sim_ros.rendering.look import LIMIT_COLOR
 from cloth_sim_ros.rendering.look import PIN_COLOR
@@ -72,10 +74,16 @@ class Renderer:
         self._framebuffer.begin(BACKGROUND)
         blend_by_opacity()
         is_chain = min(frame.records.shape) == 1
+        level = ground(frame.colliders)
+        floor = self._survey.floor if level is None else level
+        if level is not None:
+            self._floor.draw_ground(self.view, level)
+        if frame.colliders:
+            self._colliders.draw_shadows(frame.colliders, self.view, floor)
         self._nodes.load(frame, self.view.middle)
         if not is_chain:
-            self._cloth.draw_shadow(frame, self.view, self._survey.floor)
-        self._floor.draw(self.view)
+            self._cloth.draw_shadow(frame, self.view, floor)
+        self._floor.draw(self.view, floor)
         draw_nearest()
         if is_chain:
             self._ribbon.draw(
@@ -86,6 +94,8 @@ class Renderer:
                 LIMIT_COLOR, _LIMIT_SIZE)
         else:
             self._cloth.draw(frame, self.view)
+        if frame.colliders:
+            self._colliders.draw(frame.colliders, self.view)
         self._pushes.draw(self._survey.arrows(frame), self.view)
         self._draw_rings(frame)
         self._balls.draw(frame.positions[frame.pinned], self.view, PIN_COLOR)
@@ -119,6 +129,11 @@ class Renderer:
     @cached_property
     def _floor(self) -> FloorDrawing:
         return FloorDrawing(self._survey, self._detail)
+
+    @cached_property
+    def _colliders(self) -> ColliderDrawing:
+        return ColliderDrawing(
+            self._cloth, NodeBuffer(self._context.max_texture_texels), self._survey)
 
     @cached_property
     def _balls(self) -> BallDrawing:

@@ -8,6 +8,7 @@ from typing import Any
 
 from cloth_sim_ros.rendering.camera import View
 from cloth_sim_ros.rendering.layout import Layout
+from cloth_sim_ros.rendering.look import COLLIDER_COLOR
 from cloth_sim_ros.rendering.look import GRID_COLOR
 from cloth_sim_ros.rendering.look import LIMIT_COLOR
 from cloth_sim_ros.rendering.look import PIN_COLOR
@@ -35,6 +36,8 @@ def legend_handles(survey: Survey, grid: float, size: float) -> list[Line2D]:
     """
     entries: list[tuple[str, dict[str, Any]]] = [
         (f'grid {grid:g} m', {'color': GRID_COLOR, 'linewidth': 1.5})]
+    if survey.shows_colliders:
+        entries.append(('collider', {**_dot(COLLIDER_COLOR, size), 'marker': 's'}))
     if survey.shows_pins:
         entries.append(('pinned', _dot(PIN_COLOR, size)))
     if survey.shows_pushes:

@@ -19,6 +19,7 @@ from cloth_sim_ros.rendering.cloth_drawing import PALETTE_DEFINES
 from cloth_sim_ros.rendering.cloth_drawing import PaletteBuffer
 from cloth_sim_ros.rendering.look import GRID_COLOR
 from cloth_sim_ros.rendering.look import GRID_LINES
+from cloth_sim_ros.rendering.look import GROUND_COLOR
 from cloth_sim_ros.rendering.look import HEM_SHADE
 from cloth_sim_ros.rendering.look import HIDDEN
 from cloth_sim_ros.rendering.look import LIGHT_DEFINES
@@ -70,29 +71,43 @@ class FloorDrawing:
 
     def __init__(self, survey: Survey, detail: int) -> None:
         """Choose the grid."""
-        self.height = survey.floor
         self.step = grid_step(survey.size)
-        self._middle = np.append(survey.middle[:2], self.height)
+        self._middle = survey.middle[:2]
         self._reach = _REACH * max(survey.size, self.step)
         self._detail = detail
 
-    def draw(self, view: View) -> None:
-        """Draw it over all before, and behind all that comes."""
+    def draw_ground(self, view: View, height: float) -> None:
+        """Draw a plane at ``height`` [m], which hides what is below."""
+        program = self._ground
+        self._place(program, view, height)
+        program.set_vectors('ground_color', GROUND_COLOR)
+        draw_nearest()
+        program.draw_strips(4)
+
+    def draw(self, view: View, height: float) -> None:
+        """Draw the grid at ``height`` [m] over all before, and behind all that comes."""
         program = self._program
-        program.use()
-        set_view(program, view)
-        program.set_vectors('middle', self._middle - view.middle)
-        program.set_float('reach', self._reach)
+        self._place(program, view, height)
         program.set_float('grid_step', self.step)
-        program.set_pair('grid_offset', tuple(np.remainder(self._middle[:2], self.step)))
+        program.set_pair('grid_offset', tuple(np.remainder(self._middle, self.step)))
         program.set_float('line_width', _LINE_WIDTH * self._detail)
         program.set_vectors('line_color', GRID_COLOR)
         draw_over_all()
         program.draw_strips(4)
 
+    def _place(self, program: RenderProgram, view: View, height: float) -> None:
+        program.use()
+        set_view(program, view)
+        program.set_vectors('middle', np.append(self._middle, height) - view.middle)
+        program.set_float('reach', self._reach)
+
     @cached_property
     def _program(self) -> RenderProgram:
         return RenderProgram('render/floor.vert', 'render/floor.frag')
+
+    @cached_property
+    def _ground(self) -> RenderProgram:
+        return RenderProgram('render/floor.vert', 'render/ground.frag')
 
 
 def grid_step(size: float) -> float:

@@ -11,6 +11,8 @@ from collections.abc import Sequence
 from functools import cached_property
 from pathlib import Path
 
+from cloth_sim_ros.analysis.collider_history import ColliderHistory
+from cloth_sim_ros.analysis.collider_history import KEYS
 from cloth_sim_ros.analysis.frame import Frame
 from cloth_sim_ros.analysis.frames import default_times
 from cloth_sim_ros.analysis.frames import frames_at
@@ -105,8 +107,8 @@ class RecordingSource(Source):
 
     @property
     def missing(self) -> list[str]:
-        """Name what can't be drawn: nothing, since a frame without it is refused."""
-        return []
+        """Name what can't be drawn: colliders that this version does not know."""
+        return ['colliders'] if self._told[2] else []
 
     def frames(self) -> Iterator[Frame]:
         """Yield every frame; ClothSimError when there is none."""
@@ -126,15 +128,19 @@ class RecordingSource(Source):
         return default_times(self._recording, count)
 
     @cached_property
-    def _told(self) -> tuple[list[str], str]:
+    def _told(self) -> tuple[list[str], str, str]:
+        """Get the modes, the device, and what is wrong with the colliders."""
         modes: list[str] = []
         device = ''
-        for entry in self._recording.entries('inputs/mode', 'state'):
-            if entry.key == 'state':
+        colliders = ColliderHistory()
+        for entry in self._recording.entries('inputs/mode', 'state', *KEYS):
+            if entry.key in KEYS:
+                colliders.read(entry)
+            elif entry.key == 'state':
                 device = entry.message.device
             elif entry.message.mode not in modes:
                 modes.append(entry.message.mode)
-        return modes, device
+        return modes, device, colliders.problem
 
 
 class StateSource(Source):

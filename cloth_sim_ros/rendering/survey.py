@@ -6,8 +6,10 @@
 from collections.abc import Iterable
 from collections.abc import Sequence
 
+from cloth_sim_ros.analysis.collider_surface import collider_surface
 from cloth_sim_ros.analysis.frame import Frame
 from cloth_sim_ros.rendering.strain_scale import StrainRange
+from cloth_sim_ros.sim.colliders import Collider
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.push import Push
 from cloth_sim_ros.sim.snapshot import FLAG_AT_LIMIT
@@ -22,6 +24,7 @@ _MOST = 1e12
 _ARROW = 0.3          # of the largest push, over the longest side of all cloths
 _WITH_WORDS = 1.2     # room for an arrow and its words, over its length
 _BELOW = 0.03         # from the lowest point to the floor, over the longest side
+_BESIDE = 0.6         # farther from all cloths, colliders may be cut off; over the longest side
 
 
 class Extent:
@@ -103,7 +106,8 @@ class Survey:
     """
     Looks at all frames that will be shown, one after the other.
 
-    ``shows_pins``, ``shows_limits`` and ``shows_pushes`` tell what there is to explain.
+    ``shows_pins``, ``shows_limits``, ``shows_pushes`` and ``shows_colliders`` tell what there is
+    to explain.
     """
 
     def __init__(self) -> None:
@@ -111,11 +115,14 @@ class Survey:
         self.strains = StrainRange()
         self.shows_pins = False
         self.shows_limits = False
+        self.shows_colliders = False
         self.frames = 0
         self._cloth = Extent()
         self._largest_force = 0.0
         self._arrows: list[np.ndarray] = []
         self._regions: set[tuple[float, float, float, float]] = set()
+        self._bodies = Extent()
+        self._last_bodies: tuple[Collider, ...] = ()
 
     @property
     def shows_pushes(self) -> bool:
@@ -129,8 +136,9 @@ class Survey:
 
     @property
     def floor(self) -> float:
-        """Get the height of the floor [m]."""
-        return float(self._cloth.low[2]) - _BELOW * self._cloth.size
+        """Get the height of the floor of frames without a level plane [m]."""
+        low = min([self._cloth.low[2], *self._near_bodies[:, 2]])
+        return float(low) - _BELOW * self._cloth.size
 
     @property
     def size(self) -> float:
@@ -156,7 +164,15 @@ class Survey:
         rims = [
             np.array(center) + radius * np.concatenate([np.eye(3), -np.eye(3)])
             for *center, radius in self._regions if radius < self._cloth.size / 2.0]
-        return np.concatenate([cloth, *np.reshape(tips, (-1, 1, 3)), *rims])
+        return np.concatenate(
+            [cloth, *np.reshape(tips, (-1, 1, 3)), *rims, self._near_bodies])
+
+    @property
+    def _near_bodies(self) -> np.ndarray:
+        """Get what colliders but planes reach to next to the cloths [m], (n, 3)."""
+        points, room = self._bodies.points, _BESIDE * self._cloth.size
+        inside = (points > self._cloth.low - room) & (points < self._cloth.high + room)
+        return points[inside.all(axis=1)]
 
     def add(self, frame: Frame) -> None:
         """Look at ``frame``."""
@@ -166,6 +182,7 @@ class Survey:
         flags = frame.records['flags']
         self.shows_pins = self.shows_pins or bool((flags & FLAG_PINNED).any())
         self.shows_limits = self.shows_limits or bool((flags & FLAG_AT_LIMIT).any())
+        self._add_colliders(frame.colliders)
         pushes = frame.acting_pushes
         largest = largest_force(pushes)
         self._largest_force = max(self._largest_force, largest)
@@ -173,6 +190,13 @@ class Survey:
             (*push.center, push.radius) for push in pushes if push.region != 'all')
         for tail, tip in frame.push_arrows(1.0):
             self._arrows.append(np.stack([tail, largest * (tip - tail)]))
+
+    def _add_colliders(self, colliders: tuple[Collider, ...]) -> None:
+        self.shows_colliders = self.shows_colliders or bool(colliders)
+        for collider in colliders:
+            if collider.shape != 'plane' and collider not in self._last_bodies:
+                self._bodies.add(collider_surface(collider)[0])
+        self._last_bodies = colliders
 
     def arrows(self, frame: Frame) -> list[np.ndarray]:
         """Return tail and tip [m] of each push in ``frame``, as long as the force is large."""

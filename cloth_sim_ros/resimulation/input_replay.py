@@ -6,15 +6,13 @@
 import math
 from typing import Any
 
+from cloth_sim_ros.analysis.recorded_values import parts
 from cloth_sim_ros.files.echo import shown
 from cloth_sim_ros.resimulation.listener import Listener
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.input_listener import CLEAR_PUSHES
 from cloth_sim_ros.sim.input_listener import InputListener
 from cloth_sim_ros.sim.input_listener import RESET
-from cloth_sim_ros.sim.pose import checked_position
-from cloth_sim_ros.sim.pose import Pose
-from cloth_sim_ros.sim.pose import unit_quaternion
 from cloth_sim_ros.sim.push import Push
 from cloth_sim_ros.sim.simulation import Simulation
 
@@ -28,11 +26,6 @@ def recorded_push(message: Any) -> Push:
     return Push.checked(
         force=parts(message.force), start=message.start, duration=message.duration,
         region=message.region, center=parts(message.center), radius=message.radius)
-
-
-def parts(vector: Any) -> tuple[float, float, float]:
-    """Return the components of a decoded Point or Vector3."""
-    return (vector.x, vector.y, vector.z)
 
 
 def recorded_nodes(message: Any) -> list[tuple[int, int]]:
@@ -78,14 +71,6 @@ class StepClock:
     def _recorded_steps(self, stamp: Any) -> int:
         # The whole seconds stay integers: a sum of floats would lose the last digits.
         return round((stamp.sec * _SECOND + stamp.nanosec) / (self._recorded_dt * _SECOND))
-
-
-def recorded_pose(message: Any) -> Pose:
-    """Return the decoded Pose ``message``; ClothSimError if it is none."""
-    return Pose(
-        checked_position(parts(message.position), 'a recorded position'),
-        unit_quaternion(
-            (*parts(message.orientation), message.orientation.w), 'a recorded orientation'))
 
 
 class InputReplay:

@@ -8,34 +8,13 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from cloth_sim_ros.analysis.recorded_values import plain_value
 from cloth_sim_ros.recording.bag_metadata import folder_metadata
 from cloth_sim_ros.recording.project_version import PACKAGE
 from cloth_sim_ros.sim.collider_fields import fields_with_colliders
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.field import Field
 from cloth_sim_ros.sim.scene import Scene
-
-# By the numbers of rcl_interfaces/msg/ParameterType.
-_SLOTS = {
-    1: ('bool_value', bool), 2: ('integer_value', int), 3: ('double_value', float),
-    4: ('string_value', str)}
-_ARRAY_SLOTS = {
-    6: ('bool_array_value', bool), 7: ('integer_array_value', int),
-    8: ('double_array_value', float), 9: ('string_array_value', str)}
-
-
-def plain_value(value: Any) -> Any:
-    """Return what the decoded ParameterValue ``value`` holds; None for what no parameter has."""
-    if value.type in _SLOTS:
-        slot, kind = _SLOTS[value.type]
-        return kind(getattr(value, slot))
-    if value.type in _ARRAY_SLOTS:
-        slot, kind = _ARRAY_SLOTS[value.type]
-        try:
-            return [kind(part) for part in getattr(value, slot)]
-        except (TypeError, ValueError):  # of a type that the bag has defined in another way
-            return None
-    return None
 
 
 def recorded_version(path: Path) -> str:

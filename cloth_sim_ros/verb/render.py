@@ -5,9 +5,9 @@
 Render recordings as a sheet of images or as a video. Needs no node and no window.
 
 The colour of the cloth shows its strain. Balls are pins, arrows are active pushes, dots are nodes
-at their strain limit. Without --at, the times are chosen so that the pushes are visible. Several
-recordings get one row each, with the same camera. A state written by `cloth_sim run --out` can
-replace a recording.
+at their strain limit; what the cloth can touch is grey. Without --at, the times are chosen so that
+the pushes are visible. Several recordings get one row each, with the same camera. A state written
+by `cloth_sim run --out` can replace a recording.
 
 For example:
   cloth_sim render bags/drop_test --out drop.png --at 0.5,1,2 --azimuth 30 --elevation 10

@@ -181,4 +181,5 @@ class SceneSource(Source):
     def _show(self, simulation: Simulation) -> None:
         snapshot = simulation.snapshot()
         self._latest = Moment(
-            Frame(snapshot.time, snapshot.records), snapshot.mode, self._run_state, self._note)
+            Frame(snapshot.time, snapshot.records, colliders=simulation.colliders), snapshot.mode,
+            self._run_state, self._note)

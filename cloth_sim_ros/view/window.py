@@ -1,13 +1,14 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-"""The page of a view: the cloth, its pins, and the controls beside them."""
+"""The page of a view: the cloth, its pins, what it touches, and the controls beside them."""
 
 from collections.abc import Callable
 from typing import Any
 
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.view.cloth_drawing import ClothDrawing
+from cloth_sim_ros.view.collider_drawing import ColliderDrawing
 from cloth_sim_ros.view.controls import Controls
 from cloth_sim_ros.view.pin_handles import PinHandles
 from cloth_sim_ros.view.ray import first_hit
@@ -30,6 +31,7 @@ class Window:
         self._source = source
         self._shown: Moment | None = None
         self._drawing = ClothDrawing(server)
+        self._colliders = ColliderDrawing(server)
         self._controls = Controls(server, source, self.answer)
         self._pins = PinHandles(server, source, self.answer) if source.can_act else None
         if source.can_act:
@@ -48,6 +50,7 @@ class Window:
         with self._server.atomic():
             if is_new or self._controls.full_strain != self._drawing.full_strain:
                 self._drawing.draw(moment.frame, self._controls.full_strain)
+            self._colliders.draw(moment.frame.colliders, moment.frame.positions)
             if self._pins is not None and is_new:
                 self._pins.follow(moment.frame, self._controls.shows_handles)
             self._controls.show(moment)

@@ -56,6 +56,18 @@ def test_a_depth_picture_shows_the_cloth_where_it_hangs(make):
     np.testing.assert_allclose(seen[covered], np.median(seen[covered]), rtol=1e-3)
 
 
+def test_a_depth_picture_shows_what_is_in_front_of_the_cloth(make):
+    """A policy would see through a table."""
+    wall = {
+        'colliders.names': ['wall'], 'colliders.wall.shape': 'box',
+        'colliders.wall.size': [9.0, 0.1, 9.0], 'colliders.wall.position': [0.0, -0.15, 0.0]}
+    pictures = [
+        make({**SMALL, **more}, observation='depth', camera=STRAIGHT, jitter=0.0).reset()[0]
+        for more in ({}, wall)]
+    # Its front is 0.2 m in front of the cloth, and covers all.
+    np.testing.assert_allclose(pictures[1], pictures[0].min() - 0.2, rtol=1e-3)
+
+
 def test_the_picture_follows_the_cloth(make):
     """A policy would see the start for ever."""
     environment = make(

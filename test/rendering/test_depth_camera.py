@@ -5,7 +5,9 @@
 
 from cloth_sim_ros.rendering.camera import Camera
 from cloth_sim_ros.rendering.depth_camera import DepthCamera
+from cloth_sim_ros.sim.colliders import Collider
 from cloth_sim_ros.sim.errors import ClothSimError
+from cloth_sim_ros.sim.pose import unit_quaternion
 import numpy as np
 import pytest
 
@@ -90,6 +92,55 @@ def test_a_picture_says_nothing_of_the_one_before(camera):
     first = eye.draw(cloth)
     assert (eye.draw(cloth + (1e3, 0.0, 0.0)) == np.float32(eye.far)).all()
     np.testing.assert_array_equal(eye.draw(cloth), first)
+
+
+def rays_of(view):
+    """Return where the camera is, and the ray of each pixel, 1 m forward, (height, width, 3)."""
+    rows, cols = np.indices((view.height, view.width)) + 0.5
+    focus = view.distance / view.pixel
+    rays = np.stack([
+        (cols - view.width / 2) / focus, (view.height / 2 - rows) / focus, -np.ones_like(rows)],
+        axis=-1) @ view.axes
+    return view.middle + view.distance * view.axes[2], rays
+
+
+def test_bodies_and_planes_have_the_depth_of_the_ray(camera):
+    """A policy would see a cloth in the air, or a table at a wrong distance."""
+    cloth = plane((-0.5, -0.5, 0.5), (1.0, 0.0, 0.0), (0.0, 1.0, 0.0))
+    turn = unit_quaternion((0.1, 0.05, 0.0, 1.0), 'a turn')
+    ball = Collider('ball', 'sphere', (0.3,), (0.1, 0.1, 0.75), (0.0, 0.0, 0.0, 1.0), 0.3)
+    floor = Collider('floor', 'plane', (), (0.0, 0.0, 0.0), turn, 0.3)
+    eye = camera(cloth, azimuth=-70.0, elevation=35.0, field_of_view=60.0)
+    seen = eye.draw(cloth, (ball, floor))
+    place, rays = rays_of(eye.view)
+    to_plane = (place[2] - 0.5) / -rays[..., 2]
+    on_cloth = np.abs((place + to_plane[..., None] * rays)[..., :2]).max(axis=-1)
+    normal = floor.axes[2]
+    to_floor = (normal @ -place) / (rays @ normal)
+    # Where the ray meets the ball: |place + t ray - centre| = radius.
+    square = (rays**2).sum(axis=-1)
+    half = rays @ (place - np.array(ball.position))
+    rest = half**2 - square * (((place - np.array(ball.position))**2).sum() - 0.09)
+    to_ball = (-half - np.sqrt(np.maximum(rest, 0.0))) / square
+    expected = np.where(on_cloth < 0.5, to_plane, to_floor)
+    expected = np.where(rest > 0.0, np.minimum(expected, to_ball), expected)
+    # Not at outlines.
+    far_from_edge = (np.abs(on_cloth - 0.5) > 0.02) & (np.abs(rest) > 0.01)
+    is_finite = (to_floor > 0.0) & (expected < 0.99 * eye.far)
+    assert (rest > 0.0).sum() > 100 and (on_cloth < 0.5).sum() > 100
+    found = far_from_edge & is_finite
+    assert found.sum() > 3000 and (expected[found] == to_floor[found]).sum() > 500
+    np.testing.assert_allclose(seen[found], expected[found], atol=1e-3)
+
+
+def test_a_plane_is_not_seen_from_below(camera):
+    """A camera under a slope would see nothing of the cloth on it."""
+    cloth = plane((-0.5, 0.0, 0.4), (1.0, 0.0, 0.0), (0.0, 0.0, -0.8))
+    slope = Collider('slope', 'plane', (), (0.0, -0.5, 0.0), unit_quaternion(
+        (-1.0, 0.0, 0.0, 1.0), 'a turn'), 0.3)   # its normal is y
+    eye = camera(cloth, azimuth=-90.0, elevation=0.0)
+    assert slope.distance(np.zeros(3)) == pytest.approx(0.5)
+    np.testing.assert_array_equal(eye.draw(cloth, (slope,)), eye.draw(cloth))
 
 
 def test_a_camera_without_perspective_is_refused(camera):

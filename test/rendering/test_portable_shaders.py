@@ -14,6 +14,7 @@ from cloth_sim_ros.gl.shader_source import ShaderSource
 from cloth_sim_ros.gl.shared_directory import shader_directory
 from cloth_sim_ros.rendering.cloth_drawing import CLOTH_DEFINES
 from cloth_sim_ros.rendering.cloth_drawing import LIMIT_DEFINES
+from cloth_sim_ros.rendering.look import LIGHT_DEFINES
 from cloth_sim_ros.rendering.solid_drawing import ARROW_DEFINES
 from cloth_sim_ros.rendering.solid_drawing import BALL_DEFINES
 from cloth_sim_ros.rendering.solid_drawing import RIBBON_DEFINES
@@ -21,14 +22,16 @@ import pytest
 
 _SHADOW = {'SHADOW': 1}
 _FORMS = {
-    'arrow.frag': [ARROW_DEFINES],
+    'arrow.frag': [ARROW_DEFINES, LIGHT_DEFINES],
     'arrow.vert': [ARROW_DEFINES],
     'ball.frag': [BALL_DEFINES],
     'ball.vert': [BALL_DEFINES],
     'cloth.frag': [CLOTH_DEFINES, LIMIT_DEFINES],
     'cloth.vert': [CLOTH_DEFINES, LIMIT_DEFINES, _SHADOW],
+    'collider.vert': [LIGHT_DEFINES],
     'floor.frag': [{}],
     'floor.vert': [{}],
+    'ground.frag': [{}],
     'plain.frag': [_SHADOW],
     'ribbon.frag': [RIBBON_DEFINES],
     'ribbon.vert': [RIBBON_DEFINES],

@@ -3,11 +3,15 @@
 
 """What is around the panels, and where they go."""
 
+from dataclasses import replace
+
 from cloth_sim_ros.rendering.camera import Camera
 from cloth_sim_ros.rendering.layout import Layout
+from cloth_sim_ros.rendering.sheet import legend_handles
 from cloth_sim_ros.rendering.sheet import Sheet
 from cloth_sim_ros.rendering.strain_scale import StrainScale
 from cloth_sim_ros.rendering.survey import Survey
+from cloth_sim_ros.sim.colliders import Collider
 import numpy as np
 import pytest
 
@@ -75,3 +79,14 @@ def test_a_sheet_without_strain_has_no_bar(sheet_of):
         for has_bar in (True, False))
     assert without.shape[1] < with_bar.shape[1]
     assert np.ptp(without[:180], axis=-1).max() < 10
+
+
+def test_the_legend_tells_of_colliders_where_there_are_some(hanging):
+    """A reader would take a table for something else, or look for one that is not there."""
+    ball = Collider('ball', 'sphere', (0.1,), (0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 1.0), 0.3)
+    labels = []
+    for colliders in ((), (ball,)):
+        survey = Survey()
+        survey.add(replace(hanging(), colliders=colliders))
+        labels.append([entry.get_label() for entry in legend_handles(survey, 0.1, 8.0)])
+    assert labels[1] == [labels[0][0], 'collider', *labels[0][1:]]

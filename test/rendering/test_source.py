@@ -5,16 +5,22 @@
 
 from cloth_sim_ros.analysis.frame import Frame
 from cloth_sim_ros.analysis.recording import Recording
+from cloth_sim_ros.messages.inputs import mode_message
+from cloth_sim_ros.messages.inputs import parameters_message
+from cloth_sim_ros.messages.parameter_event import serialise_parameter_event
 from cloth_sim_ros.recording.recorder import Recorder
 from cloth_sim_ros.rendering.source import nearest_frames
 from cloth_sim_ros.rendering.source import RecordingSource
 from cloth_sim_ros.rendering.source import StateSource
+from cloth_sim_ros.sim.collider_fields import fields_with_colliders
 from cloth_sim_ros.sim.errors import ClothSimError
+from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.snapshot import FLAG_PINNED
 from hypothesis import given
 from hypothesis import strategies
 import numpy as np
 import pytest
+from rclpy.serialization import serialize_message
 
 TIMES = strategies.lists(strategies.integers(0, 1000), min_size=1, max_size=20, unique=True)
 
@@ -45,6 +51,26 @@ def test_a_recording_without_frames_is_refused(tmp_path):
     Recorder(tmp_path, 'empty', 'cloth_sim').close()
     with pytest.raises(ClothSimError, match='contains no messages'):
         list(RecordingSource(Recording(tmp_path / 'empty')).frames())
+
+
+@pytest.mark.parametrize('shape', ['sphere', 'torus'])
+def test_colliders_that_are_not_known_are_named(tmp_path, shape):
+    """A cloth would hang in the air, and nobody be told what it lies on."""
+    values = {
+        'colliders.names': ['ball'], 'colliders.ball.shape': 'sphere',
+        'colliders.ball.size': [0.1]}
+    message = parameters_message(
+        Scene(values).values, fields_with_colliders(values), 0.0, 'cloth_sim')
+    for parameter in message.new_parameters:
+        if parameter.name == 'colliders.ball.shape':
+            parameter.value.string_value = shape
+    recorder = Recorder(tmp_path, 'run', 'cloth_sim')
+    recorder.write('inputs/parameters', serialise_parameter_event(message), 0.0)
+    mode = mode_message('constraint', '', 0.0, 'world')
+    recorder.write('inputs/mode', serialize_message(mode), 0.0)
+    recorder.close()
+    source = RecordingSource(Recording(tmp_path / 'run'))
+    assert source.missing == ([] if shape == 'sphere' else ['colliders'])
 
 
 @pytest.fixture

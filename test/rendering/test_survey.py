@@ -3,13 +3,17 @@
 
 """All cloths, arrows and regions of a picture are inside of what is surveyed."""
 
+from dataclasses import replace
+
 from cloth_sim_ros.rendering.camera import Camera
 from cloth_sim_ros.rendering.survey import Extent
 from cloth_sim_ros.rendering.survey import region_rings
 from cloth_sim_ros.rendering.survey import Survey
+from cloth_sim_ros.sim.colliders import Collider
 from cloth_sim_ros.sim.push import Push
 from cloth_sim_ros.sim.snapshot import FLAG_AT_LIMIT
 import numpy as np
+import pytest
 
 
 def test_it_keeps_what_reaches_farthest():
@@ -111,6 +115,27 @@ def test_a_region_is_in_view_unless_it_is_huge(hanging):
     huge = push(0.0, 0.0, 1.0, region='sphere', center=(0.5, 0.0, 0.5), radius=30.0)
     assert survey_of(hanging(pushes=(small,))).points[:, 0].max() == 0.8
     assert survey_of(hanging(pushes=(huge,))).points[:, 0].max() < 2.0
+
+
+def with_ball(frame, x, radius, z=0.5):
+    """Return ``frame`` with a ball."""
+    return replace(frame, colliders=(Collider(
+        'ball', 'sphere', (radius,), (x, 0.0, z), (0.0, 0.0, 0.0, 1.0), 0.3),))
+
+
+def test_a_body_next_to_the_cloth_is_in_view(hanging):
+    """A ball that comes towards the cloth would be cut off, or the cloth be a speck beside it."""
+    survey = survey_of(*(with_ball(hanging(), x, 0.1) for x in (0.9, 0.7, 0.7)))
+    assert survey.shows_colliders and not survey_of(hanging()).shows_colliders
+    assert survey.points[:, 0].max() == pytest.approx(1.0)
+    # Where it began is as near as where it is.
+    assert survey_of(with_ball(hanging(), 30.0, 0.1)).points[:, 0].max() == 0.5
+    assert np.abs(survey_of(with_ball(hanging(), 0.0, 40.0, -40.0)).points).max() < 1.2
+
+
+def test_the_floor_is_below_bodies(hanging):
+    """A table would stand in the floor."""
+    assert survey_of(with_ball(hanging(), 0.0, 0.2, -0.2)).floor == pytest.approx(-0.43, abs=0.01)
 
 
 def test_the_floor_is_below_all_frames(hanging):

@@ -122,6 +122,8 @@ class ViewPage:
             self.nodes[name].update(message['updates'])
         elif kind == 'SetPositionMessage':
             self.nodes[name]['position'] = message['position']
+        elif kind == 'SetOrientationMessage' and name in self.nodes:
+            self.nodes[name]['wxyz'] = message['wxyz']
         elif kind == 'SetSceneNodeVisibilityMessage':
             self.nodes[name]['visible'] = message['visible']
         elif kind == 'GuiUpdateMessage':

@@ -1,0 +1,41 @@
+# SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
+# SPDX-License-Identifier: Apache-2.0
+
+"""A page shows the colliders where they are."""
+
+from cloth_sim_ros.sim.scene import Scene
+from cloth_sim_ros.view.collider_drawing import COLOR
+from cloth_sim_ros.view.scene_source import SceneSource
+import numpy as np
+from served_view import served
+from view_page import ViewPage
+
+SCENE = Scene({
+    'rows': 4, 'cols': 4, 'start.z': 3.0, 'colliders.names': ['ball', 'floor'],
+    'colliders.ball.shape': 'sphere', 'colliders.ball.size': [0.2],
+    'colliders.ball.position': [0.1, 0.2, 0.3], 'colliders.floor.shape': 'plane',
+    'collider_moves.start': [0.0], 'collider_moves.name': ['ball'],
+    'collider_moves.target': [1.1, 0.2, 0.3], 'collider_moves.orientation': [0.0, 0.0, 1.0, 1.0],
+    'collider_moves.speed': [1.0], 'collider_moves.angular_speed': [9.0]})
+
+
+def test_the_page_shows_the_colliders_and_moves_them():
+    """The cloth would hang over something that nobody sees, or sees elsewhere."""
+    source = SceneSource(SCENE, 'small', frame_seconds=0.02, is_paused=True)
+    with served(source) as port, ViewPage(port) as page:
+        page.wait_for(lambda: '/colliders/floor' in page.nodes, 'a floor')
+        ball = page.nodes['/colliders/ball']
+        np.testing.assert_allclose(ball['position'], (0.1, 0.2, 0.3))
+        assert tuple(ball['color']) == COLOR
+        points = ball['vertices'].reshape(-1, 3)
+        np.testing.assert_allclose(np.linalg.norm(points, axis=1), 0.2, rtol=1e-5)
+        source.step(round(0.5 / SCENE['dt']))
+        page.wait_for(
+            lambda: page.nodes['/colliders/ball']['position'][0] > 0.5, 'a ball that moves')
+        np.testing.assert_allclose(
+            page.nodes['/colliders/ball']['position'], (0.6, 0.2, 0.3), atol=1e-6)
+        # Half of the quarter turn.
+        page.wait_for(lambda: page.nodes['/colliders/ball']['wxyz'][3] > 0.3, 'a turn')
+        np.testing.assert_allclose(
+            page.nodes['/colliders/ball']['wxyz'],
+            (np.cos(np.pi / 8), 0.0, 0.0, np.sin(np.pi / 8)), atol=1e-6)
