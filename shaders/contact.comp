@@ -27,7 +27,7 @@ void main() {
     int index = int(near_nodes[gl_GlobalInvocationID.x]);
     vec4 v = velocity_out[index];
     vec4 x = load_position(index);
-    Contact contact = contact_at(x.xyz, v.xyz, substep);
+    Contact contact = contact_at(x.xyz, v.xyz, v.xyz, substep);
     if (touched_count == 0) {
         return;
     }

@@ -26,7 +26,7 @@ void main() {
     vec4 v = load_velocity(index);
     if (v.w > 0.0) {
         vec3 without = v.xyz + substep * applied_acceleration(index);
-        v.xyz = contact_at(load_position(index).xyz, without, substep).velocity;
+        v.xyz = contact_at(load_position(index).xyz, without, without, substep).velocity;
     }
     velocity_out[index] = v;
 }

@@ -46,6 +46,7 @@ vec3 carried[MOST_TOUCHED];   // velocity of the surface at the node [m/s]
 float pressed[MOST_TOUCHED];  // change of velocity that a compressed cloth presses with [m/s]
 int held_on;                  // how many, not parallel to each other, act on it
 ivec2 held_by;                // the first two of them
+float spare_way = 0.0;        // [m] that surfaces may be farther away than a node comes
 
 // What positions are rounded by: surfaces as near as this are touched.
 float rounding(vec3 x, int collider) {
@@ -79,12 +80,13 @@ vec4 gap_at_end(int collider, vec3 x, float h) {
     return near - vec4(0.0, 0.0, 0.0, clearance);
 }
 
-// Remember the surfaces that a node at x with the velocity v can come to in the time h.
-void find_surfaces(vec3 x, vec3 v, float h) {
+// Remember the surfaces that a node at x can come to in the time h at the velocity towards, and act
+// on the velocity v.
+void find_surfaces(vec3 x, vec3 towards, vec3 v, float h) {
     touched_count = 0;
     for (int collider = 0; collider < COLLIDERS; ++collider) {
         vec4 near = gap_at(collider, x);
-        float way = h * length(v - surface_velocity(collider, x));
+        float way = h * length(towards - surface_velocity(collider, x)) + spare_way;
         if (!(near.w < way + rounding(x, collider))) {
             continue;
         }
@@ -217,9 +219,10 @@ void slide_on_two(vec3 x, float h, inout Contact found) {
     found.normal = normalize(cross(n, m));
 }
 
-// The velocity of a node at x in the next h seconds, v without colliders.
-Contact contact_at(vec3 x, vec3 v, float h) {
-    find_surfaces(x, v, h);
+// The velocity of a node at x in the next h seconds, v without colliders. It comes as far as the
+// velocity towards takes it: what edges pull with, and a surface holds, takes it nowhere.
+Contact contact_at(vec3 x, vec3 towards, vec3 v, float h) {
+    find_surfaces(x, towards, v, h);
     Contact found = Contact(v, vec3(0.0), FREE);
     if (touched_count == 0) {
         return found;

@@ -32,16 +32,41 @@ bool is_fixed(ivec2 at) {
     return load_node(at).w < 0.0 || is_held(node_index(at.x, at.y));
 }
 
-// What ties a free node to a fixed one: by an edge that begins here, or ends here.
+#if HAS_CONTACT
+mat3 whole(Symmetric s) {
+    return mat3(s[0].x, s[1].x, s[1].y, s[1].x, s[0].y, s[1].z, s[1].y, s[1].z, s[0].z);
+}
+
+// What the surface that a node touches takes of its movement.
+mat3 taken(ivec2 at) {
+    return load_node(at).w == 0.0 ? mat3(0.0)
+        : is_fixed(at) ? mat3(1.0) : whole(taken_directions(node_index(at.x, at.y)));
+}
+
+bool is_tied(ivec2 at) {
+    return load_node(at).w < 0.0 || load_contact(node_index(at.x, at.y)).w > 0.0;
+}
+
+// What ties nodes to each other where one is taken more of a common movement than the other.
+Symmetric tie(ivec2 at, ivec2 other, Symmetric block) {
+    mat3 apart = taken(other) - taken(at);
+    mat3 product = apart * whole(block) * apart;
+    return Symmetric(
+        vec3(product[0][0], product[1][1], product[2][2]),
+        vec3(product[0][1], product[0][2], product[1][2]));
+}
+#else
+bool is_tied(ivec2 at) { return is_fixed(at); }
+
+Symmetric tie(ivec2 at, ivec2 other, Symmetric block) {
+    return is_fixed(other) ? block : Symmetric(0.0);
+}
+#endif
+
+// What ties a free node to others: by an edge that begins here, or ends here.
 Symmetric ties(ivec2 at, ivec2 by, int edge) {
-    Symmetric sum = Symmetric(0.0);
-    if (is_fixed(at + by)) {
-        sum += edge_block(at, by, edge);
-    }
-    if (is_fixed(at - by)) {
-        sum += edge_block(at - by, by, edge);
-    }
-    return sum;
+    return tie(at, at + by, edge_block(at, by, edge))
+        + tie(at, at - by, edge_block(at - by, by, edge));
 }
 
 // The two kinds of a family are added to each other first: a mirrored cloth rounds alike.
@@ -52,17 +77,25 @@ Symmetric all_ties(ivec2 at) {
     Symmetric of_family[] =
         Symmetric[](Symmetric(0.0), Symmetric(0.0), Symmetric(0.0));
     EACH_EDGE(ADD_TIES, of_family)
-    return of_family[STRUCTURAL] + of_family[SHEAR] + of_family[BEND];
+    Symmetric sum = of_family[STRUCTURAL] + of_family[SHEAR] + of_family[BEND];
+#if HAS_CONTACT && HAS_RIGIDITY
+    // A kink of one node stores as much as edges of three times the rigidity.
+    Symmetric along_row = scaled_identity(3.0 * bending_bound[0]);
+    Symmetric along_column = scaled_identity(3.0 * bending_bound[1]);
+    sum += tie(at, at + ivec2(0, 1), along_row) + tie(at, at - ivec2(0, 1), along_row);
+    sum += tie(at, at + ivec2(1, 0), along_column) + tie(at, at - ivec2(1, 0), along_column);
+#endif
+    return sum;
 }
 
-bool has_fixed_around(ivec2 first) {
-    bool has_fixed = false;
+bool has_tied_around(ivec2 first) {
+    bool has_tied = false;
     for (int row = -REACH; row < 2 + REACH; ++row) {
         for (int col = -REACH; col < 2 + REACH; ++col) {
-            has_fixed = has_fixed || is_fixed(first + ivec2(row, col));
+            has_tied = has_tied || is_tied(first + ivec2(row, col));
         }
     }
-    return has_fixed;
+    return has_tied;
 }
 
 Symmetric coarse_edge(int row, int col, int direction) {
@@ -107,8 +140,8 @@ void main() {
     Symmetric ground = scaled_identity(mass);
     // A loop ends where no invocation beside this one goes on; a branch costs llvmpipe the same
     // either way.
-    int near_fixed = has_fixed_around(first) ? 4 : 0;
-    for (int i = 0; i < near_fixed; ++i) {
+    int near_tied = has_tied_around(first) ? 4 : 0;
+    for (int i = 0; i < near_tied; ++i) {
         ivec2 at = first + ivec2(i / 2, i % 2);
         if (load_node(at).w > 0.0) {
             ground += all_ties(at);

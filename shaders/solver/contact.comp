@@ -45,7 +45,7 @@ uniform float most_unsolved;  // [m] that a node may be moved by without another
 
 // How a node touches: what is left to a solve is grip and impulse.
 struct Hold {
-    int kind;      // FREE, SLIDES or SLIDES_ON_TWO by the directions that are left to it; STICKS: none
+    int kind;      // by the directions left to it; STICKS: none
     vec3 normal;
     vec3 change;   // of the velocity at once
     float grip;
@@ -126,7 +126,8 @@ void decide(int at, int index, inout vec4 x, inout vec4 v) {
     bool touched_before = guess > 0.0 && system_data[cloth_entry(CONTACT, index)].w > 0.0;
     float end = touched_before ? vectors[cloth_entry(REACTION, index)].w : 0.0;
     vectors[cloth_entry(REACTION, index)].w = 0.0;
-    Contact contact = contact_at(x.xyz, without, substep);
+    vec3 towards = v.xyz + guess * last + kick * applied_acceleration(at);
+    Contact contact = contact_at(x.xyz, towards, without, substep);
     Hold hold = hold_of(contact, v.xyz);
     bool sticks = contact.kind == STICKS || end == STUCK && is_slow(hold, contact, x.xyz);
     if (sticks) {
@@ -174,7 +175,8 @@ void decide(int at, int index, inout vec4 x, inout vec4 v) {
     vec3 begin = load_vector(cloth_entry(BEGIN_POSITION, index));
     vec3 reaction = load_vector(cloth_entry(REACTION, index));
     float turns = vectors[cloth_entry(REACTION, index)].w;
-    Contact contact = contact_at(begin, v.xyz - reaction, substep);
+    spare_way = most_unsolved;
+    Contact contact = contact_at(begin, v.xyz, v.xyz - reaction, substep);
     if (v.w == 0.0 || (was == FREE && contact.kind == FREE)) {
         store_vector(cloth_entry(GIVEN, index), vec3(0.0));
         return;
@@ -214,7 +216,8 @@ void decide(int at, int index, inout vec4 x, inout vec4 v) {
     if (v.w == 0.0) {
         return;
     }
-    contact_at(begin, v.xyz - reaction, substep);
+    spare_way = most_unsolved;
+    contact_at(begin, v.xyz, v.xyz - reaction, substep);
     if (touched_count == 0) {
         return;
     }

@@ -24,10 +24,16 @@ vec3 held_product(int index, vec3 value, vec3 product) {
     return in_free_directions(index, product + grip_of(index) * value);
 }
 
-Symmetric grip_tensor(int index) {
+// The directions that contact takes of a node, as a projection.
+Symmetric taken_directions(int index) {
     vec4 contact = load_contact(index);
     Symmetric along = outer_square(contact.xyz);
-    return grip_of(index) * (contact.w == 2.0 ? scaled_identity(1.0) - along : along);
+    return contact.w == 0.0 ? Symmetric(0.0) : contact.w == 1.0 ? scaled_identity(1.0)
+        : contact.w == 2.0 ? along : scaled_identity(1.0) - along;
+}
+
+Symmetric grip_tensor(int index) {
+    return grip_of(index) * (scaled_identity(1.0) - taken_directions(index));
 }
 #else
 bool is_held(int index) { return false; }

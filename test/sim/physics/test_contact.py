@@ -143,12 +143,20 @@ def test_a_cloth_drapes_over_a_body(simulate, within, any_mode, body):
         'start.z': 0.25, 'dt': 0.005, 'contact.thickness': 0.0, 'colliders.names': ['body'],
         'colliders.body.friction': 0.5, 'air.density': 1.225,
         **{f'colliders.body.{name}': value for name, value in body.items()}})
-    deepest = 0.0
+    deepest, faces = 0.0, 0.0
     for _ in range(20):
         simulation.advance(0.025)
         collider, = simulation.colliders
-        deepest = max(deepest, -float(distance_to(collider, simulation.positions()).min()))
+        positions = simulation.positions().astype(float)
+        deepest = max(deepest, -float(distance_to(collider, positions).min()))
+        middles = 0.25 * (
+            positions[1:, 1:] + positions[1:, :-1] + positions[:-1, 1:] + positions[:-1, :-1])
+        faces = max(faces, -float(distance_to(collider, middles).min()))
     within('deepest node [m]', deepest, 1e-6)
+    if body['shape'] in ('sphere', 'capsule'):
+        # A chord dips so far into a circle.
+        within('deepest middle of a face, over a^2 / (4 R)',
+               faces / (max(simulation.scene.spacing)**2 / (4.0 * body['size'][0])), 1.2)
     force, = simulation.contact_forces()
     assert force.sticking + force.sliding > 0
     assert simulation.snapshot().max_strain < 0.3

@@ -1,0 +1,67 @@
+# SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
+# SPDX-License-Identifier: Apache-2.0
+
+"""A belt round a drum slips at the ratio of tensions that Euler and Eytelwein found."""
+
+import math
+
+import numpy as np
+import pytest
+
+RADIUS, WRAP, ON_DRUM, FREE_NODES = 0.1, math.pi, 15, 4
+TURN = WRAP / ON_DRUM  # at each node on the drum
+LENGTH = 2.0 * RADIUS * math.sin(TURN / 2.0)
+ROWS, WIDTH = ON_DRUM + 2 * FREE_NODES, 0.02
+LOAD = 1.0  # [N] at the slack end
+# Implicit springs, which are held as little as hard edges, but stretch as others do.
+SPRINGS = {'constraint.hard': [], 'constraint.springs': ['structural', 'shear']}
+BELT = {
+    'rows': ROWS, 'cols': 2, 'width': WIDTH, 'height': LENGTH * (ROWS - 1), 'areal_density': 1.0,
+    'gravity': [0.0, 0.0, 0.0], 'dt': 0.001, 'stiffness.structural': 2e4, 'stiffness.shear': 1e3,
+    'stiffness.bend': 0.0, 'damping.structural': 1.0, 'contact.thickness': 0.0,
+    'pins': ['bottom_edge'], 'colliders.names': ['drum'], 'colliders.drum.shape': 'cylinder',
+    'colliders.drum.size': [RADIUS, 0.2],
+    'colliders.drum.orientation': [math.sqrt(0.5), 0.0, 0.0, math.sqrt(0.5)]}
+
+
+def laid_on_drum():
+    """Return positions on the drum, (rows, 2, 3), and the directions of both free ends."""
+    angles = [0.5 * (math.pi + WRAP - TURN) - TURN * number for number in range(ON_DRUM)]
+
+    def at(angle):
+        return np.array([math.cos(angle), 0.0, math.sin(angle)])
+
+    slack = at(angles[0] + 0.5 * (TURN + math.pi))
+    pulled = at(angles[-1] - 0.5 * (TURN + math.pi))
+    on = [RADIUS * at(angle) for angle in angles]
+    line = np.array([
+        *(on[0] + LENGTH * number * slack for number in range(FREE_NODES, 0, -1)), *on,
+        *(on[-1] + LENGTH * number * pulled for number in range(1, FREE_NODES + 1))])
+    return line[:, None] + np.array([[0.0, -WIDTH / 2, 0.0], [0.0, WIDTH / 2, 0.0]]), slack, pulled
+
+
+@pytest.mark.parametrize('friction', [0.2, 0.4])
+def test_ratio_of_tensions_at_the_onset_of_slip(simulate, within, any_mode, friction):
+    """A cloth pulled over an edge or round a body would need another force."""
+    simulation = simulate({
+        **BELT, 'mode': any_mode, 'colliders.drum.friction': friction,
+        **(SPRINGS if any_mode == 'constraint' else {})})
+    positions, slack, pulled = laid_on_drum()
+    simulation.set_state(
+        positions.astype(np.float32), np.zeros(positions.shape, dtype=np.float32))
+    simulation.push(
+        tuple(LOAD * slack), duration=100.0, region='sphere',
+        center=tuple(positions[0].mean(axis=0)), radius=0.03)
+    simulation.advance(0.2)
+    for col in range(2):
+        simulation.move_pin(ROWS - 1, col, tuple(positions[-1, col] + 0.003 * pulled), 0.005)
+    simulation.advance(0.3)
+    tensions = []
+    for _ in range(100):
+        simulation.step()
+        tensions.append(abs(float((simulation.pin_forces().forces @ pulled).sum())))
+    # A polygon turns by as much at each node.
+    share = friction * math.tan(0.5 * TURN)
+    exact = ((1.0 + share) / (1.0 - share))**ON_DRUM
+    within('ratio of tensions over that of the formula, less 1',
+           abs(np.mean(tensions) / LOAD / exact - 1.0), 0.01)
