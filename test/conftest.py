@@ -10,11 +10,16 @@ import socket
 from cloth_sim_ros.gl.context import Context
 from cloth_sim_ros.gl.errors import DeviceError
 from hypothesis import settings
+from hypothesis.internal.conjecture import providers
 import pytest
 
 # How long an example takes depends on what else the machine does.
 settings.register_profile('any_machine', deadline=None)
 settings.load_profile('any_machine')
+
+# It makes examples of the constants in loaded modules, too: then the whole suite draws others than
+# a single test, and any new module draws others for all.
+providers._get_local_constants = lambda: providers._local_constants
 
 # Where ROS's own domain_coordinator claims domains too, so that both respect each other.
 FIRST_CLAIM_PORT = 32768

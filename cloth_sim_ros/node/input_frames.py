@@ -100,8 +100,8 @@ class InputFrames:
             else 'start the node with tf.listen: true')
         self._subscriptions: list[tuple[Subscription, bool]] = []
         if listens:
-            for topic, is_fixed in (('/tf_static', True), ('/tf', False)):
-                self._listen(node, topic, is_fixed)
+            self._listen(node, '/tf_static', is_fixed=True)
+            self._listen(node, '/tf', is_fixed=False)
 
     def given(self, header: Any) -> Given:
         """
@@ -131,7 +131,7 @@ class InputFrames:
                     break
                 self._keep(subscription.topic_name, taken[0], is_fixed)
 
-    def _listen(self, node: Node, topic: str, is_fixed: bool) -> None:
+    def _listen(self, node: Node, topic: str, *, is_fixed: bool) -> None:
         quality = QoSProfile(
             depth=_DEPTH, durability=DurabilityPolicy.TRANSIENT_LOCAL if is_fixed
             else DurabilityPolicy.VOLATILE)
