@@ -302,6 +302,12 @@ def test_a_recorded_run_is_made_again_without_tf(handled, teller, camera):
 def test_a_node_that_does_not_listen_says_so(client, tmp_path):
     """A user who has turned it off would look for a mistake in his transforms."""
     with NodeProcess(tmp_path, {**HANDLED, **PAUSED, 'tf.listen': False}, '-r', '__ns:=/deaf'):
+        # The graph may know a service before it knows its node, or the node its client.
+        client.spin_until(
+            lambda: ('cloth_sim', '/deaf') in client.node.get_node_names_and_namespaces(),
+            'the node is known')
+        client.service(ApplyPush, '/deaf/cloth_sim/apply_push')
+        client.spin_for(0.5)
         response = client.call(
             ApplyPush, '/deaf/cloth_sim/apply_push', header=IN_CAMERA, force=Vector3(z=1.0),
             duration=0.1)
