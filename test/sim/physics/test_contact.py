@@ -58,7 +58,10 @@ def test_slip_angle(simulate, within, any_mode, friction):
             within('way below the slip angle [m]', np.abs(moved).max(), 1e-6)
 
 
-def test_what_sticks_does_not_creep_on_a_tilted_plane(simulate, within, any_mode):
+@pytest.mark.parametrize(('seconds', 'allowed'), [
+    (1.0, 1e-6), pytest.param(60.0, 1e-5, marks=pytest.mark.long)])
+def test_what_sticks_does_not_creep_on_a_tilted_plane(
+        simulate, within, any_mode, seconds, allowed):
     """A cloth in a gripper would creep out of it."""
     friction = math.tan(ANGLE) / 0.99
     simulation = simulate({
@@ -66,9 +69,9 @@ def test_what_sticks_does_not_creep_on_a_tilted_plane(simulate, within, any_mode
     lay_on_tilted(simulation, ANGLE)
     simulation.advance(0.1)
     begin = simulation.positions()
-    simulation.advance(1.0)
-    within('way in 1 s at 0.99 of the limit [m]',
-           np.abs(simulation.positions() - begin).max(), 1e-6)
+    simulation.advance(seconds)
+    within(f'way in {seconds:g} s at 0.99 of the limit [m]',
+           np.abs(simulation.positions() - begin).max(), allowed)
 
 
 @pytest.mark.parametrize('friction', [0.2, 0.7])
