@@ -45,6 +45,7 @@ class Handling(RunStatus):
     _grasps: GraspRequests
     _held: Grasps
 
+    # Simulation has both: what is asked of a cloth depends on where it is.
     def positions(self) -> np.ndarray:
         """Return all positions [m], (rows, cols, 3) float32."""
         raise NotImplementedError

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import math
 
 from cloth_sim_ros.sim.errors import ClothSimError
-from cloth_sim_ros.sim.pin_path import FARTHEST
+from cloth_sim_ros.sim.pose import checked_position
 import numpy as np
 
 
@@ -37,13 +37,7 @@ def near_node(
     :param parameter: what ``max_distance`` is set by, for the error
     :raises ClothSimError: when the point is none, no node is pinned, or the node is too far away
     """
-    if len(point) != 3 or not all(math.isfinite(part) for part in point):
-        raise ClothSimError(
-            f'a point needs 3 finite numbers [m], got {tuple(point)}: give x, y and z')
-    if max(map(abs, point)) > FARTHEST:
-        raise ClothSimError(
-            f'a point must be at most {FARTHEST:g} m from the origin along each axis, got '
-            f'{tuple(point)}: give it in metres')
+    checked_position(point, 'a point')
     if not max_distance > 0.0:
         raise ClothSimError(
             f'{parameter} must be above 0, got {max_distance:g}: give the distance in metres, '

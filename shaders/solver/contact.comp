@@ -14,11 +14,11 @@
 #define AGAIN 1
 #define END 2
 
-// What has become of a node in a substep: it has stuck at the end of the last one, was let go, or
-// has begun to slide or to stick so often, as hard edges can have it do to and fro.
+// What has become of a node, kept beside its reaction: it stuck as the last substep ended, or was
+// let go in this one. Any number above 0 says that it changed in this substep, as hard edges can
+// have it do to and fro.
 #define STUCK 1.0
 #define LET_GO 16.0
-#define MOST_TURNS 3.0
 
 #include "solver/levels.glsl"
 #include "solver/vectors.glsl"
@@ -39,7 +39,7 @@ uniform float substep;        // [s]
 uniform float kick;           // [s] that what is applied acts for
 uniform float guess;          // share of the last change that is expected; 0: none known
 #else
-uniform bool ends_turns;       // whether friction is to resist only, which throws no node
+uniform bool ends_turns;      // whether friction is to resist only, which throws no node
 uniform float most_unsolved;  // [m] that a node may be moved by without another solve
 #endif
 
@@ -105,7 +105,7 @@ bool is_slow(Hold hold, Contact contact, vec3 x) {
     return length(sliding(hold, contact.velocity)) < slowest(x);
 }
 
-// Have friction resist with most at the speed at which a node begins to slide.
+// Have friction resist in the solve, by most at this speed; done is what it has given before.
 void hold_fast(inout Hold hold, float most, float speed, vec3 slid, vec3 done) {
     hold.grip = most / speed;
     hold.impulse = -hold.grip * slid - done;

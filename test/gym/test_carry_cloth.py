@@ -10,27 +10,10 @@ import sys
 
 from cloth_sim_ros import ClothSimError
 from cloth_sim_ros import Scene
-from cloth_sim_ros.gym import CarryCloth
 import gymnasium
 import numpy as np
 import pytest
-
-SMALL = {
-    'rows': 6, 'cols': 5, 'width': 0.4, 'height': 0.5, 'start.pose': 'hanging', 'dt': 0.005}
-
-
-@pytest.fixture
-def make():
-    """Return a function that makes environments of a small cloth, and close them."""
-    made = []
-
-    def make_one(scene=SMALL, **options):
-        made.append(CarryCloth(scene, **options))
-        return made[-1]
-
-    yield make_one
-    for environment in made:
-        environment.close()
+from small_environment import SMALL
 
 
 def test_the_programs_of_its_page_run(capsys):

@@ -8,29 +8,13 @@ import sys
 import warnings
 
 from cloth_sim_ros import ClothSimError
-from cloth_sim_ros.gym import CarryCloth
 import gymnasium
 from gymnasium.utils.env_checker import check_env
 import numpy as np
 import pytest
+from small_environment import SMALL
 
-SMALL = {
-    'rows': 6, 'cols': 5, 'width': 0.4, 'height': 0.5, 'start.pose': 'hanging', 'dt': 0.005}
 STRAIGHT = {'azimuth': -90.0, 'elevation': 0.0}
-
-
-@pytest.fixture
-def make():
-    """Return a function that makes environments of a small cloth, and close them."""
-    made = []
-
-    def make_one(scene=SMALL, **options):
-        made.append(CarryCloth(scene, **options))
-        return made[-1]
-
-    yield make_one
-    for environment in made:
-        environment.close()
 
 
 @pytest.mark.parametrize('observation', [
