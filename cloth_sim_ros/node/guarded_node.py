@@ -8,9 +8,13 @@ import inspect
 from typing import Any
 
 from cloth_sim_ros.node.faults import Faults
+from cloth_sim_ros.node.late_answers import LateAnswers
+from cloth_sim_ros.node.late_answers import RETRY_PERIOD
 from rcl_interfaces.msg import SetParametersResult
 from rcl_interfaces.srv import SetParameters
 from rcl_interfaces.srv import SetParametersAtomically
+from rclpy.clock import Clock
+from rclpy.clock import ClockType
 from rclpy.executors import ExternalShutdownException
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
@@ -47,15 +51,24 @@ class GuardedNode(Node):
         """Begin without a fault."""
         self.faults = Faults(lambda text: self.get_logger().error(text))
         self.fatal: Exception | None = None
+        self._retries: Timer | None = None
+        self._late_answers = LateAnswers(
+            warn=lambda text: self.get_logger().warning(text), wait=self._begin_retries,
+            rest=lambda: self._retries.cancel() if self._retries is not None else None)
         super().__init__(name)
 
     def create_service(
             self, srv_type: type, srv_name: str, callback: Callable[[Any, Any], Any], *,
             qos_profile: QoSProfile = SERVICE_QUALITY, **options: Any) -> Service:
-        """Serve ``callback``; a fault in it is the answer."""
-        return super().create_service(
+        """Serve ``callback``; a fault in it is the answer, and that is sent until it arrives."""
+        service = super().create_service(
             srv_type, srv_name, self.guarded(callback, srv_name, _answer_with),
             qos_profile=qos_profile, **options)
+        send = service.send_response
+        # What the executor calls with the result of the callback.
+        service.send_response = (  # type: ignore[method-assign]
+            lambda response, header: self._late_answers.send(srv_name, send, response, header))
+        return service
 
     def create_subscription(
             self, msg_type: type, topic: str, callback: Callable[[Any], None],
@@ -107,6 +120,15 @@ class GuardedNode(Node):
                 return note(error, arguments)
 
         return wait_for if inspect.iscoroutinefunction(callback) else call
+
+    def _begin_retries(self) -> None:
+        if self._retries is None:
+            # Simulated time may stand still.
+            self._retries = self.create_timer(
+                RETRY_PERIOD, self._late_answers.retry,
+                clock=Clock(clock_type=ClockType.STEADY_TIME))
+        elif self._retries.is_canceled():
+            self._retries.reset()
 
     def spin(self) -> None:
         """

@@ -15,6 +15,7 @@ import yaml
 
 _START = 'import sys; from cloth_sim_ros.node.main import main; sys.exit(main())'
 PATIENCE = 30.0
+_SHOWN = 5000  # characters
 
 
 class NodeProcess:
@@ -47,8 +48,10 @@ class NodeProcess:
         """Return itself."""
         return self
 
-    def __exit__(self, *_: object) -> None:
-        """Stop the node, whatever its state."""
+    def __exit__(self, kind: type | None, *_: object) -> None:
+        """Stop the node, whatever its state; a test that fails prints what the node said."""
+        if kind is not None:
+            print(self.output[-_SHOWN:])
         if self._process.poll() is None:
             self.send(signal.SIGINT)
         try:
