@@ -16,6 +16,8 @@ from cloth_sim_ros.sim.simulation import Simulation
 from cloth_sim_ros.sim.snapshot import Snapshot
 from cloth_sim_ros.sim.solver.edge_law import EdgeLaw
 from cloth_sim_ros.sim.solver.edge_law import FAR
+from cloth_sim_ros.study.contact_work import compression_energy
+from cloth_sim_ros.study.contact_work import contact_work
 import numpy as np
 
 # What float32 rounds of a number, twice.
@@ -27,7 +29,7 @@ _WHOLE = 1.0 - 1e-9
 
 class EnergyAccount:
     """
-    Keeps the books of a run: its energy, and the work that pushes, air and moving pins do.
+    Keeps the books of a run: its energy, and the work that loads, pins, grasps and colliders do.
 
     Symplectic Euler has its velocities half a substep before its positions, so its energy swings
     to and fro near the stability limit by as much as there is. What it keeps, exactly where forces
@@ -48,7 +50,9 @@ class EnergyAccount:
         self._run = run
         self._is_symplectic = not AVAILABLE[run.mode].is_implicit
         self._is_limited = AVAILABLE[run.mode].edge_model(run.scene) == 'limited'
-        self._has_pin_moves = bool(run.scene.timed_pin_moves())
+        self._has_pin_moves = bool(
+            run.scene.timed_pin_moves() or run.scene.timed_grasp_moves())
+        self._colliders = run.colliders
         self._pushed: dict[Push, np.ndarray] = {}
         self._work = 0.0
         self._air_work = 0.0
@@ -105,6 +109,10 @@ class EnergyAccount:
         if self._has_pin_moves and now.pin_forces is not None:
             rows, cols = now.pin_forces.nodes.T
             self._work += float(np.sum(now.pin_forces.forces * moved[rows, cols]))
+        if self._colliders:
+            colliders = self._run.colliders
+            self._work += contact_work(self._run.contact_forces(), self._colliders, colliders)
+            self._colliders = colliders
         law = self._run.engines.energy_law()
         self._work += _closing_work(
             self._run.scene, self._moving_edges(), (self._law, before.positions),
@@ -136,7 +144,8 @@ class EnergyAccount:
     def _is_worked_on(self, steps: int) -> bool:
         begin, end = self._run.time, self._run.time + steps * self._run.dt
         can_limits_move = self._law.has_limits or self._is_limited
-        return can_limits_move or self._has_pin_moves or any(
+        is_handled = self._has_pin_moves or bool(self._colliders)
+        return can_limits_move or is_handled or any(
             applied.push.overlap(begin, end) > 0.0 for applied in self._run.pushes)
 
     def _look(self) -> Snapshot:
@@ -147,6 +156,8 @@ class EnergyAccount:
 
     def _moving(self, seen: Snapshot) -> float:
         energy = seen.kinetic_energy + seen.elastic_energy
+        if self._colliders:
+            energy += compression_energy(self._run.scene, self._colliders, seen.positions)
         return energy + self._half_a_step(seen) if self._is_symplectic else energy
 
     def _moving_edges(self) -> list[np.ndarray]:
