@@ -15,6 +15,7 @@ from cloth_sim_ros.gl.quick_calls import bind_texture
 from cloth_sim_ros.gl.quick_calls import Call
 from cloth_sim_ros.gl.quick_calls import memory_barrier
 from cloth_sim_ros.gl.quick_calls import read_buffer
+from cloth_sim_ros.gl.quick_calls import write_buffer
 import numpy as np
 
 # As plain numbers: PyOpenGL's constants are slower to hand on.
@@ -70,10 +71,9 @@ class Buffer:
     def write(self, data: np.ndarray, offset: int = 0) -> None:
         """Overwrite the bytes from ``offset`` on with ``data``."""
         content = np.ascontiguousarray(data)
-        with loss_noticed():
-            GL.glBindBuffer(GL.GL_SHADER_STORAGE_BUFFER, self._buffer)
-            GL.glBufferSubData(
-                GL.GL_SHADER_STORAGE_BUFFER, offset, content.nbytes, content)
+        bind_buffer(_STORAGE, self._buffer)
+        write_buffer(_STORAGE, offset, content.nbytes, content.ctypes.data)
+        refuse_lost_context()
 
     def clear(self) -> None:
         """Make all of it zero."""

@@ -31,8 +31,10 @@ dispatch_indirect = _quick('glDispatchComputeIndirect', gl_type.GLintptr)
 memory_barrier = _quick('glMemoryBarrier', gl_type.GLbitfield)
 bind_buffer = _quick('glBindBuffer', gl_type.GLenum, gl_type.GLuint)
 bind_buffer_base = _quick('glBindBufferBase', gl_type.GLenum, gl_type.GLuint, gl_type.GLuint)
-# To an address, which is a number: making a pointer of it takes as long as the call.
+# To or from an address, which is a number: making a pointer of it takes as long as the call.
 read_buffer = _quick(
     'glGetBufferSubData', gl_type.GLenum, gl_type.GLintptr, gl_type.GLsizeiptr, c_size_t)
+write_buffer = _quick(
+    'glBufferSubData', gl_type.GLenum, gl_type.GLintptr, gl_type.GLsizeiptr, c_size_t)
 activate_texture = _quick('glActiveTexture', gl_type.GLenum)
 bind_texture = _quick('glBindTexture', gl_type.GLenum, gl_type.GLuint)

@@ -81,8 +81,7 @@ class Contacts:
         self._near = SceneProgram('near_colliders.comp', scene, layout)
         self._near_nodes = Buffer(_NO_NODES.nbytes + 4 * scene.node_count)
         self._foresight = SceneProgram('foresee_contact.comp', scene, layout)
-        self._set: dict[Program, _Touch] = {}
-        self._near_set: tuple[_Touch, float] | None = None
+        self._set: dict[Program, tuple[_Touch, float]] = {}
         self._joined: tuple[Forcing, _Touch, Forcing] | None = None
         self.begin_run()
 
@@ -140,10 +139,9 @@ class Contacts:
         for part in (self._near, self._program):
             program = part.use()
             program.set_float('substep', length)
-            self.set_in(program, touch)
+            self.set_in(program, touch, length)
             if part is self._near:
-                self._set_near(program, touch, length)
-                program.dispatch(*self._layout.node_groups)
+                program.dispatch(*self._layout.groups)
                 shader_dispatches_visible()
         self._near_nodes.bind_dispatches()
         program.dispatch_indirect(0)
@@ -153,31 +151,30 @@ class Contacts:
             self, touch: '_Touch', state: State, forcing: Forcing, ahead: float) -> None:
         """Write the velocities of the next state of ``state``, as they are expected."""
         program = self._foresight.use_for_step(forcing, ahead)
-        self.set_in(program, touch)
+        self.set_in(program, touch, ahead)
         state.bind_in()
         state.bind_out()
         program.dispatch(*self._layout.node_groups)
         shader_writes_visible()
 
-    def set_in(self, program: Program, touch: '_Touch') -> None:
-        """Set the uniforms of contact.glsl in the program in use, and bind the record."""
+    def set_in(self, program: Program, touch: '_Touch', length: float) -> None:
+        """Set the uniforms of contact.glsl in the program in use for ``length`` [s]."""
         self._record.bind_storage(bindings.CONTACTS)
-        program.set_float('serial', self._serial)
-        program.set_float('decision', self._decision)
         if program not in self._set:
             self._set_shapes(program)
-        if self._set.get(program) is not touch:
+        if self._set.get(program) != (touch, length):
             program.set_vectors('collider_centre', touch.centres)
             program.set_vectors('collider_axes', touch.axes)
             program.set_vectors('collider_velocity', touch.velocities)
             program.set_vectors('collider_turn', touch.turns)
-            self._set[program] = touch
-
-    def _set_near(self, program: Program, touch: '_Touch', length: float) -> None:
-        if self._near_set != (touch, length):
             program.set_floats('near_limit', touch.near_limits(length).tolist())
             program.set_floats('near_share', touch.near_shares(length).tolist())
-            self._near_set = touch, length
+            self._set[program] = touch, length
+
+    def set_marks_in(self, program: Program) -> None:
+        """Set what a pass of an implicit step marks that a node touches, or moves, with."""
+        program.set_float('serial', self._serial)
+        program.set_float('decision', self._decision)
 
     def begin_substep(self) -> None:
         """Begin to ask anew whether anything is touched."""
@@ -331,8 +328,9 @@ class _Touch:
         rates = np.linalg.norm(self.turns.reshape(-1, 9), axis=-1)
         return np.maximum(1.0 - length * rates, 0.0)
 
-    def set_in(self, program: Program) -> None:
-        self._contacts.set_in(program, self)
+    def set_in(self, program: Program, length: float) -> None:
+        self._contacts.set_in(program, self, length)
+        self._contacts.set_marks_in(program)
 
     def act(self, length: float) -> None:
         self._contacts.act(self, length)

@@ -18,8 +18,8 @@ if TYPE_CHECKING:
 class Touch(Protocol):
     """What the cloth touches in one step."""
 
-    def set_in(self, program: Program) -> None:
-        """Set the uniforms of contact.glsl in the program in use, and bind what it writes."""
+    def set_in(self, program: Program, length: float) -> None:
+        """Set contact.glsl in the program in use to a time of ``length`` [s]; bind its record."""
 
     def act(self, length: float) -> None:
         """Act on an explicit substep of ``length`` [s], both states of which are bound."""

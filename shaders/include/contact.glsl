@@ -11,6 +11,7 @@
 // A node is held by so many at most: by those that it is nearest to.
 #define MOST_TOUCHED (COLLIDERS < 4 ? COLLIDERS : 4)
 #define MOST_ROUNDS 32
+#define MOST_ROUNDS_OUT (COLLIDERS > 1 ? 16 : 1)
 // Surfaces face each other where the cosine between their normals is below minus this, and are one
 // where it is above.
 #define FACING 0.9
@@ -24,6 +25,8 @@ uniform vec3 collider_velocity[COLLIDERS];    // [m/s] mean one of the centre in
 uniform vec3 collider_turn[3 * COLLIDERS];    // [1/s] rows of (R - 1) / h, R the rotation in it
 uniform float collider_friction[COLLIDERS];
 uniform float collider_thickness[COLLIDERS];  // [m] of a way through it, at least
+uniform float near_limit[COLLIDERS];          // [m] from the centre that a node at rest is near
+uniform float near_share[COLLIDERS];          // of that distance, with what it turns by
 uniform float clearance;                      // [m] half the thickness of the cloth
 uniform float compression;                    // [m/s2] what compression to nothing presses with
 
@@ -44,6 +47,7 @@ vec4 surface[MOST_TOUCHED];  // normal, and distance less the clearance [m]
 vec3 given[MOST_TOUCHED];
 vec3 carried[MOST_TOUCHED];   // velocity of the surface at the node [m/s]
 float pressed[MOST_TOUCHED];  // change of velocity that a compressed cloth presses with [m/s]
+vec3 pressing[MOST_TOUCHED];  // the same with its direction
 int held_on;                  // how many, not parallel to each other, act on it
 ivec2 held_by;                // the first two of them
 float spare_way = 0.0;        // [m] that surfaces may be farther away than a node comes
@@ -80,11 +84,36 @@ vec4 gap_at_end(int collider, vec3 x, float h) {
     return near - vec4(0.0, 0.0, 0.0, clearance);
 }
 
+// How far at least what is not farther than radius from x has to go to come near to a collider, by
+// a sphere around that.
+float least_way(int collider, vec3 x, float radius) {
+    vec3 arm = x - collider_centre[collider];
+    float l = length(arm);
+    float away = near_share[collider] * l;
+#if HAS_PLANE
+    away = int(collider_shape[collider]) == SHAPE_PLANE
+        ? dot(collider_axes[3 * collider + 2], arm) - (l - away) : away;
+#endif
+    return away - (2.0 - near_share[collider]) * radius - near_limit[collider];
+}
+
+// The colliders that it may come near to on such a way, one bit each; all if that is no number.
+uint near_bodies(vec3 x, float radius, float way) {
+    uint bodies = 0u;
+    for (int collider = 0; collider < COLLIDERS; ++collider) {
+        bodies |= least_way(collider, x, radius) > way ? 0u : 1u << uint(collider);
+    }
+    return bodies;
+}
+
 // Remember the surfaces that a node at x can come to in the time h at the velocity towards, and act
 // on the velocity v.
 void find_surfaces(vec3 x, vec3 towards, vec3 v, float h) {
     touched_count = 0;
-    for (int collider = 0; collider < COLLIDERS; ++collider) {
+    // Software asks each node whatever others need, so most bodies are ruled out before.
+    uint bodies = COLLIDERS > 1 ? near_bodies(x, 0.0, h * length(towards) + spare_way) : 1u;
+    for (; bodies != 0u; bodies &= bodies - 1u) {
+        int collider = COLLIDERS > 1 ? findLSB(bodies) : 0;
         vec4 near = gap_at(collider, x);
         float way = h * length(towards - surface_velocity(collider, x)) + spare_way;
         if (!(near.w < way + rounding(x, collider))) {
@@ -107,6 +136,7 @@ void find_surfaces(vec3 x, vec3 towards, vec3 v, float h) {
         given[place] = vec3(0.0);
         carried[place] = surface_velocity(collider, x);
         pressed[place] = 0.0;
+        pressing[place] = vec3(0.0);
     }
     // The plane along a curved surface reaches beyond it. A node that passes by is not held there;
     // one that could pass through a thin collider is.
@@ -121,6 +151,15 @@ void find_surfaces(vec3 x, vec3 towards, vec3 v, float h) {
     }
 }
 
+// A surface without friction is pressed on along its normal. What that drives the node out with is
+// left to the friction of the other one; between two that are alike each takes half of it.
+vec3 pressing_direction(int i, int j) {
+    float other = collider_friction[touched[i]];
+    float own = collider_friction[touched[j]];
+    vec2 share = own + other > 0.0 ? vec2(own, other) : vec2(1.0);
+    return normalize(share.x * surface[i].xyz - share.y * surface[j].xyz);
+}
+
 // Two surfaces that face each other leave a node no room where they are nearer than the cloth is
 // thick. It is compressed then: the node stays between them, and they press on it. What each lacks
 // in room is shared, and so is what they differ by in their velocities along the normal.
@@ -128,6 +167,7 @@ void find_compression(float h) {
     for (int i = 1; i < touched_count; ++i) {
         for (int j = 0; j < i; ++j) {
             vec3 n = normalize(surface[i].xyz - surface[j].xyz);
+            vec3 towards = pressing_direction(i, j);
             float closing = dot(n, carried[i] - carried[j]);
             float room = surface[i].w + surface[j].w;
             float room_at_end = room - h * closing;
@@ -141,6 +181,8 @@ void find_compression(float h) {
             float share = clamp(-room_at_end / max(2.0 * clearance, 1e-30), 0.0, 1.0);
             pressed[i] += h * compression * share;
             pressed[j] += h * compression * share;
+            pressing[i] += h * compression * share * towards;
+            pressing[j] -= h * compression * share * towards;
         }
     }
 }
@@ -173,6 +215,21 @@ bool are_parallel(int i, int j) {
     return abs(dot(surface[i].xyz, surface[j].xyz)) > FACING;
 }
 
+// Parallel surfaces, facing each other or the same way, take one direction.
+void note_held(int i, bool is_held) {
+    if (is_held && (held_on < 1 || !are_parallel(i, held_by.x))
+            && (held_on < 2 || !are_parallel(i, held_by.y))) {
+        held_by = held_on == 0 ? ivec2(i) : held_on == 1 ? ivec2(held_by.x, i) : held_by;
+        ++held_on;
+    }
+}
+
+// What slides on three surfaces has no direction left: it is held for the substep.
+int kind_held(bool sticks) {
+    return sticks || held_on > 2 ? STICKS : held_on == 2 ? SLIDES_ON_TWO
+        : held_on == 1 ? SLIDES : FREE;
+}
+
 // Let each surface in turn act on the velocity of a node at x; return how far that changed it.
 float act_in_turn(vec3 x, float h, inout Contact found) {
     bool sticks = false;
@@ -186,16 +243,9 @@ float act_in_turn(vec3 x, float h, inout Contact found) {
         given[i] = kind == FREE ? vec3(0.0) : with - without;
         found.velocity = kind == FREE ? without : with;
         sticks = sticks || kind == STICKS;
-        // Parallel surfaces, facing each other or the same way, take one direction.
-        if (kind != FREE && (held_on < 1 || !are_parallel(i, held_by.x))
-                && (held_on < 2 || !are_parallel(i, held_by.y))) {
-            held_by = held_on == 0 ? ivec2(i) : held_on == 1 ? ivec2(held_by.x, i) : held_by;
-            ++held_on;
-        }
+        note_held(i, kind != FREE);
     }
-    // What slides on three surfaces has no direction left: it is held for the substep.
-    found.kind = sticks || held_on > 2 ? STICKS : held_on == 2 ? SLIDES_ON_TWO
-        : held_on == 1 ? SLIDES : FREE;
+    found.kind = kind_held(sticks);
     found.normal = surface[held_on > 0 ? held_by.x : 0].xyz;
     return length(found.velocity - before);
 }
@@ -219,6 +269,42 @@ void slide_on_two(vec3 x, float h, inout Contact found) {
     found.normal = normalize(cross(n, m));
 }
 
+// Whether the velocity found goes into a surface by more than the rounds leave of the velocity v.
+bool is_any_lacking(vec3 x, vec3 v, vec3 found, float h) {
+    float most = -1.0;
+    for (int i = 0; i < touched_count; ++i) {
+        most = max(most, lacking(i, x, found, h) - 1e-4 * length(v - carried[i]));
+    }
+    return most > 0.0;
+}
+
+// In a wedge that closes, friction can hold a node against any force that drives it out: then no
+// velocity obeys Coulomb's law on all surfaces, and the rounds have no end. Bodies keep their
+// shape, so friction gives way: it acts along the line of two surfaces only.
+void slip_out(vec3 x, vec3 v, float h, inout Contact found) {
+    bool is_jammed = is_any_lacking(x, v, found.velocity, h);
+    if (is_jammed) {
+        found.velocity = v;
+        held_on = 0;
+    }
+    // Software runs a round for nodes that are left out, too.
+    for (int round = 0; is_jammed && round < MOST_ROUNDS; ++round) {
+        held_on = 0;
+        for (int i = 0; i < touched_count; ++i) {
+            vec3 normal = surface[i].xyz;
+            float before = round > 0 ? dot(given[i], normal) : 0.0;
+            float impulse = max(before + lacking(i, x, found.velocity, h), 0.0);
+            given[i] = impulse * normal;
+            found.velocity += (impulse - before) * normal;
+            note_held(i, impulse > 0.0);
+        }
+    }
+    if (is_jammed) {
+        found.kind = kind_held(false);
+        found.normal = surface[held_on > 0 ? held_by.x : 0].xyz;
+    }
+}
+
 // The velocity of a node at x in the next h seconds, v without colliders. It comes as far as the
 // velocity towards takes it: what edges pull with, and a surface holds, takes it nowhere.
 Contact contact_at(vec3 x, vec3 towards, vec3 v, float h) {
@@ -238,6 +324,7 @@ Contact contact_at(vec3 x, vec3 towards, vec3 v, float h) {
         }
         change = act_in_turn(x, h, found);
     }
+    slip_out(x, v, h, found);
     if (found.kind == SLIDES_ON_TWO) {
         slide_on_two(x, h, found);
     }
@@ -259,14 +346,23 @@ float room_lacking(int i, vec4 near, vec3 x, float h) {
     return lacking;
 }
 
-// Where a node that has come to x in h seconds is moved to if that is inside.
+// Where a node that has come to x in h seconds is moved to if that is inside. Out of one body can
+// be into another: they take turns, within a way that all of them share.
 vec3 moved_out(vec3 x, float h) {
-    for (int i = 0; i < touched_count; ++i) {
-        int collider = touched[i];
-        vec4 near = gap_at_end(collider, x, h);
-        near.w += room_lacking(i, near, x, h);
-        if (near.w < -rounding(x, collider)) {
-            x += min(-near.w, h * way_out_speed) * near.xyz;
+    float way = h * way_out_speed;
+    for (int round = 0; round < MOST_ROUNDS_OUT; ++round) {
+        float moved = 0.0;
+        for (int i = 0; i < touched_count; ++i) {
+            int collider = touched[i];
+            vec4 near = gap_at_end(collider, x, h);
+            near.w += room_lacking(i, near, x, h);
+            float out_of = near.w < -rounding(x, collider) ? min(-near.w, way) : 0.0;
+            x += out_of * near.xyz;
+            moved += out_of;
+        }
+        way -= moved;
+        if (moved == 0.0) {
+            break;
         }
     }
     return x;

@@ -20,7 +20,7 @@ void record_contacts(int index, int kind) {
     for (int i = 0; i < touched_count; ++i) {
         if (given[i] != vec3(0.0) || pressed[i] > 0.0) {
             int entry = touched[i] * record_stride + index;
-            vec3 change = given[i] + pressed[i] * surface[i].xyz;
+            vec3 change = given[i] + pressing[i];
             contacts[entry] = vec4(contacts[entry].xyz + change, float(min(kind, SLIDES)));
         }
     }

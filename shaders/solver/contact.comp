@@ -218,6 +218,10 @@ void decide(int at, int index, inout vec4 x, inout vec4 v) {
     }
     spare_way = most_unsolved;
     contact_at(begin, v.xyz, v.xyz - reaction, substep);
+    if (touched_count == 0 && reaction != vec3(0.0)) {
+        // What passes by without its reaction may come inside with it.
+        find_surfaces(begin, v.xyz, v.xyz, substep);
+    }
     if (touched_count == 0) {
         return;
     }

@@ -49,6 +49,7 @@ class OnePass:
         step.dispatch(*self._groups)
         shader_writes_visible()
         if forcing.touch is not None:
+            state.bind_expected()
             forcing.touch.act(length)
 
     def delete(self) -> None:

@@ -78,7 +78,7 @@ class SolverContacts:
     def _use(self, stage: str, forcing: Forcing, length: float, kick: float) -> Program:
         program = self._decide[stage].use_for_step(forcing, length, kick)
         self._programs.set_sizes(program)
-        touch_of(forcing).set_in(program)
+        touch_of(forcing).set_in(program, length)
         return program
 
     def _run(self, program: Program, state: State) -> None:

@@ -80,6 +80,21 @@ def depth(bodies, positions, clearance, started_inside):
     return deepest
 
 
+def compressed(bodies, positions, thickness, pressure):
+    """Return the energy of cloth that bodies facing each other compress, ``pressure`` in N."""
+    gaps = [distance_to(body, positions) - 0.5 * thickness for body in bodies]
+    energy = 0.0
+    for number, body in enumerate(bodies):
+        for other, gap in zip(bodies[:number], gaps):
+            lacking = np.maximum(-gap - gaps[number], 0.0)
+            facing = np.sum(
+                normals(body, positions) * normals(other, positions), axis=-1) < -0.9
+            most = np.minimum(lacking, thickness)
+            energy += pressure * float(np.sum(facing * (
+                lacking - most + most**2 / max(2.0 * thickness, 1e-30))))
+    return energy
+
+
 def normals(body, positions):
     """Return the directions in which the distance from ``body`` grows, (..., 3)."""
     ways = 1e-5 * np.eye(3)
@@ -95,7 +110,13 @@ def check(simulate, within, mode, seed, seconds):
     scene = simulation.scene
     scale = scene.node_mass * scene.node_count * GRAVITY * 0.5
     clearance = 0.5 * scene['contact.thickness']
-    least = simulation.measure().total_energy
+    pressure = scene['contact.compression'] * scene['width'] * scene['height'] / scene.node_count
+
+    def energy():
+        return simulation.measure().total_energy + compressed(
+            simulation.colliders, simulation.positions(), 2.0 * clearance, pressure)
+
+    least = energy()
     started_inside = {
         body.name: distance_to(body, simulation.positions()) < clearance
         for body in simulation.colliders}
@@ -109,7 +130,7 @@ def check(simulate, within, mode, seed, seconds):
         work, moved = work + done, moved + abs(done)
         positions = simulation.positions()
         deepest = max(deepest, depth(simulation.colliders, positions, clearance, started_inside))
-        latest = [*latest[-9:], simulation.measure().total_energy - work]
+        latest = [*latest[-9:], energy() - work]
         rise = max(rise, min(latest) - least)
         least = min(least, min(latest))
     within(f'scene {seed}: deepest node [m]', deepest, 1e-6)
