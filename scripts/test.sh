@@ -4,7 +4,7 @@
 
 # Set up and run the tests; arguments go to pytest.
 #
-#   scripts/test.sh                  the ordinary tests, on all processors (at most 4)
+#   scripts/test.sh                  the ordinary tests, on all processors (at most 4) and one more
 #   scripts/test.sh --long           the long ones as well
 #   scripts/test.sh test/sim -k pin  some of them
 
@@ -18,6 +18,8 @@ esac
 . scripts/env.sh
 # Else each of the many processes that tests start would compile the package anew.
 unset PYTHONDONTWRITEBYTECODE
-# Files stay together: their tests share nodes and simulations.
-[ $# -gt 0 ] || set -- --numprocesses=auto --maxprocesses=4 --dist=loadfile
+# Files stay together: their tests share nodes and simulations. Some wait for a node, and leave their
+# processor to another process.
+processors=$(nproc)
+[ $# -gt 0 ] || set -- --numprocesses=$((processors < 4 ? processors + 1 : 5)) --dist=loadfile
 exec python -m pytest "$@"
