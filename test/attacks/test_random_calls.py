@@ -173,7 +173,7 @@ def attack(cloth: ClothUnderTest, node: NodeProcess, seed: int, calls: int) -> A
     return attacker
 
 
-@pytest.mark.parametrize('calls', [250, pytest.param(10_000, marks=pytest.mark.long)])
+@pytest.mark.parametrize('calls', [150, pytest.param(10_000, marks=pytest.mark.long)])
 def test_no_call_ends_the_node_or_goes_unanswered(client, tmp_path, seed, calls):
     """A client could end the node, or be left without an answer or without the way out."""
     with NodeProcess(tmp_path, SCENE, '-r', '__ns:=/attacked') as node:

@@ -28,7 +28,8 @@ SLOW = {'rows': 40, 'cols': 40, 'dt': 0.02, 'publish.rate': 50.0, 'recording.ena
         'recording.name': 'slow', 'publish.markers': False}
 
 
-@pytest.mark.parametrize('mode', ['constraint', 'adaptive'])
+@pytest.mark.parametrize('mode', [
+    'constraint', pytest.param('adaptive', marks=pytest.mark.long)])
 def test_what_is_asked_within_steps_is_made_again_to_the_bit(
         client: GraphClient, tmp_path: Path, mode: str):
     """A change would be made within a step, or be recorded with the time of another one."""

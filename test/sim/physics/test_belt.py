@@ -40,7 +40,7 @@ def laid_on_drum():
     return line[:, None] + np.array([[0.0, -WIDTH / 2, 0.0], [0.0, WIDTH / 2, 0.0]]), slack, pulled
 
 
-@pytest.mark.parametrize('friction', [0.2, 0.4])
+@pytest.mark.parametrize('friction', [pytest.param(0.2, marks=pytest.mark.long), 0.4])
 def test_ratio_of_tensions_at_the_onset_of_slip(simulate, within, any_mode, friction):
     """A cloth pulled over an edge or round a body would need another force."""
     simulation = simulate({
