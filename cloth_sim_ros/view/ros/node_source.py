@@ -19,6 +19,7 @@ from cloth_sim_ros.analysis.frame import Frame
 from cloth_sim_ros.node.answer import no_node
 from cloth_sim_ros.node.interfaces import check_interfaces
 from cloth_sim_ros.sim.errors import ClothSimError
+from cloth_sim_ros.view.ros.node_colliders import NodeColliders
 from cloth_sim_ros.view.source import Moment
 from cloth_sim_ros.view.source import Source
 from geometry_msgs.msg import Point
@@ -44,7 +45,7 @@ _SERVICES = {
 
 class NodeSource(Source):
     """
-    Shows ~/points and ~/state of a node, and calls its services.
+    Shows ~/points, ~/state and the colliders of a node, and calls its services.
 
     :param node: name of the node, with its namespace
     :param timeout: wall seconds to wait for its first message, and for an answer
@@ -78,6 +79,7 @@ class NodeSource(Source):
                 start_parameter_services=False, enable_rosout=False)
         except RCLError as error:
             raise no_node(error) from error
+        self._colliders = NodeColliders(self._node, self.name)
         self._subscribe()
         self._clients: dict[str, Client] = {
             name: self._node.create_client(kind, f'{self.name}/{name}')
@@ -95,14 +97,16 @@ class NodeSource(Source):
 
     def latest(self) -> Moment | None:
         """Return the latest moment; None before the first points."""
-        cloud, state = self._cloud, self._state
+        cloud, state, colliders = self._cloud, self._state, self._colliders.present
         if cloud is None:
             return None
         known = self._moment
-        if known is None or cloud is not self._shown_cloud or state is not self._shown_state:
+        if known is None or cloud is not self._shown_cloud or (
+                state is not self._shown_state or colliders != known.frame.colliders):
             self._shown_cloud, self._shown_state = cloud, state
             stamp = cloud.header.stamp
-            frame = Frame.from_points(stamp.sec + 1e-9 * stamp.nanosec, cloud)
+            frame = Frame.from_points(
+                stamp.sec + 1e-9 * stamp.nanosec, cloud, colliders=colliders)
             note = f'compiling mode {state.preparing}' if state.preparing else ''
             self._moment = Moment(frame, state.mode, state.run_state, note)
         return self._moment
@@ -160,10 +164,12 @@ class NodeSource(Source):
             QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL))
 
     def _take_cloud(self, cloud: PointCloud2) -> None:
+        self._colliders.ask()
         self._cloud = cloud
 
     def _take_state(self, state: ClothState) -> None:
         self._state = state
+        self._colliders.ask()
         self._told.set()
 
     def _call(self, name: str, request: Any) -> None:
