@@ -58,6 +58,23 @@ def test_slip_angle(simulate, within, any_mode, friction):
             within('way below the slip angle [m]', np.abs(moved).max(), 1e-6)
 
 
+@pytest.mark.parametrize('friction', [0.1, 0.4, 1.0])
+def test_slip_angle_of_springs_to_a_ten_thousandth(simulate, within, friction):
+    """Friction would be a little more or less than it says, which rounding does not excuse."""
+    ways = {}
+    for share in (-1e-4, 1e-4):
+        angle = math.atan((1.0 + share) * friction)
+        simulation = simulate({
+            **LYING, **FLOOR, 'mode': 'mass_spring', 'gravity': inclined(angle),
+            'colliders.floor.friction': friction})
+        begin = simulation.positions()
+        simulation.advance(1.0)
+        ways[share] = (simulation.positions() - begin)[..., 0]
+    slid = 0.5 * GRAVITY * (math.sin(angle) - friction * math.cos(angle))
+    within('way just below the slip angle, over that just above', ways[-1e-4].max() / slid, 0.3)
+    assert ways[1e-4].min() > 0.9 * slid
+
+
 @pytest.mark.parametrize(('seconds', 'allowed'), [
     (1.0, 1e-6), pytest.param(60.0, 1e-5, marks=pytest.mark.long)])
 def test_what_sticks_does_not_creep_on_a_tilted_plane(
@@ -182,7 +199,7 @@ def test_a_moving_ball_hits_a_free_cloth(simulate, within, any_mode):
     momentum = simulation.scene.node_mass * simulation.velocities().astype(float).sum(axis=(0, 1))
     assert momentum[2] > 0.0
     within('momentum less what the ball gave, relative',
-           np.abs(momentum - given).max() / np.abs(momentum).max(), 1e-3)
+           np.abs(momentum - given).max() / np.abs(momentum).max(), 1e-5)
 
 
 def test_without_friction_energy_never_rises(simulate, within, any_mode):
@@ -200,7 +217,8 @@ def test_without_friction_energy_never_rises(simulate, within, any_mode):
         energy = simulation.measure().total_energy
         rise = max(rise, energy - least)
         least = min(least, energy)
-    within('energy gained over M g L', rise / scale, 0.01)
+    # Velocities belong to the middle of a substep: energy swings a little where forces change.
+    within('energy gained over M g L', rise / scale, 5e-4)
 
 
 def test_untouched_colliders_change_nothing(simulate, any_mode):
