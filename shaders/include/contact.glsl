@@ -280,14 +280,10 @@ bool is_any_lacking(vec3 x, vec3 v, vec3 found, float h) {
 
 // In a wedge that closes, friction can hold a node against any force that drives it out: then no
 // velocity obeys Coulomb's law on all surfaces, and the rounds have no end. Bodies keep their
-// shape, so friction gives way: it acts along the line of two surfaces only.
+// shape, so friction gives way, and the normals act alone.
 void slip_out(vec3 x, vec3 v, float h, inout Contact found) {
     bool is_jammed = is_any_lacking(x, v, found.velocity, h);
-    if (is_jammed) {
-        found.velocity = v;
-        held_on = 0;
-    }
-    // Software runs a round for nodes that are left out, too.
+    found.velocity = is_jammed ? v : found.velocity;
     for (int round = 0; is_jammed && round < MOST_ROUNDS; ++round) {
         held_on = 0;
         for (int i = 0; i < touched_count; ++i) {

@@ -4,7 +4,8 @@
 """Random scenes with colliders: no node inside, no energy from nothing, the same bits twice."""
 
 from body_distance import distance_to
-from cloth_sim_ros.sim.pose import rotation_between
+from cloth_sim_ros.study.contact_work import compression_energy
+from cloth_sim_ros.study.contact_work import contact_work
 import numpy as np
 import pytest
 
@@ -53,16 +54,6 @@ def draw(seed):
     return values
 
 
-def work_of(forces, before, after):
-    """Return the work that colliders have done on the cloth in a step [J]."""
-    work = 0.0
-    for force, first, last in zip(forces, before, after):
-        axis, angle = rotation_between(first.orientation, last.orientation)
-        way = np.array(last.position) - np.array(first.position)
-        work -= force.force @ way + angle * (force.torque @ axis)
-    return work
-
-
 def depth(bodies, positions, clearance, started_inside):
     """Return how deep the deepest node is in a body that another one does not press it into."""
     gaps = [distance_to(body, positions) - clearance for body in bodies]
@@ -80,21 +71,6 @@ def depth(bodies, positions, clearance, started_inside):
     return deepest
 
 
-def compressed(bodies, positions, thickness, pressure):
-    """Return the energy of cloth that bodies facing each other compress, ``pressure`` in N."""
-    gaps = [distance_to(body, positions) - 0.5 * thickness for body in bodies]
-    energy = 0.0
-    for number, body in enumerate(bodies):
-        for other, gap in zip(bodies[:number], gaps):
-            lacking = np.maximum(-gap - gaps[number], 0.0)
-            facing = np.sum(
-                normals(body, positions) * normals(other, positions), axis=-1) < -0.9
-            most = np.minimum(lacking, thickness)
-            energy += pressure * float(np.sum(facing * (
-                lacking - most + most**2 / max(2.0 * thickness, 1e-30))))
-    return energy
-
-
 def normals(body, positions):
     """Return the directions in which the distance from ``body`` grows, (..., 3)."""
     ways = 1e-5 * np.eye(3)
@@ -110,14 +86,13 @@ def check(simulate, within, mode, seed, seconds):
     scene = simulation.scene
     scale = scene.node_mass * scene.node_count * GRAVITY * 0.5
     clearance = 0.5 * scene['contact.thickness']
-    pressure = scene['contact.compression'] * scene['width'] * scene['height'] / scene.node_count
 
     def energies():
         # What bodies that overlap store in the cloth they press is theirs to get back. Where
         # neither rubs, cloth moves between them without work, and it is not.
         cloth = simulation.measure().total_energy
-        return cloth + np.array([0.0, compressed(
-            simulation.colliders, simulation.positions(), 2.0 * clearance, pressure)])
+        return cloth + np.array([0.0, compression_energy(
+            scene, simulation.colliders, simulation.positions())])
 
     least = energies()
     started_inside = {
@@ -129,7 +104,7 @@ def check(simulate, within, mode, seed, seconds):
     while simulation.time < seconds:
         before = simulation.colliders
         simulation.step()
-        done = work_of(simulation.contact_forces(), before, simulation.colliders)
+        done = contact_work(simulation.contact_forces(), before, simulation.colliders)
         work, moved = work + done, moved + abs(done)
         positions = simulation.positions()
         deepest = max(deepest, depth(simulation.colliders, positions, clearance, started_inside))
