@@ -14,7 +14,7 @@ QUICK = {'publish.rate': 2000.0, 'dt': 0.0005}
 
 
 @pytest.mark.parametrize(('nodes', 'factor', 'frames'), [
-    (2, 0.0, 1500), (16, 1.0, 1500), *(
+    (16, 1.0, 1500), *(
         pytest.param(nodes, factor, FRAMES, marks=pytest.mark.long)
         for nodes in (2, 4, 8, 16) for factor in (0.0, 1.0))])
 def test_lives_on(client, tmp_path, nodes, frames, factor):

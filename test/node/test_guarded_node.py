@@ -47,7 +47,8 @@ def status_of(cloth, faults=1):
 
 
 @pytest.mark.parametrize('service, kind, method', [
-    ('apply_push', ApplyPush, '_apply'), ('clear_pushes', Trigger, '_clear')])
+    ('apply_push', ApplyPush, '_apply'),
+    pytest.param('clear_pushes', Trigger, '_clear', marks=pytest.mark.long)])
 def test_a_request_that_fails_is_answered(client, tmp_path, service, kind, method):
     """The node would end, or the caller wait for ever for an answer."""
     start = with_fault('node.push_requests', 'PushRequests', method)

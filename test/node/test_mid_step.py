@@ -79,7 +79,7 @@ def test_the_health_is_published_while_a_step_is_under_way(client: GraphClient, 
         assert frame.steps == pytest.approx(time / 0.02)
 
 
-@pytest.mark.parametrize('number', [SIGINT, SIGTERM])
+@pytest.mark.parametrize('number', [SIGINT, pytest.param(SIGTERM, marks=pytest.mark.long)])
 def test_a_signal_within_a_step_ends_the_node_in_order(
         client: GraphClient, tmp_path: Path, number: Signals):
     """The step would be undone on a device that is gone, or the recording be cut off."""

@@ -23,7 +23,7 @@ RECORDING = {
 
 @pytest.mark.parametrize('signals', [
     (SIGINT,), (SIGTERM,), pytest.param((SIGINT, SIGINT), marks=pytest.mark.long),
-    (SIGTERM, SIGINT), (SIGINT, SIGINT, SIGINT)],
+    (SIGTERM, SIGINT), pytest.param((SIGINT, SIGINT, SIGINT), marks=pytest.mark.long)],
     ids=lambda signals: '+'.join(number.name for number in signals))
 def test_stops_cleanly_with_the_recording_closed(signals, client, tmp_path):
     """A stopped or impatiently stopped node would lose its recording, or fail."""

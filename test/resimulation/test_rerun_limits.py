@@ -83,9 +83,9 @@ def recorded(folder, values, *messages):
 def test_more_nodes_than_a_cloud_has_are_refused(tmp_path):
     """A few bytes would take gigabytes of the device."""
     path = recorded(
-        tmp_path, {'rows': 8192, 'cols': 8192}, ('points', make_cloud(8, 8, 0)[0]))
+        tmp_path, {'rows': 2048, 'cols': 2048}, ('points', make_cloud(8, 8, 0)[0]))
     words = refusal_of(path)
-    assert '8192 x 8192 nodes and clouds of 8 x 8: give --set rows' in words
+    assert '2048 x 2048 nodes and clouds of 8 x 8: give --set rows' in words
     with made_again(path, rows=8, cols=8) as rerun:
         assert rerun.check.frames == 1
 

@@ -51,8 +51,9 @@ def play(capsys, *arguments):
 
 
 @pytest.mark.parametrize(('number', 'arguments'), [
-    (SIGINT, ('--rate', 0.01)), (SIGINT, ('--loop', '--rate', 1000)),
-    (SIGTERM, ('--delay', 1000)), (SIGTERM, ('--paused',))],
+    (SIGINT, ('--rate', 0.01)), (SIGTERM, ('--paused',)), *(
+        pytest.param(*case, marks=pytest.mark.long) for case in (
+            (SIGINT, ('--loop', '--rate', 1000)), (SIGTERM, ('--delay', 1000))))],
     ids=lambda value: value[0] if isinstance(value, tuple) else value.name)
 def test_a_signal_ends_it_well(number, arguments, bag, tmp_path):
     """Ctrl-C would not end it, or give a traceback."""

@@ -90,7 +90,8 @@ def test_services_and_streams_are_done_again(cloth, capsys):
 
 
 @pytest.mark.parametrize('mode, factor', [
-    ('mass_spring', 0.0), ('constraint', 1.0), ('adaptive', 0.0)])
+    pytest.param('mass_spring', 0.0, marks=pytest.mark.long), ('constraint', 1.0),
+    pytest.param('adaptive', 0.0, marks=pytest.mark.long)])
 def test_a_running_node_is_made_again(cloth, mode, factor):
     """What comes while the wall clock decides when would come at another step."""
     cloth.set_parameters(mode=mode, real_time_factor=factor)

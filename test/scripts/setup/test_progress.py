@@ -13,7 +13,9 @@ from setup_parts import run_bash
 from setup_parts import start_bash
 
 
-@pytest.mark.parametrize('number', [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
+@pytest.mark.parametrize('number', [
+    signal.SIGINT, *(pytest.param(number, marks=pytest.mark.long)
+                     for number in (signal.SIGTERM, signal.SIGHUP))])
 def test_a_killed_set_up_takes_its_command_along(tmp_path, number):
     """A set-up that was killed would leave pip writing into the environment."""
     process = start_bash(

@@ -79,7 +79,7 @@ def test_a_hard_push_does_not_blow_up(simulate, within, unlimited_mode):
            after.total_energy / pushed.total_energy, 1.0)
 
 
-@pytest.mark.parametrize('damping', [0.0, 0.003])
+@pytest.mark.parametrize('damping', [0.0, pytest.param(0.003, marks=pytest.mark.long)])
 @pytest.mark.parametrize('dt', [0.005939, pytest.param(0.011878, marks=pytest.mark.long)])
 def test_folds_do_not_blow_up(simulate, within, mode, dt, damping):
     """Automatic substeps hold for flat cloth only: folds of one without shear blow up."""
