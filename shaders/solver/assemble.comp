@@ -56,7 +56,7 @@ void main() {
 #if HAS_CONTACT
     vec4 contact = load_contact(index);
     if (contact.w > 0.0) {
-        diagonal += scaled_identity(grip_of(index));
+        diagonal += Symmetric(load_grip(index).xyz, vec3(0.0));
         inverse_block = moves * inverse_above(diagonal, 1.0);
         // Of the block along the surface, or the line, that the node slides on.
         vec3 image = times(inverse_block, contact.xyz);

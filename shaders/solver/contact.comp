@@ -19,6 +19,8 @@
 // have it do to and fro.
 #define STUCK 1.0
 #define LET_GO 16.0
+// The friction found last is near to what the speed found last needs within this and one over it.
+#define NEARLY 0.5
 
 #include "solver/levels.glsl"
 #include "solver/vectors.glsl"
@@ -40,21 +42,23 @@ uniform float kick;           // [s] that what is applied acts for
 uniform float guess;          // share of the last change that is expected; 0: none known
 #else
 uniform bool ends_turns;      // whether friction is to resist only, which throws no node
-uniform float most_unsolved;  // [m] that a node may be moved by without another solve
 #endif
+uniform float most_unsolved;  // [m] that a node may be moved by without another solve
 
 // How a node touches: what is left to a solve is grip and impulse.
 struct Hold {
     int kind;      // by the directions left to it; STICKS: none
     vec3 normal;
     vec3 change;   // of the velocity at once
-    float grip;
+    float grip;    // over a node's mass, what friction resists with
+    vec3 line;     // of sliding, where it is known: there friction pulls and does not resist
     vec3 impulse;  // that friction and what was let go add to the next solve
 };
 
 void keep(int index, Hold hold, vec3 reaction) {
     system_data[cloth_entry(CONTACT, index)] = vec4(hold.normal, float(hold.kind));
-    system_data[cloth_entry(GRIP, index)] = vec4(hold.grip, 0.0, 0.0, 0.0);
+    system_data[cloth_entry(GRIP, index)] =
+        vec4(hold.grip * (1.0 - hold.line * hold.line), hold.grip);
     store_vector(cloth_entry(REACTION, index), reaction);
     store_vector(cloth_entry(GIVEN, index), hold.impulse);
     if (hold.kind != FREE) {
@@ -70,7 +74,7 @@ vec3 along_surface(Hold hold, vec3 v) {
 
 // Where the surfaces that act by the law leave a node of velocity v to go, without friction yet.
 Hold hold_of(Contact contact, vec3 v) {
-    Hold hold = Hold(FREE, vec3(0.0), vec3(0.0), 0.0, vec3(0.0));
+    Hold hold = Hold(FREE, vec3(0.0), vec3(0.0), 0.0, vec3(0.0), vec3(0.0));
     if (contact.kind == FREE) {
         return hold;
     }
@@ -100,6 +104,9 @@ vec3 sliding(Hold hold, vec3 v) { return along_surface(hold, v - carried[held_by
 // Up to this speed [m/s] a node does not slide: positions are rounded by as much.
 float slowest(vec3 x) { return rounding(x, touched[0]) / substep; }
 
+// Whether what slides goes farther than a node may without another solve.
+bool is_fast(float speed) { return substep * speed > most_unsolved; }
+
 // What positions are rounded by is as much force in hard edges: it lets nothing slide that sticks.
 bool is_slow(Hold hold, Contact contact, vec3 x) {
     return length(sliding(hold, contact.velocity)) < slowest(x);
@@ -112,6 +119,22 @@ void hold_fast(inout Hold hold, float most, float speed, vec3 slid, vec3 done) {
 }
 
 #if STAGE == BEGIN
+// Whether a node of velocity v that slid goes on to. The friction of the last substep resists it
+// then, which throws nothing, and is near to that of this one.
+bool slides_on(inout Hold hold, int index, vec3 v) {
+    vec3 slid = hold.kind > STICKS ? sliding(hold, v) : vec3(0.0);
+    float speed = length(slid);
+    if (!is_fast(speed)) {
+        return false;
+    }
+    vec3 reaction = load_vector(cloth_entry(REACTION, index));
+    for (int i = 0; i < touched_count; ++i) {
+        given[i] = guess * reaction;
+    }
+    hold_fast(hold, most_friction(), speed, slid, vec3(0.0));
+    return true;
+}
+
 void decide(int at, int index, inout vec4 x, inout vec4 v) {
     store_vector(cloth_entry(BEGIN_POSITION, index), x.xyz);
     store_vector(cloth_entry(BEGIN_VELOCITY, index), v.xyz);
@@ -130,6 +153,12 @@ void decide(int at, int index, inout vec4 x, inout vec4 v) {
     Contact contact = contact_at(x.xyz, towards, without, substep);
     Hold hold = hold_of(contact, v.xyz);
     bool sticks = contact.kind == STICKS || end == STUCK && is_slow(hold, contact, x.xyz);
+    if (touched_before && end != STUCK && slides_on(hold, index, v.xyz + hold.change)) {
+        v.xyz += hold.change;
+        keep(index, hold, hold.change);
+        store_vector(cloth_entry(CHANGE, index), along_surface(hold, last));
+        return;
+    }
     if (sticks) {
         hold.change -= sliding(hold, v.xyz + hold.change);
         hold.kind = STICKS;
@@ -154,10 +183,15 @@ void rub(inout Hold hold, Contact contact, vec3 v, vec3 x, vec3 reaction, int wa
          float was_grip, inout float turns) {
     vec3 slid = sliding(hold, v);
     vec3 done = along_surface(hold, reaction);
-    bool sticks_again = was > STICKS && contact.kind == STICKS && turns > 0.0;
-    bool slides_on = contact.kind != STICKS && ends_turns;
-    if (was_grip > 0.0 || sticks_again || slides_on) {
-        hold_fast(hold, most_friction(), max(length(slid), slowest(x)), slid, done);
+    float most = most_friction();
+    float speed = length(slid);
+    float share = -dot(done, slid) / max(most * speed, 1e-30);
+    bool is_near = is_fast(speed) && share > NEARLY && share * NEARLY < 1.0;
+    bool slides = contact.kind != STICKS;
+    bool sticks_again = was > STICKS && !slides && turns > 0.0;
+    if (was_grip > 0.0 || sticks_again || slides && (ends_turns || is_near)) {
+        hold_fast(hold, most, max(speed, slowest(x)), slid, done);
+        hold.line = is_near ? slid / speed : vec3(0.0);
         return;
     }
     if (contact.kind == STICKS || was == STICKS && is_slow(hold, contact, x)) {
@@ -171,7 +205,7 @@ void rub(inout Hold hold, Contact contact, vec3 v, vec3 x, vec3 reaction, int wa
 
 void decide(int at, int index, inout vec4 x, inout vec4 v) {
     int was = int(system_data[cloth_entry(CONTACT, index)].w);
-    float was_grip = system_data[cloth_entry(GRIP, index)].x;
+    float was_grip = system_data[cloth_entry(GRIP, index)].w;
     vec3 begin = load_vector(cloth_entry(BEGIN_POSITION, index));
     vec3 reaction = load_vector(cloth_entry(REACTION, index));
     float turns = vectors[cloth_entry(REACTION, index)].w;
@@ -209,7 +243,7 @@ void decide(int at, int index, inout vec4 x, inout vec4 v) {
 #else
 void decide(int at, int index, inout vec4 x, inout vec4 v) {
     vec4 was = system_data[cloth_entry(CONTACT, index)];
-    float was_grip = system_data[cloth_entry(GRIP, index)].x;
+    float was_grip = system_data[cloth_entry(GRIP, index)].w;
     vec3 begin = load_vector(cloth_entry(BEGIN_POSITION, index));
     vec3 reaction = load_vector(cloth_entry(REACTION, index));
     vectors[cloth_entry(REACTION, index)].w = 0.0;
@@ -231,7 +265,7 @@ void decide(int at, int index, inout vec4 x, inout vec4 v) {
     vec3 to = v.xyz;
     bool sticks = int(was.w) == STICKS;
     if (was.w > float(STICKS)) {
-        Hold hold = Hold(int(was.w), was.xyz, vec3(0.0), 0.0, vec3(0.0));
+        Hold hold = Hold(int(was.w), was.xyz, vec3(0.0), 0.0, vec3(0.0), vec3(0.0));
         vec3 slid = sliding(hold, to);
         sticks = was_grip > 0.0 && length(slid) <= 2.0 * slowest(begin);
         to -= sticks ? slid : vec3(0.0);

@@ -52,6 +52,7 @@ class SolverContacts:
         """
         program = self._use('BEGIN', forcing, length, kick)
         program.set_float('guess', guess)
+        program.set_float('most_unsolved', self._most_unsolved)
         self._run(program, state)
 
     def hold(self) -> None:

@@ -8,7 +8,8 @@
 #if HAS_CONTACT
 vec4 load_contact(int index) { return load_system(cloth_entry(CONTACT, index)); }
 
-float grip_of(int index) { return load_system(cloth_entry(GRIP, index)).x; }
+// What friction resists along x, y and z; the largest.
+vec4 load_grip(int index) { return load_system(cloth_entry(GRIP, index)); }
 
 bool is_held(int index) { return load_contact(index).w == 1.0; }
 
@@ -21,7 +22,7 @@ vec3 in_free_directions(int index, vec3 v) {
 
 // Of a row of the matrix times a vector, value at the node itself.
 vec3 held_product(int index, vec3 value, vec3 product) {
-    return in_free_directions(index, product + grip_of(index) * value);
+    return in_free_directions(index, product + load_grip(index).xyz * value);
 }
 
 // The directions that contact takes of a node, as a projection.
@@ -33,7 +34,7 @@ Symmetric taken_directions(int index) {
 }
 
 Symmetric grip_tensor(int index) {
-    return grip_of(index) * (scaled_identity(1.0) - taken_directions(index));
+    return load_grip(index).w * (scaled_identity(1.0) - taken_directions(index));
 }
 #else
 bool is_held(int index) { return false; }
