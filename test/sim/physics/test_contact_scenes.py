@@ -54,19 +54,25 @@ def draw(seed):
     return values
 
 
-def depth(bodies, positions, clearance, started_inside):
-    """Return how deep the deepest node is in a body that another one does not press it into."""
+def depth(bodies, positions, clearance, started_inside, pressed_inside):
+    """
+    Return how deep the deepest node is in a body that another one has not pressed it into.
+
+    :param pressed_inside: by body, the nodes that have been pressed into it and are not out yet
+    """
     gaps = [distance_to(body, positions) - clearance for body in bodies]
     deepest = 0.0
     for number, body in enumerate(bodies):
         inside = (gaps[number] < 0.0) & ~started_inside[body.name]
+        pressed_inside[body.name] &= inside
         if not inside.any():
             continue
         normal = normals(body, positions)
         for other, gap in zip(bodies, gaps):
             # Where two bodies face each other there may be no room.
             facing = np.sum(normal * normals(other, positions), axis=-1) < -0.85
-            inside &= ~(facing & (gap + gaps[number] < 0.0))
+            pressed_inside[body.name] |= inside & facing & (gap + gaps[number] < 0.0)
+        inside &= ~pressed_inside[body.name]
         deepest = max(deepest, -float(gaps[number][inside].min(initial=0.0)))
     return deepest
 
@@ -98,6 +104,7 @@ def check(simulate, within, mode, seed, seconds):
     started_inside = {
         body.name: distance_to(body, simulation.positions()) < clearance
         for body in simulation.colliders}
+    pressed_inside = {name: np.zeros_like(inside) for name, inside in started_inside.items()}
     deepest, rise, work, moved = 0.0, np.zeros(2), 0.0, 0.0
     # Velocities belong to the middle of a substep: energies swing where forces change at once.
     latest = []
@@ -107,7 +114,8 @@ def check(simulate, within, mode, seed, seconds):
         done = contact_work(simulation.contact_forces(), before, simulation.colliders)
         work, moved = work + done, moved + abs(done)
         positions = simulation.positions()
-        deepest = max(deepest, depth(simulation.colliders, positions, clearance, started_inside))
+        deepest = max(deepest, depth(
+            simulation.colliders, positions, clearance, started_inside, pressed_inside))
         latest = [*latest[-9:], energies() - work]
         rise = np.maximum(rise, np.min(latest, axis=0) - least)
         least = np.minimum(least, np.min(latest, axis=0))
