@@ -102,7 +102,8 @@ class Cloth:
         self._run = Simulation(Scene({
             'rows': nodes, 'cols': nodes, 'width': SIDE, 'height': SIDE,
             'areal_density': MASS / SIDE**2, 'start.pose': 'horizontal', 'start.z': HEIGHT,
-            'pins': ['none'], 'dt': 0.005, 'contact.thickness': 2.0 * CLEARANCE,
+            'material.preset': 'none', 'pins': ['none'], 'dt': 0.005,
+            'contact.thickness': 2.0 * CLEARANCE,
             'colliders.names': ['ball'], 'colliders.ball.shape': 'sphere',
             'colliders.ball.size': [RADIUS], 'colliders.ball.friction': FRICTION, **values}),
             context=context)

@@ -77,7 +77,7 @@ def draw_scene(seed: int) -> dict[str, Any]:
         'start.jitter': float(random.choice([0.0, number(1e-3, 0.1)])),
         'start.pose': str(random.choice(['horizontal', 'hanging'])),
         'pins': _PINS[random.integers(4)], 'adaptive.threshold': number(0.005, 0.5)}
-    mass = Scene(values).node_mass
+    mass = Scene({**values, 'material.preset': 'none'}).node_mass
     stiffness = number(1e-2, 1e6)
     for family in ('structural', 'shear', 'bend'):
         share = float(random.choice([1.0, 0.3, 0.03]))

@@ -4,7 +4,7 @@
 """
 Carry a towel by its two upper corners, as a client of a running node.
 
-    cloth_sim_node --ros-args --params-file config/drape.yaml    # in another terminal
+    cloth_sim_node    # in another terminal: a cloth on two corners
     python examples/carry_towel.py --by 0.5 0.0 0.3 --speed 0.4
 """
 

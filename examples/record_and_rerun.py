@@ -36,7 +36,7 @@ def main() -> None:
     print('\n'.join(again.lines()))
 
     print('with another stiffness:')
-    stiffer = resimulate(recorder.path, {'stiffness.structural': 300.0})
+    stiffer = resimulate(recorder.path, {'material.warp': 4000.0})
     print('\n'.join(stiffer.lines()))
 
 

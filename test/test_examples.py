@@ -78,7 +78,7 @@ def test_a_run_is_recorded_and_made_again(tmp_path):
     """The promise of the same bits would not hold for the program that shows it."""
     shown = run_example('record_and_rerun', tmp_path, '--seconds', 0.2)
     assert '11 of 11 frames bitwise identical' in shown
-    assert 'bits may differ: stiffness.structural set to other values' in shown
+    assert 'bits may differ: material.warp set to other values' in shown
     assert list((tmp_path / 'bags' / 'pushed').glob('*.mcap'))
 
 

@@ -17,6 +17,8 @@ from cloth_sim_ros.sim.springs import MATERIAL
 from cloth_sim_ros.sim.springs import MATERIAL_SPRINGS
 
 NO_PINS = ('none',)
+# A woven one whose threads hardly stretch; without air it would whip, and never come to rest.
+DEFAULT_FABRIC = MappingProxyType({'material.preset': 'trousers', 'air.density': 1.225})
 # They stretch, too, which would add to what a material says.
 _BEND_SPRINGS = ('stiffness.bend', 'damping.bend')
 
@@ -34,15 +36,24 @@ def _values(name: str) -> Mapping[str, Any]:
     return MappingProxyType(load_parameters(path))
 
 
+def with_default_fabric(given: Mapping[str, Any]) -> dict[str, Any]:
+    """Return ``given`` with a fabric in air if it is a cloth that is given nothing of its kind."""
+    says_how_it_stretches = any(name.startswith(('stiffness.', 'material.')) for name in given)
+    is_chain = 1 in (given.get('rows'), given.get('cols'))
+    if says_how_it_stretches or is_chain:
+        return dict(given)
+    return {**DEFAULT_FABRIC, **given}
+
+
 def completed(given: Mapping[str, Any]) -> dict[str, Any]:
     """
     Return ``given`` with the values that follow from it for what it leaves out.
 
-    Presets bring their values. A total mass takes the place of the default areal density, a
-    material that of the default springs, and pins given by points that of the default pins.
-    Nothing is checked here.
+    Presets bring their values. A cloth of neither springs nor a material is of the default fabric,
+    in still air. A total mass takes the place of the default areal density, a material that of the
+    default springs, and pins given by points that of the default pins. Nothing is checked here.
     """
-    values = with_material(with_preset(given))
+    values = with_material(with_default_fabric(with_preset(given)))
     if values.get('total_mass'):
         values.setdefault('areal_density', 0.0)
     if any(values.get(name) for name in MATERIAL):

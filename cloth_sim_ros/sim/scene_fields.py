@@ -31,7 +31,8 @@ SCENE_FIELDS = (
     Field('node_mass', float, 0.0, 'mass of each node; 0 to derive it from total_mass or '
           'areal_density', 'kg', low=0.0, high=1e6),
     Field('material.preset', str, NO_PRESET, 'measured fabric that gives mass, stretch and '
-          'bending where they are not set explicitly; see `cloth_sim materials`',
+          'bending where they are not set explicitly; see `cloth_sim materials`; a cloth without '
+          'any material.* and stiffness.* is of trousers, with air.density 1.225',
           choices=(NO_PRESET, *MATERIALS)),
     Field('material.warp', float, 0.0, 'stiffness to stretch along the rows at unchanged width, '
           'from which the springs follow for any grid; 0 to give stiffness.structural and '
@@ -109,8 +110,9 @@ SCENE_FIELDS = (
           choices=('constraint', 'paper')),
     Field('adaptive.threshold', float, 0.1, 'strain limit at which a structural or shear spring '
           'becomes a constraint in mode adaptive', low=0.005, high=0.5),
-    Field('air.density', float, 0.0, 'air density, 1.225 at sea level; 0 for no air',
-          'kg/m3', low=0.0, high=1e4),
+    Field('air.density', float, 0.0, 'air density, 1.225 at sea level; 0 for no air; 1.225 by '
+          'default for a cloth without any material.* and stiffness.*', 'kg/m3',
+          low=0.0, high=1e4),
     Field('air.drag', float, 1.17, 'drag coefficient normal to the surface; the default is '
           'that of a square plate', low=0.0, high=1e3),
     Field('air.friction', float, 0.02, 'friction coefficient tangential to the surface',

@@ -59,8 +59,8 @@ def variants(mode: str, nodes: int) -> dict[str, Scene]:
     """Return the scenes that are compared, by name; the first is without colliders."""
     cloth: dict[str, Any] = {
         'mode': mode, 'rows': nodes, 'cols': nodes, 'width': 1.0, 'height': 1.0,
-        'areal_density': 0.15, 'start.pose': 'horizontal', 'start.z': 0.2, 'pins': ['none'],
-        'dt': 0.005}
+        'areal_density': 0.15, 'material.preset': 'none', 'start.pose': 'horizontal',
+        'start.z': 0.2, 'pins': ['none'], 'dt': 0.005}
     places: dict[str, Sequence[float]] = {'ball': (0.0, 0.0, 0.0), **{
         f'other_{number}': (
             5.0 * math.cos(number), 5.0 * math.sin(number), 0.0) for number in range(_OTHERS)}}

@@ -13,11 +13,13 @@ def given_values(scene: Scene) -> dict[str, Any]:
     """
     Return what makes ``scene`` again, as plain values: what differs from the defaults.
 
-    What a preset has set is told value by value, so that another one in its place is taken.
+    What a preset has set is told value by value, so that another one in its place is taken. The
+    material is always told: without one default springs would be left out, and a fabric made.
     """
     values = {
         field.name: scene[field.name] for field in fields_with_colliders(scene.values)
-        if field.name != 'preset' and scene[field.name] != field.check(field.default)}
+        if field.name == 'material.preset' or (
+            field.name != 'preset' and scene[field.name] != field.check(field.default))}
     return {name: list(value) if isinstance(value, tuple) else value
             for name, value in values.items()}
 

@@ -89,8 +89,8 @@ def bench_scene(size: int, values: Mapping[str, Any]) -> Scene:
     # The damping of a coarse cloth would rule the limit of a fine one.
     damping = {f'damping.{family}': 1e-5 for family in ('structural', 'shear', 'bend')}
     given = {
-        'rows': size, 'cols': size, 'auto_substeps': False, 'start.jitter': 0.05, **damping,
-        **values}
+        'rows': size, 'cols': size, 'auto_substeps': False, 'start.jitter': 0.05,
+        'material.preset': 'none', **damping, **values}
     return Scene({**given, 'dt': SAFETY * stability_limit(Scene(given))})
 
 

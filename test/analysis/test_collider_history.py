@@ -20,8 +20,10 @@ from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.simulation import Simulation
 import numpy as np
 import pytest
+from springs import SPRINGS
 
 VALUES = {
+    **SPRINGS,
     'rows': 3, 'cols': 3, 'start.z': 5.0, 'colliders.names': ['ball', 'floor'],
     'colliders.ball.shape': 'sphere', 'colliders.ball.size': [0.1],
     'colliders.ball.position': [0.0, 1.0, 0.0], 'colliders.floor.shape': 'plane',
@@ -97,7 +99,7 @@ def test_what_this_version_does_not_know_is_left_out_and_told():
 
 def test_frames_have_the_colliders_of_the_run(tmp_path):
     """The picture of a recording would show another scene than the run was."""
-    scene = Scene({**VALUES, 'colliders.ball.orientation': [0.0, 0.6, 0.0, 0.8]})
+    scene = Scene({**SPRINGS, **VALUES, 'colliders.ball.orientation': [0.0, 0.6, 0.0, 0.8]})
     seen = []
     with Simulation(scene) as run, SimulationRecorder(
             run, tmp_path, 'run', parameters={'publish.rate': 10.0}) as recorder:

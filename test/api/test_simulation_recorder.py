@@ -14,8 +14,9 @@ from cloth_sim_ros.sim.errors import NonFiniteStateError
 import numpy as np
 import pytest
 from recorded import Recorded
+from springs import SPRINGS
 
-SMALL = {'rows': 5, 'cols': 4, 'start.jitter': 0.01}
+SMALL = {**SPRINGS, 'rows': 5, 'cols': 4, 'start.jitter': 0.01}
 
 
 @pytest.fixture
@@ -137,7 +138,7 @@ def test_wrong_arguments_write_nothing(cloth, tmp_path):
 
 def test_a_limit_ends_the_recording_whole(tmp_path):
     """A program would write on into nothing, or a limited recording could not be read."""
-    with Simulation(Scene({'rows': 64, 'cols': 64})) as large:
+    with Simulation(Scene({**SPRINGS, 'rows': 64, 'cols': 64})) as large:
         recorder = SimulationRecorder(
             large, tmp_path, parameters={'recording.max_size': 2**20})
         with pytest.raises(RecordingError, match='recording.max_size'):
@@ -149,7 +150,8 @@ def test_a_limit_ends_the_recording_whole(tmp_path):
 
 def test_a_lost_state_ends_the_recording_at_the_last_finite_one(tmp_path):
     """The frames before a blow-up, which tell why it came, would be lost."""
-    scene = Scene({**SMALL, 'auto_substeps': False, 'dt': 0.05, 'stiffness.structural': 1e5})
+    scene = Scene({
+        **SPRINGS, **SMALL, 'auto_substeps': False, 'dt': 0.05, 'stiffness.structural': 1e5})
     with Simulation(scene, check_stability=False) as wild:
         with SimulationRecorder(wild, tmp_path) as recorder:
             with pytest.raises(NonFiniteStateError):

@@ -16,6 +16,7 @@ from cloth_sim_ros.sim.scene import refuse_unknown
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.scene_fields import SCENE_FIELDS
 import pytest
+from springs import SPRINGS
 
 PACKAGE = Path(__file__).resolve().parents[2] / 'cloth_sim_ros'
 FIELDS = SCENE_FIELDS + NODE_FIELDS
@@ -74,8 +75,8 @@ def test_no_parameter_is_repeated_at_length(value):
 
 @pytest.mark.parametrize('make', [
     lambda: refuse_unknown({'x' * LONG: 1}, FIELDS),
-    lambda: Scene({'pins': ['x' * LONG]}).pinned_nodes(),
-    lambda: Scene({'pin_moves.start': [0.0], 'pin_moves.node': ['x' * LONG],
+    lambda: Scene({**SPRINGS, 'pins': ['x' * LONG]}).pinned_nodes(),
+    lambda: Scene({**SPRINGS, 'pin_moves.start': [0.0], 'pin_moves.node': ['x' * LONG],
                    'pin_moves.target': [0.0, 0.0, 0.0]}).timed_pin_moves(),
     lambda: Push.checked(force=(1, 0, 0), start=0.0, duration=1.0, region='x' * LONG)])
 def test_no_request_is_repeated_at_length(make):

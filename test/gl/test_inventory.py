@@ -10,6 +10,7 @@ from cloth_sim_ros.gl.shader_source import ShaderSource
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.simulation import Simulation
 import pytest
+from springs import SPRINGS
 
 
 @pytest.fixture
@@ -35,7 +36,9 @@ def test_runs_of_a_step_are_counted(context):
     """A pass would seem to cost nothing, or to be run more often than it is."""
     with take_inventory() as inventory:
         run = Simulation(
-            Scene({'rows': 6, 'cols': 6, 'auto_substeps': False, 'substeps': 3, 'dt': 1e-3}),
+            Scene({
+                **SPRINGS, 'rows': 6, 'cols': 6, 'auto_substeps': False, 'substeps': 3,
+                'dt': 1e-3}),
             context=context)
         run.step(2)
     counts = dict(zip((program.name for program in inventory.programs), inventory.dispatches()))
@@ -55,6 +58,6 @@ def test_nothing_is_noted_without_an_inventory(context):
     """Programs would be kept for ever."""
     with take_inventory() as inventory:
         pass
-    scene = Scene({'rows': 4, 'cols': 4})
+    scene = Scene({**SPRINGS, 'rows': 4, 'cols': 4})
     Simulation(scene, context=context).close()
     assert inventory.programs == [] and inventory.buffers == []

@@ -11,6 +11,7 @@ from cloth_sim_ros.sim.simulation import Simulation
 import numpy as np
 import pytest
 from rclpy.serialization import deserialize_message
+from springs import SPRINGS
 from visualization_msgs.msg import Marker
 from visualization_msgs.msg import MarkerArray
 
@@ -19,7 +20,7 @@ QUARTER = [0.0, 0.70710678, 0.0, 0.70710678]
 
 def markers_of(values, seconds=0.0):
     """Return the markers of the colliders of a scene, by namespace and number."""
-    scene = Scene({'rows': 3, 'cols': 3, **values})
+    scene = Scene({**SPRINGS, 'rows': 3, 'cols': 3, **values})
     with closing(Simulation(scene)) as simulation:
         if seconds:
             simulation.advance(seconds)

@@ -30,6 +30,7 @@ import numpy as np
 from rclpy.parameter import Parameter
 from rclpy.serialization import deserialize_message
 from rclpy.serialization import serialize_message
+from springs import SPRINGS
 
 
 def test_a_push_is_told_in_full():
@@ -101,7 +102,7 @@ def test_pin_mode_and_command_are_told_with_their_time():
 
 def test_a_scene_can_be_made_again_from_its_parameters():
     """A run could not be simulated again from its recording."""
-    scene = Scene({'rows': 5, 'cols': 7, 'pins': ['0,0'], 'pushes.start': [0.5],
+    scene = Scene({**SPRINGS, 'rows': 5, 'cols': 7, 'pins': ['0,0'], 'pushes.start': [0.5],
                    'pushes.duration': [0.25], 'pushes.force': [0.0, 0.0, 1.0]})
     event = parameters_message(scene.values, SCENE_FIELDS, 1.5, 'left/cloth_sim')
     assert event.node == '/left/cloth_sim' and event.stamp.sec == 1

@@ -16,13 +16,14 @@ import numpy as np
 import pytest
 from rclpy.serialization import deserialize_message
 from shape_msgs.msg import Mesh
+from springs import SPRINGS
 
 
 @pytest.mark.parametrize(('rows', 'cols', 'pose'), [
     (3, 5, 'horizontal'), (4, 2, 'hanging'), (1, 6, 'hanging')])
 def test_mesh_is_the_scene_at_rest(rows, cols, pose):
     """A viewer would draw another cloth than the one simulated."""
-    scene = Scene({'rows': rows, 'cols': cols, 'start.pose': pose, 'start.jitter': 0.2})
+    scene = Scene({**SPRINGS, 'rows': rows, 'cols': cols, 'start.pose': pose, 'start.jitter': 0.2})
     mesh = deserialize_message(serialise_topology(scene), Mesh)
     nodes = np.array([[node.x, node.y, node.z] for node in mesh.vertices])
     np.testing.assert_array_equal(nodes, scene.rest_positions().reshape(-1, 3))
@@ -33,7 +34,8 @@ def test_mesh_is_the_scene_at_rest(rows, cols, pose):
 def test_each_cell_is_covered_once():
     """The surface would have holes or overlap."""
     rows, cols = 4, 6
-    positions = Scene({'rows': rows, 'cols': cols, 'width': 5.0, 'height': 3.0}).rest_positions()
+    positions = Scene({
+        **SPRINGS, 'rows': rows, 'cols': cols, 'width': 5.0, 'height': 3.0}).rest_positions()
     corners = positions.reshape(-1, 3)[triangles(rows, cols)]
     area = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]) / 2
     np.testing.assert_allclose(area, np.tile([0.0, 0.0, 0.5], (2 * 3 * 5, 1)), atol=1e-12)

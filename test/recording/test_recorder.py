@@ -27,6 +27,7 @@ import pytest
 import rclpy
 from rclpy.serialization import serialize_message
 from rosbags.highlevel import AnyReader
+from springs import SPRINGS
 import yaml
 
 PUSH = SimPush.checked(force=(1.0, 2.0, 3.0), start=0.25, duration=0.5)
@@ -37,7 +38,7 @@ FRAMES = 7
 def bag(tmp_path):
     """Return the folder of a recording of clouds, numbers, a push and the rest shape."""
     recorder = Recorder(tmp_path, 'run', node_name='/left/cloth_sim')
-    recorder.write('topology', serialise_topology(Scene({'rows': 3, 'cols': 4})), 0.0)
+    recorder.write('topology', serialise_topology(Scene({**SPRINGS, 'rows': 3, 'cols': 4})), 0.0)
     recorder.write('inputs/push', serialize_message(push_message(PUSH, 0.04, 'world')), 0.04)
     for number in range(FRAMES):
         time = number / 50

@@ -23,6 +23,7 @@ import pytest
 from rclpy.serialization import serialize_message
 from rosbags.highlevel import AnyReader
 from rosbags.rosbag2 import Reader
+from springs import SPRINGS
 import yaml
 
 FRAMES = 150
@@ -36,7 +37,7 @@ def record(folder, name='run', frames=FRAMES, **options):
     recorder = Recorder(folder, name, options=RecordingOptions(**options))
     try:
         recorder.write(
-            'topology', serialise_topology(Scene({'rows': SIDE, 'cols': SIDE})), 0.0)
+            'topology', serialise_topology(Scene({**SPRINGS, 'rows': SIDE, 'cols': SIDE})), 0.0)
         recorder.write('state', serialize_message(ClothState(mode='adaptive')), 0.0)
         for number in range(frames):
             time = number * PERIOD

@@ -9,12 +9,13 @@ from cloth_sim_ros.sim.scene import Scene
 from limit_scenes import paper_scene
 import numpy as np
 import pytest
+from springs import SPRINGS
 
 
 def test_an_edge_beyond_the_limit_goes_to_rest_length_at_once():
     """A stretched edge is not pulled back by |d|^2 = L0^2, linearised, in one step."""
     cloth = PaperAdaptiveReference(Scene({
-        'rows': 2, 'cols': 1, 'node_mass': 0.1, 'pins': ['top_left'], 'dt': 0.01,
+        **SPRINGS, 'rows': 2, 'cols': 1, 'node_mass': 0.1, 'pins': ['top_left'], 'dt': 0.01,
         'auto_substeps': False, 'gravity': [0.0, 0.0, 0.0]}), delta=1e-12)
     cloth.positions[1, 0] = cloth.positions[0, 0] + [0.0, -1.2, 0.0]
     assert cloth.held().all()
@@ -26,7 +27,7 @@ def test_an_edge_beyond_the_limit_goes_to_rest_length_at_once():
 def test_far_from_the_limit_it_is_mass_spring():
     """The scheme changes a cloth that no limit touches."""
     scene = Scene({
-        'rows': 6, 'cols': 5, 'dt': 0.004, 'start.jitter': 0.1, 'pushes.start': [0.05],
+        **SPRINGS, 'rows': 6, 'cols': 5, 'dt': 0.004, 'start.jitter': 0.1, 'pushes.start': [0.05],
         'pushes.duration': [0.03], 'pushes.force': [0.0, 0.1, 0.5]})
     cloth, plain = PaperAdaptiveReference(scene, limit=5.0), MassSpringReference(scene)
     for _ in range(50):

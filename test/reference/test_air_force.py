@@ -10,9 +10,10 @@ from cloth_sim_ros.sim.scene import Scene
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
+from springs import SPRINGS
 
-AIR = {'rows': 6, 'cols': 9, 'width': 0.8, 'height': 0.5, 'air.density': 1.2, 'air.drag': 1.1,
-       'air.friction': 0.05}
+AIR = {**SPRINGS, 'rows': 6, 'cols': 9, 'width': 0.8, 'height': 0.5, 'air.density': 1.2,
+       'air.drag': 1.1, 'air.friction': 0.05}
 
 
 def rotation(chance):
@@ -69,7 +70,7 @@ def test_still_air_takes_power_from_any_motion():
 
 def test_wind_and_gusts():
     """A gust would come at another time than on the device."""
-    scene = Scene({**AIR, 'air.wind': [1.0, 0.0, 0.0], 'gusts.start': [2.0],
+    scene = Scene({**SPRINGS, **AIR, 'air.wind': [1.0, 0.0, 0.0], 'gusts.start': [2.0],
                    'gusts.duration': [1.0], 'gusts.wind': [0.0, 4.0, 0.0]})
     np.testing.assert_allclose(wind_at(scene, 1.0, 2.0), (1.0, 0.0, 0.0))
     np.testing.assert_allclose(wind_at(scene, 2.5, 3.5), (1.0, 2.0, 0.0))
@@ -79,6 +80,7 @@ def test_it_comes_to_the_solution_in_continuous_time():
     """The scheme would come to another motion than that of the law, or with another order."""
     def error(dt):
         cloth = MassSpringReference(Scene({
+            **SPRINGS,
             **AIR, 'rows': 5, 'cols': 5, 'air.wind': [2.0, 1.0, 3.0], 'dt': dt}), substeps=1)
         cloth.advance(0.2)
         start = MassSpringReference(cloth.scene)

@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 from rigid_links import catenary
 from rigid_links import GRAVITY
+from springs import SPRINGS
 
 FREE = {'pins': ['none'], 'gravity': [0.0, 0.0, 0.0]}
 NO_BEND = {'stiffness.bend': 0.0, 'damping.bend': 0.0}
@@ -19,6 +20,7 @@ NO_BEND = {'stiffness.bend': 0.0, 'damping.bend': 0.0}
 def test_a_chain_keeps_the_energy_it_starts_with():
     """A jittered chain of hard edges, in steps of 0.02 ms, makes energy from nothing."""
     chain = ImplicitCloth(Scene({
+        **SPRINGS,
         'rows': 1, 'cols': 12, 'node_mass': 0.003, 'start.jitter': 0.1, 'dt': 2e-5, **FREE}))
     start, most, kinetic = chain.energies().total, 0.0, 0.0
     for _ in range(1000):
@@ -33,6 +35,7 @@ def test_a_chain_keeps_the_energy_it_starts_with():
 def test_a_long_step_keeps_lengths(pose):
     """Edges of a cloth that falls in steps of 0.066 s, and is caught, are off by 5 % or more."""
     cloth = ImplicitCloth(Scene({
+        **SPRINGS,
         'rows': 7, 'cols': 9, 'dt': 0.066, 'start.jitter': 0.0 if pose == 'horizontal' else 0.1}))
     worst, most = 0.0, 0
     for _ in range(30):
@@ -46,6 +49,7 @@ def test_substeps_are_those_that_the_scene_asks_for():
     """Substeps are not the least that keep to the turn, times refine, up to their most."""
     def substeps(**values) -> int:
         cloth = ImplicitCloth(Scene({
+            **SPRINGS,
             'rows': 2, 'cols': 1, 'pins': ['top_left'], 'gravity': [0.0, 0.0, 0.0], 'dt': 0.05,
             **values}))
         # (omega h)^2 / 2 is 0.0025 at a third of dt, and a little less.
@@ -65,7 +69,8 @@ def test_substeps_are_those_that_the_scene_asks_for():
 def test_momentum_of_a_tumbling_cloth(beta, end, most):
     """A tension does not pull both ends alike, or along its edge; K_geo turns a cloth more."""
     cloth = ImplicitCloth(
-        Scene({'rows': 7, 'cols': 6, 'dt': 0.005, **FREE}), passes=Passes(beta=beta, end=end))
+        Scene({**SPRINGS, 'rows': 7, 'cols': 6, 'dt': 0.005, **FREE}),
+        passes=Passes(beta=beta, end=end))
     cloth.velocities += np.random.default_rng(4).normal(0.0, 0.3, cloth.positions.shape)
     cloth.velocities[..., 2] += 2.0 * cloth.positions[..., 0]
 
@@ -91,7 +96,7 @@ def test_reactions_balance_the_momentum():
     substep more, as they begin with it, and half the last less.
     """
     scene = Scene({
-        'rows': 6, 'cols': 7, 'dt': 0.02, 'pins': ['top_left', 'top_right', '3,2'],
+        **SPRINGS, 'rows': 6, 'cols': 7, 'dt': 0.02, 'pins': ['top_left', 'top_right', '3,2'],
         'pushes.start': [0.05], 'pushes.duration': [0.07], 'pushes.force': [0.3, 0.2, 5.0],
         'pushes.center': [0.0, 0.0, 1.0], 'pushes.radius': [0.4]})
     cloth = ImplicitCloth(scene)
@@ -114,6 +119,7 @@ def test_reactions_balance_the_momentum():
 def test_pins_that_pull_too_much_stand_still(max_force):
     """Two pins that part farther than the cloth is long tear at it without bound or report."""
     chain = ImplicitCloth(Scene({
+        **SPRINGS,
         'rows': 1, 'cols': 9, 'node_mass': 0.02, 'dt': 0.02, **NO_BEND}), max_force=max_force)
     chain.positions[0] = 0.0
     chain.positions[0, :, [0, 2]] = catenary(9, 1.0, 0.8).T

@@ -12,12 +12,14 @@ from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.scene import Scene
 import numpy as np
 import pytest
+from springs import SPRINGS
 
 LAWS = {'hard': constraint_law, 'limited': limited_law, 'springs': spring_law}
 
 
 def _two_nodes() -> Scene:
     return Scene({
+        **SPRINGS,
         'rows': 1, 'cols': 2, 'width': 1.0, 'node_mass': 0.5, 'stiffness.structural': 40.0,
         'damping.structural': 0.3})
 
@@ -53,7 +55,7 @@ def test_how_hard_an_edge_is(rows, cols):
 
     All lines of a cloth that share the weight stretch by 0.03 of it at most, and few by just that.
     """
-    scene = Scene({'rows': rows, 'cols': cols, 'constraint.strain': 0.02})
+    scene = Scene({**SPRINGS, 'rows': rows, 'cols': cols, 'constraint.strain': 0.02})
     law, lines = constraint_law(scene), min(rows, cols)
     weight = rows * cols * scene.node_mass * 9.81
     alone = law.compliance * weight / law.edges.rest_length
@@ -70,7 +72,7 @@ def test_families_of_mode_constraint(hard, springs, families):
     """Edges that the mode leaves out pull, or those it asks for are not there."""
     # Shear has no springs, but hard shear edges need none.
     law = constraint_law(Scene({
-        'rows': 4, 'cols': 5, 'stiffness.shear': 0.0, 'damping.shear': 0.0,
+        **SPRINGS, 'rows': 4, 'cols': 5, 'stiffness.shear': 0.0, 'damping.shear': 0.0,
         'constraint.hard': hard, 'constraint.springs': springs}))
     assert set(law.edges.family) == families
     is_hard = law.shortest == law.longest
@@ -100,7 +102,7 @@ def test_a_limit_of_nothing_is_refused():
 @pytest.mark.parametrize('rows', [3, 7])
 def test_the_matrix_is_mass_and_blocks(rows):
     """The dense or the sparse solve solves another system than M + sum of the blocks."""
-    scene = Scene({'rows': rows, 'cols': 4})
+    scene = Scene({**SPRINGS, 'rows': rows, 'cols': 4})
     edges, free = constraint_law(scene).edges, ~scene.pinned_nodes().ravel()
     random = np.random.default_rng(3)
     half = random.normal(size=(len(edges), 3, 3))

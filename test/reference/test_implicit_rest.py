@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from rigid_links import GRAVITY
 from scipy.optimize import brentq
+from springs import SPRINGS
 
 CHAIN = {'constraint.hard': ['structural'], 'node_mass': 0.01}
 
@@ -26,7 +27,7 @@ def _calm(cloth: ImplicitCloth, steps: int, share: float = 0.9) -> ImplicitCloth
 def test_a_chain_stretches_by_the_law(solves, dt):
     """A tension is not the weight below, or an edge at rest not longer by E lambda."""
     chain = _calm(ImplicitCloth(Scene({
-        **CHAIN, 'rows': 21, 'cols': 1, 'start.pose': 'hanging', 'dt': dt,
+        **SPRINGS, **CHAIN, 'rows': 21, 'cols': 1, 'start.pose': 'hanging', 'dt': dt,
         'constraint.newton_iterations': solves})), 400)
     below = np.arange(20, 0, -1) * 0.01 * GRAVITY
     longer = chain.law.edges.lengths(chain.positions.reshape(-1, 3)) - 0.05
@@ -62,6 +63,7 @@ def _elastic_catenary(
 def test_catenary(solves, span, strain):
     """A chain, slack or taut, hard or soft, rests elsewhere than forces and lengths allow."""
     chain = ImplicitCloth(Scene({
+        **SPRINGS,
         **CHAIN, 'rows': 1, 'cols': 41, 'width': 1.0, 'dt': 0.01, 'constraint.strain': strain,
         # The taut one pulls with 22 N: one solve stands 2 sqrt(0.01 x 0.025 / (4 x 22)) = 3.4 ms.
         'auto_substeps': False, 'substeps': 4, 'constraint.newton_iterations': solves}))
@@ -79,6 +81,7 @@ def test_catenary(solves, span, strain):
 def test_tensions_of_a_strip_are_the_weight_below():
     """The vertical pull of the edges between two rows is not the weight below them at rest."""
     strip = _calm(ImplicitCloth(Scene({
+        **SPRINGS,
         'rows': 15, 'cols': 4, 'width': 0.3, 'start.pose': 'hanging', 'pins': ['top_edge'],
         'dt': 0.01})), 400)
     edges = strip.law.edges
@@ -93,6 +96,7 @@ def test_tensions_of_a_strip_are_the_weight_below():
 def test_pin_reactions_are_the_weight(pins):
     """The pins do not hold the cloth's weight, their own nodes' with it."""
     cloth = _calm(ImplicitCloth(Scene({
+        **SPRINGS,
         'rows': 6, 'cols': 6, 'pins': pins, 'start.pose': 'hanging', 'dt': 0.01})), 500, 0.95)
     weight = 36 * cloth.scene.node_mass * GRAVITY
     total = cloth.reactions.sum(axis=(0, 1))
@@ -106,7 +110,7 @@ def test_pin_reactions_are_the_weight(pins):
 def test_all_and_no_nodes_pinned(pins, hard):
     """A cloth that can't move, is held nowhere, or has no edges, has no solvable system."""
     cloth = ImplicitCloth(Scene({
-        'rows': 5, 'cols': 6, 'dt': 0.01, 'pins': [pins], 'constraint.hard': hard}))
+        **SPRINGS, 'rows': 5, 'cols': 6, 'dt': 0.01, 'pins': [pins], 'constraint.hard': hard}))
     start = cloth.positions.copy()
     cloth.step(10)
     fall = 0.0 if pins == 'all' else GRAVITY * 0.1 * 0.11 / 2.0
@@ -116,7 +120,7 @@ def test_all_and_no_nodes_pinned(pins, hard):
 def test_moving_pins_carry_the_cloth():
     """A cloth that moves with its pins feels them."""
     cloth = ImplicitCloth(Scene({
-        'rows': 5, 'cols': 5, 'gravity': [0.0, 0.0, 0.0], 'dt': 0.01}))
+        **SPRINGS, 'rows': 5, 'cols': 5, 'gravity': [0.0, 0.0, 0.0], 'dt': 0.01}))
     start, velocity = cloth.positions.copy(), np.array([0.3, 0.1, -0.2])
     cloth.velocities[...] = velocity
     for row, col in np.argwhere(~cloth.free).tolist():
@@ -130,6 +134,7 @@ def test_moving_pins_carry_the_cloth():
 def test_a_pulled_pin_pulls_the_chain():
     """A chain dragged by its pin does not follow at the pin's speed."""
     chain = ImplicitCloth(Scene({
+        **SPRINGS,
         **CHAIN, 'rows': 1, 'cols': 6, 'gravity': [0.0, 0.0, 0.0], 'pins': ['top_right'],
         'dt': 0.01}))
     chain.move_pin(0, 5, np.array([0.5, 0.0, 0.0]))

@@ -8,6 +8,7 @@ from cloth_sim_ros.sim.scene import Scene
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
+from springs import SPRINGS
 
 FREE = {'gravity': [0.0, 0.0, 0.0], 'pins': ['none']}
 
@@ -15,7 +16,7 @@ FREE = {'gravity': [0.0, 0.0, 0.0], 'pins': ['none']}
 def test_free_fall_follows_its_recurrence():
     """Velocity and position are not stepped in the order of symplectic Euler."""
     cloth = MassSpringReference(Scene({
-        'rows': 3, 'cols': 4, 'pins': ['none'], 'start.z': 0.0, 'dt': 0.01,
+        **SPRINGS, 'rows': 3, 'cols': 4, 'pins': ['none'], 'start.z': 0.0, 'dt': 0.01,
         'auto_substeps': False}))
     cloth.advance(1.0)
     np.testing.assert_allclose(cloth.positions[..., 2], -9.81 * 1.01 / 2.0, rtol=1e-12)
@@ -24,7 +25,7 @@ def test_free_fall_follows_its_recurrence():
 
 def test_oscillator_follows_its_recurrence():
     """One spring does not swing with cos(Omega h) = 1 - (omega h)^2 / 2."""
-    scene = Scene({**FREE, 'rows': 2, 'cols': 1, 'pins': ['top_left'], 'node_mass': 0.1,
+    scene = Scene({**SPRINGS, **FREE, 'rows': 2, 'cols': 1, 'pins': ['top_left'], 'node_mass': 0.1,
                    'start.z': 0.0, 'damping.structural': 0.0, 'dt': 0.01,
                    'auto_substeps': False})
     cloth = MassSpringReference(scene)
@@ -43,7 +44,7 @@ def test_oscillator_follows_its_recurrence():
 
 def test_pinned_nodes_stay():
     """A pinned node moves, or a free one does not."""
-    scene = Scene({'rows': 4, 'cols': 3, 'pins': ['top_edge', '2,1'], 'dt': 0.002})
+    scene = Scene({**SPRINGS, 'rows': 4, 'cols': 3, 'pins': ['top_edge', '2,1'], 'dt': 0.002})
     cloth = MassSpringReference(scene)
     cloth.advance(0.3)
     pinned = scene.pinned_nodes()
@@ -56,8 +57,8 @@ def test_substeps_are_smaller_steps():
     values = {'rows': 4, 'cols': 4, 'auto_substeps': False,
               'pushes.start': [0.05], 'pushes.duration': [0.1],
               'pushes.force': [0.0, 0.1, 1.0]}
-    split = MassSpringReference(Scene({**values, 'dt': 0.004, 'substeps': 2}))
-    plain = MassSpringReference(Scene({**values, 'dt': 0.002}))
+    split = MassSpringReference(Scene({**SPRINGS, **values, 'dt': 0.004, 'substeps': 2}))
+    plain = MassSpringReference(Scene({**SPRINGS, **values, 'dt': 0.002}))
     split.advance(0.4)
     plain.advance(0.4)
     np.testing.assert_allclose(split.positions, plain.positions, atol=1e-12)
@@ -65,7 +66,7 @@ def test_substeps_are_smaller_steps():
 
 def test_free_cloth_keeps_its_momentum():
     """Inner forces do not cancel: they are not equal and opposite along the spring."""
-    scene = Scene({**FREE, 'rows': 5, 'cols': 4, 'dt': 0.001})
+    scene = Scene({**SPRINGS, **FREE, 'rows': 5, 'cols': 4, 'dt': 0.001})
     cloth = MassSpringReference(scene)
     random = np.random.default_rng(4)
     cloth.positions += 0.03 * random.standard_normal(cloth.positions.shape)
@@ -83,6 +84,7 @@ def test_undamped_energy_stays_and_its_ripple_shrinks_with_dt():
     ripples = []
     for dt in (2e-3, 1e-3, 5e-4):
         cloth = MassSpringReference(Scene({
+            **SPRINGS,
             'rows': 6, 'cols': 6, 'dt': dt, 'auto_substeps': False, 'stiffness.bend': 50.0,
             **{f'damping.{family}': 0.0 for family in ('structural', 'shear', 'bend')}}))
         start = cloth.energies().total
@@ -108,7 +110,7 @@ def test_first_order_against_dop853():
     target = exact.y[:begin.positions.size, -1].reshape(begin.positions.shape)
     errors = []
     for dt in (1e-3, 5e-4, 2.5e-4):
-        cloth = MassSpringReference(Scene({**values, 'dt': dt}))
+        cloth = MassSpringReference(Scene({**SPRINGS, **values, 'dt': dt}))
         cloth.advance(0.25)
         errors.append(np.sqrt(np.mean(np.sum((cloth.positions - target) ** 2, axis=-1))))
     orders = np.log2(np.array(errors[:-1]) / errors[1:])

@@ -17,6 +17,7 @@ from cloth_sim_ros.sim.scene_fields import SCENE_FIELDS
 import pytest
 from rcl_interfaces.msg import Parameter
 from rosbags.rosbag2 import Reader
+from springs import SPRINGS
 
 FIELDS = SCENE_FIELDS + NODE_FIELDS
 
@@ -75,7 +76,7 @@ def test_every_parameter_comes_back():
         'substeps': 9, 'pushes.start': (0.1, 1 / 3), 'pushes.duration': (0.1, 0.2),
         'pushes.force': (0.1,) * 6}
     scene = recorded(**values)
-    assert scene.scene().values == Scene(values).values
+    assert scene.scene().values == Scene({**SPRINGS, **values}).values
     assert (scene.missing, scene.unknown(NODE_FIELDS)) == ((), ())
     assert scene.changed(scene.scene()) == ()
 

@@ -18,8 +18,10 @@ from made_again import Director
 from made_again import made_again
 import numpy as np
 import pytest
+from springs import SPRINGS
 
 SCENE = {
+    **SPRINGS,
     'rows': 8, 'cols': 9, 'dt': 1.0 / 180.0, 'start.jitter': 0.1,
     'pushes.start': (0.0, 0.11), 'pushes.duration': (0.05, 0.2),
     'pushes.force': (0.0, 0.0, 2.0, 1.0, 0.0, 0.0),
@@ -172,7 +174,7 @@ def inputs_of(path):
 @pytest.fixture
 def eventful(tmp_path):
     """Return a recording with a push, a pin, a switch of the mode and a reset, and its frames."""
-    with Director(tmp_path, {'rows': 8, 'cols': 9}) as director:
+    with Director(tmp_path, {**SPRINGS, 'rows': 8, 'cols': 9}) as director:
         director.step(10)
         director.push((0.0, 0.5, 1.0), duration=0.1)
         director.pin(7, 7)
@@ -186,7 +188,7 @@ def eventful(tmp_path):
 
 def by_hand(**values):
     """Return where ``eventful`` ends in its first life, with other settings."""
-    simulation = Simulation(Scene({'rows': 8, 'cols': 9, **values}))
+    simulation = Simulation(Scene({**SPRINGS, 'rows': 8, 'cols': 9, **values}))
     for act in (
             lambda: simulation.push((0.0, 0.5, 1.0), duration=0.1) and simulation.pin(7, 7),
             lambda: 'mode' in values or simulation.set_mode('adaptive'),

@@ -19,6 +19,7 @@ from cloth_sim_ros.sim.solver.levels import Levels
 from cloth_sim_ros.sim.solver.solver_programs import solver_defines
 from cloth_sim_ros.study.paper_solver import paper_solver_defines
 import pytest
+from springs import SPRINGS
 
 # A macro with the lines that it goes on in.
 _DEFINE = re.compile(r'^#define\s+(\w+)(?:[^\n]*\\\n)*[^\n]*\n', re.MULTILINE)
@@ -92,7 +93,7 @@ def variants(form: str) -> dict[str, str]:
     for scene, texture, multigrid, block in product(
             _SCENES, (True, False), (True, False) if is_solver else (True,), (1, 4)):
         layout = Layout(7, 9, 'fused', texture, block, (8, 4))
-        model = Scene(_SCENES[scene])
+        model = Scene({**SPRINGS, **_SCENES[scene]})
         if name in _OF_CONTACT and not model.has_contact:
             continue
         defines = {**layout.defines(), **scene_defines(model), **_FORMS.get(form, {})}

@@ -8,6 +8,7 @@ from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.scene import Scene
 import numpy as np
 import pytest
+from springs import SPRINGS
 
 BALL = {'colliders.names': ['ball'], 'colliders.ball.size': [0.1]}
 
@@ -39,7 +40,7 @@ def test_bad_values_are_refused(values, rule):
 
 def test_orientations_are_made_unit_quaternions():
     """A body would be stretched by a quaternion of another length."""
-    scene = Scene({**BALL, 'colliders.ball.orientation': [0.0, 0.0, 2.0, 2.0]})
+    scene = Scene({**SPRINGS, **BALL, 'colliders.ball.orientation': [0.0, 0.0, 2.0, 2.0]})
     axes = scene.colliders[0].axes
     np.testing.assert_allclose(axes @ axes.T, np.eye(3), atol=1e-12)
     # A quarter turn about z takes x to y.
@@ -52,6 +53,7 @@ def test_orientations_are_made_unit_quaternions():
 def test_distances(shape, size):
     """What is told of the deepest node would be wrong."""
     body = Scene({
+        **SPRINGS,
         'colliders.names': ['body'], 'colliders.body.shape': shape, 'colliders.body.size': size,
         'colliders.body.position': [0.1, -0.2, 0.3],
         'colliders.body.orientation': [0.3, -0.2, 0.5, 0.7]}).colliders[0]

@@ -9,6 +9,7 @@ from cloth_sim_ros.sim.scene import FAMILIES
 from cloth_sim_ros.sim.scene import Scene
 import numpy as np
 import pytest
+from springs import SPRINGS
 
 SHAPES = [(5, 7), (2, 2), (1, 6), (6, 1), (2, 3)]
 
@@ -21,7 +22,7 @@ def number_nodes(rows, cols):
 @pytest.mark.parametrize(('rows', 'cols'), SHAPES)
 def test_edges_are_the_springs_of_the_reference(rows, cols):
     """A tension would be told of an edge that is not there, or of another one."""
-    scene = Scene({'rows': rows, 'cols': cols, 'width': 0.3, 'height': 0.5})
+    scene = Scene({**SPRINGS, 'rows': rows, 'cols': cols, 'width': 0.3, 'height': 0.5})
     nodes = number_nodes(rows, cols)
     springs = {
         (springs.family, springs.down, springs.right): springs

@@ -13,8 +13,9 @@ from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.simulation import Simulation
 import pytest
+from springs import SPRINGS
 
-_SCENE = {'rows': 12, 'cols': 10, 'dt': 0.01}
+_SCENE = {**SPRINGS, 'rows': 12, 'cols': 10, 'dt': 0.01}
 
 
 @pytest.fixture
@@ -45,7 +46,7 @@ def run_beside(simulation: Simulation, preparation: Preparation) -> int:
 def test_the_cloth_goes_on_while_a_mode_is_prepared(mode: str):
     """A node would stand still for as long as the compiler takes, or go wrong by it."""
     other = 'adaptive' if mode == 'mass_spring' else 'mass_spring'
-    simulations = [Simulation(Scene({**_SCENE, 'mode': other})) for _ in range(2)]
+    simulations = [Simulation(Scene({**SPRINGS, **_SCENE, 'mode': other})) for _ in range(2)]
     prepared, plain = simulations
     preparation = prepared.engines.preparation(mode)
     made = run_beside(prepared, preparation)
@@ -115,7 +116,7 @@ def test_a_preparation_can_be_cancelled(simulation: Simulation):
 def test_what_cannot_be_is_refused_before_it_is_prepared():
     """A refusal would come seconds after the request, from another thread."""
     simulation = Simulation(
-        Scene({**_SCENE, 'mode': 'constraint', 'dt': 0.1, 'auto_substeps': False}))
+        Scene({**SPRINGS, **_SCENE, 'mode': 'constraint', 'dt': 0.1, 'auto_substeps': False}))
     with pytest.raises(ClothSimError, match='stability limit'):
         simulation.engines.preparation('mass_spring')
     with pytest.raises(ClothSimError, match='there is no mode'):

@@ -10,6 +10,7 @@ from cloth_sim_ros.sim.modes import AVAILABLE
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.simulation import Simulation
 import pytest
+from springs import SPRINGS
 
 # Names that GL gives to shaders and programs are the least that are free.
 _NAMES = range(1, 2000)
@@ -24,7 +25,7 @@ def test_a_simulation_leaves_its_programs_to_the_next_and_no_buffers(scheme):
         for _ in range(2):
             with take_inventory() as inventory:
                 run = Simulation(Scene({
-                    'rows': 5, 'cols': 6, 'pins': ['none'], 'adaptive.scheme': scheme,
+                    **SPRINGS, 'rows': 5, 'cols': 6, 'pins': ['none'], 'adaptive.scheme': scheme,
                     'air.density': 1.2}), context=context)
                 for mode in AVAILABLE:
                     run.set_mode(mode)

@@ -5,6 +5,7 @@
 
 from cloth_sim_ros.gl.shared_directory import shared_directory
 from cloth_sim_ros.sim.errors import ClothSimError
+from cloth_sim_ros.sim.materials import FABRICS
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.scene_fields import PRESETS
 from cloth_sim_ros.sim.scene_file import load_parameters
@@ -73,3 +74,33 @@ def test_refine_multiplies_the_substeps(context, mode):
         counts.append(simulation.substeps)
         simulation.close()
     assert counts[1] == 3 * counts[0]
+
+
+def test_a_cloth_that_is_given_nothing_of_its_kind_is_of_the_default_fabric():
+    """The first cloth of a user would stretch like rubber, or whip without air."""
+    fabric = FABRICS['trousers']
+    scene = Scene({'rows': 12, 'damping.shear': 0.02})
+    assert scene['material.preset'] == 'trousers' and scene['air.density'] == 1.225
+    assert {name: scene[name] for name in ('areal_density', 'material.warp')} == {
+        'areal_density': fabric.density, 'material.warp': fabric.warp}
+    assert scene['bending.rigidity'] == fabric.rigidity
+    assert not scene.models('bend')
+    assert Scene(scene.values).values == scene.values
+
+
+@pytest.mark.parametrize('given', [
+    {'stiffness.shear': 50.0}, {'material.preset': 'none'}, {'material.warp': 50.0},
+    {'material.preset': 'denim'}, {'rows': 1}, {'cols': 1}], ids=str)
+def test_what_says_how_it_stretches_takes_its_place(given):
+    """A scene of springs or of another fabric would get air that it does not ask for."""
+    scene = Scene(given)
+    assert scene['air.density'] == 0.0
+    assert scene['material.preset'] == given.get('material.preset', 'none')
+    assert scene.has_rigidity == (given.get('material.preset') == 'denim')
+
+
+def test_what_is_given_of_the_default_fabric_wins():
+    """A user could not take the air away, or weigh a cloth."""
+    scene = Scene({'air.density': 0.0, 'areal_density': 0.1})
+    assert (scene['air.density'], scene['areal_density']) == (0.0, 0.1)
+    assert scene['material.preset'] == 'trousers'

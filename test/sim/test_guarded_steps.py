@@ -22,8 +22,9 @@ from cloth_sim_ros.sim.simulation import Simulation
 from cloth_sim_ros.sim.state import State
 import numpy as np
 import pytest
+from springs import SPRINGS
 
-_SMALL = {'rows': 7, 'cols': 9, 'dt': 0.004}
+_SMALL = {**SPRINGS, 'rows': 7, 'cols': 9, 'dt': 0.004}
 _ABSURD = (0.0, 0.0, 1e20)
 
 
@@ -40,7 +41,7 @@ def simulate(context: Context) -> Iterator[Callable[..., Simulation]]:
 
     def start(values: dict, **options) -> Simulation:
         opened.append(
-            Simulation(Scene({**_SMALL, **values}), context=context, **options))
+            Simulation(Scene({**SPRINGS, **_SMALL, **values}), context=context, **options))
         return opened[-1]
 
     yield start

@@ -12,6 +12,7 @@ from cloth_sim_ros.sim.layout import Layout
 from cloth_sim_ros.sim.scene import Scene
 import numpy as np
 import pytest
+from springs import SPRINGS
 
 
 def device(**changed: object) -> SimpleNamespace:
@@ -56,13 +57,13 @@ def test_software_devices_read_textures():
     scene = Scene()
     assert choose_layout(scene, device(is_software=True)).texture_loads
     assert not choose_layout(scene, device()).texture_loads
-    assert choose_layout(Scene({'loads': 'texture'}), device()).texture_loads
+    assert choose_layout(Scene({**SPRINGS, 'loads': 'texture'}), device()).texture_loads
 
 
 def test_a_cloth_beyond_the_buffers_is_refused_with_the_limit():
     """The device would cut the cloth off, or crash."""
     with pytest.raises(DeviceError) as caught:
-        choose_layout(Scene({'rows': 4000, 'cols': 4000}), device(device='tiny'))
+        choose_layout(Scene({**SPRINGS, 'rows': 4000, 'cols': 4000}), device(device='tiny'))
     message = str(caught.value)
     assert 'rows 4000 x cols 4000 need' in message
     assert 'the buffers of tiny hold 8388608: use up to about 2891 x 2891' in message
@@ -72,13 +73,13 @@ def test_small_texture_limits_count_only_for_texture_loads():
     """A device with small textures would refuse cloth that its storage blocks can hold."""
     small = device(max_texture_texels=2**16)
     values = {'rows': 1000, 'cols': 1000}
-    choose_layout(Scene({**values, 'loads': 'storage'}), small)
+    choose_layout(Scene({**SPRINGS, **values, 'loads': 'storage'}), small)
     with pytest.raises(DeviceError):
-        choose_layout(Scene({**values, 'loads': 'texture'}), small)
+        choose_layout(Scene({**SPRINGS, **values, 'loads': 'texture'}), small)
 
 
 @pytest.mark.parametrize('choice', [{'loads': 'texture'}, {'block': 4}])
 def test_the_papers_layout_stays_the_papers(choice: dict):
     """A benchmark would compare with something the paper does not do."""
     with pytest.raises(ClothSimError, match='layout paper reads storage'):
-        choose_layout(Scene({'layout': 'paper', **choice}), device())
+        choose_layout(Scene({**SPRINGS, 'layout': 'paper', **choice}), device())

@@ -16,8 +16,9 @@ from cloth_sim_ros.sim.state import State
 from cloth_sim_ros.study.feature.pass_list import pass_list
 import numpy as np
 import pytest
+from springs import SPRINGS
 
-SMALL = {'rows': 8, 'cols': 9, 'dt': 0.004}
+SMALL = {**SPRINGS, 'rows': 8, 'cols': 9, 'dt': 0.004}
 AIR = {**SMALL, 'air.density': 1.225, 'air.wind': [2.0, 0.0, 1.0]}
 # Set, and without effect where there is no air.
 UNUSED = {**SMALL, 'air.drag': 2.0, 'air.friction': 0.5, 'air.wind': [5.0, 0.0, 0.0],

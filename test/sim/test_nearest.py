@@ -10,6 +10,7 @@ from cloth_sim_ros.sim.nearest import usual_reach
 from cloth_sim_ros.sim.scene import Scene
 import numpy as np
 import pytest
+from springs import SPRINGS
 
 
 def test_tells_the_distance():
@@ -17,7 +18,7 @@ def test_tells_the_distance():
     positions = np.zeros((2, 3, 3), np.float32)
     positions[..., 0] = np.arange(3)
     positions[..., 1] = np.arange(2)[:, None]
-    scene = Scene({'rows': 2, 'cols': 3})
+    scene = Scene({**SPRINGS, 'rows': 2, 'cols': 3})
     found = nearest(scene, positions, (2.3, 1.4, 0.0), 0.6)
     assert (found.row, found.col) == (1, 2)
     assert found.distance == pytest.approx(0.5)
@@ -30,13 +31,13 @@ def test_tells_the_distance():
     ({'rows': 1, 'cols': 51}, 0.1), ({'rows': 5, 'cols': 1}, 0.25)], ids=str)
 def test_a_point_on_the_cloth_is_in_reach(shape, reach):
     """A point between the nodes of a coarse cloth would mean none of them."""
-    assert usual_reach(Scene({**shape, 'pins': []})) == pytest.approx(reach)
+    assert usual_reach(Scene({**SPRINGS, **shape, 'pins': []})) == pytest.approx(reach)
 
 
 @pytest.mark.parametrize('point', [
     (0.0, 0.0), (float('nan'), 0.0, 0.0), (0.0, float('inf'), 0.0), (0.0, 0.0, 1e200)])
 def test_a_point_that_is_none_is_refused(point: tuple[float, ...]):
     """The node nearest to nowhere would be pinned, or a square leave the range of a float."""
-    scene = Scene({'rows': 3, 'cols': 3})
+    scene = Scene({**SPRINGS, 'rows': 3, 'cols': 3})
     with pytest.raises(ClothSimError, match='a point must be .*: (give|keep) '):
         nearest(scene, scene.rest_positions(), point)

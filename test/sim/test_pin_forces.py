@@ -11,8 +11,10 @@ from cloth_sim_ros.sim.pin_forces import spring_tension
 from cloth_sim_ros.sim.scene import Scene
 import numpy as np
 import pytest
+from springs import SPRINGS
 
 SCENE = {
+    **SPRINGS,
     'rows': 6, 'cols': 5, 'damping.structural': 0.3, 'damping.shear': 0.2, 'damping.bend': 0.1,
     'adaptive.threshold': 0.1}
 
@@ -43,7 +45,7 @@ def test_tension_is_that_of_a_damped_spring():
 
 def test_there_is_none_where_there_is_no_edge():
     """A sum over all entries would count what is not there."""
-    scene = Scene({**SCENE, 'stiffness.shear': 0.0, 'damping.shear': 0.0})
+    scene = Scene({**SPRINGS, **SCENE, 'stiffness.shear': 0.0, 'damping.shear': 0.0})
     tension = spring_tension(scene, *make_state(scene))
     for kind in EDGE_KINDS:
         starts, _ = kind.everywhere(6, 5)
@@ -67,7 +69,7 @@ def test_some_nodes_have_the_tensions_they_have_among_all():
 
 def test_a_spring_without_length_is_finite():
     """Two nodes in one place would make all forces at a pin not a number."""
-    scene = Scene({**SCENE, 'rows': 1, 'cols': 2, 'width': 0.5})
+    scene = Scene({**SPRINGS, **SCENE, 'rows': 1, 'cols': 2, 'width': 0.5})
     tension = spring_tension(scene, np.zeros((1, 2, 3)), np.ones((1, 2, 3)))
     assert tension[0, 0, 0] == pytest.approx(-scene.stiffness('structural') * 0.5)
 
@@ -76,6 +78,7 @@ def test_a_spring_without_length_is_finite():
 def test_it_is_the_weight_and_the_pull_of_the_reference_springs(rows, cols):
     """A pin would not feel one of its edges, or feel it the wrong way."""
     scene = Scene({
+        **SPRINGS,
         'rows': rows, 'cols': cols, 'damping.shear': 0.2, 'gravity': [1.0, -2.0, -9.81]})
     random = np.random.default_rng(2)
     positions = scene.rest_positions() + random.normal(0.0, 0.05, (rows, cols, 3))
@@ -92,7 +95,7 @@ def test_it_is_the_weight_and_the_pull_of_the_reference_springs(rows, cols):
 
 def test_an_accelerated_pin_speeds_up_its_own_mass():
     """A moved gripper would not feel the inertia of what it holds."""
-    scene = Scene({'rows': 1, 'cols': 2, 'node_mass': 0.5})
+    scene = Scene({**SPRINGS, 'rows': 1, 'cols': 2, 'node_mass': 0.5})
     nodes = np.array([(0, 0), (0, 1)])
     held = pin_forces(
         scene, scene.rest_positions(), np.zeros((1, 2, 6)), nodes,
@@ -103,14 +106,14 @@ def test_an_accelerated_pin_speeds_up_its_own_mass():
 
 def test_nodes_in_one_place_pull_nowhere():
     """The force at a pin would not be a number."""
-    scene = Scene({'rows': 1, 'cols': 2, 'gravity': [0.0, 0.0, 0.0]})
+    scene = Scene({**SPRINGS, 'rows': 1, 'cols': 2, 'gravity': [0.0, 0.0, 0.0]})
     held = pin_forces(scene, np.zeros((1, 2, 3)), np.full((1, 2, 6), 5.0), np.array([(0, 0)]))
     assert not held.forces.any()
 
 
 def test_no_pins_have_no_forces():
     """A cloth in the air would have no snapshot."""
-    scene = Scene({'rows': 2, 'cols': 2})
+    scene = Scene({**SPRINGS, 'rows': 2, 'cols': 2})
     held = pin_forces(
         scene, scene.rest_positions(), np.zeros((2, 2, 6)), np.empty((0, 2), dtype=int))
     assert held.forces.shape == (0, 3)

@@ -18,9 +18,11 @@ from cloth_sim_ros.sim.snapshot import FLAG_PINNED
 from cloth_sim_ros.sim.state import State
 import numpy as np
 import pytest
+from springs import SPRINGS
 
-_SMALL = {'rows': 5, 'cols': 7, 'dt': 0.004}
+_SMALL = {**SPRINGS, 'rows': 5, 'cols': 7, 'dt': 0.004}
 _TIMED = {
+    **SPRINGS,
     **_SMALL, 'pin_moves.start': [0.01, 0.05], 'pin_moves.node': ['0,6', 'top_left'],
     'pin_moves.target': [0.5, 0.5, 1.2, -0.6, 0.5, 1.0], 'pin_moves.speed': [2.0, 1.0]}
 NAN, INF = float('nan'), float('inf')
@@ -99,7 +101,7 @@ def test_a_new_target_takes_the_place_of_the_old(simulation: Simulation):
 def test_a_released_pin_goes_on_with_its_velocity(context):
     """A thrown cloth would stop in the air."""
     loose = {f'{kind}.{family}': 0.0 for family in FAMILIES for kind in ('stiffness', 'damping')}
-    scene = Scene({**_SMALL, **loose, 'gravity': [0.0] * 3})
+    scene = Scene({**SPRINGS, **_SMALL, **loose, 'gravity': [0.0] * 3})
     with closing(Simulation(scene, context=context)) as simulation:
         simulation.move_pin(0, 0, (-0.5, 2.5, 1.0), 2.0)
         simulation.step(10)

@@ -11,6 +11,7 @@ from cloth_sim_ros.sim.modes import AVAILABLE
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.simulation import Simulation
 import pytest
+from springs import SPRINGS
 
 
 @pytest.fixture(scope='module')
@@ -40,7 +41,7 @@ def test_a_program_serves_every_size(context, mode: str):
     for rows, cols in ((12, 12), (20, 33)):
         with take_inventory() as inventory:
             simulation = Simulation(
-                Scene({'rows': rows, 'cols': cols, 'mode': mode}), context=context)
+                Scene({**SPRINGS, 'rows': rows, 'cols': cols, 'mode': mode}), context=context)
             simulation.step(2)
             simulation.snapshot()
             texts.append({program.source.text for program in inventory.programs})
@@ -51,7 +52,8 @@ def test_a_program_serves_every_size(context, mode: str):
 @pytest.mark.parametrize('mode', AVAILABLE)
 def test_the_first_push_on_a_region_compiles_nothing(context, mode: str):
     """A push would stop the cloth for as long as the compiler takes."""
-    simulation = Simulation(Scene({'rows': 12, 'cols': 12, 'mode': mode}), context=context)
+    simulation = Simulation(Scene({
+        **SPRINGS, 'rows': 12, 'cols': 12, 'mode': mode}), context=context)
     assert compiled(simulation)
     assert not compiled(simulation, pushed=True)
     simulation.close()

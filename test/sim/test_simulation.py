@@ -12,8 +12,9 @@ from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.simulation import Simulation
 import numpy as np
 import pytest
+from springs import SPRINGS
 
-_SMALL = {'rows': 5, 'cols': 7, 'dt': 0.004}
+_SMALL = {**SPRINGS, 'rows': 5, 'cols': 7, 'dt': 0.004}
 
 
 @pytest.fixture
@@ -158,8 +159,8 @@ def test_a_dt_above_the_limit_is_refused_with_the_way_out():
     message = str(caught.value)
     assert 'dt 0.05 s in 1 substeps is above the stability limit' in message
     offered = float(message.split('set dt <= ')[1].split(',')[0])
-    Simulation(Scene({**values, 'dt': offered})).close()
-    Simulation(Scene({**values, 'auto_substeps': True})).close()
+    Simulation(Scene({**SPRINGS, **values, 'dt': offered})).close()
+    Simulation(Scene({**SPRINGS, **values, 'auto_substeps': True})).close()
 
 
 def test_more_substeps_than_can_be_meant_are_refused():
@@ -170,13 +171,13 @@ def test_more_substeps_than_can_be_meant_are_refused():
     message = str(caught.value)
     assert 'substeps of the' in message
     offered = float(message.split('set dt <= ')[1].split(',')[0])
-    Simulation(Scene({**stiff, 'dt': offered * 0.999})).close()
+    Simulation(Scene({**SPRINGS, **stiff, 'dt': offered * 0.999})).close()
 
 
 def test_a_state_that_is_not_finite_is_seen():
     """Cloth of NaN would be published as if it were real."""
     simulation = Simulation(
-        Scene({**_SMALL, 'dt': 0.05, 'auto_substeps': False, 'start.jitter': 0.1}),
+        Scene({**SPRINGS, **_SMALL, 'dt': 0.05, 'auto_substeps': False, 'start.jitter': 0.1}),
         check_stability=False, stop_at_non_finite=False)
     assert simulation.measure().finite
     simulation.step(400)
@@ -208,7 +209,7 @@ def test_a_bad_state_is_refused(simulation: Simulation, bad: np.ndarray):
 def test_layouts_are_one_scheme(values: dict):
     """A benchmark would compare different physics."""
     start = {**_SMALL, 'rows': 9, 'start.jitter': 0.05}
-    usual, other = Simulation(Scene(start)), Simulation(Scene({**start, **values}))
+    usual, other = Simulation(Scene(start)), Simulation(Scene({**SPRINGS, **start, **values}))
     usual.step(25)
     other.step(25)
     np.testing.assert_allclose(
@@ -217,7 +218,7 @@ def test_layouts_are_one_scheme(values: dict):
 
 def test_a_cloth_of_2048_x_2048_runs():
     """Large cloth would be cut off where one buffer or one dispatch ends."""
-    scene = Scene({'rows': 2048, 'cols': 2048, 'dt': 1e-6, 'damping.structural': 0.0,
+    scene = Scene({**SPRINGS, 'rows': 2048, 'cols': 2048, 'dt': 1e-6, 'damping.structural': 0.0,
                    'damping.shear': 0.0, 'damping.bend': 0.0})
     simulation = Simulation(scene)
     simulation.step(3)

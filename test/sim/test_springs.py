@@ -10,6 +10,7 @@ from cloth_sim_ros.sim.springs import WARP
 from cloth_sim_ros.sim.springs import WEFT
 import numpy as np
 import pytest
+from springs import SPRINGS
 
 MATERIAL = {'material.warp': 90.0, 'material.weft': 60.0, 'material.shear': 20.0}
 GRIDS = (
@@ -21,7 +22,7 @@ GRIDS = (
                                     (0.3, -0.7, 0.4)])
 def test_a_cell_stores_what_the_material_does(grid, strain):
     """A cloth would be stiffer or softer with another grid, or with cells that are no squares."""
-    scene = Scene({**MATERIAL, **grid, 'stiffness.bend': 0.0})
+    scene = Scene({**SPRINGS, **MATERIAL, **grid, 'stiffness.bend': 0.0})
     along, down, shear = strain
     dx, dy = scene.spacing
     stored = 0.0
@@ -35,28 +36,28 @@ def test_a_cell_stores_what_the_material_does(grid, strain):
 
 def test_square_cells_have_the_difference_of_both():
     """The springs would not be those that the pages tell to those who set them by hand."""
-    scene = Scene({**MATERIAL, 'rows': 21, 'cols': 21})
+    scene = Scene({**SPRINGS, **MATERIAL, 'rows': 21, 'cols': 21})
     assert scene.stiffness('structural', WARP) == pytest.approx(70.0)
     assert scene.stiffness('structural', WEFT) == pytest.approx(40.0)
     assert scene.stiffness('structural') == pytest.approx(70.0)
     assert scene.stiffness('shear') == pytest.approx(20.0)
     # Bend springs stretch, too, unless the scene asks for them.
     assert not scene.models('bend')
-    assert Scene({**MATERIAL, 'stiffness.bend': 5.0}).stiffness('bend') == 5.0
+    assert Scene({**SPRINGS, **MATERIAL, 'stiffness.bend': 5.0}).stiffness('bend') == 5.0
 
 
 def test_one_value_is_that_of_both_directions():
     """A scene with one value would have other springs than before."""
     for values in ({'stiffness.structural': 70.0}, {'stiffness.structural': [70.0, 70.0]},
                    {'material.warp': 90.0, 'material.shear': 20.0}):
-        scene = Scene({'rows': 5, 'cols': 5, **values})
+        scene = Scene({**SPRINGS, 'rows': 5, 'cols': 5, **values})
         assert [scene.stiffness('structural', part) for part in (WARP, WEFT)] == [
             pytest.approx(70.0)] * 2
 
 
 def test_a_chain_has_no_diagonals():
     """A chain of a material would be softer than it by what diagonals have elsewhere."""
-    chain = Scene({**MATERIAL, 'rows': 1, 'cols': 11, 'width': 2.0, 'height': 0.5})
+    chain = Scene({**SPRINGS, **MATERIAL, 'rows': 1, 'cols': 11, 'width': 2.0, 'height': 0.5})
     assert chain.stiffness('structural', WARP) == pytest.approx(90.0 * 0.5 / 0.2)
 
 

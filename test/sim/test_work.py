@@ -14,6 +14,7 @@ from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.simulation import Simulation
 import numpy as np
 import pytest
+from springs import SPRINGS
 
 _SCENE = {'rows': 8, 'cols': 9, 'dt': 0.01, 'auto_substeps': True}
 _SPHERE = {'region': 'sphere', 'center': (0.0, 0.0, 1.0), 'radius': 0.3}
@@ -25,7 +26,8 @@ def simulate(request: pytest.FixtureRequest, context: Context) -> Iterator[Calla
     opened = []
 
     def make() -> Simulation:
-        opened.append(Simulation(Scene({**_SCENE, 'mode': request.param}), context=context))
+        opened.append(Simulation(Scene({
+            **SPRINGS, **_SCENE, 'mode': request.param}), context=context))
         return opened[-1]
 
     yield make
@@ -204,8 +206,8 @@ def test_work_ends_when_it_is_due_and_goes_on_to_its_aim(simulate):
 
 def test_changes_are_made_at_the_end_of_their_step_where_several_are_checked_together(context):
     """A recorded change would have the time of an earlier step than the one that it ended."""
-    asked = Simulation(Scene({**_SCENE, 'mode': 'mass_spring'}), context=context)
-    plain = Simulation(Scene({**_SCENE, 'mode': 'mass_spring'}), context=context)
+    asked = Simulation(Scene({**SPRINGS, **_SCENE, 'mode': 'mass_spring'}), context=context)
+    plain = Simulation(Scene({**SPRINGS, **_SCENE, 'mode': 'mass_spring'}), context=context)
     asked.stepping.aim_steps(6)
     # Two substeps of the third step are made, and none of these steps has been checked.
     left = 2 * asked.substeps + 2

@@ -13,6 +13,7 @@ from cloth_sim_ros.study.contact_work import contact_work
 from cloth_sim_ros.study.energy_account import EnergyAccount
 import numpy as np
 import pytest
+from springs import SPRINGS
 
 UPRIGHT = (0.0, 0.0, 0.0, 1.0)
 QUARTER_TURN = (0.0, 0.0, np.sqrt(0.5), np.sqrt(0.5))
@@ -37,6 +38,7 @@ def test_compression_energy_is_that_of_its_pressure(lacking, share):
     """A gripper that opens would be taken for a source of energy."""
     thickness, pressure = 0.001, 2e5
     scene = Scene({
+        **SPRINGS,
         'rows': 3, 'cols': 4, 'width': 0.4, 'height': 0.3, 'contact.thickness': thickness,
         'contact.compression': pressure})
     # A plane below, one above that faces down, and nodes in the middle.
@@ -56,6 +58,7 @@ def test_compression_energy_is_that_of_its_pressure(lacking, share):
 def test_a_cloth_that_is_lifted_by_a_body_gains_nothing(mode):
     """A table that rises with a cloth would be taken for a blow-up."""
     scene = Scene({
+        **SPRINGS,
         'mode': mode, 'rows': 8, 'cols': 8, 'dt': 0.005, 'pins': ['none'], 'start.z': 0.002,
         'start.jitter': 0.0, 'colliders.names': ['table'], 'colliders.table.shape': 'box',
         'colliders.table.size': [3.0, 3.0, 0.2], 'colliders.table.position': [0.0, 0.0, -0.1],

@@ -14,6 +14,7 @@ from implicit_system import ImplicitSystem
 from implicit_system import relative_error
 import numpy as np
 import pytest
+from springs import SPRINGS
 
 
 def laws(scene: Scene) -> dict[str, EdgeLaw]:
@@ -32,7 +33,7 @@ def test_two_ways_to_the_same_step(kind, shape, is_held):
     rows, cols = shape
     # Two pins with an edge between them, and one apart.
     pins = ['0,0', '0,1' if cols > 1 else '1,0', 'bottom_right'] if is_held else ['none']
-    scene = Scene({'rows': rows, 'cols': cols, 'height': 0.7, 'pins': pins})
+    scene = Scene({**SPRINGS, 'rows': rows, 'cols': cols, 'height': 0.7, 'pins': pins})
     law = laws(scene)[kind]
     random = np.random.default_rng(5)
     free = ~scene.pinned_nodes()[..., None]

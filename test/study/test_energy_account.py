@@ -10,6 +10,7 @@ from cloth_sim_ros.study.energy_account import EnergyAccount
 import numpy as np
 import pytest
 from random_scenes import draw_scene
+from springs import SPRINGS
 
 MODES = ('mass_spring', 'adaptive', 'constraint')
 SCENE = {'rows': 8, 'cols': 8, 'dt': 0.002}
@@ -22,7 +23,7 @@ def simulate():
     opened = []
 
     def start(values):
-        opened.append(Simulation(Scene({**SCENE, **values}), context=context))
+        opened.append(Simulation(Scene({**SPRINGS, **SCENE, **values}), context=context))
         return opened[-1]
 
     yield start

@@ -10,6 +10,7 @@ from cloth_sim_ros.study.scene_values import given_values
 from cloth_sim_ros.study.scene_values import scaled_damping
 from cloth_sim_ros.study.scene_values import scaled_stiffness
 import pytest
+from springs import SPRINGS
 
 
 @pytest.mark.parametrize('values', [
@@ -25,7 +26,7 @@ def test_the_same_scene_again(values):
 
 def test_defaults_are_left_out():
     """Each line of a study would repeat all parameters."""
-    assert given_values(Scene({'rows': 32, 'cols': 7})) == {'cols': 7}
+    assert given_values(Scene({**SPRINGS, 'rows': 32, 'cols': 7})) == {**SPRINGS, 'cols': 7}
 
 
 @pytest.mark.parametrize('values', [
@@ -34,7 +35,8 @@ def test_defaults_are_left_out():
 def test_springs_times_a_factor(values):
     """A study of stiffness would lose what a scene says of warp and weft, or its material."""
     scene = Scene(values)
-    scaled = Scene({**values, **scaled_stiffness(scene, 3.0), **scaled_damping(scene, 2.0)})
+    scaled = Scene({
+        **SPRINGS, **values, **scaled_stiffness(scene, 3.0), **scaled_damping(scene, 2.0)})
     for family in ('structural', 'shear', 'bend'):
         for direction in (0, 1):
             assert scaled.stiffness(family, direction) == pytest.approx(

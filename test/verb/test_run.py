@@ -24,6 +24,7 @@ _SCENE = """/**:
   ros__parameters:
     rows: 9
     cols: 13
+    material.preset: none
     start.jitter: 0.05
     dt: 0.004
     pushes:

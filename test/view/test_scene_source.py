@@ -12,8 +12,9 @@ from cloth_sim_ros.sim.simulation import Simulation
 from cloth_sim_ros.view.scene_source import SceneSource
 import numpy as np
 import pytest
+from springs import SPRINGS
 
-SCENE = Scene({'rows': 6, 'cols': 7, 'start.jitter': 0.01})
+SCENE = Scene({**SPRINGS, 'rows': 6, 'cols': 7, 'start.jitter': 0.01})
 PATIENCE = 60.0
 
 
@@ -112,4 +113,4 @@ def test_a_scene_that_cannot_be_run_is_refused_at_once():
     """A page would be served that never shows anything."""
     with pytest.raises(ClothSimError, match='auto_substeps: true'):
         SceneSource(
-            Scene({'dt': 0.5, 'auto_substeps': False}), 'unstable', frame_seconds=0.5)
+            Scene({**SPRINGS, 'dt': 0.5, 'auto_substeps': False}), 'unstable', frame_seconds=0.5)

@@ -12,12 +12,13 @@ from cloth_sim_ros.view.surface import BANDS
 from cloth_sim_ros.view.surface import MOST_NODES
 from cloth_sim_ros.view.surface import Surface
 import numpy as np
+from springs import SPRINGS
 
 
 def frame_of(rows: int, cols: int, strain: np.ndarray | float) -> Frame:
     """Return a level cloth with these strains."""
     records = np.zeros((rows, cols), POINT_DTYPE)
-    positions = Scene({'rows': rows, 'cols': cols}).rest_positions()
+    positions = Scene({**SPRINGS, 'rows': rows, 'cols': cols}).rest_positions()
     for axis, name in enumerate('xyz'):
         records[name] = positions[..., axis]
     records['strain'] = strain

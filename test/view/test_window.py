@@ -12,9 +12,10 @@ from cloth_sim_ros.view.scene_source import SceneSource
 import numpy as np
 import pytest
 from served_view import served
+from springs import SPRINGS
 from view_page import ViewPage
 
-SCENE = Scene({'rows': 6, 'cols': 7})
+SCENE = Scene({**SPRINGS, 'rows': 6, 'cols': 7})
 EXAMPLE = Path(__file__).resolve().parents[2] / 'bags' / 'example'
 
 
@@ -67,7 +68,7 @@ def test_the_mode_is_switched(page: ViewPage, source: SceneSource):
 
 def test_a_click_pushes_along_the_look():
     """A push would go to another place, in another direction or with another force."""
-    scene = Scene({'rows': 6, 'cols': 7, 'pins': ['none'], 'gravity': [0.0, 0.0, 0.0]})
+    scene = Scene({**SPRINGS, 'rows': 6, 'cols': 7, 'pins': ['none'], 'gravity': [0.0, 0.0, 0.0]})
     source = SceneSource(scene, 'free', frame_seconds=0.02, is_paused=True)
     with served(source) as port, ViewPage(port) as page:
         page.wait_for(lambda: page.text, 'a cloth')
@@ -145,7 +146,7 @@ def test_a_recording_has_a_time_and_nothing_to_act_on():
 
 def test_a_chain_is_drawn_as_dots():
     """A page without triangles would be empty."""
-    scene = Scene({'rows': 1, 'cols': 9, 'start.z': 0.5})
+    scene = Scene({**SPRINGS, 'rows': 1, 'cols': 9, 'start.z': 0.5})
     source = SceneSource(scene, 'chain', frame_seconds=0.02, is_paused=True)
     with served(source) as port, ViewPage(port) as page:
         page.wait_for(lambda: '/cloth/nodes' in page.nodes, 'nodes')

@@ -57,8 +57,9 @@ def run_by_name(scene: Mapping[str, Any], *, name: str) -> dict[str, Any]:
 def run_extreme(extreme: Extreme, mode: str, context: Context) -> ExtremeOutcome:
     """Run ``extreme`` in ``mode`` and judge it."""
     try:
-        run = Simulation(
-            Scene({'rows': 8, 'cols': 8, **extreme.values, 'mode': mode}), context=context)
+        run = Simulation(Scene({
+            'rows': 8, 'cols': 8, 'material.preset': 'none', **extreme.values, 'mode': mode}),
+            context=context)
     except (ClothSimError, DeviceError) as error:
         return ExtremeOutcome(REFUSED, str(error), nonsense=message_nonsense(str(error)))
     with closing(run):

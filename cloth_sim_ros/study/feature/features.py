@@ -6,6 +6,7 @@
 from collections.abc import Mapping
 from typing import Any
 
+from cloth_sim_ros.sim.given_values import with_default_fabric
 from cloth_sim_ros.sim.modes import AVAILABLE
 from cloth_sim_ros.sim.modes.mass_spring import MassSpring
 from cloth_sim_ros.sim.scene import Scene
@@ -39,6 +40,7 @@ def has_feature(values: Mapping[str, Any], feature: str) -> bool:
 
 def without(values: Mapping[str, Any], feature: str) -> dict[str, Any]:
     """Return the scene of ``values`` without one of SCENE_FEATURES; plain springs for the mode."""
+    values = with_default_fabric(values)
     if feature in (_BEND, _SHEAR):
         return _without_family(values, feature.split()[0])
     if feature == _DAMPING:

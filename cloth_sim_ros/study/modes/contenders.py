@@ -15,7 +15,7 @@ from cloth_sim_ros.sim.scene import Scene
 # Light, so that springs have to be stepped often, and dropped, so that it is caught by its pins.
 LIGHT_CLOTH: Mapping[str, Any] = MappingProxyType({
     'width': 1.0, 'height': 1.0, 'areal_density': 0.15, 'pins': ('top_left', 'top_right'),
-    'start.pose': 'horizontal'})
+    'start.pose': 'horizontal', 'material.preset': 'none'})
 BASELINE = 'mass_spring'
 _STRAIN_LIMIT = 0.01
 

@@ -11,6 +11,7 @@ from cloth_sim_ros.sim.simulation import Simulation
 from momenta import momenta
 import numpy as np
 import pytest
+from springs import SPRINGS
 
 SCENE = {'mode': 'constraint', 'rows': 12, 'cols': 9, 'dt': 0.01}
 
@@ -21,7 +22,7 @@ def simulate(context):
     opened = []
 
     def start(**values):
-        opened.append(Simulation(Scene({**SCENE, **values}), context=context))
+        opened.append(Simulation(Scene({**SPRINGS, **SCENE, **values}), context=context))
         return opened[-1]
 
     yield start
@@ -91,9 +92,9 @@ def test_soft_springs_stretch_as_they_must(simulate):
 def test_a_family_is_hard_or_a_spring():
     """It would be silently one of the two."""
     with pytest.raises(ClothSimError, match='bend edges are in constraint.hard and in constr'):
-        Scene({'constraint.hard': ['bend'], 'constraint.springs': ['shear', 'bend']})
+        Scene({**SPRINGS, 'constraint.hard': ['bend'], 'constraint.springs': ['shear', 'bend']})
     with pytest.raises(ClothSimError, match='constraint.hard must be one of structural, shear'):
-        Scene({'constraint.hard': ['warp']})
+        Scene({**SPRINGS, 'constraint.hard': ['warp']})
 
 
 def test_no_step_is_too_long(simulate):

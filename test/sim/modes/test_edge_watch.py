@@ -12,9 +12,11 @@ from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.state import State
 import numpy as np
 import pytest
+from springs import SPRINGS
 
 # A cloth that falls on a ball at 5 m/s; its middle arrives after 4 ms.
 FALLING = {
+    **SPRINGS,
     'mode': 'adaptive', 'rows': 9, 'cols': 9, 'width': 0.4, 'height': 0.4,
     'start.pose': 'horizontal', 'start.z': 0.1, 'gravity': [0.0, 0.0, 0.0],
     'contact.thickness': 0.0, 'colliders.names': ['ball'], 'colliders.ball.size': [0.08]}
@@ -41,7 +43,7 @@ def test_a_collider_that_stops_a_node_is_foreseen(context, ahead, strain):
 def test_strain_is_foreseen_by_velocity_and_by_what_acts(context, speed):
     """A limit would be passed before anybody looks again."""
     scene = Scene({
-        'mode': 'adaptive', 'rows': 5, 'cols': 4, 'width': 0.3, 'height': 0.4,
+        **SPRINGS, 'mode': 'adaptive', 'rows': 5, 'cols': 4, 'width': 0.3, 'height': 0.4,
         'start.pose': 'hanging', 'pins': ['top_edge']})
     positions, pinned = scene.start_positions(), scene.pinned_nodes()
     velocities = np.zeros_like(positions)

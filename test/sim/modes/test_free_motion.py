@@ -9,13 +9,14 @@ from cloth_sim_ros.sim.modes.free_motion import FreeMotion
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.state import State
 import numpy as np
+from springs import SPRINGS
 
 STILL = Forcing((0.0, 0.0, 0.0))
 
 
 def test_a_substep_that_was_solved_badly_keeps_both_momenta(context):
     """A cloth in free fall would drift or turn by what the solver leaves over."""
-    scene = Scene({'rows': 7, 'cols': 6, 'pins': ['none'], 'start.z': 0.0})
+    scene = Scene({**SPRINGS, 'rows': 7, 'cols': 6, 'pins': ['none'], 'start.z': 0.0})
     layout = choose_layout(scene, context)
     random = np.random.default_rng(1)
     before = scene.start_positions().astype(float)

@@ -10,6 +10,7 @@ from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.simulation import Simulation
 import numpy as np
 import pytest
+from springs import SPRINGS
 
 # A limit of 1 % is reached within these steps.
 SCENE = {
@@ -20,7 +21,8 @@ STEPS = 40
 @pytest.mark.parametrize('name', AVAILABLE)
 def test_a_mode_without_memory_goes_on_from_a_state_alone(context, name: str):
     """A run that is made again from the middle of a recording would be held to its bits."""
-    first, second = (Simulation(Scene({**SCENE, 'mode': name}), context=context) for _ in range(2))
+    first, second = (Simulation(Scene({
+        **SPRINGS, **SCENE, 'mode': name}), context=context) for _ in range(2))
     first.step(STEPS)
     reached = first.snapshot()
     second.set_state(reached.positions, reached.velocities)
@@ -37,7 +39,7 @@ def test_a_mode_without_memory_goes_on_from_a_state_alone(context, name: str):
 @pytest.mark.parametrize('name', AVAILABLE)
 def test_an_implicit_mode_has_no_stability_limit(context, name: str):
     """The account of energy would be that of another scheme, and a search for a limit endless."""
-    simulation = Simulation(Scene({**SCENE, 'mode': name}), context=context)
+    simulation = Simulation(Scene({**SPRINGS, **SCENE, 'mode': name}), context=context)
     assert math.isinf(simulation.stability_limit) is AVAILABLE[name].is_implicit
     simulation.close()
 
@@ -50,4 +52,5 @@ def test_an_implicit_mode_has_no_stability_limit(context, name: str):
 ])
 def test_edges_are_what_the_mode_makes_of_them(name: str, values: dict, expected: str):
     """A run would be compared with the reference of another cloth."""
-    assert AVAILABLE[name].edge_model(Scene({**SCENE, **values, 'mode': name})) == expected
+    assert AVAILABLE[name].edge_model(Scene({
+        **SPRINGS, **SCENE, **values, 'mode': name})) == expected

@@ -15,6 +15,7 @@ from cloth_sim_ros.gl.context import Context
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.simulation import Simulation
 import pytest
+from springs import SPRINGS
 
 # Modes whose motion is that of the springs as long as none of them is at its limit.
 SPRING_MODES = ('mass_spring', 'adaptive')
@@ -102,7 +103,7 @@ def simulate(context: Context) -> Iterator[Callable[..., Simulation]]:
 
     def start(values: dict, **options) -> Simulation:
         simulation = Simulation(
-            Scene({'adaptive.threshold': 0.5, **values}), context=context, **options)
+            Scene({**SPRINGS, 'adaptive.threshold': 0.5, **values}), context=context, **options)
         opened.append(simulation)
         return simulation
 

@@ -24,6 +24,7 @@ from hypothesis import settings
 from hypothesis import strategies
 import numpy as np
 import pytest
+from springs import SPRINGS
 
 FAMILIES = ('structural', 'shear', 'bend')
 # Layout, loads and block of each way through the shaders, and how many scenes it has to do.
@@ -60,7 +61,7 @@ def scene_values(draw):
         'start.z': draw(_numbers(-1.0, 2.0)), 'start.jitter': draw(_numbers(0.01, 0.2)),
         'start.seed': draw(strategies.integers(0, 1000)), 'dt': draw(_numbers(0.001, 0.02)),
     }
-    mass = Scene(values).node_mass
+    mass = Scene({**SPRINGS, **values}).node_mass
     for family in FAMILIES:
         stiffness = draw(strategies.just(0.0) | _numbers(1.0, 1000.0))
         ratio = draw(strategies.just(0.0) | _numbers(0.001, 1.0))

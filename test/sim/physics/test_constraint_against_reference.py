@@ -9,6 +9,7 @@ from cloth_sim_ros.sim.simulation import Simulation
 from edge_places import edge_places
 import numpy as np
 import pytest
+from springs import SPRINGS
 
 ALL = ('structural', 'shear', 'bend')
 BEND = {'stiffness.bend': 10.0, 'damping.bend': 0.01}
@@ -27,7 +28,7 @@ FORMS = {
 }
 # No edge is off by more than 1 % at the start: beyond, the device takes lengths as they come.
 SCENE = {
-    'mode': 'constraint', 'rows': 7, 'cols': 9, 'width': 1.3, 'dt': 0.005,
+    **SPRINGS, 'mode': 'constraint', 'rows': 7, 'cols': 9, 'width': 1.3, 'dt': 0.005,
     'pins': ['top_left', '3,8'], 'solver.tolerance': 1e-6,
     'solver.max_iterations': 400, 'auto_substeps': False,
     'pushes.start': [0.0, 0.01], 'pushes.duration': [0.03, 0.05],

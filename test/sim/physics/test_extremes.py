@@ -15,6 +15,7 @@ from cloth_sim_ros.study.extremity.run import run_extreme
 from cloth_sim_ros.study.extremity.scenes import EXTREMES
 import numpy as np
 import pytest
+from springs import SPRINGS
 
 QUICK = [(name, mode) for name, extreme in EXTREMES.items() if not extreme.is_long
          for mode in extreme.modes]
@@ -50,7 +51,8 @@ def test_a_long_extreme_scene_is_never_nonsense(name, mode, context):
 
 def test_a_scrambled_cloth_comes_back_to_its_limit(context, request):
     """Edges that are brought back to their limit throw the nodes about for ever."""
-    simulation = Simulation(Scene({'rows': 8, 'cols': 8, 'mode': 'adaptive'}), context=context)
+    simulation = Simulation(Scene({
+        **SPRINGS, 'rows': 8, 'cols': 8, 'mode': 'adaptive'}), context=context)
     request.addfinalizer(simulation.close)
     positions = EXTREMES['scrambled'].start(
         simulation.scene.rest_positions(), np.random.default_rng(3))

@@ -7,8 +7,9 @@ from cloth_sim_ros.reference.mass_spring import MassSpringReference
 from cloth_sim_ros.sim.push import Push
 from cloth_sim_ros.sim.scene import Scene
 import numpy as np
+from springs import SPRINGS
 
-VALUES = {'rows': 11, 'cols': 14, 'width': 1.3, 'dt': 0.003, 'start.jitter': 0.02,
+VALUES = {**SPRINGS, 'rows': 11, 'cols': 14, 'width': 1.3, 'dt': 0.003, 'start.jitter': 0.02,
           'damping.structural': 0.03}
 
 
@@ -42,7 +43,7 @@ def test_spheres_take_the_nodes_that_are_there_when_they_begin(simulate, within,
     snapshot = simulation.snapshot()
     within('pushes in motion, against the oracle [m]',
            np.abs(snapshot.positions - oracle.positions).max(), 1e-5)
-    still = MassSpringReference(Scene({**VALUES}))
+    still = MassSpringReference(Scene({**SPRINGS, **VALUES}))
     still.step(150)
     assert np.abs(still.positions - oracle.positions).max() > 0.01
 

@@ -10,6 +10,7 @@ from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.simulation import Simulation
 from cloth_sim_ros.study.energy_account import EnergyAccount
 import pytest
+from springs import SPRINGS
 
 _STILL = {'pins': ['none'], 'gravity': [0.0, 0.0, 0.0]}
 _CENTERS = ((0, 0), (1, 0), (2, 3), (-4, 1), (5, 5), (-3, -2), (0, 4))
@@ -20,7 +21,8 @@ _RADII = (1, 2, 3, 4, 5, 7)
 def test_a_node_on_the_sphere_is_in_it(context, parts: int):
     """Rounding would decide which nodes are pushed, and the force on each of the others."""
     side = parts + 1
-    simulation = Simulation(Scene({'rows': side, 'cols': side, **_STILL}), context=context)
+    simulation = Simulation(Scene({
+        **SPRINGS, 'rows': side, 'cols': side, **_STILL}), context=context)
     free = ~simulation.scene.pinned_nodes()
     wrong = []
     for (col, row), radius in product(_CENTERS, _RADII):
@@ -43,7 +45,7 @@ def test_a_node_on_the_sphere_is_in_it(context, parts: int):
 
 def test_a_node_outside_by_more_than_rounding_is_not_pushed(context):
     """The tolerance would reach nodes that are clearly outside."""
-    simulation = Simulation(Scene({'rows': 11, 'cols': 11, **_STILL}), context=context)
+    simulation = Simulation(Scene({**SPRINGS, 'rows': 11, 'cols': 11, **_STILL}), context=context)
     place = {'region': 'sphere', 'center': (0.0, 0.0, 1.0)}
     # 2^-23 (1 + 0.1) m is what float32 can't tell apart.
     for radius, nodes in ((0.1 - 1e-7, 5), (0.1 - 3e-7, 1), (0.1 + 3e-7, 5)):
@@ -53,7 +55,7 @@ def test_a_node_outside_by_more_than_rounding_is_not_pushed(context):
 
 def test_a_sphere_may_be_as_large_as_a_push_allows(context):
     """A request with a huge radius would miss the cloth, for the rounding of squared distances."""
-    simulation = Simulation(Scene({'rows': 3, 'cols': 3, **_STILL}), context=context)
+    simulation = Simulation(Scene({**SPRINGS, 'rows': 3, 'cols': 3, **_STILL}), context=context)
     applied = simulation.push(
         (0.0, 0.0, 1.0), duration=0.1, region='sphere', center=(7e5, 0.0, -7e5), radius=1e6)
     assert applied.nodes == 9

@@ -10,10 +10,12 @@ import sys
 
 from cloth_sim_ros.sim import modes
 import pytest
+from springs import SPRINGS
 
 SCENE = {
-    'rows': 37, 'cols': 23, 'dt': 0.004, 'start.jitter': 0.05, 'pushes.start': [0.02, 0.06],
-    'pushes.duration': [0.04, 0.02], 'pushes.force': [0.0, 0.0, 4.0, 1.0, 0.0, 0.0],
+    **SPRINGS, 'rows': 37, 'cols': 23, 'dt': 0.004, 'start.jitter': 0.05,
+    'pushes.start': [0.02, 0.06], 'pushes.duration': [0.04, 0.02],
+    'pushes.force': [0.0, 0.0, 4.0, 1.0, 0.0, 0.0],
     'pushes.center': [0.0, 0.0, 0.0, 0.0, 0.0, 1.0], 'pushes.radius': [0.0, 0.4]}
 
 # Its pushes take some edges to their limit and let them go again; calm enough for hard edges.

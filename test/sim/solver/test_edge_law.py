@@ -9,8 +9,10 @@ from cloth_sim_ros.sim.solver.edge_law import full_pull
 from cloth_sim_ros.sim.solver.edge_law import hard_edges
 from cloth_sim_ros.sim.solver.edge_law import spring_law
 import pytest
+from springs import SPRINGS
 
 CLOTH = {
+    **SPRINGS,
     'rows': 41, 'cols': 51, 'width': 2.0, 'height': 1.0, 'node_mass': 0.002,
     'stiffness.structural': 100.0, 'stiffness.shear': 50.0, 'stiffness.bend': 2.0,
     'damping.structural': 0.1, 'damping.shear': 0.2, 'damping.bend': 0.03}
@@ -31,7 +33,7 @@ def test_one_edge_with_the_whole_weight_stretches_by_the_strain(strain, rest):
     (12, 20, 1.0 / 0.36), (20, 12, 1.0 / 0.36), (1, 30, 1.0 / 0.03), (40, 40, 1.0)])
 def test_a_cloth_of_few_lines_is_harder(rows, cols, times):
     """A narrow cloth would stretch more than a wide one where it hangs by a whole edge."""
-    scene = Scene({'rows': rows, 'cols': cols, 'node_mass': 0.5})
+    scene = Scene({**SPRINGS, 'rows': rows, 'cols': cols, 'node_mass': 0.5})
     weight = rows * cols * 0.5 * 9.81
     assert full_pull(scene, 0.01) == pytest.approx(weight / 0.01 * times)
 
@@ -40,7 +42,8 @@ def test_the_law_belongs_to_the_scene():
     """The energy of a cloth would jump when the step changes, or hang on the gravity there."""
     scene = Scene(CLOTH)
     law, shorter = (edge_law(scene, length, hard=['structural']) for length in (0.01, 0.001))
-    floating = edge_law(Scene({**CLOTH, 'gravity': [0.0, 0.0, 0.0]}), 0.01, hard=['structural'])
+    floating = edge_law(Scene({
+        **SPRINGS, **CLOTH, 'gravity': [0.0, 0.0, 0.0]}), 0.01, hard=['structural'])
     for other in (shorter, floating):
         assert other.limit_stiffness == law.limit_stiffness
         assert other.stiffness == law.stiffness

@@ -11,6 +11,7 @@ from cloth_sim_ros.sim.solver.edge_law import spring_law
 from cloth_sim_ros.sim.solver.smoothing_steps import smoothing_steps
 import numpy as np
 import pytest
+from springs import SPRINGS
 
 
 def left_over(steps: tuple[float, float], eigenvalue: np.ndarray) -> np.ndarray:
@@ -27,7 +28,7 @@ def around_a_node(law: EdgeLaw) -> float:
 
 def test_heavy_edges_are_smoothed_from_a_quarter_to_two():
     """An error that no coarser level can mend would stay, or grow."""
-    law = hard_edges(Scene({}), 0.01)
+    law = hard_edges(Scene({**SPRINGS}), 0.01)
     assert around_a_node(law) > 100.0
     steps = smoothing_steps(law)
     assert np.abs(left_over(steps, np.linspace(0.25, 2.0, 200))).max() < 0.45
@@ -42,7 +43,7 @@ def test_steps_are_those_of_chebyshev(family, stiffness):
     undamped = {f'damping.{each}': 0.0 for each in ('structural', 'shear', 'bend')}
     # The cloth is not square, so that a weight of the wrong rest length would show.
     scene = Scene({
-        'rows': 12, 'cols': 30, 'node_mass': 0.01, **others, **undamped,
+        **SPRINGS, 'rows': 12, 'cols': 30, 'node_mass': 0.01, **others, **undamped,
         f'stiffness.{family}': stiffness})
     law = spring_law(scene, 0.01)
     around = around_a_node(law)
@@ -58,7 +59,7 @@ def test_steps_are_those_of_chebyshev(family, stiffness):
 
 def test_bending_is_smoothed_where_edges_do_not_resist():
     """Ripples of a stiff fabric with hard edges would grow in each cycle of the solver."""
-    law = hard_edges(Scene({'rows': 64, 'cols': 48, 'bending.rigidity': 1e-3}), 0.01)
+    law = hard_edges(Scene({**SPRINGS, 'rows': 64, 'cols': 48, 'bending.rigidity': 1e-3}), 0.01)
     assert around_a_node(law) > 100.0
     # Across the edges: a row or a column of five nodes has 16 c, of which the middle one has 6.
     bending = sum(law.bending_weights)
@@ -71,13 +72,13 @@ def test_bending_is_smoothed_where_edges_do_not_resist():
 
 def test_without_edges_a_step_is_exact():
     """Nodes that nothing ties would not fall freely."""
-    assert smoothing_steps(hard_edges(Scene({}), 0.01, families=())) == (1.0, 1.0)
+    assert smoothing_steps(hard_edges(Scene({**SPRINGS}), 0.01, families=())) == (1.0, 1.0)
 
 
 @pytest.mark.parametrize('stiffness', [1e-3, 1.0, 1e2, 1e6])
 def test_no_error_grows(stiffness):
     """The preconditioner would not be positive, and the solve would break down."""
-    scene = Scene({'stiffness.structural': stiffness, 'damping.structural': 0.0})
+    scene = Scene({**SPRINGS, 'stiffness.structural': stiffness, 'damping.structural': 0.0})
     steps = smoothing_steps(spring_law(scene, 0.01))
     # Both, as one after the other comes before and after the coarser levels.
     assert np.abs(left_over(steps, np.linspace(1e-6, 2.0, 500))).max() <= 1.0 + 1e-9

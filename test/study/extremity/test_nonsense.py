@@ -19,6 +19,7 @@ from cloth_sim_ros.study.extremity.run import run_extreme
 from cloth_sim_ros.study.runs.make_runs import perform
 import numpy as np
 import pytest
+from springs import SPRINGS
 
 PLAIN = Extreme({}, 'test')
 
@@ -34,7 +35,7 @@ def context():
 @pytest.fixture
 def run(context):
     """Return a simulation that has fallen for a while, and its account."""
-    run = Simulation(Scene({'rows': 6, 'cols': 6, 'pins': ['none']}), context=context)
+    run = Simulation(Scene({**SPRINGS, 'rows': 6, 'cols': 6, 'pins': ['none']}), context=context)
     account = EnergyAccount(run)
     account.step(20)
     yield run, account

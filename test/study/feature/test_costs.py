@@ -12,9 +12,10 @@ from cloth_sim_ros.study.feature.costs import WHOLE
 from cloth_sim_ros.study.feature.features import OUTPUTS
 from cloth_sim_ros.study.feature.report import cost_table
 import pytest
+from springs import SPRINGS
 
-SCENE = {'rows': 8, 'cols': 8, 'dt': 0.005, 'pushes.start': [0.0], 'pushes.duration': [0.05],
-         'pushes.force': [0.0, 0.0, 3.0]}
+SCENE = {**SPRINGS, 'rows': 8, 'cols': 8, 'dt': 0.005, 'pushes.start': [0.0],
+         'pushes.duration': [0.05], 'pushes.force': [0.0, 0.0, 3.0]}
 
 
 def test_all_variants_have_their_turns():

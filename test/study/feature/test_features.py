@@ -15,15 +15,16 @@ from cloth_sim_ros.study.feature.pass_list import pass_list
 from cloth_sim_ros.study.feature.pass_list import pass_table
 from cloth_sim_ros.study.feature.report import passes_report
 import pytest
+from springs import SPRINGS
 
 FULL = {
-    'rows': 6, 'cols': 6, 'dt': 0.002, 'mode': 'adaptive', 'start.jitter': 0.01,
+    **SPRINGS, 'rows': 6, 'cols': 6, 'dt': 0.002, 'mode': 'adaptive', 'start.jitter': 0.01,
     'air.density': 1.225, 'air.wind': [1.0, 0.0, 0.0], 'bending.rigidity': 1e-4,
     'pushes.start': [0.0], 'pushes.duration': [0.01], 'pushes.force': [0.0, 0.0, 1.0],
     'pushes.center': [0.0, 0.0, 1.0], 'pushes.radius': [0.4],
     'pin_moves.start': [0.0], 'pin_moves.node': ['top_left'],
     'pin_moves.target': [-0.4, 0.5, 1.0]}
-PLAIN = {'rows': 6, 'cols': 6, 'dt': 0.002}
+PLAIN = {**SPRINGS, 'rows': 6, 'cols': 6, 'dt': 0.002}
 
 
 @pytest.fixture(scope='module')

@@ -8,13 +8,15 @@ from cloth_sim_ros.study.trade.errors import errors
 from cloth_sim_ros.study.trade.path import Path
 import numpy as np
 import pytest
+from springs import SPRINGS
 
 TIMES, FRAMES = 3, 6
 
 
 def test_known_differences():
     """A table would tell other errors than there are, or those of times that do not count."""
-    scene = Scene({'rows': 4, 'cols': 5, 'width': 2.0, 'height': 1.0, 'areal_density': 0.5})
+    scene = Scene({
+        **SPRINGS, 'rows': 4, 'cols': 5, 'width': 2.0, 'height': 1.0, 'areal_density': 0.5})
     reference = Path(
         np.zeros((TIMES, 4, 5, 3)), np.full(FRAMES, 0.1), np.zeros((FRAMES, 3)))
     positions = np.zeros((TIMES, 4, 5, 3))
