@@ -56,7 +56,7 @@ def recording_node(folder: Path):
         part for name, value in given.items() for part in ('-p', f'{name}:={json.dumps(value)}')]
     process = subprocess.Popen([
         sys.executable, '-m', 'cloth_sim_ros.node', '--ros-args',
-        '--params-file', ROOT / 'config' / 'drape.yaml', *options])
+        '--params-file', ROOT / 'config' / 'studies' / 'two_corners.yaml', *options])
     try:
         yield
     finally:

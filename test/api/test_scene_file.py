@@ -9,7 +9,7 @@ from cloth_sim_ros import ClothSimError
 from cloth_sim_ros import load_scene
 import pytest
 
-DRAPE = Path(__file__).resolve().parents[2] / 'config' / 'drape.yaml'
+DRAPE = Path(__file__).resolve().parents[2] / 'config' / 'studies' / 'two_corners.yaml'
 
 
 def test_a_shipped_scene_is_read_with_changes():

@@ -62,10 +62,15 @@ def test_the_tablecloth_lies_on_its_table(opened):
     places = simulation.positions()
     # At the rim it bends upwards a little.
     on_top = np.hypot(places[..., 0], places[..., 1]) < 0.16
-    np.testing.assert_allclose(places[on_top][:, 2], 0.75 + 0.004, atol=1e-3)
+    np.testing.assert_allclose(places[on_top][:, 2], 0.75 + 0.005, atol=1e-3)
     assert places[..., 2].min() < 0.6
     assert depth(simulation) < 1e-3
-    assert simulation.measure().max_strain < 0.05
+    # Woven cloth lies around a disc by shearing: diagonals change, threads don't.
+    threads = max(
+        (np.linalg.norm(np.diff(places, axis=axis), axis=-1) / spacing).max() - 1.0
+        for axis, spacing in zip((1, 0), simulation.scene.spacing))
+    assert threads < 0.005
+    assert simulation.measure().max_strain < 0.15
 
 
 @pytest.mark.parametrize(('friction', 'is_lifted'), [(0.8, True), (0.0, False)])

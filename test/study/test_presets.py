@@ -17,7 +17,7 @@ from made_study import SOFT
 import pytest
 import yaml
 
-DRAPE = Path(__file__).resolve().parents[2] / 'config' / 'drape.yaml'
+DRAPE = Path(__file__).resolve().parents[2] / 'config' / 'studies' / 'two_corners.yaml'
 
 
 def test_the_study_writes_presets(tmp_path):

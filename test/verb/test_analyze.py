@@ -41,8 +41,8 @@ def record(folder, name, seconds, *changes):
     arguments = [part for change in (f'recording.name={name}', *changes)
                  for part in ('--set', change)]
     assert main([
-        'run', str(ROOT / 'config' / 'drape.yaml'), '--seconds', str(seconds), '--record',
-        str(folder), *arguments]) == 0
+        'run', str(ROOT / 'config' / 'studies' / 'two_corners.yaml'), '--seconds', str(seconds),
+        '--record', str(folder), *arguments]) == 0
     return folder / name
 
 

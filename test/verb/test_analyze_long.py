@@ -17,7 +17,7 @@ from cloth_sim_ros.recording.recorder import Recorder
 from cloth_sim_ros.verb.main import main
 import pytest
 
-SCENE = Path(__file__).resolve().parents[2] / 'config' / 'drape.yaml'
+SCENE = Path(__file__).resolve().parents[2] / 'config' / 'studies' / 'two_corners.yaml'
 RATE = 60
 SECONDS = 600
 REPEATED = 4

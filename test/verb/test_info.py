@@ -16,12 +16,12 @@ def test_tells_what_was_recorded(tmp_path, capsys):
     """A user would need another tool to see what a recording is of."""
     assert main([
         'run', str(ROOT / 'config' / 'curtain.yaml'), '--seconds', '0.7', '--record',
-        str(tmp_path), '--set', 'rows=6', '--set', 'cols=46', '--set',
+        str(tmp_path), '--set', 'rows=8', '--set', 'cols=46', '--set',
         'recording.name=small']) == 0
     capsys.readouterr()
     assert main(['info', str(tmp_path / 'small')]) == 0
     lines = dict(line.split(None, 1) for line in capsys.readouterr().out.splitlines())
-    assert lines['cloth'] == '6 x 46 nodes'
+    assert lines['cloth'] == '8 x 46 nodes'
     assert lines['mode'] == 'mass_spring'
     assert lines['time'] == '0 to 0.7 s, 36 frames'
     assert lines['inputs'].startswith('pushes: 2, nodes released: 0')
@@ -34,7 +34,7 @@ def recorded(tmp_path_factory) -> Path:
     folder = tmp_path_factory.mktemp('bags')
     assert main([
         'run', str(ROOT / 'config' / 'curtain.yaml'), '--seconds', '0.2', '--record', str(folder),
-        '--set', 'rows=6', '--set', 'cols=46', '--set', 'recording.name=small']) == 0
+        '--set', 'rows=8', '--set', 'cols=46', '--set', 'recording.name=small']) == 0
     return folder / 'small' / 'small_0.mcap'
 
 

@@ -22,7 +22,7 @@ def run(folder: Path, *options: str, name: str = 'small') -> Path:
     """Return the folder of a recording of 2.5 s."""
     assert main([
         'run', str(ROOT / 'config' / 'curtain.yaml'), '--seconds', '2.5', '--record', str(folder),
-        '--set', 'rows=6', '--set', 'cols=46', '--set', f'recording.name={name}', *options]) == 0
+        '--set', 'rows=8', '--set', 'cols=46', '--set', f'recording.name={name}', *options]) == 0
     return folder / name
 
 
@@ -91,7 +91,7 @@ def test_a_lost_recording_is_a_failure_that_keeps_the_result(tmp_path):
     folder = tmp_path / 'bags'
     process = subprocess.Popen(
         [sys.executable, '-m', 'cloth_sim_ros.verb', 'run', ROOT / 'config' / 'curtain.yaml',
-         '--seconds', '10', '--record', folder, '--set', 'rows=6', '--set', 'cols=46', '--set',
+         '--seconds', '10', '--record', folder, '--set', 'rows=8', '--set', 'cols=46', '--set',
          'recording.name=small'], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
     while not (folder / 'small' / 'metadata.yaml').exists():
         assert process.poll() is None

@@ -18,9 +18,9 @@ def run(tmp_path_factory):
     """Record a short run of the shipped scene, made small, and write its last state."""
     folder = tmp_path_factory.mktemp('bags')
     assert main([
-        'run', str(ROOT / 'config' / 'drape.yaml'), '--seconds', '0.2', '--record', str(folder),
-        '--set', 'rows=6', '--set', 'cols=7', '--set', 'recording.name=small',
-        '--out', str(folder / 'small.npz')]) == 0
+        'run', str(ROOT / 'config' / 'studies' / 'two_corners.yaml'), '--seconds', '0.2',
+        '--record', str(folder), '--set', 'rows=6', '--set', 'cols=7',
+        '--set', 'recording.name=small', '--out', str(folder / 'small.npz')]) == 0
     return folder
 
 
