@@ -6,8 +6,8 @@
 from typing import Any
 
 from cloth_sim_ros.analysis.frame_table import STATS
-from cloth_sim_ros.files.echo import cut
-from cloth_sim_ros.files.echo import shown
+from cloth_sim_ros.files.errors import cut
+from cloth_sim_ros.files.errors import shown
 from cloth_sim_ros.sim.errors import ClothSimError
 import numpy as np
 

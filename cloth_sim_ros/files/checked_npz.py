@@ -13,8 +13,8 @@ import warnings
 import zipfile
 import zlib
 
-from cloth_sim_ros.files.echo import cut
 from cloth_sim_ros.files.errors import ClothSimError
+from cloth_sim_ros.files.errors import cut
 from cloth_sim_ros.files.regular_file import open_regular
 import numpy as np
 

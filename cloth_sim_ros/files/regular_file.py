@@ -9,8 +9,8 @@ from pathlib import Path
 import stat
 from typing import BinaryIO
 
-from cloth_sim_ros.files.echo import cut
 from cloth_sim_ros.files.errors import ClothSimError
+from cloth_sim_ros.files.errors import cut
 
 _KINDS = (
     (stat.S_ISDIR, 'a folder'), (stat.S_ISFIFO, 'a named pipe'), (stat.S_ISSOCK, 'a socket'),

@@ -8,7 +8,7 @@ from collections.abc import Callable
 import os
 from typing import Any
 
-from cloth_sim_ros.files.echo import cut
+from cloth_sim_ros.files.errors import cut
 from cloth_sim_ros.sim.errors import ClothSimError
 from rclpy.callback_groups import ReentrantCallbackGroup
 from rclpy.node import Node

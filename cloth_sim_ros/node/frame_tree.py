@@ -5,7 +5,7 @@
 
 from collections.abc import Callable
 
-from cloth_sim_ros.files.echo import shown
+from cloth_sim_ros.files.errors import shown
 from cloth_sim_ros.messages.stamp import NANOSECONDS
 from cloth_sim_ros.node.frame_history import FrameHistory
 from cloth_sim_ros.node.frame_history import Sample

@@ -6,7 +6,7 @@
 from collections import deque
 from collections.abc import Iterator
 
-from cloth_sim_ros.files.echo import shown
+from cloth_sim_ros.files.errors import shown
 from cloth_sim_ros.messages.body_frames import body_poses
 from cloth_sim_ros.messages.frame_names import collider_frame
 from cloth_sim_ros.messages.frame_names import grasp_frame

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import math
 import struct
 
-from cloth_sim_ros.files.echo import shown
+from cloth_sim_ros.files.errors import shown
 from cloth_sim_ros.messages.stamp import NANOSECONDS
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.pose import Pose

@@ -9,8 +9,8 @@ from importlib import import_module
 import re
 import sys
 
-from cloth_sim_ros.files.echo import cut
-from cloth_sim_ros.files.echo import shown
+from cloth_sim_ros.files.errors import cut
+from cloth_sim_ros.files.errors import shown
 from cloth_sim_ros.messages.topics import TOPICS
 from cloth_sim_ros.playback.play_options import PlayOptions
 from cloth_sim_ros.playback.played_topic import played_quality

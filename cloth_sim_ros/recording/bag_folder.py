@@ -8,8 +8,8 @@ import os
 from pathlib import Path
 import re
 
-from cloth_sim_ros.files.echo import cut
-from cloth_sim_ros.files.echo import shown
+from cloth_sim_ros.files.errors import cut
+from cloth_sim_ros.files.errors import shown
 from cloth_sim_ros.recording.bag_metadata import FRESH_METADATA_NAME
 from cloth_sim_ros.recording.bag_metadata import METADATA_NAME
 from cloth_sim_ros.recording.recording_faults import refusal

@@ -12,7 +12,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
 
-from cloth_sim_ros.files.echo import cut
+from cloth_sim_ros.files.errors import cut
 from cloth_sim_ros.files.regular_file import is_folder
 from cloth_sim_ros.recording.bag_topic import BagTopic
 from cloth_sim_ros.recording.bag_topic import RawMessage

@@ -12,7 +12,7 @@ from functools import cached_property
 import math
 from pathlib import Path
 
-from cloth_sim_ros.files.echo import cut
+from cloth_sim_ros.files.errors import cut
 from cloth_sim_ros.files.regular_file import open_regular
 from cloth_sim_ros.recording.bag_topic import BagTopic
 from cloth_sim_ros.recording.bag_topic import RawMessage

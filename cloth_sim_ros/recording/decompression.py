@@ -7,7 +7,7 @@ from io import BytesIO
 from pathlib import Path
 from typing import BinaryIO
 
-from cloth_sim_ros.files.echo import shown
+from cloth_sim_ros.files.errors import shown
 from cloth_sim_ros.files.regular_file import open_regular
 
 # What is decompressed may have this over what it is made from: [bytes], and times its size. A

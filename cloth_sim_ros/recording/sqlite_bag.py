@@ -10,8 +10,8 @@ from pathlib import Path
 import sqlite3
 from typing import Any
 
-from cloth_sim_ros.files.echo import cut
-from cloth_sim_ros.files.echo import shown
+from cloth_sim_ros.files.errors import cut
+from cloth_sim_ros.files.errors import shown
 from cloth_sim_ros.files.regular_file import open_regular
 from cloth_sim_ros.recording.bag_topic import BagTopic
 from cloth_sim_ros.recording.bag_topic import RawMessage

@@ -6,7 +6,7 @@
 
 from pathlib import Path
 
-from cloth_sim_ros.files.echo import cut
+from cloth_sim_ros.files.errors import cut
 from cloth_sim_ros.files.regular_file import is_folder
 from cloth_sim_ros.files.regular_file import is_regular
 from cloth_sim_ros.recording.bag_metadata import folder_metadata

@@ -19,7 +19,7 @@ from cloth_sim_ros.analysis.frames import frames_at
 from cloth_sim_ros.analysis.frames import read_frames
 from cloth_sim_ros.analysis.recording import Recording
 from cloth_sim_ros.files.checked_npz import load_arrays
-from cloth_sim_ros.files.echo import cut
+from cloth_sim_ros.files.errors import cut
 from cloth_sim_ros.rendering.cloth_drawing import surface_normals
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.snapshot import POINT_DTYPE

@@ -7,7 +7,7 @@ import math
 from typing import Any
 
 from cloth_sim_ros.analysis.recorded_values import parts
-from cloth_sim_ros.files.echo import shown
+from cloth_sim_ros.files.errors import shown
 from cloth_sim_ros.resimulation.listener import Listener
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.input_listener import CLEAR_PUSHES

@@ -8,7 +8,7 @@ from typing import Any
 
 from cloth_sim_ros.analysis.recorded_values import plain_value
 from cloth_sim_ros.analysis.recording import Entry
-from cloth_sim_ros.files.echo import cut
+from cloth_sim_ros.files.errors import cut
 from cloth_sim_ros.resimulation.recorded_run import RecordedRun
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.scene import Scene

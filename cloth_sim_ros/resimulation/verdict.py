@@ -3,7 +3,7 @@
 
 """What is to be said of a run that was made again."""
 
-from cloth_sim_ros.files.echo import shown
+from cloth_sim_ros.files.errors import shown
 from cloth_sim_ros.resimulation.frame_check import Difference
 from cloth_sim_ros.resimulation.frame_check import FrameCheck
 from cloth_sim_ros.resimulation.rerun import Rerun

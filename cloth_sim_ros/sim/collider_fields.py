@@ -9,7 +9,7 @@ from dataclasses import replace
 import re
 from typing import Any
 
-from cloth_sim_ros.files.echo import shown
+from cloth_sim_ros.files.errors import shown
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.field import Field
 from cloth_sim_ros.sim.scene_fields import SCENE_FIELDS

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 import math
 from typing import Any
 
-from cloth_sim_ros.files.echo import cut
-from cloth_sim_ros.files.echo import shown
+from cloth_sim_ros.files.errors import cut
+from cloth_sim_ros.files.errors import shown
 from cloth_sim_ros.sim.errors import ClothSimError
 
 # Of a list.

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from dataclasses import replace
 import math
 
-from cloth_sim_ros.files.echo import cut
+from cloth_sim_ros.files.errors import cut
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.pose import checked_position
 from cloth_sim_ros.sim.pose import Pose

@@ -6,7 +6,7 @@
 from collections.abc import Sequence
 from contextlib import AbstractContextManager
 
-from cloth_sim_ros.files.echo import shown
+from cloth_sim_ros.files.errors import shown
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.frame_paths import FrameMove
 from cloth_sim_ros.sim.frame_paths import FramePath

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 import math
 
-from cloth_sim_ros.files.echo import shown
+from cloth_sim_ros.files.errors import shown
 from cloth_sim_ros.sim.errors import ClothSimError
 import numpy as np
 

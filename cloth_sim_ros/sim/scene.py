@@ -10,9 +10,9 @@ import difflib
 from itertools import repeat
 from typing import Any
 
-from cloth_sim_ros.files.echo import cut
-from cloth_sim_ros.files.echo import MOST_SHOWN
-from cloth_sim_ros.files.echo import shown
+from cloth_sim_ros.files.errors import cut
+from cloth_sim_ros.files.errors import MOST_SHOWN
+from cloth_sim_ros.files.errors import shown
 from cloth_sim_ros.sim import grid
 from cloth_sim_ros.sim.collider_fields import fields_with_colliders
 from cloth_sim_ros.sim.colliders import colliders_of

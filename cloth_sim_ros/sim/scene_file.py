@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from cloth_sim_ros.files.checked_yaml import load_yaml
-from cloth_sim_ros.files.echo import cut
+from cloth_sim_ros.files.errors import cut
 from cloth_sim_ros.sim.errors import ClothSimError
 
 

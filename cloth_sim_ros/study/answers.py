@@ -31,8 +31,8 @@ import tempfile
 import time
 from typing import Any
 
-from cloth_sim_ros.files.echo import MOST_SHOWN
-from cloth_sim_ros.files.echo import shown
+from cloth_sim_ros.files.errors import MOST_SHOWN
+from cloth_sim_ros.files.errors import shown
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.scene_fields import MODES
 import numpy as np

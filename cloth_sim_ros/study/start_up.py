@@ -11,8 +11,8 @@ import tempfile
 import time
 from typing import Any
 
-from cloth_sim_ros.files.echo import MOST_SHOWN
-from cloth_sim_ros.files.echo import shown
+from cloth_sim_ros.files.errors import MOST_SHOWN
+from cloth_sim_ros.files.errors import shown
 from cloth_sim_ros.sim.errors import ClothSimError
 import rclpy
 from sensor_msgs.msg import PointCloud2

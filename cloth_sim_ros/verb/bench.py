@@ -36,7 +36,7 @@ from functools import partial
 import json
 import statistics
 
-from cloth_sim_ros.files.echo import shown
+from cloth_sim_ros.files.errors import shown
 from cloth_sim_ros.study.contact_speed import measure_contact
 from cloth_sim_ros.study.modes.comparison import compare_modes
 from cloth_sim_ros.study.modes.contenders import CONTENDERS

@@ -16,9 +16,9 @@ from importlib import import_module
 import sys
 from typing import NoReturn
 
-from cloth_sim_ros.files.echo import cut
-from cloth_sim_ros.files.echo import MOST_SHOWN
-from cloth_sim_ros.files.echo import shown
+from cloth_sim_ros.files.errors import cut
+from cloth_sim_ros.files.errors import MOST_SHOWN
+from cloth_sim_ros.files.errors import shown
 from cloth_sim_ros.gl.errors import DeviceError
 from cloth_sim_ros.node.missing_module import way_out
 from cloth_sim_ros.sim.errors import ClothSimError

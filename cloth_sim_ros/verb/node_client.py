@@ -10,8 +10,8 @@ import time
 from typing import Any
 
 from cloth_sim_interfaces.srv import SetMode
-from cloth_sim_ros.files.echo import cut
-from cloth_sim_ros.files.echo import shown
+from cloth_sim_ros.files.errors import cut
+from cloth_sim_ros.files.errors import shown
 from cloth_sim_ros.node.answer import no_node
 from cloth_sim_ros.node.interfaces import check_interfaces
 from cloth_sim_ros.sim.errors import ClothSimError

@@ -9,7 +9,7 @@ from argparse import Namespace
 import math
 
 from cloth_sim_ros.analysis.recording import Recording
-from cloth_sim_ros.files.echo import shown
+from cloth_sim_ros.files.errors import shown
 
 
 def add_recording_arguments(parser: ArgumentParser) -> None:

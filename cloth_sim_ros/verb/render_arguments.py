@@ -8,8 +8,8 @@ from argparse import ArgumentTypeError
 from argparse import Namespace
 
 from cloth_sim_ros.analysis.recording import Recording
-from cloth_sim_ros.files.echo import cut
-from cloth_sim_ros.files.echo import shown
+from cloth_sim_ros.files.errors import cut
+from cloth_sim_ros.files.errors import shown
 from cloth_sim_ros.rendering.camera import Camera
 from cloth_sim_ros.rendering.source import RecordingSource
 from cloth_sim_ros.rendering.source import Source

@@ -9,8 +9,8 @@ from typing import Any
 
 from cloth_sim_ros.api.scene_file import scene_from
 from cloth_sim_ros.files.checked_yaml import parse_yaml
-from cloth_sim_ros.files.echo import cut
-from cloth_sim_ros.files.echo import shown
+from cloth_sim_ros.files.errors import cut
+from cloth_sim_ros.files.errors import shown
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.scene_file import load_parameters

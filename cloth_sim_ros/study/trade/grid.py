@@ -11,8 +11,8 @@ from pathlib import Path
 from typing import Any
 
 from cloth_sim_ros.files.checked_yaml import load_yaml
-from cloth_sim_ros.files.echo import cut
-from cloth_sim_ros.files.echo import shown
+from cloth_sim_ros.files.errors import cut
+from cloth_sim_ros.files.errors import shown
 from cloth_sim_ros.gl.shared_directory import shared_directory
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.scene import refuse_unknown
