@@ -3,8 +3,8 @@
 
 """A buffer on the device, read by shaders as storage or through a texture."""
 
-from cloth_sim_ros.gl.context_loss import loss_noticed
-from cloth_sim_ros.gl.context_loss import refuse_lost_context
+from cloth_sim_ros.gl.context import loss_noticed
+from cloth_sim_ros.gl.context import refuse_lost_context
 from cloth_sim_ros.gl.inventory import drop_buffer
 from cloth_sim_ros.gl.inventory import note_buffer
 from cloth_sim_ros.gl.libraries import GL

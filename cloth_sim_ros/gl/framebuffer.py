@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-"""A picture on the device, without a window, with smooth edges."""
+"""Framebuffers without a window, for colours and for depth, and which pixels they keep."""
 
 from cloth_sim_ros.gl.errors import DeviceError
 from cloth_sim_ros.gl.libraries import GL
@@ -88,3 +88,103 @@ class Framebuffer:
                 f'the device cannot render an image of {self.width} x {self.height} pixels '
                 f'({status:#x}): give a smaller size')
         return framebuffer
+
+
+class DepthBuffer:
+    """
+    Depth of ``width`` x ``height`` pixels, to draw into and read back; one sample each.
+
+    A mean of several, as for colours, would be a depth that nothing has at an outline.
+
+    :raises DeviceError: when the device has no picture so large
+    """
+
+    def __init__(self, width: int, height: int) -> None:
+        """Allocate the memory."""
+        most = int(GL.glGetIntegerv(GL.GL_MAX_RENDERBUFFER_SIZE))
+        if max(width, height) > most:
+            raise DeviceError(
+                f'a depth picture of {width} x {height} pixels is too large for this device: use '
+                f'at most {most} per side')
+        self.width, self.height = width, height
+        self._framebuffer = int(GL.glGenFramebuffers(1))
+        self._buffer = int(GL.glGenRenderbuffers(1))
+        GL.glBindFramebuffer(GL.GL_FRAMEBUFFER, self._framebuffer)
+        GL.glBindRenderbuffer(GL.GL_RENDERBUFFER, self._buffer)
+        GL.glRenderbufferStorage(
+            GL.GL_RENDERBUFFER, GL.GL_DEPTH_COMPONENT32F, width, height)
+        GL.glFramebufferRenderbuffer(
+            GL.GL_FRAMEBUFFER, GL.GL_DEPTH_ATTACHMENT, GL.GL_RENDERBUFFER, self._buffer)
+        GL.glDrawBuffer(GL.GL_NONE)
+        GL.glReadBuffer(GL.GL_NONE)
+        status = GL.glCheckFramebufferStatus(GL.GL_FRAMEBUFFER)
+        if status != GL.GL_FRAMEBUFFER_COMPLETE:
+            raise DeviceError(
+                f'the device cannot render a depth picture of {width} x {height} pixels '
+                f'({status:#x}): give a smaller size')
+
+    def begin(self) -> None:
+        """Direct drawing here, with nothing drawn yet."""
+        GL.glBindFramebuffer(GL.GL_FRAMEBUFFER, self._framebuffer)
+        GL.glViewport(0, 0, self.width, self.height)
+        GL.glDepthMask(GL.GL_TRUE)
+        GL.glClear(GL.GL_DEPTH_BUFFER_BIT)
+
+    def read(self) -> np.ndarray:
+        """
+        Return what was drawn, the uppermost line first.
+
+        :return: (height, width) float32, 0 at the near end, 1 at the far one and where nothing is
+        """
+        GL.glBindFramebuffer(GL.GL_READ_FRAMEBUFFER, self._framebuffer)
+        depths = np.empty((self.height, self.width), np.float32)
+        GL.glPixelStorei(GL.GL_PACK_ALIGNMENT, 4)
+        GL.glReadPixels(
+            0, 0, self.width, self.height, GL.GL_DEPTH_COMPONENT, GL.GL_FLOAT, depths)
+        return np.ascontiguousarray(depths[::-1])
+
+    def delete(self) -> None:
+        """Give the memory back."""
+        GL.glDeleteFramebuffers(1, [self._framebuffer])
+        GL.glDeleteRenderbuffers(1, [self._buffer])
+
+
+# What decides whether a drawn pixel is seen: what is there already, and on which side it is.
+
+
+def blend_by_opacity() -> None:
+    """Let colours cover what is there by their fourth part."""
+    GL.glEnable(GL.GL_BLEND)
+    GL.glBlendFunc(GL.GL_SRC_ALPHA, GL.GL_ONE_MINUS_SRC_ALPHA)
+
+
+def draw_over_all() -> None:
+    """Draw over what is there, however near it is, and hide nothing that comes."""
+    GL.glDisable(GL.GL_DEPTH_TEST)
+
+
+def draw_nearest(*, hides: bool = True) -> None:
+    """
+    Draw what no other part hides.
+
+    :param hides: hide what comes later and is farther away
+    """
+    GL.glEnable(GL.GL_DEPTH_TEST)
+    GL.glDepthFunc(GL.GL_LEQUAL)
+    GL.glDepthMask(hides)
+
+
+def draw_hidden() -> None:
+    """Draw what other parts hide, and nothing else."""
+    GL.glEnable(GL.GL_DEPTH_TEST)
+    GL.glDepthFunc(GL.GL_GREATER)
+    GL.glDepthMask(False)
+
+
+def draw_clockwise_only(is_on: bool) -> None:
+    """Leave out triangles that run counter-clockwise in the picture, or no longer do."""
+    if is_on:
+        GL.glEnable(GL.GL_CULL_FACE)
+        GL.glCullFace(GL.GL_FRONT)
+    else:
+        GL.glDisable(GL.GL_CULL_FACE)

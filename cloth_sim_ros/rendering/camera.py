@@ -6,7 +6,7 @@
 from dataclasses import dataclass
 import math
 
-from cloth_sim_ros.gl.render_program import RenderProgram
+from cloth_sim_ros.gl.program import RenderProgram
 from cloth_sim_ros.sim.colliders import Collider
 from cloth_sim_ros.sim.errors import ClothSimError
 import numpy as np

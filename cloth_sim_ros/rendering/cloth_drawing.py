@@ -8,8 +8,8 @@ import math
 
 from cloth_sim_ros.analysis.frame import Frame
 from cloth_sim_ros.gl.buffer import Buffer
-from cloth_sim_ros.gl.draw_state import draw_over_all
-from cloth_sim_ros.gl.render_program import RenderProgram
+from cloth_sim_ros.gl.framebuffer import draw_over_all
+from cloth_sim_ros.gl.program import RenderProgram
 from cloth_sim_ros.rendering.camera import set_view
 from cloth_sim_ros.rendering.camera import View
 from cloth_sim_ros.rendering.look import HEM_SHADE

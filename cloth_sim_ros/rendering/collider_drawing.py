@@ -8,7 +8,7 @@ from functools import cached_property
 
 from cloth_sim_ros.analysis.collider_surface import collider_surface
 from cloth_sim_ros.analysis.collider_surface import is_ground
-from cloth_sim_ros.gl.render_program import RenderProgram
+from cloth_sim_ros.gl.program import RenderProgram
 from cloth_sim_ros.rendering.camera import set_view
 from cloth_sim_ros.rendering.camera import View
 from cloth_sim_ros.rendering.cloth_drawing import ClothDrawing

@@ -8,10 +8,10 @@ import math
 
 from cloth_sim_ros.analysis.collider_surface import collider_surface
 from cloth_sim_ros.gl.context import Context
-from cloth_sim_ros.gl.depth_buffer import DepthBuffer
-from cloth_sim_ros.gl.draw_state import draw_nearest
 from cloth_sim_ros.gl.errors import DeviceError
-from cloth_sim_ros.gl.render_program import RenderProgram
+from cloth_sim_ros.gl.framebuffer import DepthBuffer
+from cloth_sim_ros.gl.framebuffer import draw_nearest
+from cloth_sim_ros.gl.program import RenderProgram
 from cloth_sim_ros.rendering.camera import set_view
 from cloth_sim_ros.rendering.camera import View
 from cloth_sim_ros.rendering.node_buffer import NodeBuffer

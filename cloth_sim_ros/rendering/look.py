@@ -3,7 +3,7 @@
 
 """The colours, sizes and light of all pictures."""
 
-from cloth_sim_ros.gl.render_program import RenderProgram
+from cloth_sim_ros.gl.program import RenderProgram
 from cloth_sim_ros.rendering.camera import View
 import numpy as np
 

@@ -8,9 +8,9 @@ from functools import cached_property
 from cloth_sim_ros.analysis.collider_surface import ground
 from cloth_sim_ros.analysis.frame import Frame
 from cloth_sim_ros.gl.context import Context
-from cloth_sim_ros.gl.draw_state import blend_by_opacity
-from cloth_sim_ros.gl.draw_state import draw_nearest
 from cloth_sim_ros.gl.errors import DeviceError
+from cloth_sim_ros.gl.framebuffer import blend_by_opacity
+from cloth_sim_ros.gl.framebuffer import draw_nearest
 from cloth_sim_ros.gl.framebuffer import Framebuffer
 from cloth_sim_ros.rendering.camera import View
 from cloth_sim_ros.rendering.cloth_drawing import ClothDrawing

@@ -8,11 +8,11 @@ from functools import cached_property
 import math
 
 from cloth_sim_ros.gl.buffer import Buffer
-from cloth_sim_ros.gl.draw_state import draw_clockwise_only
-from cloth_sim_ros.gl.draw_state import draw_hidden
-from cloth_sim_ros.gl.draw_state import draw_nearest
-from cloth_sim_ros.gl.draw_state import draw_over_all
-from cloth_sim_ros.gl.render_program import RenderProgram
+from cloth_sim_ros.gl.framebuffer import draw_clockwise_only
+from cloth_sim_ros.gl.framebuffer import draw_hidden
+from cloth_sim_ros.gl.framebuffer import draw_nearest
+from cloth_sim_ros.gl.framebuffer import draw_over_all
+from cloth_sim_ros.gl.program import RenderProgram
 from cloth_sim_ros.rendering.camera import set_view
 from cloth_sim_ros.rendering.camera import View
 from cloth_sim_ros.rendering.cloth_drawing import PALETTE_DEFINES

@@ -10,7 +10,7 @@ from cloth_sim_ros.gl.buffer import Buffer
 from cloth_sim_ros.gl.buffer import shader_writes_visible
 from cloth_sim_ros.gl.context import Context
 from cloth_sim_ros.gl.errors import ShaderError
-from cloth_sim_ros.gl.linked_program import explain
+from cloth_sim_ros.gl.program import explain
 from cloth_sim_ros.gl.program import Program
 from cloth_sim_ros.gl.shader_source import ShaderSource
 import numpy as np

@@ -6,7 +6,7 @@
 import sys
 import warnings
 
-from cloth_sim_ros.gl.render_program import RenderProgram
+from cloth_sim_ros.gl.program import RenderProgram
 from cloth_sim_ros.rendering import look
 from cloth_sim_ros.rendering.camera import Camera
 from cloth_sim_ros.rendering.look import LIMIT_COLOR

@@ -7,7 +7,7 @@ from cloth_sim_ros.gl import shader_source
 from cloth_sim_ros.gl.context import Context
 from cloth_sim_ros.gl.errors import ShaderError
 from cloth_sim_ros.gl.framebuffer import Framebuffer
-from cloth_sim_ros.gl.render_program import RenderProgram
+from cloth_sim_ros.gl.program import RenderProgram
 import numpy as np
 import pytest
 

@@ -1,16 +1,52 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-"""What a GL device is and has, and why no device of this machine will do."""
+"""The GL devices of this machine: what each is and has, and why none of them will do."""
 
 from collections.abc import Iterable
+from collections.abc import Iterator
 from collections.abc import Mapping
 from dataclasses import dataclass
 import os
 import re
 
+from cloth_sim_ros.gl.libraries import EGL
+from cloth_sim_ros.gl.libraries import error
 from cloth_sim_ros.gl.libraries import GL
 from cloth_sim_ros.gl.libraries import INSTALL
+from OpenGL.EGL.EXT.device_base import EGLDeviceEXT
+from OpenGL.EGL.EXT.device_base import eglQueryDevicesEXT
+from OpenGL.EGL.EXT.platform_base import eglGetPlatformDisplayEXT
+from OpenGL.EGL.EXT.platform_device import EGL_PLATFORM_DEVICE_EXT
+
+EGL_PLATFORM_SURFACELESS_MESA = 0x31DD
+_MOST_DEVICES = 16
+
+
+def headless_displays() -> Iterator[EGL.EGLDisplay]:
+    """Yield initialised displays: those of devices, then Mesa's surfaceless one."""
+    for platform, native in (*_device_platforms(), (EGL_PLATFORM_SURFACELESS_MESA, None)):
+        try:
+            display = eglGetPlatformDisplayEXT(platform, native, None)
+            major, minor = EGL.EGLint(), EGL.EGLint()
+            if display and EGL.eglInitialize(display, major, minor):
+                yield display
+        except (error.Error, error.NullFunctionError):
+            continue
+
+
+def _device_platforms() -> list[tuple[int, EGLDeviceEXT]]:
+    devices = (EGLDeviceEXT * _MOST_DEVICES)()
+    count = EGL.EGLint()
+    try:
+        if not eglQueryDevicesEXT(_MOST_DEVICES, devices, count):
+            return []
+    except (error.Error, error.NullFunctionError):
+        return []
+    return [(EGL_PLATFORM_DEVICE_EXT, devices[i]) for i in range(count.value)]
+
+
+# What a GL device is and has, and why no device of this machine will do.
 
 VERSION = (4, 3)
 TEXTURE_BUFFERS = 'GL_ARB_texture_buffer_object'

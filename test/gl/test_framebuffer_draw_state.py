@@ -3,11 +3,11 @@
 
 """What is nearer hides what is farther, unless asked otherwise."""
 
-from cloth_sim_ros.gl import draw_state
+from cloth_sim_ros.gl import framebuffer as gl_framebuffer
 from cloth_sim_ros.gl import shader_source
 from cloth_sim_ros.gl.context import Context
 from cloth_sim_ros.gl.framebuffer import Framebuffer
-from cloth_sim_ros.gl.render_program import RenderProgram
+from cloth_sim_ros.gl.program import RenderProgram
 import pytest
 
 _VERTEX = """#version 430 core
@@ -51,7 +51,7 @@ def drawn(tmp_path, monkeypatch):
 
 def test_the_nearest_is_seen(drawn):
     """The far side of a cloth would be drawn over the near one."""
-    draw_state.draw_nearest()
+    gl_framebuffer.draw_nearest()
     drawn(MIDDLE, 0.2)
     drawn(NEAR, 0.6)
     assert drawn(FAR, 1.0)() == 153
@@ -59,33 +59,33 @@ def test_the_nearest_is_seen(drawn):
 
 def test_what_does_not_hide_is_covered_by_what_comes(drawn):
     """A pin would cut a hole into the next one."""
-    draw_state.draw_nearest(hides=False)
+    gl_framebuffer.draw_nearest(hides=False)
     drawn(NEAR, 0.2)
     assert drawn(FAR, 0.6)() == 153
 
 
 def test_what_is_hidden_can_be_drawn_alone(drawn):
     """A pin behind the cloth would not be told from one before it."""
-    draw_state.draw_nearest()
+    gl_framebuffer.draw_nearest()
     drawn(MIDDLE, 0.2)
-    draw_state.draw_hidden()
+    gl_framebuffer.draw_hidden()
     drawn(NEAR, 1.0)
     assert drawn(FAR, 0.6)() == 153
 
 
 def test_over_all_means_over_all(drawn):
     """The floor would hide the cloth, or be hidden by its own shadow."""
-    draw_state.draw_over_all()
+    gl_framebuffer.draw_over_all()
     drawn(NEAR, 0.2)
     drawn(FAR, 0.6)
-    draw_state.draw_nearest()
+    gl_framebuffer.draw_nearest()
     assert drawn(FAR, 1.0)() == 255
 
 
 def test_opacity_lets_through_what_is_there(drawn):
     """A faint ball would be as strong as any."""
-    draw_state.draw_over_all()
-    draw_state.blend_by_opacity()
+    gl_framebuffer.draw_over_all()
+    gl_framebuffer.blend_by_opacity()
     drawn(MIDDLE, 1.0)
     assert drawn(MIDDLE, 0.0, 0.2)() == 204
 
@@ -93,7 +93,7 @@ def test_opacity_lets_through_what_is_there(drawn):
 @pytest.mark.parametrize(('is_on', 'grey'), [(True, 0), (False, 255)])
 def test_one_side_can_be_left_out(drawn, is_on, grey):
     """The inside of an arrow would show through its outside."""
-    draw_state.draw_over_all()
+    gl_framebuffer.draw_over_all()
     # The strip runs counter-clockwise.
-    draw_state.draw_clockwise_only(is_on)
+    gl_framebuffer.draw_clockwise_only(is_on)
     assert drawn(MIDDLE, 1.0)() == grey

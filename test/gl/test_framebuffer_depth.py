@@ -4,8 +4,8 @@
 """Depths are drawn without a window and read back as they are."""
 
 from cloth_sim_ros.gl.context import Context
-from cloth_sim_ros.gl.depth_buffer import DepthBuffer
 from cloth_sim_ros.gl.errors import DeviceError
+from cloth_sim_ros.gl.framebuffer import DepthBuffer
 import numpy as np
 from OpenGL import GL
 import pytest
