@@ -20,8 +20,8 @@ import time
 from typing import Any
 
 from cloth_sim_ros.sim.errors import NonFiniteStateError
+from cloth_sim_ros.sim.given_values import load_parameters
 from cloth_sim_ros.sim.scene import Scene
-from cloth_sim_ros.sim.scene_file import load_parameters
 from cloth_sim_ros.sim.simulation import Simulation
 import numpy as np
 from robot_paths import gripper_places

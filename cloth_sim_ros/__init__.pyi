@@ -19,10 +19,10 @@ from cloth_sim_ros.sim.frame_paths import FrameMove as FrameMove
 from cloth_sim_ros.sim.frame_paths import FramePath as FramePath
 from cloth_sim_ros.sim.grasps import Grasp as Grasp
 from cloth_sim_ros.sim.grasps import GraspForce as GraspForce
-from cloth_sim_ros.sim.near_node import NearNode as NearNode
+from cloth_sim_ros.sim.grid import NearNode as NearNode
 from cloth_sim_ros.sim.pin_forces import PinForces as PinForces
-from cloth_sim_ros.sim.pin_path import PinMove as PinMove
-from cloth_sim_ros.sim.pin_path import PinPath as PinPath
+from cloth_sim_ros.sim.pins import PinMove as PinMove
+from cloth_sim_ros.sim.pins import PinPath as PinPath
 from cloth_sim_ros.sim.pose import Pose as Pose
 from cloth_sim_ros.sim.push import Push as Push
 from cloth_sim_ros.sim.push_field import AppliedPush as AppliedPush

@@ -26,8 +26,8 @@ from cloth_sim_ros.messages.requests import SUBSCRIPTIONS
 from cloth_sim_ros.messages.topics import Topic
 from cloth_sim_ros.messages.topics import TOPICS
 from cloth_sim_ros.node.node_fields import NODE_FIELDS
-from cloth_sim_ros.sim.collider_fields import COLLIDER_FIELDS
-from cloth_sim_ros.sim.field import Field
+from cloth_sim_ros.sim.colliders import COLLIDER_FIELDS
+from cloth_sim_ros.sim.scene_fields import Field
 from cloth_sim_ros.sim.scene_fields import SCENE_FIELDS
 from cloth_sim_ros.verb.main import VERBS
 from python_reference import python_page

@@ -10,9 +10,9 @@ from typing import Any
 from cloth_sim_ros.analysis.recorded_values import plain_value
 from cloth_sim_ros.analysis.recorded_values import recorded_pose
 from cloth_sim_ros.analysis.recording import Entry
-from cloth_sim_ros.sim.collider_fields import fields_with_colliders
-from cloth_sim_ros.sim.collider_fields import NAMES
 from cloth_sim_ros.sim.colliders import Collider
+from cloth_sim_ros.sim.colliders import fields_with_colliders
+from cloth_sim_ros.sim.colliders import NAMES
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.frame_paths import FrameMove
 from cloth_sim_ros.sim.frame_paths import FramePaths

@@ -9,10 +9,10 @@ from typing import Any
 
 from cloth_sim_ros.node.node_fields import checked_node_values
 from cloth_sim_ros.node.node_fields import NODE_FIELDS
-from cloth_sim_ros.sim.collider_fields import fields_with_colliders
+from cloth_sim_ros.sim.colliders import fields_with_colliders
+from cloth_sim_ros.sim.given_values import load_parameters
 from cloth_sim_ros.sim.scene import refuse_unknown
 from cloth_sim_ros.sim.scene import Scene
-from cloth_sim_ros.sim.scene_file import load_parameters
 
 
 def load_scene(path: str | Path, changes: Mapping[str, Any] | None = None) -> Scene:

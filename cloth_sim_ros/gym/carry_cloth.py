@@ -13,7 +13,7 @@ from cloth_sim_ros.gym.observations import Observation
 from cloth_sim_ros.gym.observations import Observer
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.errors import NonFiniteStateError
-from cloth_sim_ros.sim.pin_path import FARTHEST
+from cloth_sim_ros.sim.pins import FARTHEST
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.simulation import Simulation
 import gymnasium

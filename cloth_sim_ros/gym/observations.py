@@ -11,7 +11,7 @@ from typing import Any
 
 from cloth_sim_ros.files.errors import shown
 from cloth_sim_ros.sim.errors import ClothSimError
-from cloth_sim_ros.sim.pin_path import FARTHEST
+from cloth_sim_ros.sim.pins import FARTHEST
 from cloth_sim_ros.sim.simulation import Simulation
 from gymnasium import spaces
 import numpy as np

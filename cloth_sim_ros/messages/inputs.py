@@ -18,13 +18,13 @@ from cloth_sim_interfaces.msg import Push as PushMessage
 from cloth_sim_ros.messages.body_frames import pose_message
 from cloth_sim_ros.messages.parameter_event import parameter_value
 from cloth_sim_ros.messages.stamp import stamp
-from cloth_sim_ros.sim.field import Field
 from cloth_sim_ros.sim.frame_paths import FrameMove
 from cloth_sim_ros.sim.grasps import Grasp
-from cloth_sim_ros.sim.pin_path import PinMove
+from cloth_sim_ros.sim.pins import PinMove
 from cloth_sim_ros.sim.pose import NO_ROTATION
 from cloth_sim_ros.sim.pose import Pose
 from cloth_sim_ros.sim.push import Push
+from cloth_sim_ros.sim.scene_fields import Field
 from geometry_msgs.msg import Point
 from geometry_msgs.msg import Vector3
 from geometry_msgs.msg import Vector3Stamped

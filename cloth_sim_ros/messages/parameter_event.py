@@ -6,7 +6,7 @@
 from typing import Any
 
 from cloth_sim_ros.messages.cdr_writer import CdrWriter
-from cloth_sim_ros.sim.field import Field
+from cloth_sim_ros.sim.scene_fields import Field
 from rcl_interfaces.msg import Parameter
 from rcl_interfaces.msg import ParameterEvent
 from rcl_interfaces.msg import ParameterType

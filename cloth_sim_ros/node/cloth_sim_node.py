@@ -46,7 +46,7 @@ from cloth_sim_ros.node.wind_topic import WindTopic
 from cloth_sim_ros.recording.recording_faults import RecordingError
 from cloth_sim_ros.recording.recording_faults import RecordingFull
 from cloth_sim_ros.recording.recording_options import RecordingOptions
-from cloth_sim_ros.sim.collider_fields import fields_with_colliders
+from cloth_sim_ros.sim.colliders import fields_with_colliders
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.simulation import Simulation
 from rclpy.clock import Clock

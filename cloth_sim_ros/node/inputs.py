@@ -23,7 +23,7 @@ from cloth_sim_ros.node.parameters import FIELDS
 from cloth_sim_ros.node.parameters import plain_value
 from cloth_sim_ros.sim.frame_paths import FrameMove
 from cloth_sim_ros.sim.grasps import Grasp
-from cloth_sim_ros.sim.pin_path import PinMove
+from cloth_sim_ros.sim.pins import PinMove
 from cloth_sim_ros.sim.push import Push
 from cloth_sim_ros.sim.simulation import Simulation
 from rclpy.parameter import Parameter

@@ -9,10 +9,10 @@ from typing import Any
 from cloth_sim_ros.messages.parameter_event import parameter_value
 from cloth_sim_ros.node.node_fields import check_together
 from cloth_sim_ros.node.node_fields import NODE_FIELDS
-from cloth_sim_ros.sim.collider_fields import fields_with_colliders
-from cloth_sim_ros.sim.field import Field
+from cloth_sim_ros.sim.colliders import fields_with_colliders
 from cloth_sim_ros.sim.given_values import completed
 from cloth_sim_ros.sim.scene import refuse_unknown
+from cloth_sim_ros.sim.scene_fields import Field
 from cloth_sim_ros.sim.scene_fields import SCENE_FIELDS
 from rcl_interfaces.msg import FloatingPointRange
 from rcl_interfaces.msg import IntegerRange

@@ -11,7 +11,7 @@ from cloth_sim_ros.node.ignored_messages import IgnoredMessages
 from cloth_sim_ros.node.input_frames import InputFrames
 from cloth_sim_ros.node.inputs import Inputs
 from cloth_sim_ros.sim.errors import ClothSimError
-from cloth_sim_ros.sim.pin_path import PinPath
+from cloth_sim_ros.sim.pins import PinPath
 from cloth_sim_ros.sim.pose import Vector
 from cloth_sim_ros.sim.simulation import Simulation
 from rclpy.node import Node

@@ -3,10 +3,10 @@
 
 """Bending as one constant matrix: second differences along rows and columns, squared; damping."""
 
+from cloth_sim_ros.sim.materials import of_direction
+from cloth_sim_ros.sim.materials import WARP
+from cloth_sim_ros.sim.materials import WEFT
 from cloth_sim_ros.sim.scene import Scene
-from cloth_sim_ros.sim.springs import of_direction
-from cloth_sim_ros.sim.springs import WARP
-from cloth_sim_ros.sim.springs import WEFT
 import numpy as np
 from scipy import sparse
 

@@ -6,9 +6,9 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from cloth_sim_ros.sim.materials import WARP
+from cloth_sim_ros.sim.materials import WEFT
 from cloth_sim_ros.sim.scene import Scene
-from cloth_sim_ros.sim.springs import WARP
-from cloth_sim_ros.sim.springs import WEFT
 import numpy as np
 
 

@@ -11,10 +11,10 @@ from typing import Any
 from cloth_sim_ros.analysis.recorded_values import plain_value
 from cloth_sim_ros.recording.bag_metadata import folder_metadata
 from cloth_sim_ros.recording.project_version import PACKAGE
-from cloth_sim_ros.sim.collider_fields import fields_with_colliders
+from cloth_sim_ros.sim.colliders import fields_with_colliders
 from cloth_sim_ros.sim.errors import ClothSimError
-from cloth_sim_ros.sim.field import Field
 from cloth_sim_ros.sim.scene import Scene
+from cloth_sim_ros.sim.scene_fields import Field
 
 
 def recorded_version(path: Path) -> str:

@@ -12,8 +12,8 @@ from cloth_sim_ros.gl.buffer import shader_dispatches_visible
 from cloth_sim_ros.gl.buffer import shader_writes_visible
 from cloth_sim_ros.gl.program import Program
 from cloth_sim_ros.sim import bindings
-from cloth_sim_ros.sim.collider_fields import SHAPES
 from cloth_sim_ros.sim.colliders import Collider
+from cloth_sim_ros.sim.colliders import SHAPES
 from cloth_sim_ros.sim.forcing import Forcing
 from cloth_sim_ros.sim.frame_paths import FrameMove
 from cloth_sim_ros.sim.frame_paths import FramePath

@@ -10,10 +10,10 @@ Shaders get it by ``edge_defines``: nothing else says what edges there are.
 from collections.abc import Collection
 from dataclasses import dataclass
 
+from cloth_sim_ros.sim.materials import WARP
+from cloth_sim_ros.sim.materials import WEFT
 from cloth_sim_ros.sim.scene import FAMILIES
 from cloth_sim_ros.sim.scene import Scene
-from cloth_sim_ros.sim.springs import WARP
-from cloth_sim_ros.sim.springs import WEFT
 import numpy as np
 
 # Row and column of some nodes, as slices or as arrays of integers: what NumPy indexes by.

@@ -1,20 +1,66 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-"""What the values given for a scene mean for those that are left out."""
+"""The values given for a scene: read from a file, and completed by preset and fabric."""
 
 from collections.abc import Mapping
 from collections.abc import Sequence
 from functools import cache
+from pathlib import Path
 from types import MappingProxyType
 from typing import Any
 
+from cloth_sim_ros.files.checked_yaml import load_yaml
+from cloth_sim_ros.files.errors import cut
 from cloth_sim_ros.gl.shared_directory import shared_directory
+from cloth_sim_ros.sim.errors import ClothSimError
+from cloth_sim_ros.sim.materials import MATERIAL
+from cloth_sim_ros.sim.materials import MATERIAL_SPRINGS
 from cloth_sim_ros.sim.materials import with_material
 from cloth_sim_ros.sim.scene_fields import PRESETS
-from cloth_sim_ros.sim.scene_file import load_parameters
-from cloth_sim_ros.sim.springs import MATERIAL
-from cloth_sim_ros.sim.springs import MATERIAL_SPRINGS
+
+
+def load_parameters(path: str | Path) -> dict[str, Any]:
+    """
+    Return the parameters of a ROS parameter YAML as dotted names and values.
+
+    Every node section of the file is taken, later ones over earlier ones; within one, each
+    parameter stands once.
+
+    :raises ClothSimError: when the file can't be read or is no parameter file
+    """
+    document = load_yaml(path)
+    if not isinstance(document, Mapping):
+        raise ClothSimError(
+            f'{cut(path)} holds no parameters: write "/**: {{ros__parameters: ...}}"')
+    parameters: dict[str, Any] = {}
+    for section in document.values():
+        if not isinstance(section, Mapping) or not isinstance(
+                section.get('ros__parameters'), Mapping):
+            raise ClothSimError(
+                f'{cut(path)} has a section without ros__parameters: '
+                'write "/**: {ros__parameters: ...}"')
+        names: dict[str, Any] = {}
+        _flatten(section['ros__parameters'], '', names, path)
+        parameters.update(names)
+    return parameters
+
+
+def _flatten(
+        tree: Mapping[str, Any], prefix: str, into: dict[str, Any], path: str | Path) -> None:
+    for key, value in tree.items():
+        name = f'{prefix}{key}'
+        if isinstance(value, Mapping):
+            _flatten(value, f'{name}.', into, path)
+        elif name in into:
+            raise ClothSimError(
+                f'{path} has the parameter {cut(name)} twice, nested and with a dot: '
+                'keep one')
+        else:
+            into[name] = value
+
+
+# What the values given for a scene mean for those that are left out.
 
 NO_PINS = ('none',)
 # A woven one whose threads hardly stretch; without air it would whip, and never come to rest.

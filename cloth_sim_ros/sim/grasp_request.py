@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import math
 
 from cloth_sim_ros.files.errors import shown
-from cloth_sim_ros.sim.collider_fields import NAME_PATTERN
+from cloth_sim_ros.sim.colliders import NAME_PATTERN
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.pose import checked_position
 from cloth_sim_ros.sim.pose import NO_ROTATION

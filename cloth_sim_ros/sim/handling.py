@@ -15,14 +15,14 @@ from cloth_sim_ros.sim.grasp_request import GraspRequest
 from cloth_sim_ros.sim.grasps import Grasp
 from cloth_sim_ros.sim.grasps import GraspRequests
 from cloth_sim_ros.sim.grasps import Grasps
+from cloth_sim_ros.sim.grid import NearNode
 from cloth_sim_ros.sim.input_listener import CLEAR_PUSHES
 from cloth_sim_ros.sim.input_listener import InputListener
-from cloth_sim_ros.sim.near_node import NearNode
 from cloth_sim_ros.sim.nearest import nearest
 from cloth_sim_ros.sim.pin_motion import PinMotion
 from cloth_sim_ros.sim.pin_motion import PinRequests
-from cloth_sim_ros.sim.pin_path import PinMove
-from cloth_sim_ros.sim.pin_path import PinPath
+from cloth_sim_ros.sim.pins import PinMove
+from cloth_sim_ros.sim.pins import PinPath
 from cloth_sim_ros.sim.push import Push
 from cloth_sim_ros.sim.push_field import AppliedPush
 from cloth_sim_ros.sim.scene import Scene

@@ -5,7 +5,7 @@
 
 from cloth_sim_ros.sim.frame_paths import FrameMove
 from cloth_sim_ros.sim.grasps import Grasp
-from cloth_sim_ros.sim.pin_path import PinMove
+from cloth_sim_ros.sim.pins import PinMove
 from cloth_sim_ros.sim.push import Push
 
 RESET, CLEAR_PUSHES = 'reset', 'clear_pushes'

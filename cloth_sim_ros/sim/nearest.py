@@ -6,8 +6,8 @@
 
 from collections.abc import Sequence
 
-from cloth_sim_ros.sim.near_node import near_node
-from cloth_sim_ros.sim.near_node import NearNode
+from cloth_sim_ros.sim.grid import near_node
+from cloth_sim_ros.sim.grid import NearNode
 from cloth_sim_ros.sim.scene import Scene
 import numpy as np
 

@@ -7,10 +7,10 @@ from collections.abc import Collection
 from collections.abc import Sequence
 
 from cloth_sim_ros.sim.errors import ClothSimError
-from cloth_sim_ros.sim.pin_path import PinMove
-from cloth_sim_ros.sim.pin_path import PinPath
-from cloth_sim_ros.sim.pin_path import Way
 from cloth_sim_ros.sim.pins import check_node
+from cloth_sim_ros.sim.pins import PinMove
+from cloth_sim_ros.sim.pins import PinPath
+from cloth_sim_ros.sim.pins import Way
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.state import State
 from cloth_sim_ros.sim.stepping import Stepping

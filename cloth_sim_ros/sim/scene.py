@@ -14,23 +14,23 @@ from cloth_sim_ros.files.errors import cut
 from cloth_sim_ros.files.errors import MOST_SHOWN
 from cloth_sim_ros.files.errors import shown
 from cloth_sim_ros.sim import grid
-from cloth_sim_ros.sim.collider_fields import fields_with_colliders
 from cloth_sim_ros.sim.colliders import colliders_of
+from cloth_sim_ros.sim.colliders import fields_with_colliders
 from cloth_sim_ros.sim.errors import ClothSimError
-from cloth_sim_ros.sim.field import Field
 from cloth_sim_ros.sim.frame_paths import FrameMove
 from cloth_sim_ros.sim.given_values import completed
 from cloth_sim_ros.sim.grasp_request import GraspRequest
-from cloth_sim_ros.sim.near_node import near_node
-from cloth_sim_ros.sim.pin_path import PinMove
+from cloth_sim_ros.sim.grid import near_node
+from cloth_sim_ros.sim.materials import of_direction
+from cloth_sim_ros.sim.materials import spring_stiffness
+from cloth_sim_ros.sim.materials import WARP
+from cloth_sim_ros.sim.materials import WEFT
 from cloth_sim_ros.sim.pins import only_node
+from cloth_sim_ros.sim.pins import PinMove
 from cloth_sim_ros.sim.pins import pinned_nodes
 from cloth_sim_ros.sim.push import Push
 from cloth_sim_ros.sim.scene_fields import FAMILIES
-from cloth_sim_ros.sim.springs import of_direction
-from cloth_sim_ros.sim.springs import spring_stiffness
-from cloth_sim_ros.sim.springs import WARP
-from cloth_sim_ros.sim.springs import WEFT
+from cloth_sim_ros.sim.scene_fields import Field
 from cloth_sim_ros.sim.wind import Gust
 import numpy as np
 
@@ -137,7 +137,7 @@ class Scene:
 
     @property
     def bending(self) -> tuple[float, float]:
-        """Return what bending along a row and along a column resists [N/m], sim/bending.py."""
+        """Return what bending along a row and along a column resists [N/m], sim/pin_forces.py."""
         (dx, dy), rigidity = self.spacing, self['bending.rigidity']
         return (
             of_direction(rigidity, WARP) * dy / dx**3 if self.cols > 2 else 0.0,

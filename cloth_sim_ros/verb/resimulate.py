@@ -29,7 +29,7 @@ from cloth_sim_ros.resimulation.recorded_scene import recorded_version
 from cloth_sim_ros.resimulation.rerun import Rerun
 from cloth_sim_ros.resimulation.verdict import Verdict
 from cloth_sim_ros.resimulation.verdict import version_lines
-from cloth_sim_ros.sim.collider_fields import fields_with_colliders
+from cloth_sim_ros.sim.colliders import fields_with_colliders
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.scene import refuse_unknown
 from cloth_sim_ros.verb import analyze

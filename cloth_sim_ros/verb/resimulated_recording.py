@@ -11,7 +11,7 @@ from cloth_sim_ros.node.inputs import Inputs
 from cloth_sim_ros.resimulation.listener import Listener
 from cloth_sim_ros.sim.frame_paths import FrameMove
 from cloth_sim_ros.sim.grasps import Grasp
-from cloth_sim_ros.sim.pin_path import PinMove
+from cloth_sim_ros.sim.pins import PinMove
 from cloth_sim_ros.sim.push import Push
 from cloth_sim_ros.sim.simulation import Simulation
 from cloth_sim_ros.verb.termination import sayer

@@ -12,8 +12,8 @@ from cloth_sim_ros.files.checked_yaml import parse_yaml
 from cloth_sim_ros.files.errors import cut
 from cloth_sim_ros.files.errors import shown
 from cloth_sim_ros.sim.errors import ClothSimError
+from cloth_sim_ros.sim.given_values import load_parameters
 from cloth_sim_ros.sim.scene import Scene
-from cloth_sim_ros.sim.scene_file import load_parameters
 
 
 def add_scene_arguments(parser: ArgumentParser) -> None:

@@ -13,7 +13,7 @@ from cloth_sim_ros.messages.inputs import frame_target_message
 from cloth_sim_ros.messages.inputs import parameters_message
 from cloth_sim_ros.messages.inputs import place_message
 from cloth_sim_ros.messages.stamp import stamp
-from cloth_sim_ros.sim.collider_fields import fields_with_colliders
+from cloth_sim_ros.sim.colliders import fields_with_colliders
 from cloth_sim_ros.sim.frame_paths import FrameMove
 from cloth_sim_ros.sim.pose import Pose
 from cloth_sim_ros.sim.scene import Scene

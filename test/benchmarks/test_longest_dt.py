@@ -3,8 +3,8 @@
 
 """Up to which dt methods hold: what docs/notes/paper.md says of the paper's limits."""
 
+from cloth_sim_ros.sim.given_values import load_parameters
 from cloth_sim_ros.sim.scene import Scene
-from cloth_sim_ros.sim.scene_file import load_parameters
 from cloth_sim_ros.sim.stability import stability_limit
 from cloth_sim_ros.study.paper_figures import PAPER_ADAPTIVE
 from cloth_sim_ros.study.paper_figures import PAPER_CONSTRAINT

@@ -8,10 +8,10 @@ from pathlib import Path
 
 from cloth_sim_ros.node.node_fields import check_together
 from cloth_sim_ros.node.node_fields import NODE_FIELDS
-from cloth_sim_ros.sim.collider_fields import fields_with_colliders
+from cloth_sim_ros.sim.colliders import fields_with_colliders
+from cloth_sim_ros.sim.given_values import load_parameters
 from cloth_sim_ros.sim.scene import refuse_unknown
 from cloth_sim_ros.sim.scene import Scene
-from cloth_sim_ros.sim.scene_file import load_parameters
 from cloth_sim_ros.sim.simulation import Simulation
 import numpy as np
 import pytest

@@ -21,7 +21,7 @@ from cloth_sim_ros.messages.inputs import push_message
 from cloth_sim_ros.messages.inputs import release_message
 from cloth_sim_ros.sim.frame_paths import FrameMove
 from cloth_sim_ros.sim.grasps import Grasp
-from cloth_sim_ros.sim.pin_path import PinMove
+from cloth_sim_ros.sim.pins import PinMove
 from cloth_sim_ros.sim.pose import Pose
 from cloth_sim_ros.sim.push import Push
 from cloth_sim_ros.sim.scene import Scene

@@ -9,8 +9,8 @@ from typing import Any
 from cloth_sim_ros.files.checked_yaml import MOST_BYTES
 from cloth_sim_ros.files.regular_file import read_regular
 from cloth_sim_ros.sim.errors import ClothSimError
+from cloth_sim_ros.sim.given_values import load_parameters
 from cloth_sim_ros.sim.scene import Scene
-from cloth_sim_ros.sim.scene_file import load_parameters
 from cloth_sim_ros.study.runs.run import Run
 from cloth_sim_ros.study.trade.budget import Budget
 from cloth_sim_ros.study.trade.budget import BUDGETS

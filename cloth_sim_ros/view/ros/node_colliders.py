@@ -10,10 +10,10 @@ from typing import Any
 from cloth_sim_ros.messages.frame_names import collider_frame
 from cloth_sim_ros.node.tf_messages import checked_pose
 from cloth_sim_ros.node.tf_messages import read_transforms
-from cloth_sim_ros.sim.collider_fields import fields_with_colliders
-from cloth_sim_ros.sim.collider_fields import NAMES
 from cloth_sim_ros.sim.colliders import Collider
 from cloth_sim_ros.sim.colliders import colliders_of
+from cloth_sim_ros.sim.colliders import fields_with_colliders
+from cloth_sim_ros.sim.colliders import NAMES
 from cloth_sim_ros.sim.errors import ClothSimError
 from rcl_interfaces.srv import GetParameters
 from rclpy.node import Node

@@ -4,7 +4,7 @@
 """A field takes what it says and refuses the rest with rule, value and way out."""
 
 from cloth_sim_ros.sim.errors import ClothSimError
-from cloth_sim_ros.sim.field import Field
+from cloth_sim_ros.sim.scene_fields import Field
 from cloth_sim_ros.sim.scene_fields import SCENE_FIELDS
 import pytest
 
