@@ -16,7 +16,7 @@ from cloth_sim_ros.sim.colliders import NAMES
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.frame_paths import FrameMove
 from cloth_sim_ros.sim.frame_paths import FramePaths
-from cloth_sim_ros.sim.input_listener import RESET
+from cloth_sim_ros.sim.handling import RESET
 from cloth_sim_ros.sim.scene import Scene
 
 _PARAMETERS, _TARGETS, _COMMANDS = (

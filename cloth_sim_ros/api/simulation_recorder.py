@@ -18,8 +18,8 @@ from cloth_sim_ros.node.node_fields import NODE_FIELDS
 from cloth_sim_ros.recording.recording_faults import RecordingError
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.errors import NonFiniteStateError
-from cloth_sim_ros.sim.input_listener import InputListener
-from cloth_sim_ros.sim.input_listener import RESET
+from cloth_sim_ros.sim.handling import InputListener
+from cloth_sim_ros.sim.handling import RESET
 from cloth_sim_ros.sim.scene import refuse_unknown
 from cloth_sim_ros.sim.simulation import Simulation
 

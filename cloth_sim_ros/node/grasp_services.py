@@ -10,7 +10,7 @@ from cloth_sim_interfaces.srv import Release
 from cloth_sim_ros.node.answer import answer
 from cloth_sim_ros.node.input_frames import InputFrames
 from cloth_sim_ros.node.inputs import Inputs
-from cloth_sim_ros.sim.input_listener import InputListener
+from cloth_sim_ros.sim.handling import InputListener
 from cloth_sim_ros.sim.simulation import Simulation
 from rclpy.node import Node
 

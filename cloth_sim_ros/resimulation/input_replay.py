@@ -10,9 +10,9 @@ from cloth_sim_ros.analysis.recorded_values import parts
 from cloth_sim_ros.files.errors import shown
 from cloth_sim_ros.resimulation.listener import Listener
 from cloth_sim_ros.sim.errors import ClothSimError
-from cloth_sim_ros.sim.input_listener import CLEAR_PUSHES
-from cloth_sim_ros.sim.input_listener import InputListener
-from cloth_sim_ros.sim.input_listener import RESET
+from cloth_sim_ros.sim.handling import CLEAR_PUSHES
+from cloth_sim_ros.sim.handling import InputListener
+from cloth_sim_ros.sim.handling import RESET
 from cloth_sim_ros.sim.push import Push
 from cloth_sim_ros.sim.simulation import Simulation
 

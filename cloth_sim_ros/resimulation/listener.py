@@ -3,7 +3,7 @@
 
 """Who is told of a run that is made again."""
 
-from cloth_sim_ros.sim.input_listener import InputListener
+from cloth_sim_ros.sim.handling import InputListener
 
 
 class Listener(InputListener):

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-"""What is done to a running cloth from outside: pushes, wind, pins, grasps and colliders."""
+"""What is done to a running cloth from outside, and who is told of it."""
 
 from collections.abc import Sequence
 from contextlib import AbstractContextManager
@@ -15,10 +15,8 @@ from cloth_sim_ros.sim.grasp_request import GraspRequest
 from cloth_sim_ros.sim.grasps import Grasp
 from cloth_sim_ros.sim.grasps import GraspRequests
 from cloth_sim_ros.sim.grasps import Grasps
+from cloth_sim_ros.sim.grid import near_node
 from cloth_sim_ros.sim.grid import NearNode
-from cloth_sim_ros.sim.input_listener import CLEAR_PUSHES
-from cloth_sim_ros.sim.input_listener import InputListener
-from cloth_sim_ros.sim.nearest import nearest
 from cloth_sim_ros.sim.pin_motion import PinMotion
 from cloth_sim_ros.sim.pin_motion import PinRequests
 from cloth_sim_ros.sim.pins import PinMove
@@ -28,6 +26,73 @@ from cloth_sim_ros.sim.push_field import AppliedPush
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.stepping import RunStatus
 import numpy as np
+
+RESET, CLEAR_PUSHES = 'reset', 'clear_pushes'
+
+
+class InputListener:
+    """
+    Hears of each input once it is accepted, at the simulated time at which it acts.
+
+    To be derived from; does nothing by itself.
+    """
+
+    def push(self, push: Push) -> None:
+        """Hear of an accepted push."""
+
+    def pin(self, row: int, col: int, pinned: bool) -> None:
+        """Hear of a node that was pinned or released."""
+
+    def pin_target(self, move: PinMove) -> None:
+        """Hear of a pin that sets off."""
+
+    def grasp(self, grasp: Grasp) -> None:
+        """Hear of nodes that are held."""
+
+    def grasp_release(self, name: str, by_force: bool) -> None:
+        """Hear of nodes that are let go; ``by_force``: as the cloth has pulled too hard."""
+
+    def grasp_move(self, move: FrameMove) -> None:
+        """Hear of a grasp that sets off."""
+
+    def collider_move(self, move: FrameMove) -> None:
+        """Hear of a collider that sets off."""
+
+    def wind(self, velocity: tuple[float, float, float]) -> None:
+        """Hear of another steady wind [m/s]."""
+
+    def mode(self, mode: str, previous: str) -> None:
+        """Hear of a switch of the mode."""
+
+    def command(self, command: str) -> None:
+        """Hear of a RESET or of CLEAR_PUSHES, which is about to be carried out."""
+
+    def new_state(self) -> None:
+        """Hear that positions and velocities are about to be replaced; raise to refuse it."""
+
+
+# Find the node of a running cloth at a point.
+
+USUAL_REACH = 0.1  # [m], as far as a click pushes
+
+
+def nearest(
+        scene: Scene, positions: np.ndarray, point: Sequence[float],
+        max_distance: float | None = None, pinned: np.ndarray | None = None) -> NearNode:
+    """
+    Return the node nearest to ``point`` [m]; see near_node.
+
+    :param max_distance: [m], by default usual_reach
+    """
+    if max_distance is None:
+        max_distance = usual_reach(scene)
+    return near_node(positions, point, max_distance, pinned)
+
+
+def usual_reach(scene: Scene) -> float:
+    """Return how far a node may be from a point that means it [m]: further on a coarse cloth."""
+    dx, dy = scene.spacing
+    return max(USUAL_REACH, dx if scene.cols > 1 else 0.0, dy if scene.rows > 1 else 0.0)
 
 
 class Handling(RunStatus):

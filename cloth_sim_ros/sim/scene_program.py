@@ -1,12 +1,15 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-"""Compile the shaders of a scene: only what it uses, with its springs set."""
+"""The programs of a scene: compiled with only what it uses, and passes over its strips."""
 
 from collections.abc import Mapping
 
+from cloth_sim_ros.gl.buffer import Buffer
+from cloth_sim_ros.gl.buffer import shader_writes_visible
 from cloth_sim_ros.gl.program import Program
 from cloth_sim_ros.gl.shader_source import ShaderSource
+from cloth_sim_ros.sim import bindings
 from cloth_sim_ros.sim.colliders import collider_defines
 from cloth_sim_ros.sim.edge_kinds import edge_defines
 from cloth_sim_ros.sim.edge_kinds import REST_KINDS
@@ -16,6 +19,7 @@ from cloth_sim_ros.sim.layout import Layout
 from cloth_sim_ros.sim.scene import FAMILIES
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.state import MOST_MAGNITUDE
+import numpy as np
 
 
 class SceneProgram:
@@ -97,3 +101,52 @@ def _set_springs(program: Program, scene: Scene) -> None:
     program.set_float('inverse_mass', 1.0 / scene.node_mass)
     program.set_float('limit', scene['adaptive.threshold'])
     program.set_vectors('gravity', scene['gravity'])
+
+
+# Passes in which an invocation looks at a strip of a column and leaves its figures behind.
+
+_LOCAL = (16, 2)
+_STRIP = 16
+
+
+class Strips:
+    """
+    The invocations of such a pass, and the figures they leave.
+
+    :param figures: how many floats each invocation leaves
+    """
+
+    def __init__(self, layout: Layout, figures: int) -> None:
+        """Allocate room for the figures."""
+        strips = -(-layout.rows // _STRIP)
+        self._groups = -(-layout.cols // _LOCAL[0]), -(-strips // _LOCAL[1])
+        self._figures = np.empty((strips * layout.cols, figures), dtype=np.float32)
+        self._buffer = Buffer(self._figures.nbytes)
+
+    @staticmethod
+    def defines() -> dict[str, object]:
+        """Return what the shader of such a pass needs to know."""
+        return {'LOCAL_X': _LOCAL[0], 'LOCAL_Y': _LOCAL[1], 'STRIP': _STRIP}
+
+    def dispatch(self, program: Program) -> None:
+        """Run ``program``, which is in use and has its other buffers bound."""
+        self._buffer.bind_storage(bindings.PARTIAL_SUMS)
+        program.dispatch(*self._groups)
+        shader_writes_visible()
+
+    def largest(self) -> np.ndarray:
+        """Wait for the pass, and return the largest of each figure; NaN where one is NaN."""
+        return self.read().max(axis=0)
+
+    def read(self) -> np.ndarray:
+        """Wait for the pass, and return what each invocation left, (invocations, figures)."""
+        self._buffer.read_into(self._figures)
+        return self._figures
+
+    def sums(self) -> np.ndarray:
+        """Wait for the pass, and return the sum of each figure, float64."""
+        return self.read().sum(axis=0, dtype=np.float64)
+
+    def delete(self) -> None:
+        """Give the room back."""
+        self._buffer.delete()

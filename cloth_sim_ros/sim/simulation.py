@@ -17,8 +17,8 @@ import math
 from cloth_sim_ros.gl.context import Context
 from cloth_sim_ros.sim import modes
 from cloth_sim_ros.sim.contacts import ContactForce
+from cloth_sim_ros.sim.engine import Engines
 from cloth_sim_ros.sim.engine import Preparation
-from cloth_sim_ros.sim.engines import Engines
 from cloth_sim_ros.sim.forces import lost_grasps
 from cloth_sim_ros.sim.forces import pulled_too_hard
 from cloth_sim_ros.sim.forces import with_forces
@@ -27,11 +27,11 @@ from cloth_sim_ros.sim.grasps import GraspForce
 from cloth_sim_ros.sim.grasps import GraspRequests
 from cloth_sim_ros.sim.grasps import Grasps
 from cloth_sim_ros.sim.handling import Handling
-from cloth_sim_ros.sim.input_listener import InputListener
-from cloth_sim_ros.sim.input_listener import RESET
+from cloth_sim_ros.sim.handling import InputListener
+from cloth_sim_ros.sim.handling import RESET
+from cloth_sim_ros.sim.handling import usual_reach
 from cloth_sim_ros.sim.layout import choose_layout
 from cloth_sim_ros.sim.loads import Loads
-from cloth_sim_ros.sim.nearest import usual_reach
 from cloth_sim_ros.sim.pin_forces import PinForces
 from cloth_sim_ros.sim.pin_motion import PinMotion
 from cloth_sim_ros.sim.pin_motion import PinRequests

@@ -10,7 +10,7 @@ import math
 
 from cloth_sim_ros.sim import modes
 from cloth_sim_ros.sim.colliders import Collider
-from cloth_sim_ros.sim.engines import Engines
+from cloth_sim_ros.sim.engine import Engines
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.errors import NonFiniteStateError
 from cloth_sim_ros.sim.loads import Loads

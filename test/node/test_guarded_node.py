@@ -104,7 +104,7 @@ def test_a_step_that_fails_stops_the_run(client, tmp_path):
 
 def test_a_device_that_is_lost_stops_the_run(client, tmp_path):
     """The node would end when the driver resets the GPU, or hand out what is left in memory."""
-    start = with_fault('sim.blow_up', 'BoundsCheck', 'passes', 'range(20, 10**9)').replace(
+    start = with_fault('sim.guarded_steps', 'BoundsCheck', 'passes', 'range(20, 10**9)').replace(
         'import sys', 'import sys\nfrom cloth_sim_ros.gl.errors import DeviceError').replace(
         'ZeroDivisionError', 'DeviceError')
     with NodeProcess(tmp_path, SCENE, '-r', '__ns:=/lost', start=start) as node:

@@ -1,15 +1,18 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-"""A mode that is prepared on another thread is the same mode, with nothing left to compile."""
+"""What advances and observes a state by one mode, and the engines of a cloth."""
 
 from collections.abc import Iterator
 import threading
 
+from cloth_sim_ros.gl.context import Context
 from cloth_sim_ros.gl.inventory import take_inventory
+from cloth_sim_ros.gl.libraries import GL
 from cloth_sim_ros.sim import modes
 from cloth_sim_ros.sim.engine import Preparation
 from cloth_sim_ros.sim.errors import ClothSimError
+from cloth_sim_ros.sim.modes import AVAILABLE
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.simulation import Simulation
 import pytest
@@ -134,3 +137,38 @@ def test_an_error_is_kept_for_the_thread_that_waits(simulation: Simulation):
     thread.join()
     assert str(preparation.error) == 'no device for it'
     simulation.step(1)
+
+
+# What the engines of a cloth leave behind on the device.
+
+# Names that GL gives to shaders and programs are the least that are free.
+_NAMES = range(1, 2000)
+
+
+@pytest.mark.parametrize('scheme', ('constraint', 'paper'))
+def test_a_simulation_leaves_its_programs_to_the_next_and_no_buffers(scheme):
+    """A long process that makes one cloth after another would fill up with compiled shaders."""
+    context = Context(single_thread=True)
+    try:
+        counts = []
+        for _ in range(2):
+            with take_inventory() as inventory:
+                run = Simulation(Scene({
+                    **SPRINGS, 'rows': 5, 'cols': 6, 'pins': ['none'], 'adaptive.scheme': scheme,
+                    'air.density': 1.2}), context=context)
+                for mode in AVAILABLE:
+                    run.set_mode(mode)
+                    run.engines.compile_all()
+                    run.snapshot()
+                run.close()
+            assert inventory.buffers == []
+            counts.append(_programs())
+        assert counts[0] >= len(AVAILABLE)
+        assert counts[1] == counts[0]
+    finally:
+        context.close()
+
+
+def _programs() -> int:
+    """Return how many programs the device has."""
+    return sum(bool(GL.glIsProgram(name)) for name in _NAMES)

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 from cloth_sim_ros.gl.errors import DeviceError
 from cloth_sim_ros.sim.errors import ClothSimError
-from cloth_sim_ros.sim.input_listener import InputListener
+from cloth_sim_ros.sim.handling import InputListener
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.simulation import Simulation
 import numpy as np

@@ -16,11 +16,11 @@ from cloth_sim_ros.sim.modes.limited_springs import LimitedSprings
 from cloth_sim_ros.sim.modes.mode import Pieces
 from cloth_sim_ros.sim.modes.paper_limit import PaperLimit
 from cloth_sim_ros.sim.modes.spring_passes import OnePass
-from cloth_sim_ros.sim.modes.spring_substeps import spring_substeps
 from cloth_sim_ros.sim.pin_forces import spring_tension
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.solver.edge_law import EdgeLaw
 from cloth_sim_ros.sim.solver.edge_law import spring_law
+from cloth_sim_ros.sim.stability import spring_substeps
 from cloth_sim_ros.sim.stability import stability_limit
 from cloth_sim_ros.sim.state import State
 import numpy as np

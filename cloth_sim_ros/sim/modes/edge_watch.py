@@ -11,8 +11,8 @@ from cloth_sim_ros.sim.layout import Layout
 from cloth_sim_ros.sim.loads import Loads
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.scene_program import SceneProgram
+from cloth_sim_ros.sim.scene_program import Strips
 from cloth_sim_ros.sim.state import State
-from cloth_sim_ros.sim.strips import Strips
 
 # Of the limit: a predicted strain above this makes an edge near it.
 _NEAR = 0.9

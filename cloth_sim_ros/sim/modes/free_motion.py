@@ -8,8 +8,8 @@ from cloth_sim_ros.sim.forcing import Forcing
 from cloth_sim_ros.sim.layout import Layout
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.scene_program import SceneProgram
+from cloth_sim_ros.sim.scene_program import Strips
 from cloth_sim_ros.sim.state import State
-from cloth_sim_ros.sim.strips import Strips
 import numpy as np
 
 _LOCAL = (16, 2)

@@ -13,9 +13,9 @@ from cloth_sim_ros.gl.context import Context
 from cloth_sim_ros.reference.edges import edges_of
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.modes import AVAILABLE
-from cloth_sim_ros.sim.modes.spring_substeps import spring_substeps
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.stability import any_shape_limit
+from cloth_sim_ros.sim.stability import spring_substeps
 from cloth_sim_ros.sim.stability import stability_limit
 from cloth_sim_ros.study.process_context import process_context
 from cloth_sim_ros.study.scene_values import scaled_stiffness

@@ -6,7 +6,7 @@
 import math
 
 from cloth_sim_ros.sim.errors import ClothSimError
-from cloth_sim_ros.sim.input_listener import InputListener
+from cloth_sim_ros.sim.handling import InputListener
 import numpy as np
 import pytest
 

@@ -5,8 +5,8 @@
 """Which node a point means."""
 
 from cloth_sim_ros.sim.errors import ClothSimError
-from cloth_sim_ros.sim.nearest import nearest
-from cloth_sim_ros.sim.nearest import usual_reach
+from cloth_sim_ros.sim.handling import nearest
+from cloth_sim_ros.sim.handling import usual_reach
 from cloth_sim_ros.sim.scene import Scene
 import numpy as np
 import pytest
