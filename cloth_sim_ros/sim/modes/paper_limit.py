@@ -13,8 +13,8 @@ from cloth_sim_ros.sim.edge_kinds import EDGE_KINDS
 from cloth_sim_ros.sim.forcing import Forcing
 from cloth_sim_ros.sim.layout import Layout
 from cloth_sim_ros.sim.loads import Loads
+from cloth_sim_ros.sim.modes.mass_spring import OnePass
 from cloth_sim_ros.sim.modes.mode import Pieces
-from cloth_sim_ros.sim.modes.spring_passes import OnePass
 from cloth_sim_ros.sim.pin_forces import spring_tension
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.scene_program import SceneProgram

@@ -5,7 +5,7 @@
 
 import math
 
-from cloth_sim_ros.sim.modes.settling import Settling
+from cloth_sim_ros.sim.modes.implicit import Settling
 import numpy as np
 import pytest
 
