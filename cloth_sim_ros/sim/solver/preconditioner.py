@@ -1,13 +1,15 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-"""What conjugate gradients want of a preconditioner; block-Jacobi, each node on its own."""
+"""The preconditioners of conjugate gradients: block-Jacobi and geometric multigrid."""
 
 from typing import Protocol
 
+from cloth_sim_ros.sim.layout import Layout
 from cloth_sim_ros.sim.solver.edge_law import EdgeLaw
-from cloth_sim_ros.sim.solver.levels import Levels
-from cloth_sim_ros.sim.solver.solver_pass import SolverPass
+from cloth_sim_ros.sim.solver.solver_buffers import COARSEST_SIDE
+from cloth_sim_ros.sim.solver.solver_buffers import Levels
+from cloth_sim_ros.sim.solver.solver_programs import SolverPass
 from cloth_sim_ros.sim.solver.solver_programs import SolverPrograms
 
 
@@ -42,3 +44,84 @@ class BlockJacobi:
 
     def set_law(self, law: EdgeLaw) -> None:
         """Take up nothing."""
+
+
+# Geometric multigrid: smooth, solve what is left on a lattice half as fine, smooth again.
+
+# Chebyshev steps on the coarsest level, and the spread of eigenvalues they are made for.
+_COARSEST_STEPS = 10
+_LEAST_SPREAD = 4.0
+_MOST_SPREAD = 60.0
+# The largest eigenvalue of an edge system over its diagonal blocks: an edge ties two nodes.
+_LARGEST_EIGENVALUE = 2.0
+
+
+class Multigrid:
+    """A V-cycle with two Chebyshev steps of block-Jacobi before and after each coarser level."""
+
+    is_multigrid = True
+
+    def __init__(self, programs: SolverPrograms, levels: Levels) -> None:
+        """Compile the passes of all levels; one program serves all coarse levels."""
+        self._levels = levels
+        self._coarsest = programs.make(
+            'coarsest.comp', COARSEST_SIDE=COARSEST_SIDE, COARSEST_STEPS=_COARSEST_STEPS)
+        self.assembly = self._assembly(programs)
+        self.cycle = self._cycle(programs)
+
+    def set_law(self, law: EdgeLaw) -> None:
+        """Set the eigenvalues to damp on the coarsest level."""
+        cloth, coarsest = self._levels.cloth, self._levels.layouts[-1]
+        share = coarsest.rows * coarsest.cols / (cloth.rows * cloth.cols)
+        spread = min(max(1.0 + 10.0 * law.largest_weight * share, _LEAST_SPREAD), _MOST_SPREAD)
+        least = _LARGEST_EIGENVALUE / spread
+        self._coarsest.use()
+        self._coarsest.set_float('middle', (_LARGEST_EIGENVALUE + least) / 2.0)
+        self._coarsest.set_float('half_width', (_LARGEST_EIGENVALUE - least) / 2.0)
+
+    def _assembly(self, programs: SolverPrograms) -> list[SolverPass]:
+        coarsen_cloth = programs.make('coarsen_cloth.comp')
+        coarsen = programs.make('coarsen.comp')
+        invert = programs.make('invert.comp')
+        passes = []
+        for level, layout in list(enumerate(self._levels.layouts))[1:]:
+            program = coarsen_cloth if level == 1 else coarsen
+            passes.append(SolverPass(program, layout.node_groups, level))
+            passes.append(SolverPass(invert, layout.node_groups, level))
+        return passes
+
+    def _cycle(self, programs: SolverPrograms) -> list[SolverPass]:
+        layouts, last = self._levels.layouts, self._levels.coarsest
+        restrict = programs.make('restrict.comp')
+        of_cloth, of_level = _Smoothing(programs, 'cloth_'), _Smoothing(programs, '')
+        passes = [SolverPass(self._coarsest, (1, 1), last)]
+        for level in reversed(range(last)):
+            smoothing = of_level if level else of_cloth
+            passes = [
+                *smoothing.down(level, layouts[level].groups),
+                SolverPass(restrict, _restrict_groups(layouts[level + 1]), level + 1), *passes,
+                *smoothing.up(level, layouts[level].groups)]
+        return passes
+
+
+def _restrict_groups(layout: Layout) -> tuple[int, int]:
+    # Two nodes along each side an invocation.
+    across, down = (-(-groups // 2) for groups in layout.node_groups)
+    return across, down
+
+
+class _Smoothing:
+    """The smoothing of the cloth or of the coarse levels; restrict.comp makes its first step."""
+
+    def __init__(self, programs: SolverPrograms, prefix: str) -> None:
+        self._smooth = programs.make(f'{prefix}smooth.comp')
+        self._defect = programs.make(f'{prefix}defect.comp')
+        self._correct = programs.make(f'{prefix}correct.comp')
+
+    def down(self, level: int, groups: tuple[int, int]) -> list[SolverPass]:
+        return [SolverPass(self._smooth, groups, level, False),
+                SolverPass(self._defect, groups, level)]
+
+    def up(self, level: int, groups: tuple[int, int]) -> list[SolverPass]:
+        return [SolverPass(self._correct, groups, level),
+                SolverPass(self._smooth, groups, level, True)]

@@ -1,17 +1,54 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-"""Compile the programs of the solver: for the families of edges it takes, on its levels."""
+"""The programs of the solver: for the edges it takes, on its levels, run as its passes."""
 
 from collections.abc import Collection
+from collections.abc import Sequence
 
+from cloth_sim_ros.gl.buffer import shader_writes_visible
+from cloth_sim_ros.gl.buffer import WRITES_VISIBLE
 from cloth_sim_ros.gl.program import Program
+from cloth_sim_ros.gl.quick_calls import Call
 from cloth_sim_ros.gl.shader_source import ShaderSource
 from cloth_sim_ros.sim.edge_kinds import edge_defines
 from cloth_sim_ros.sim.layout import Layout
 from cloth_sim_ros.sim.solver.edge_law import EdgeLaw
-from cloth_sim_ros.sim.solver.levels import Levels
-from cloth_sim_ros.sim.solver.smoothing_steps import smoothing_steps
+from cloth_sim_ros.sim.solver.solver_buffers import Levels
+
+# What smoothing leaves to the coarser levels lies below this, with an eigenvalue of 2 at most.
+_LEAST = 0.25
+# On coarse levels a bend edge counts with those of four nodes.
+_EDGES_OF_A_NODE = (2.0, 2.0, 4.0, 8.0, 8.0)
+# The squares of a node's parts in the three lines around it: 1, 2 and 1.
+_LINES_OF_A_NODE = 6.0
+
+
+def smoothing_steps(law: EdgeLaw) -> tuple[float, float]:
+    """
+    Return the two Chebyshev steps, as shares of a whole step of block-Jacobi.
+
+    They are made for the eigenvalues of the system over its diagonal blocks. With edges that
+    weigh d around a node of mass 1 none is below 1 / (1 + d) nor, as an edge ties two nodes, above
+    (1 + 2 d) / (1 + d). Bending of the weight b around a node has up to 3 b there, as it ties
+    three nodes; out of the plane of the cloth it is alone. Without either both steps are whole
+    ones, and the first is exact.
+
+    Beyond the largest eigenvalue foreseen, smoothing makes errors grow and the preconditioner has
+    negative eigenvalues: the solver would tell of small residuals and be wrong.
+    """
+    edges = sum(count * weight for count, weight in zip(_EDGES_OF_A_NODE, law.weights))
+    bending = _LINES_OF_A_NODE * sum(law.bending_bounds)
+    around = edges + bending
+    least = max(_LEAST, 1.0 / (1.0 + around))
+    most = max(
+        (1.0 + 2.0 * edges + 3.0 * bending) / (1.0 + around),
+        (1.0 + 3.0 * bending) / (1.0 + bending))
+    middle, reach = 0.5 * (most + least), 0.5 * (most - least) * 0.5**0.5
+    return 1.0 / (middle + reach), 1.0 / (middle - reach)
+
+
+# Compile the programs of the solver: for the families of edges it takes, on its levels.
 
 POINT_LOCAL = 32
 # Entries of one invocation where entries stand alone.
@@ -93,3 +130,68 @@ def solver_defines(
         'POINTS': POINTS,
         'REDUCE_LOCAL': REDUCE_LOCAL,
     }
+
+
+# One pass of the solver, and the list of workgroup counts that reduce.comp switches off.
+
+_BYTES_PER_DISPATCH = 12
+
+
+class SolverPass:
+    """
+    A program with the workgroups it always runs on.
+
+    :param level: what the program's uniform ``level`` is set to; None leaves it alone
+    :param goes_up: what the program's uniform ``goes_up`` is set to; None leaves it alone
+    """
+
+    def __init__(
+            self, program: Program, groups: tuple[int, int], level: int | None = None,
+            goes_up: bool | None = None) -> None:
+        """Remember how to run ``program``."""
+        self.groups = groups
+        self._program = program
+        uniforms = {'level': level, 'goes_up': goes_up}
+        self._uniforms = {
+            name: int(value) for name, value in uniforms.items() if value is not None}
+        self._offset = 0
+
+    def set_int(self, name: str, value: int) -> None:
+        """Set an int uniform of the program."""
+        self._program.use()
+        self._program.set_int(name, value)
+
+    def set_float(self, name: str, value: float) -> None:
+        """Set a float uniform of the program."""
+        self._program.use()
+        self._program.set_float(name, value)
+
+    def set_vectors(self, name: str, vectors: Sequence[float]) -> None:
+        """Set a vec3 uniform of the program."""
+        self._program.use()
+        self._program.set_vectors(name, vectors)
+
+    def switch(self, dispatches: list[tuple[int, int]]) -> None:
+        """Take the pass's place in ``dispatches``, the workgroup counts that can be switched."""
+        if self.groups not in dispatches:
+            dispatches.append(self.groups)
+        self._offset = dispatches.index(self.groups) * _BYTES_PER_DISPATCH
+
+    def run(self) -> None:
+        """Run the pass and order what follows after it."""
+        self._use()
+        self._program.dispatch(*self.groups)
+        shader_writes_visible()
+
+    def calls_if_going(self) -> list[Call]:
+        """Return what runs the pass unless the device has decided to stop."""
+        return [*self._program.indirect_calls(self._offset, **self._uniforms), WRITES_VISIBLE]
+
+    def submitted(self, count: int) -> None:
+        """Count ``count`` times that ``calls_if_going`` were made."""
+        self._program.submitted(count)
+
+    def _use(self) -> None:
+        self._program.use()
+        for name, value in self._uniforms.items():
+            self._program.set_int(name, value)

@@ -8,7 +8,7 @@ import math
 
 from cloth_sim_ros.gl.buffer import Buffer
 from cloth_sim_ros.sim import bindings
-from cloth_sim_ros.sim.solver.solver_pass import SolverPass
+from cloth_sim_ros.sim.solver.solver_programs import SolverPass
 from cloth_sim_ros.sim.solver.solver_programs import SolverPrograms
 import numpy as np
 

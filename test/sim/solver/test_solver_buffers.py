@@ -7,8 +7,8 @@ import re
 
 from cloth_sim_ros.gl.errors import DeviceError
 from cloth_sim_ros.sim.layout import Layout
-from cloth_sim_ros.sim.solver.levels import COARSEST_SIDE
-from cloth_sim_ros.sim.solver.levels import Levels
+from cloth_sim_ros.sim.solver.solver_buffers import COARSEST_SIDE
+from cloth_sim_ros.sim.solver.solver_buffers import Levels
 from cloth_sim_ros.sim.solver.solver_buffers import refuse_too_large
 import pytest
 

@@ -8,7 +8,7 @@ from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.solver.edge_law import EdgeLaw
 from cloth_sim_ros.sim.solver.edge_law import hard_edges
 from cloth_sim_ros.sim.solver.edge_law import spring_law
-from cloth_sim_ros.sim.solver.smoothing_steps import smoothing_steps
+from cloth_sim_ros.sim.solver.solver_programs import smoothing_steps
 import numpy as np
 import pytest
 from springs import SPRINGS

@@ -1,0 +1,285 @@
+# SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
+# SPDX-License-Identifier: Apache-2.0
+
+"""The solves of a substep: how each begins, and which limits and contacts are in force."""
+
+from dataclasses import dataclass
+
+from cloth_sim_ros.gl.buffer import shader_writes_visible
+from cloth_sim_ros.gl.program import Program
+from cloth_sim_ros.sim.forcing import Forcing
+from cloth_sim_ros.sim.forcing import touch_of
+from cloth_sim_ros.sim.layout import Layout
+from cloth_sim_ros.sim.scene import Scene
+from cloth_sim_ros.sim.scene_program import SceneProgram
+from cloth_sim_ros.sim.solver.edge_law import EdgeLaw
+from cloth_sim_ros.sim.solver.edge_law import set_law
+from cloth_sim_ros.sim.solver.solver_buffers import Levels
+from cloth_sim_ros.sim.solver.solver_buffers import SolverBuffers
+from cloth_sim_ros.sim.solver.solver_programs import POINT_LOCAL
+from cloth_sim_ros.sim.solver.solver_programs import POINTS
+from cloth_sim_ros.sim.solver.solver_programs import SolverPass
+from cloth_sim_ros.sim.solver.solver_programs import SolverPrograms
+from cloth_sim_ros.sim.state import State
+
+
+@dataclass(frozen=True)
+class Start:
+    """
+    Where a solve starts.
+
+    :param field: of SolverBuffers, a change of velocity
+    :param share: of it
+    """
+
+    field: int
+    share: float
+
+    def set_in(self, program: Program) -> None:
+        """Set it in the program in use."""
+        program.set_int('start_field', self.field)
+        program.set_float('guess', self.share)
+
+
+class RightSide:
+    """
+    Runs right_side.comp, for the first solve of a step or for a further one.
+
+    :param foresees_turn: allow for how much longer edges get by turning
+    """
+
+    def __init__(
+            self, scene: Scene, state: Layout, programs: SolverPrograms, levels: Levels, *,
+            is_further: bool, foresees_turn: bool) -> None:
+        """Prepare; nothing is compiled yet."""
+        self._program = SceneProgram('solver/right_side.comp', scene, state, {
+            **programs.defines, 'FORESEES_TURN': int(foresees_turn),
+            'IS_FURTHER': int(is_further)})
+        self._programs = programs
+        self._groups = levels.cloth.groups
+        self._law_in: EdgeLaw | None = None
+
+    def run(
+            self, law: EdgeLaw, forcing: Forcing, kick: float, start: Start, *,
+            knows_tension: bool) -> None:
+        """
+        Make the right side of the state that is bound.
+
+        :param kick: that what is applied acts for [s]
+        :param start: change of velocity to expect
+        :param knows_tension: False where no step before has found the tensions
+        """
+        program = self._program.use_for_step(forcing, law.length, kick)
+        if self._law_in != law:
+            self._programs.set_sizes(program)
+            set_law(program, law)
+            program.set_float('geometric', law.geometric)
+            self._law_in = law
+        start.set_in(program)
+        program.set_int('knows_tension', int(knows_tension))
+        program.dispatch(*self._groups)
+        shader_writes_visible()
+
+    def delete(self) -> None:
+        """Give the program back."""
+        self._program.delete()
+
+
+# Whether a solve has found the limits in force, and where the next one starts if not.
+#
+# A solve takes the law of each edge for a straight line. Where edges come to limits or leave them,
+# its solution may be worse than its start. What the step minimises is convex, so its slope along
+# the way from start to solution changes sign once: there the next solve starts, which so comes
+# nearer in any case (Newton's method with a line search; docs/explanation/implicit_step.md).
+
+# Looks along the way, by false position, not nearer than a tenth to the ends of what is left.
+_LOOKS = 6
+# Of the slope at the start: what the slope at the end of the way may be.
+_FLAT = 0.05
+
+
+@dataclass(frozen=True)
+class _Look:
+    """
+    What a look at some share of the way has found.
+
+    :param curvature: along the way, of the straight law
+    :param more: slope that the true law has besides
+    :param missing: square of what tensions lack
+    """
+
+    curvature: float
+    more: float
+    missing: float
+
+    def slope(self, share: float) -> float:
+        """Return the slope over that at the start, below 0 where it goes down."""
+        return share - 1.0 + self.more / self.curvature
+
+
+class LimitSearch:
+    """
+    Runs limit_search.comp and start_between.comp; nothing is compiled before that.
+
+    :param is_further: as of RightSide
+    :param foresees_turn: as of RightSide
+    """
+
+    def __init__(
+            self, scene: Scene, state: Layout, programs: SolverPrograms, levels: Levels, *,
+            is_further: bool, foresees_turn: bool) -> None:
+        """Prepare."""
+        defines = {**programs.defines, 'FORESEES_TURN': int(foresees_turn),
+                   'IS_FURTHER': int(is_further)}
+        self._look_at = SceneProgram('solver/limit_search.comp', scene, state, defines)
+        self._move = SceneProgram('solver/start_between.comp', scene, state, defines)
+        self._programs = programs
+        self._groups = levels.cloth.groups
+        self._points = -(-levels.cloth.stored // (POINTS * POINT_LOCAL))
+        self._law_in: EdgeLaw | None = None
+
+    def prepare(self) -> None:
+        """Compile both passes."""
+        self._look_at.use()
+        self._move.use()
+
+    def delete(self) -> None:
+        """Give both programs back."""
+        self._look_at.delete()
+        self._move.delete()
+
+    def move_start(
+            self, law: EdgeLaw, start: Start, buffers: SolverBuffers, missing: float,
+            into: int) -> bool:
+        """
+        Leave in a field where the next solve starts; return False where none is needed.
+
+        :param start: of the last solve
+        :param missing: of the square of what tensions lack, that may be left
+        :param into: the field, of SolverBuffers
+        """
+        self._set(law, start)
+        share = 1.0
+        look = self._look(share, buffers)
+        # Written so that what is no number is not looked at again. Where nothing moves and nothing
+        # is applied there is no way to go.
+        if not (look.missing > missing and look.curvature > 0.0):
+            return False
+        low, high = 0.0, 1.0
+        low_slope, high_slope = -1.0, look.slope(1.0)
+        if high_slope > _FLAT:
+            for _ in range(_LOOKS):
+                share = low - low_slope * (high - low) / (high_slope - low_slope)
+                share = min(max(share, low + 0.1 * (high - low)), high - 0.1 * (high - low))
+                slope = self._look(share, buffers).slope(share)
+                if abs(slope) <= _FLAT:
+                    break
+                if slope < 0.0:
+                    low, low_slope = share, slope
+                else:
+                    high, high_slope = share, slope
+        self._start_between(share, start, into)
+        return True
+
+    def _set(self, law: EdgeLaw, start: Start) -> None:
+        program = self._look_at.use()
+        if self._law_in != law:
+            self._programs.set_sizes(program)
+            program.set_float('substep', law.length)
+            set_law(program, law)
+            self._law_in = law
+        start.set_in(program)
+
+    def _look(self, share: float, buffers: SolverBuffers) -> _Look:
+        program = self._look_at.use()
+        program.set_float('share', share)
+        program.dispatch(*self._groups)
+        shader_writes_visible()
+        return _Look(*buffers.sums())
+
+    def _start_between(self, share: float, start: Start, into: int) -> None:
+        program = self._move.use()
+        self._programs.set_sizes(program)
+        start.set_in(program)
+        program.set_float('share', share)
+        program.set_int('into', into)
+        program.dispatch(self._points, 1)
+        shader_writes_visible()
+
+
+# Which nodes touch a collider in a substep of the implicit step, docs/explanation/contact.md.
+
+# Of the distance of nodes: what one may be moved by without another solve.
+_MOST_UNSOLVED = 1e-4
+
+
+class SolverContacts:
+    """
+    Makes velocities right where colliders decide about them, before and after each solve.
+
+    The solver's buffers have to be bound.
+
+    :param groups: workgroups of passes with one node an invocation
+    :param block_groups: workgroups of those with a block of nodes
+    """
+
+    def __init__(
+            self, scene: Scene, state: Layout, programs: SolverPrograms,
+            groups: tuple[int, int], block_groups: tuple[int, int]) -> None:
+        """Compile the passes of each solve; the others are compiled when first needed."""
+        self._programs = programs
+        self._groups = groups
+        self._most_unsolved = _MOST_UNSOLVED * min(scene.spacing)
+        self._decide = {
+            stage: SceneProgram('solver/contact.comp', scene, state, {
+                **programs.defines, 'STAGE': stage}) for stage in ('BEGIN', 'AGAIN', 'END')}
+        self._hold = SolverPass(programs.make('hold.comp'), groups)
+        self._react = SolverPass(programs.make('reaction.comp'), block_groups)
+
+    def begin(
+            self, state: State, forcing: Forcing, length: float, kick: float,
+            guess: float) -> None:
+        """
+        Decide what touches in a substep of ``length`` [s] that begins with ``state``.
+
+        :param kick: that ``forcing`` acts for [s]
+        :param guess: share of the last change of velocity that is expected; 0 where none is known
+        """
+        program = self._use('BEGIN', forcing, length, kick)
+        program.set_float('guess', guess)
+        program.set_float('most_unsolved', self._most_unsolved)
+        self._run(program, state)
+
+    def hold(self) -> None:
+        """Take from a right side what nodes that touch a collider can't follow."""
+        self._hold.run()
+
+    def after_solve(
+            self, state: State, forcing: Forcing, length: float, *, is_last: bool,
+            ends_turns: bool) -> None:
+        """Decide anew once a solve is applied; once more with ``is_last`` to end the substep."""
+        if not is_last:
+            self._react.run()
+        touch_of(forcing).begin_decision()
+        program = self._use('END' if is_last else 'AGAIN', forcing, length, length)
+        program.set_float('most_unsolved', self._most_unsolved)
+        program.set_int('ends_turns', int(ends_turns))
+        self._run(program, state)
+
+    def delete(self) -> None:
+        """Give the passes back."""
+        for program in self._decide.values():
+            program.delete()
+
+    def _use(self, stage: str, forcing: Forcing, length: float, kick: float) -> Program:
+        program = self._decide[stage].use_for_step(forcing, length, kick)
+        self._programs.set_sizes(program)
+        touch_of(forcing).set_in(program, length)
+        return program
+
+    def _run(self, program: Program, state: State) -> None:
+        state.bind_in()
+        state.bind_out()
+        program.dispatch(*self._groups)
+        shader_writes_visible()
+        state.swap()
