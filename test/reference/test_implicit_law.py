@@ -7,7 +7,7 @@ from cloth_sim_ros.reference.edge_law import constraint_law
 from cloth_sim_ros.reference.edge_law import EdgeLaw
 from cloth_sim_ros.reference.edge_law import limited_law
 from cloth_sim_ros.reference.edge_law import spring_law
-from cloth_sim_ros.reference.edge_matrix import EdgeMatrix
+from cloth_sim_ros.reference.implicit_step import EdgeMatrix
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.scene import Scene
 import numpy as np

@@ -3,7 +3,7 @@
 
 """Which nodes the edges join."""
 
-from cloth_sim_ros.reference.springs import spring_sets
+from cloth_sim_ros.reference.edges import spring_sets
 from cloth_sim_ros.sim.edge_kinds import EDGE_KINDS
 from cloth_sim_ros.sim.scene import FAMILIES
 from cloth_sim_ros.sim.scene import Scene

@@ -4,7 +4,7 @@
 """The forces that hold the pins."""
 
 from cloth_sim_ros.reference.edges import edges_of
-from cloth_sim_ros.reference.springs import spring_sets
+from cloth_sim_ros.reference.edges import spring_sets
 from cloth_sim_ros.sim.edge_kinds import EDGE_KINDS
 from cloth_sim_ros.sim.pin_forces import pin_forces
 from cloth_sim_ros.sim.pin_forces import spring_tension

@@ -5,8 +5,8 @@
 
 from dataclasses import dataclass
 
-from cloth_sim_ros.reference.springs import spring_sets
-from cloth_sim_ros.reference.springs import SpringSet
+from cloth_sim_ros.reference.edges import spring_sets
+from cloth_sim_ros.reference.edges import SpringSet
 from cloth_sim_ros.sim.scene import FAMILIES
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.solver.edge_law import EdgeLaw

@@ -6,7 +6,7 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from cloth_sim_ros.reference.springs import spring_sets
+from cloth_sim_ros.reference.edges import spring_sets
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.study.modes.contenders import StretchBound
 import numpy as np

@@ -6,7 +6,7 @@
 from collections.abc import Sequence
 from typing import Any
 
-from cloth_sim_ros.reference.mass_spring import MassSpringReference
+from cloth_sim_ros.reference.explicit_cloth import MassSpringReference
 from cloth_sim_ros.sim.scene import Scene
 import numpy as np
 

@@ -6,8 +6,8 @@
 from contextlib import closing
 from itertools import permutations
 
-from cloth_sim_ros.reference.energy import elastic_energy
-from cloth_sim_ros.reference.springs import spring_sets
+from cloth_sim_ros.reference.cloth import elastic_energy
+from cloth_sim_ros.reference.edges import spring_sets
 from cloth_sim_ros.sim.modes import AVAILABLE
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.simulation import Simulation

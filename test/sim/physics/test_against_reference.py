@@ -14,7 +14,7 @@ from contextlib import closing
 from functools import lru_cache
 import json
 
-from cloth_sim_ros.reference.mass_spring import MassSpringReference
+from cloth_sim_ros.reference.explicit_cloth import MassSpringReference
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.simulation import Simulation
 from cloth_sim_ros.sim.stability import choose_substeps

@@ -5,7 +5,7 @@
 
 import math
 
-from cloth_sim_ros.reference.air_force import air_forces
+from cloth_sim_ros.reference.forces import air_forces
 from cloth_sim_ros.study.energy_account import EnergyAccount
 import numpy as np
 import pytest

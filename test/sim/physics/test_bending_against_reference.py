@@ -3,8 +3,8 @@
 
 """The shaders bend a cloth as the float64 reference does, in every layout and mode."""
 
+from cloth_sim_ros.reference.explicit_cloth import MassSpringReference
 from cloth_sim_ros.reference.implicit_cloth import ImplicitCloth
-from cloth_sim_ros.reference.mass_spring import MassSpringReference
 from cloth_sim_ros.sim.pin_forces import bending_pulls
 import numpy as np
 import pytest

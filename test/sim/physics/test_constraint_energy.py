@@ -3,8 +3,8 @@
 
 """The constraint mode makes no energy, and follows links as rigid as its edges are hard."""
 
-from cloth_sim_ros.reference.energy import elastic_energy
-from cloth_sim_ros.reference.springs import spring_sets
+from cloth_sim_ros.reference.cloth import elastic_energy
+from cloth_sim_ros.reference.edges import spring_sets
 import numpy as np
 import pytest
 from rigid_links import fall_from_level

@@ -3,7 +3,7 @@
 
 """Fine cloth: what rounding positions to float32 does where rest lengths are short."""
 
-from cloth_sim_ros.reference.mass_spring import MassSpringReference
+from cloth_sim_ros.reference.explicit_cloth import MassSpringReference
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.simulation import Simulation
 import numpy as np

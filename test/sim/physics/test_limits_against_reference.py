@@ -10,8 +10,8 @@ substep on: what it does far from a limit is in test_against_reference.py.
 
 from contextlib import closing
 
-from cloth_sim_ros.reference.adaptive_paper import PaperAdaptiveReference
 from cloth_sim_ros.reference.edge_law import limited_law
+from cloth_sim_ros.reference.explicit_cloth import PaperAdaptiveReference
 from cloth_sim_ros.reference.implicit_cloth import ImplicitCloth
 from cloth_sim_ros.sim.scene import FAMILIES
 from cloth_sim_ros.sim.scene import Scene

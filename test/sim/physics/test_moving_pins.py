@@ -6,8 +6,8 @@
 
 from time import process_time
 
+from cloth_sim_ros.reference.explicit_cloth import MassSpringReference
 from cloth_sim_ros.reference.implicit_cloth import ImplicitCloth
-from cloth_sim_ros.reference.mass_spring import MassSpringReference
 import numpy as np
 import pytest
 

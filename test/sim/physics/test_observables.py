@@ -3,7 +3,7 @@
 
 """What a snapshot says about its positions and velocities, against float64 NumPy."""
 
-from cloth_sim_ros.reference.mass_spring import MassSpringReference
+from cloth_sim_ros.reference.explicit_cloth import MassSpringReference
 import numpy as np
 import pytest
 

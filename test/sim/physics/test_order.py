@@ -3,7 +3,7 @@
 
 """The shaders' motion converges to that of the same springs in continuous time."""
 
-from cloth_sim_ros.reference.mass_spring import MassSpringReference
+from cloth_sim_ros.reference.explicit_cloth import MassSpringReference
 from cloth_sim_ros.sim.scene import Scene
 import numpy as np
 from scipy.integrate import solve_ivp

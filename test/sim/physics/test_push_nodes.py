@@ -5,7 +5,7 @@
 
 from itertools import product
 
-from cloth_sim_ros.reference.push_force import push_nodes
+from cloth_sim_ros.reference.forces import push_nodes
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.simulation import Simulation
 from cloth_sim_ros.study.energy_account import EnergyAccount

@@ -3,7 +3,7 @@
 
 """Where a damped cloth comes to rest."""
 
-from cloth_sim_ros.reference.mass_spring import MassSpringReference
+from cloth_sim_ros.reference.explicit_cloth import MassSpringReference
 import numpy as np
 import pytest
 

@@ -3,7 +3,7 @@
 
 """Without damping the energy neither drifts nor ripples more than the scheme's order says."""
 
-from cloth_sim_ros.reference.mass_spring import MassSpringReference
+from cloth_sim_ros.reference.explicit_cloth import MassSpringReference
 from cloth_sim_ros.sim.scene import Scene
 import numpy as np
 import pytest

@@ -3,7 +3,7 @@
 
 """The converged reference is the motion of the springs in continuous time."""
 
-from cloth_sim_ros.reference.mass_spring import MassSpringReference
+from cloth_sim_ros.reference.explicit_cloth import MassSpringReference
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.study.runs.make_runs import perform
 from cloth_sim_ros.study.trade.path import distances

@@ -3,7 +3,7 @@
 
 """The oracle's energies against numbers worked out by hand."""
 
-from cloth_sim_ros.reference.mass_spring import MassSpringReference
+from cloth_sim_ros.reference.explicit_cloth import MassSpringReference
 from cloth_sim_ros.sim.scene import Scene
 import numpy as np
 import pytest

@@ -1,16 +1,57 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-"""The law of the air in the oracle, against formulas and scipy."""
+"""The forces on a cloth besides those of its edges: pushes, air and bending, in float64."""
 
-from cloth_sim_ros.reference.air_force import air_forces
-from cloth_sim_ros.reference.air_force import wind_at
-from cloth_sim_ros.reference.mass_spring import MassSpringReference
+from cloth_sim_ros.reference.explicit_cloth import MassSpringReference
+from cloth_sim_ros.reference.forces import air_forces
+from cloth_sim_ros.reference.forces import push_nodes
+from cloth_sim_ros.reference.forces import push_weight
+from cloth_sim_ros.reference.forces import wind_at
+from cloth_sim_ros.sim.push import Push
 from cloth_sim_ros.sim.scene import Scene
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 from springs import SPRINGS
+
+PUSH = Push((0.0, 0.0, 2.0), start=0.05, duration=0.2)
+
+
+@pytest.mark.parametrize(('begin', 'end', 'weight'), [
+    (0.0, 0.05, 0.0), (0.0, 0.1, 0.5), (0.1, 0.2, 1.0), (0.2, 0.3, 0.5), (0.25, 0.3, 0.0),
+    (0.0, 0.4, 0.5),
+])
+def test_weight_is_the_overlap(begin, end, weight):
+    """A push counts more or less of a step than it acts in."""
+    assert push_weight(PUSH, begin, end) == pytest.approx(weight)
+
+
+@pytest.mark.parametrize('dt', [0.03, 0.017, 0.2, 0.5])
+def test_impulse_is_exact_at_any_dt(dt):
+    """The momentum given depends on dt."""
+    scene = Scene({
+        'rows': 3, 'cols': 4, 'dt': dt, 'auto_substeps': False, 'gravity': [0.0, 0.0, 0.0],
+        'pins': ['top_left'],
+        **{f'{kind}.{family}': 0.0 for kind in ('stiffness', 'damping')
+           for family in ('structural', 'shear', 'bend')}})
+    cloth = MassSpringReference(scene)
+    cloth.push(PUSH)
+    cloth.advance(1.0)
+    momentum = scene.node_mass * cloth.velocities.sum(axis=(0, 1))
+    np.testing.assert_allclose(momentum, [0.0, 0.0, 0.4], atol=1e-12)
+    np.testing.assert_array_equal(cloth.velocities[0, 0], 0.0)
+
+
+def test_sphere_takes_the_free_nodes_inside():
+    """A push in a sphere reaches a pinned node, one outside, or misses one inside."""
+    scene = Scene({'rows': 1, 'cols': 5, 'width': 4.0, 'pins': ['0,1'], 'start.z': 0.0})
+    push = Push((1.0, 0.0, 0.0), 0.0, 1.0, 'sphere', (-1.0, 0.0, 0.0), 1.5)
+    nodes = push_nodes(push, scene.rest_positions(), ~scene.pinned_nodes())
+    assert nodes.tolist() == [[True, False, True, False, False]]
+
+
+# The law of the air in the oracle, against formulas and scipy.
 
 AIR = {**SPRINGS, 'rows': 6, 'cols': 9, 'width': 0.8, 'height': 0.5, 'air.density': 1.2,
        'air.drag': 1.1, 'air.friction': 0.05}

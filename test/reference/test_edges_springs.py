@@ -3,9 +3,9 @@
 
 """The oracle's springs against plain loops and hand-made numbers."""
 
+from cloth_sim_ros.reference.cloth import elastic_energy
 from cloth_sim_ros.reference.edges import edges_of
-from cloth_sim_ros.reference.energy import elastic_energy
-from cloth_sim_ros.reference.springs import spring_sets
+from cloth_sim_ros.reference.edges import spring_sets
 from cloth_sim_ros.sim.scene import Scene
 import numpy as np
 import pytest
