@@ -10,7 +10,7 @@ from functools import lru_cache
 from typing import Any
 from typing import Literal
 
-from cloth_sim_ros.messages.push_arrows import push_arrows
+from cloth_sim_ros.messages.geometry import push_arrows
 from cloth_sim_ros.sim.colliders import Collider
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.push import Push

@@ -6,7 +6,7 @@
 from collections.abc import Mapping
 
 from cloth_sim_ros.analysis.entry import Entry
-from cloth_sim_ros.messages.pin_names import node_of_pin
+from cloth_sim_ros.messages.frame_names import node_of_pin
 import numpy as np
 
 KEY = 'pins/wrenches'

@@ -11,7 +11,7 @@ from typing import Any
 
 from cloth_sim_ros.analysis.entry import Entry
 from cloth_sim_ros.analysis.frame import Frame
-from cloth_sim_ros.messages.pin_names import node_of_pin
+from cloth_sim_ros.messages.frame_names import node_of_pin
 from cloth_sim_ros.sim.errors import ClothSimError
 import numpy as np
 

@@ -7,12 +7,12 @@ from collections.abc import Callable
 from typing import Any
 
 from cloth_sim_interfaces.msg import ClothState
-from cloth_sim_ros.messages.pin_frames import PinFrames
-from cloth_sim_ros.messages.points import PointsMessage
+from cloth_sim_ros.messages.frame import PointsMessage
+from cloth_sim_ros.messages.frame import stats_message
+from cloth_sim_ros.messages.pins import PinFrames
+from cloth_sim_ros.messages.pins import too_many_pins
+from cloth_sim_ros.messages.pins import WrenchMessages
 from cloth_sim_ros.messages.state import state_of
-from cloth_sim_ros.messages.stats import stats_message
-from cloth_sim_ros.messages.wrenches import too_many_pins
-from cloth_sim_ros.messages.wrenches import WrenchMessages
 from cloth_sim_ros.node.body_topics import body_messages
 from cloth_sim_ros.node.body_topics import GRASPS
 from cloth_sim_ros.node.body_topics import wanted_of_bodies

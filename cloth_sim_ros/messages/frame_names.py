@@ -1,7 +1,9 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-"""The names of the frames of grasps and colliders."""
+"""The names of the frames of pins, grasps and colliders."""
+
+import re
 
 
 def grasp_frame(node_name: str, name: str) -> str:
@@ -17,3 +19,19 @@ def collider_frame(node_name: str, name: str) -> str:
 def frame_prefix(node_name: str) -> str:
     """Return what all frames of a node begin with; unlike names of nodes they have no slashes."""
     return node_name.strip('/').replace('/', '_')
+
+
+# The names of the frames of pins.
+
+_PIN = re.compile(r'_pin_(\d{1,9})_(\d{1,9})$')
+
+
+def pin_frame(node_name: str, row: int, col: int) -> str:
+    """Return the name of a pin's frame."""
+    return f'{frame_prefix(node_name)}_pin_{row}_{col}'
+
+
+def node_of_pin(frame: str) -> tuple[int, int] | None:
+    """Return row and col of the pin that ``frame`` is named after; None when it is of no pin."""
+    found = _PIN.search(frame)
+    return (int(found[1]), int(found[2])) if found else None

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-"""The cloth as markers, already in the bytes that go out."""
+"""The cloth and what it can touch as markers, already in the bytes that go out."""
 
 from collections.abc import Iterable
 from collections.abc import Sequence
@@ -9,12 +9,11 @@ from typing import Any
 
 from builtin_interfaces.msg import Time
 from cloth_sim_ros.messages.cdr_writer import CdrWriter
-from cloth_sim_ros.messages.collider_markers import collider_markers
-from cloth_sim_ros.messages.push_arrows import push_arrows
+from cloth_sim_ros.messages.geometry import MOST_DRAWN
+from cloth_sim_ros.messages.geometry import push_arrows
+from cloth_sim_ros.messages.geometry import strain_colors
+from cloth_sim_ros.messages.geometry import Surface
 from cloth_sim_ros.messages.stamp import stamp
-from cloth_sim_ros.messages.surface import MOST_DRAWN
-from cloth_sim_ros.messages.surface import strain_colors
-from cloth_sim_ros.messages.surface import Surface
 from cloth_sim_ros.sim.colliders import Collider
 from cloth_sim_ros.sim.grasps import Grasp
 from cloth_sim_ros.sim.push import Push
@@ -23,6 +22,54 @@ from cloth_sim_ros.sim.snapshot import FLAG_PINNED
 from cloth_sim_ros.sim.snapshot import Snapshot
 import numpy as np
 from visualization_msgs.msg import Marker
+
+COLOR = (0.55, 0.58, 0.62, 1.0)
+# How far a plane is shown, in lengths of the cloth, and how thick [m].
+_PLANE_SIDE, _PLANE_THICKNESS = 6.0, 1e-3
+
+
+def collider_markers(colliders: Sequence[Collider], cloth_size: float) -> list[dict[str, Any]]:
+    """
+    Return the markers of ``colliders`` as put_marker takes them.
+
+    :param cloth_size: length of the longer side of the cloth [m], which planes are shown by
+    """
+    return [
+        {'namespace': f'collider/{collider.name}', 'number': number, 'color': COLOR, **part}
+        for collider in colliders
+        for number, part in enumerate(_parts(collider, cloth_size))]
+
+
+def _parts(collider: Collider, cloth_size: float) -> list[dict[str, Any]]:
+    position = np.array(collider.position)
+    at = {'position': collider.position, 'orientation': collider.orientation}
+    if collider.shape == 'plane':
+        side = _PLANE_SIDE * cloth_size
+        below = position - 0.5 * _PLANE_THICKNESS * collider.axes[2]
+        return [{**at, 'position': _point(below), 'kind': Marker.CUBE,
+                 'scale': (side, side, _PLANE_THICKNESS)}]
+    if collider.shape == 'box':
+        return [{**at, 'kind': Marker.CUBE, 'scale': collider.size}]
+    width = 2.0 * collider.size[0]
+    ball = {**at, 'kind': Marker.SPHERE, 'scale': (width, width, width)}
+    if collider.shape == 'sphere':
+        return [ball]
+    length = collider.size[1]
+    middle = {**at, 'kind': Marker.CYLINDER, 'scale': (width, width, length)}
+    if collider.shape == 'cylinder':
+        return [middle]
+    ends = [
+        {**ball, 'position': _point(position + side * 0.5 * length * collider.axes[2])}
+        for side in (-1.0, 1.0)]
+    return [middle, *ends]
+
+
+def _point(position: np.ndarray) -> tuple[float, float, float]:
+    x, y, z = (float(part) for part in position)
+    return x, y, z
+
+
+# The cloth as markers, already in the bytes that go out.
 
 _NO_TURN = (0.0, 0.0, 0.0, 1.0)
 _NO_POINTS = np.empty((0, 3))

@@ -1,13 +1,19 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-"""What the simulation is doing, for people and tools that come late."""
+"""What a run is doing and how healthy it is, for people and tools that come late."""
 
 from collections.abc import Sequence
+from typing import Any
 
+from builtin_interfaces.msg import Time
 from cloth_sim_interfaces.msg import ClothState
 from cloth_sim_ros.messages.stamp import stamp
 from cloth_sim_ros.sim.simulation import Simulation
+from cloth_sim_ros.sim.snapshot import Snapshot
+from diagnostic_msgs.msg import DiagnosticArray
+from diagnostic_msgs.msg import DiagnosticStatus
+from diagnostic_msgs.msg import KeyValue
 from std_msgs.msg import Header
 
 
@@ -55,3 +61,174 @@ def state_message(
         device=device,
         recording=bool(recording_path),
         recording_path=recording_path)
+
+
+# The health of a run, in words.
+
+SLOW = 0.9          # share of the wanted real-time factor below which a run is slow
+SAFE_MARGIN = 0.85  # what auto_substeps keeps
+LOOSE_RESIDUAL = 1e-2
+
+_Verdict = tuple[bytes, str, dict[str, Any]]  # level, words, values
+
+OK = DiagnosticStatus.OK
+WARN = DiagnosticStatus.WARN
+ERROR = DiagnosticStatus.ERROR
+
+
+def slow_pace(achieved: float, wanted: float, *, substeps: int, automatic: bool) -> str:
+    """
+    Return that a run is too slow, and what makes it faster.
+
+    :param achieved: simulated time per wall time
+    :param wanted: the same as asked for
+    :param substeps: in each dt
+    :param automatic: True where they follow from what is stable: a longer dt has more of them
+    """
+    faster = 'softer springs' if automatic and substeps > 1 else 'a longer dt'
+    return (
+        f'{achieved:.3g} x real time, below the target {wanted:.3g}: use fewer nodes, {faster}, '
+        'another mode or a lower real_time_factor')
+
+
+def diagnostics_message(
+        snapshot: Snapshot | None, *, stamp: Time, node_name: str, device: str, paused: bool,
+        real_time_factor: float, wanted_factor: float, automatic_substeps: bool, problem: str = '',
+        recording_path: str = '', recording_error: str = '', recording_is_whole: bool = False,
+        faults: int = 0, latest_fault: str = '', ignored: int = 0) -> DiagnosticArray:
+    """
+    Return the health of each part: device, pace, solver, stability, recorder and program.
+
+    :param snapshot: None before the first mode is compiled
+    :param stamp: time of the node's clock: aggregators compare it with their own
+    :param device: GL_RENDERER
+    :param real_time_factor: simulated time per wall time, achieved
+    :param wanted_factor: the same as asked for, 0 for as fast as possible
+    :param automatic_substeps: True where the substeps in a dt follow from what is stable
+    :param problem: why the run has stopped, empty when it has not
+    :param recording_path: folder being written to, empty when not recording
+    :param recording_error: why the last recording has ended before it was stopped, empty when it
+        has not
+    :param recording_is_whole: True when it was completed all the same
+    :param faults: unexpected errors since the start
+    :param latest_fault: the last of them, in one line
+    :param ignored: messages on topics that made no sense, since the start
+    """
+    findings = {'GL device': _device(snapshot, device)}
+    if snapshot is not None:
+        findings.update({
+            'real-time factor': _pace(
+                snapshot, paused, real_time_factor, wanted_factor, automatic_substeps),
+            'solver': _solver(snapshot),
+            'stability': _stability(snapshot, problem),
+            'pins': _pins(snapshot)})
+    findings['recorder'] = _recorder(recording_path, recording_error, recording_is_whole)
+    findings['program'] = _program(faults, latest_fault, ignored)
+    return DiagnosticArray(
+        header=Header(stamp=stamp),
+        status=[
+            DiagnosticStatus(
+                name=f'{node_name}: {name}', level=level, message=text, hardware_id=device,
+                values=[KeyValue(key=key, value=_text(value)) for key, value in values.items()])
+            for name, (level, text, values) in findings.items()])
+
+
+def _text(value: object) -> str:
+    return f'{value:.6g}' if isinstance(value, float) else str(value)
+
+
+def _device(snapshot: Snapshot | None, device: str) -> _Verdict:
+    text = device if snapshot is not None else f'{device} is compiling the first shaders'
+    return OK, text, {'renderer': device}
+
+
+def _pace(
+        snapshot: Snapshot, paused: bool, achieved: float, wanted: float,
+        automatic: bool) -> _Verdict:
+    values = {'achieved': float(achieved), 'wanted': float(wanted), 'paused': paused}
+    if paused:
+        return OK, 'paused', values
+    if wanted == 0.0:
+        return OK, f'{achieved:.3g} x real time, as fast as possible', values
+    if achieved < SLOW * wanted:
+        return WARN, slow_pace(
+            achieved, wanted, substeps=snapshot.substeps, automatic=automatic), values
+    return OK, f'{achieved:.3g} x real time', values
+
+
+def _solver(snapshot: Snapshot) -> _Verdict:
+    values = {
+        'mode': snapshot.mode,
+        'iterations': int(snapshot.solver_iterations),
+        'residual': float(snapshot.solver_residual),
+        'tolerance reached': bool(snapshot.solver_reached),
+        'active constraints': int(snapshot.active_constraints),
+    }
+    if snapshot.solver_iterations == 0:
+        return OK, f'{snapshot.mode} has nothing to solve', values
+    text = f'residual {snapshot.solver_residual:.2g} in {snapshot.solver_iterations} iterations'
+    if not snapshot.solver_reached:
+        return WARN, (
+            f'{text}, above solver.tolerance: raise solver.max_iterations, or use a shorter '
+            'dt'), values
+    # Written so that a residual that is not a number warns.
+    if not snapshot.solver_residual <= LOOSE_RESIDUAL:
+        return WARN, f'{text} is above {LOOSE_RESIDUAL:g}: use a shorter dt', values
+    return OK, text, values
+
+
+def _stability(snapshot: Snapshot, problem: str) -> _Verdict:
+    margin = float(snapshot.stability_margin)
+    values = {
+        'margin': margin,
+        'dt': float(snapshot.dt),
+        'substeps': int(snapshot.substeps),
+        'max strain': float(snapshot.max_strain),
+        'total energy': float(snapshot.total_energy),
+    }
+    if problem:
+        return ERROR, problem, values
+    if not snapshot.lengths_are_held:
+        return WARN, (
+            f'edges deviate by {snapshot.max_strain:.2g} from their length, and '
+            f'{snapshot.strain_bound:.2g} is allowed: use a shorter dt, or smaller forces'), values
+    if snapshot.solves:
+        return _turns(margin, values)
+    text = f'a substep is {margin:.3g} times the stability limit'
+    if margin > 1.0:
+        return ERROR, f'{text}: use a shorter dt, or auto_substeps: true', values
+    if margin > SAFE_MARGIN + 1e-3:
+        return WARN, f'{text}, above the safe {SAFE_MARGIN}: use a shorter dt', values
+    return OK, text, values
+
+
+def _pins(snapshot: Snapshot) -> _Verdict:
+    values = {'stalled': int(snapshot.stalled_pins)}
+    if snapshot.stalled_pins:
+        return WARN, (
+            f'{snapshot.stalled_pins} moving pins are stalled by edge forces above pin.max_force: '
+            'let the cloth follow, or choose nearer targets'), values
+    return OK, 'no moving pin is stalled', values
+
+
+def _turns(margin: float, values: dict[str, Any]) -> _Verdict:
+    text = f'edges rotate by {margin**2:.3g} times the accurate limit per substep'
+    if margin > 1.0 + 1e-3:
+        return WARN, f'{text}: raise constraint.max_substeps, or use a shorter dt', values
+    return OK, text, values
+
+
+def _recorder(path: str, error: str, is_whole: bool) -> _Verdict:
+    values = {'path': path}
+    if error:
+        return WARN if is_whole else ERROR, error, values
+    return OK, f'recording to {path}' if path else 'not recording', values
+
+
+def _program(faults: int, latest: str, ignored: int) -> _Verdict:
+    values = {'unexpected errors': faults, 'latest': latest, 'ignored messages': ignored}
+    if faults:
+        return WARN, (
+            f'{faults} unexpected errors, the latest in {latest}: report it with its trace from '
+            'the log'), values
+    return OK, 'no unexpected error', values

@@ -14,7 +14,7 @@ from cloth_sim_interfaces.msg import ModeChange
 from cloth_sim_interfaces.msg import PinChange
 from cloth_sim_interfaces.msg import PinTarget
 from cloth_sim_interfaces.msg import Push
-from cloth_sim_ros.messages.wrenches import MOST_PINS
+from cloth_sim_ros.messages.pins import MOST_PINS
 from diagnostic_msgs.msg import DiagnosticArray
 from geometry_msgs.msg import Vector3Stamped
 from geometry_msgs.msg import WrenchStamped

@@ -9,8 +9,8 @@ import time
 from typing import Any
 
 from cloth_sim_interfaces.msg import Command
-from cloth_sim_ros.messages.diagnostics import diagnostics_message
-from cloth_sim_ros.messages.surface import serialise_topology
+from cloth_sim_ros.messages.geometry import serialise_topology
+from cloth_sim_ros.messages.state import diagnostics_message
 from cloth_sim_ros.node.clock_topic import ClockTopic
 from cloth_sim_ros.node.frame_targets import MoveServices
 from cloth_sim_ros.node.frame_targets import PoseStreams

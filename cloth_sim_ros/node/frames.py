@@ -8,10 +8,10 @@ from collections.abc import Mapping
 import time
 from typing import Any
 
+from cloth_sim_ros.messages.frame import PointsMessage
+from cloth_sim_ros.messages.frame import stats_message
 from cloth_sim_ros.messages.markers import MarkersMessage
-from cloth_sim_ros.messages.points import PointsMessage
 from cloth_sim_ros.messages.stamp import stamp
-from cloth_sim_ros.messages.stats import stats_message
 from cloth_sim_ros.node.body_topics import body_messages
 from cloth_sim_ros.node.body_topics import GRASPS
 from cloth_sim_ros.node.body_topics import wanted_of_bodies

@@ -17,8 +17,8 @@ from cloth_sim_ros.messages.inputs import pin_message
 from cloth_sim_ros.messages.inputs import pin_target_message
 from cloth_sim_ros.messages.inputs import push_message
 from cloth_sim_ros.messages.inputs import release_message
+from cloth_sim_ros.messages.inputs import serialise_parameter_event
 from cloth_sim_ros.messages.inputs import wind_message
-from cloth_sim_ros.messages.parameter_event import serialise_parameter_event
 from cloth_sim_ros.node.parameters import FIELDS
 from cloth_sim_ros.node.parameters import plain_value
 from cloth_sim_ros.sim.frame_paths import FrameMove

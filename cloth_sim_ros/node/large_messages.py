@@ -11,7 +11,7 @@ import shutil
 
 from cloth_sim_ros.files.regular_file import read_regular
 from cloth_sim_ros.gl.shared_directory import shared_directory
-from cloth_sim_ros.messages.surface import surface_bytes
+from cloth_sim_ros.messages.geometry import surface_bytes
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.snapshot import POINT_DTYPE
 

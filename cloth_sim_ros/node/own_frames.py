@@ -10,8 +10,8 @@ from cloth_sim_ros.files.errors import shown
 from cloth_sim_ros.messages.body_frames import body_poses
 from cloth_sim_ros.messages.frame_names import collider_frame
 from cloth_sim_ros.messages.frame_names import grasp_frame
-from cloth_sim_ros.messages.pin_names import node_of_pin
-from cloth_sim_ros.messages.pin_names import pin_frame
+from cloth_sim_ros.messages.frame_names import node_of_pin
+from cloth_sim_ros.messages.frame_names import pin_frame
 from cloth_sim_ros.messages.stamp import nanoseconds
 from cloth_sim_ros.node.frame_history import FrameHistory
 from cloth_sim_ros.node.frame_history import KEPT

@@ -7,7 +7,7 @@ from collections import deque
 from collections.abc import Callable
 import math
 
-from cloth_sim_ros.messages.diagnostics import slow_pace
+from cloth_sim_ros.messages.state import slow_pace
 from cloth_sim_ros.sim.simulation import Simulation
 
 # A late frame is caught up with, but not more than this: a machine that is too slow would

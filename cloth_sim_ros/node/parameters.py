@@ -6,7 +6,7 @@
 from collections.abc import Mapping
 from typing import Any
 
-from cloth_sim_ros.messages.parameter_event import parameter_value
+from cloth_sim_ros.messages.inputs import parameter_value
 from cloth_sim_ros.node.node_fields import check_together
 from cloth_sim_ros.node.node_fields import NODE_FIELDS
 from cloth_sim_ros.sim.colliders import fields_with_colliders

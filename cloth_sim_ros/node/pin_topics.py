@@ -10,9 +10,9 @@ from collections.abc import Mapping
 from functools import partial
 from typing import Any
 
-from cloth_sim_ros.messages.pin_frames import PinFrames
-from cloth_sim_ros.messages.wrenches import too_many_pins
-from cloth_sim_ros.messages.wrenches import WrenchMessages
+from cloth_sim_ros.messages.pins import PinFrames
+from cloth_sim_ros.messages.pins import too_many_pins
+from cloth_sim_ros.messages.pins import WrenchMessages
 from cloth_sim_ros.node.outlet import Outlet
 from cloth_sim_ros.sim.simulation import Simulation
 from cloth_sim_ros.sim.snapshot import Snapshot

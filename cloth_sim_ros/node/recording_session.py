@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Any
 from typing import TYPE_CHECKING
 
+from cloth_sim_ros.messages.geometry import serialise_topology
 from cloth_sim_ros.messages.inputs import frame_target_message
 from cloth_sim_ros.messages.inputs import grasp_message
 from cloth_sim_ros.messages.inputs import mode_message
@@ -19,9 +20,8 @@ from cloth_sim_ros.messages.inputs import pin_message
 from cloth_sim_ros.messages.inputs import pin_target_message
 from cloth_sim_ros.messages.inputs import place_message
 from cloth_sim_ros.messages.inputs import push_message
+from cloth_sim_ros.messages.inputs import serialise_parameter_event
 from cloth_sim_ros.messages.inputs import wind_message
-from cloth_sim_ros.messages.parameter_event import serialise_parameter_event
-from cloth_sim_ros.messages.surface import serialise_topology
 from cloth_sim_ros.node.missing_module import way_out
 from cloth_sim_ros.node.parameters import FIELDS
 from cloth_sim_ros.recording.bag_folder import DIRECTORY_SETTING

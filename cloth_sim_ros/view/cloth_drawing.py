@@ -4,8 +4,8 @@
 """The cloth and its pins in the scene of a page."""
 
 from cloth_sim_ros.analysis.frame import Frame
-from cloth_sim_ros.messages.surface import FULL_STRAIN
-from cloth_sim_ros.messages.surface import strain_colors
+from cloth_sim_ros.messages.geometry import FULL_STRAIN
+from cloth_sim_ros.messages.geometry import strain_colors
 from cloth_sim_ros.view.surface import band_colors
 from cloth_sim_ros.view.surface import Surface
 import numpy as np

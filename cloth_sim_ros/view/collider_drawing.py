@@ -4,7 +4,7 @@
 """What the cloth can touch, in the scene of a page."""
 
 from cloth_sim_ros.analysis.collider_surface import local_surface
-from cloth_sim_ros.messages.surface import triangles
+from cloth_sim_ros.messages.geometry import triangles
 from cloth_sim_ros.sim.colliders import Collider
 import numpy as np
 import viser

@@ -6,7 +6,7 @@
 from collections.abc import Callable
 from typing import Any
 
-from cloth_sim_ros.messages.surface import FULL_STRAIN
+from cloth_sim_ros.messages.geometry import FULL_STRAIN
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.view.source import Moment
 from cloth_sim_ros.view.source import RUNNING

@@ -4,9 +4,9 @@
 """The cloth as triangles in a few colours of strain, thinned to what a browser draws at once."""
 
 from cloth_sim_ros.analysis.frame import Frame
-from cloth_sim_ros.messages.surface import FULL_STRAIN
-from cloth_sim_ros.messages.surface import strain_colors
-from cloth_sim_ros.messages.surface import triangles
+from cloth_sim_ros.messages.geometry import FULL_STRAIN
+from cloth_sim_ros.messages.geometry import strain_colors
+from cloth_sim_ros.messages.geometry import triangles
 import numpy as np
 
 BANDS = 12

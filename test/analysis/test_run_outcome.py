@@ -7,9 +7,9 @@ from cloth_sim_ros.analysis.recording import Recording
 from cloth_sim_ros.analysis.run import Run
 from cloth_sim_ros.analysis.run_outcome import outcome_table
 from cloth_sim_ros.analysis.run_outcome import RunOutcome
-from cloth_sim_ros.messages.points import PointsMessage
+from cloth_sim_ros.messages.frame import PointsMessage
+from cloth_sim_ros.messages.frame import stats_message
 from cloth_sim_ros.messages.state import state_message
-from cloth_sim_ros.messages.stats import stats_message
 from cloth_sim_ros.recording.recorder import Recorder
 from cloth_sim_ros.sim.errors import ClothSimError
 from made_snapshot import make_snapshot

@@ -11,9 +11,9 @@ from cloth_sim_ros.analysis.summary import find_gaps
 from cloth_sim_ros.analysis.summary import summarise
 from cloth_sim_ros.analysis.summary import summary_lines
 from cloth_sim_ros.analysis.summary import text_table
-from cloth_sim_ros.messages.points import PointsMessage
+from cloth_sim_ros.messages.frame import PointsMessage
+from cloth_sim_ros.messages.frame import stats_message
 from cloth_sim_ros.messages.state import state_message
-from cloth_sim_ros.messages.stats import stats_message
 from cloth_sim_ros.recording.recorder import Recorder
 from cloth_sim_ros.sim.errors import ClothSimError
 from made_snapshot import make_snapshot

@@ -8,7 +8,7 @@ import math
 from builtin_interfaces.msg import Time
 from cloth_sim_interfaces.msg import ClothStats
 from cloth_sim_interfaces.msg import Push
-from cloth_sim_ros.messages.points import PointsMessage
+from cloth_sim_ros.messages.frame import PointsMessage
 from cloth_sim_ros.recording.recorder import Recorder
 from cloth_sim_ros.sim.snapshot import POINT_DTYPE
 from geometry_msgs.msg import Point

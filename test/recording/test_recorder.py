@@ -8,8 +8,8 @@ import resource
 
 from cloth_sim_interfaces.msg import ClothStats
 from cloth_sim_interfaces.msg import Push
+from cloth_sim_ros.messages.geometry import serialise_topology
 from cloth_sim_ros.messages.inputs import push_message
-from cloth_sim_ros.messages.surface import serialise_topology
 from cloth_sim_ros.messages.topics import TOPICS
 from cloth_sim_ros.recording.message_definition import message_definition
 from cloth_sim_ros.recording.message_definition import type_hash

@@ -8,7 +8,7 @@ import shutil
 
 from cloth_sim_interfaces.msg import ClothState
 from cloth_sim_interfaces.msg import ClothStats
-from cloth_sim_ros.messages.surface import serialise_topology
+from cloth_sim_ros.messages.geometry import serialise_topology
 from cloth_sim_ros.messages.topics import TOPICS
 from cloth_sim_ros.recording.bag_reader import BagReader
 from cloth_sim_ros.recording.bag_writer import BagWriter

@@ -7,7 +7,7 @@ from cloth_sim_ros.analysis.frame import Frame
 from cloth_sim_ros.analysis.recording import Recording
 from cloth_sim_ros.messages.inputs import mode_message
 from cloth_sim_ros.messages.inputs import parameters_message
-from cloth_sim_ros.messages.parameter_event import serialise_parameter_event
+from cloth_sim_ros.messages.inputs import serialise_parameter_event
 from cloth_sim_ros.recording.recorder import Recorder
 from cloth_sim_ros.rendering.source import nearest_frames
 from cloth_sim_ros.rendering.source import RecordingSource

@@ -3,8 +3,8 @@
 
 """The recorded parameters, of this version and of others."""
 
+from cloth_sim_ros.messages.inputs import parameter_value
 from cloth_sim_ros.messages.inputs import parameters_message
-from cloth_sim_ros.messages.parameter_event import parameter_value
 from cloth_sim_ros.node.node_fields import NODE_FIELDS
 from cloth_sim_ros.recording.project_version import project_version
 from cloth_sim_ros.recording.recorder import Recorder

@@ -3,7 +3,7 @@
 
 """Serialised clouds made by hand, to record."""
 
-from cloth_sim_ros.messages.points import PointsMessage
+from cloth_sim_ros.messages.frame import PointsMessage
 from cloth_sim_ros.sim.snapshot import POINT_DTYPE
 from made_snapshot import make_snapshot
 import numpy as np

@@ -8,13 +8,13 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from cloth_sim_ros.analysis.frame import Frame
+from cloth_sim_ros.messages.frame import PointsMessage
+from cloth_sim_ros.messages.frame import stats_message
 from cloth_sim_ros.messages.inputs import command_message
 from cloth_sim_ros.messages.inputs import mode_message
 from cloth_sim_ros.messages.inputs import pin_message
 from cloth_sim_ros.messages.inputs import push_message
-from cloth_sim_ros.messages.points import PointsMessage
 from cloth_sim_ros.messages.state import state_message
-from cloth_sim_ros.messages.stats import stats_message
 from cloth_sim_ros.recording.recorder import Recorder
 from cloth_sim_ros.sim.push import Push
 from cloth_sim_ros.sim.snapshot import FLAG_PINNED

@@ -3,7 +3,7 @@
 
 """A ray meets the cloth where geometry says."""
 
-from cloth_sim_ros.messages.surface import triangles
+from cloth_sim_ros.messages.geometry import triangles
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.view.ray import first_hit
 import numpy as np

@@ -4,7 +4,7 @@
 """The triangles that a page draws are those of the cloth, each in the colour of its strain."""
 
 from cloth_sim_ros.analysis.frame import Frame
-from cloth_sim_ros.messages.surface import triangles
+from cloth_sim_ros.messages.geometry import triangles
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.snapshot import POINT_DTYPE
 from cloth_sim_ros.view.surface import band_colors

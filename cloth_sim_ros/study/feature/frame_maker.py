@@ -6,11 +6,11 @@
 from collections.abc import Collection
 from pathlib import Path
 
+from cloth_sim_ros.messages.frame import PointsMessage
+from cloth_sim_ros.messages.frame import stats_message
 from cloth_sim_ros.messages.markers import MarkersMessage
-from cloth_sim_ros.messages.points import PointsMessage
-from cloth_sim_ros.messages.stats import stats_message
-from cloth_sim_ros.messages.wrenches import too_many_pins
-from cloth_sim_ros.messages.wrenches import WrenchMessages
+from cloth_sim_ros.messages.pins import too_many_pins
+from cloth_sim_ros.messages.pins import WrenchMessages
 from cloth_sim_ros.recording.recorder import Recorder
 from cloth_sim_ros.sim.simulation import Simulation
 import numpy as np

@@ -7,9 +7,9 @@
 import json
 
 from ament_index_python.packages import get_package_share_path
-from cloth_sim_ros.messages.pin_frames import PinFrames
-from cloth_sim_ros.messages.pin_names import pin_frame
-from cloth_sim_ros.messages.wrenches import MOST_PINS
+from cloth_sim_ros.messages.frame_names import pin_frame
+from cloth_sim_ros.messages.pins import MOST_PINS
+from cloth_sim_ros.messages.pins import PinFrames
 from cloth_sim_ros.sim.snapshot import FLAG_AT_LIMIT
 from cloth_sim_ros.sim.snapshot import FLAG_PINNED
 from made_snapshot import make_snapshot

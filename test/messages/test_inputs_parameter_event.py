@@ -3,9 +3,9 @@
 
 """Parameters as bytes."""
 
+from cloth_sim_ros.messages.inputs import parameter_value
 from cloth_sim_ros.messages.inputs import parameters_message
-from cloth_sim_ros.messages.parameter_event import parameter_value
-from cloth_sim_ros.messages.parameter_event import serialise_parameter_event
+from cloth_sim_ros.messages.inputs import serialise_parameter_event
 from cloth_sim_ros.node.parameters import FIELDS
 from cloth_sim_ros.sim.scene_fields import Field
 import pytest

@@ -3,9 +3,9 @@
 
 """What each pin feels, decoded."""
 
-from cloth_sim_ros.messages.wrenches import MOST_PINS
-from cloth_sim_ros.messages.wrenches import too_many_pins
-from cloth_sim_ros.messages.wrenches import WrenchMessages
+from cloth_sim_ros.messages.pins import MOST_PINS
+from cloth_sim_ros.messages.pins import too_many_pins
+from cloth_sim_ros.messages.pins import WrenchMessages
 from cloth_sim_ros.sim.pin_forces import PinForces
 from geometry_msgs.msg import WrenchStamped
 from made_snapshot import make_snapshot

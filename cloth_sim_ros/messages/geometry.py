@@ -1,11 +1,39 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-"""What RViz and Foxglove draw: triangles coloured by strain, or a line for a chain."""
+"""What viewers draw: triangles coloured by strain, a line for a chain, arrows of pushes."""
+
+from collections.abc import Iterable
 
 from cloth_sim_ros.messages.cdr_writer import CdrWriter
+from cloth_sim_ros.sim.push import Push
 from cloth_sim_ros.sim.scene import Scene
 import numpy as np
+
+
+def push_arrows(
+        pushes: Iterable[Push], time: float, nodes: np.ndarray,
+        length: float) -> list[np.ndarray]:
+    """
+    Return tail and tip of an arrow for each push that acts at ``time`` [s].
+
+    :param nodes: positions of nodes, (n, 3) [m]; their mean is the middle of the cloth
+    :param length: of the arrow of the largest force [m]
+    :return: (2, 3) float64 each [m]
+    """
+    active = [push for push in pushes if push.start <= time < push.end]
+    forces = [np.array(push.force) for push in active]
+    largest = max((np.linalg.norm(force) for force in forces), default=0.0)
+    if largest == 0.0:
+        return []
+    arrows = []
+    for push, force in zip(active, forces):
+        tail = nodes.mean(axis=0, dtype=float) if push.region == 'all' else np.array(push.center)
+        arrows.append(np.stack([tail, tail + force * (length / largest)]))
+    return arrows
+
+
+# What RViz and Foxglove draw: triangles coloured by strain, or a line for a chain.
 
 FULL_STRAIN = 0.1  # drawn, like all above it, in the last colour
 
