@@ -13,9 +13,9 @@ from cloth_sim_ros.analysis.entry import Entry
 from cloth_sim_ros.analysis.message_check import check_message
 from cloth_sim_ros.analysis.recorded_arrays import arrays_of
 from cloth_sim_ros.files.errors import cut
+from cloth_sim_ros.recording.bag_messages import BagTopic
+from cloth_sim_ros.recording.bag_messages import RawMessage
 from cloth_sim_ros.recording.bag_reader import BagReader
-from cloth_sim_ros.recording.bag_topic import BagTopic
-from cloth_sim_ros.recording.bag_topic import RawMessage
 from cloth_sim_ros.recording.recording_faults import nothing_flushed
 from cloth_sim_ros.sim.errors import ClothSimError
 import numpy as np

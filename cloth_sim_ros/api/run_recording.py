@@ -18,9 +18,9 @@ from cloth_sim_ros.node.body_topics import GRASPS
 from cloth_sim_ros.node.body_topics import wanted_of_bodies
 from cloth_sim_ros.node.recording_session import RecordingSession
 from cloth_sim_ros.node.recording_session import write_opening
+from cloth_sim_ros.recording.bag_folder import RecordingOptions
 from cloth_sim_ros.recording.recording_faults import RecordingError
 from cloth_sim_ros.recording.recording_faults import RecordingFull
-from cloth_sim_ros.recording.recording_options import RecordingOptions
 from cloth_sim_ros.sim.simulation import Simulation
 import numpy as np
 from rclpy.serialization import serialize_message

@@ -43,9 +43,9 @@ from cloth_sim_ros.node.run_services import RecordingServices
 from cloth_sim_ros.node.run_services import RunServices
 from cloth_sim_ros.node.state_topic import StateTopic
 from cloth_sim_ros.node.wind_topic import WindTopic
+from cloth_sim_ros.recording.bag_folder import RecordingOptions
 from cloth_sim_ros.recording.recording_faults import RecordingError
 from cloth_sim_ros.recording.recording_faults import RecordingFull
-from cloth_sim_ros.recording.recording_options import RecordingOptions
 from cloth_sim_ros.sim.colliders import fields_with_colliders
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.simulation import Simulation

@@ -25,9 +25,9 @@ from cloth_sim_ros.messages.inputs import wind_message
 from cloth_sim_ros.node.missing_module import way_out
 from cloth_sim_ros.node.parameters import FIELDS
 from cloth_sim_ros.recording.bag_folder import DIRECTORY_SETTING
+from cloth_sim_ros.recording.bag_folder import RecordingOptions
 from cloth_sim_ros.recording.recording_faults import RecordingError
 from cloth_sim_ros.recording.recording_faults import refusal
-from cloth_sim_ros.recording.recording_options import RecordingOptions
 from cloth_sim_ros.sim.colliders import fields_with_colliders
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.simulation import Simulation

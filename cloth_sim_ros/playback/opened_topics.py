@@ -15,8 +15,8 @@ from cloth_sim_ros.messages.topics import TOPICS
 from cloth_sim_ros.playback.play_options import PlayOptions
 from cloth_sim_ros.playback.played_topic import played_quality
 from cloth_sim_ros.playback.played_topic import PlayedTopic
-from cloth_sim_ros.recording.bag_topic import BagTopic
-from cloth_sim_ros.recording.message_decoder import recorded_type_hash
+from cloth_sim_ros.recording.bag_messages import BagTopic
+from cloth_sim_ros.recording.bag_messages import recorded_type_hash
 from cloth_sim_ros.recording.message_definition import type_hash
 from cloth_sim_ros.sim.errors import ClothSimError
 from rclpy.exceptions import InvalidTopicNameException

@@ -17,8 +17,8 @@ from cloth_sim_ros.playback.play_options import PlayOptions
 from cloth_sim_ros.playback.play_report import PlayReport
 from cloth_sim_ros.playback.player_node import PlayerNode
 from cloth_sim_ros.playback.player_node import SimulatedClock
+from cloth_sim_ros.recording.bag_messages import RawMessage
 from cloth_sim_ros.recording.bag_reader import BagReader
-from cloth_sim_ros.recording.bag_topic import RawMessage
 from cloth_sim_ros.sim.errors import ClothSimError
 
 # A signal is seen, and ~/pause answered, within this wall time [s].

@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import BinaryIO
 
 from cloth_sim_ros.files.regular_file import open_regular
-from cloth_sim_ros.recording.bag_topic import RawMessage
+from cloth_sim_ros.recording.bag_messages import RawMessage
 from cloth_sim_ros.recording.decompression import most_bytes
 from cloth_sim_ros.recording.mcap_records import chunk_content
 from cloth_sim_ros.recording.mcap_records import HEAD

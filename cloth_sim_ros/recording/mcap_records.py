@@ -11,9 +11,9 @@ import struct
 from typing import BinaryIO
 import zlib
 
-from cloth_sim_ros.recording.bag_topic import BagTopic
+from cloth_sim_ros.recording.bag_messages import BagTopic
+from cloth_sim_ros.recording.bag_messages import recorded_qos
 from cloth_sim_ros.recording.decompression import decompress
-from cloth_sim_ros.recording.recorded_qos import recorded_qos
 from mcap.data_stream import ReadDataStream
 from mcap.opcode import Opcode
 from mcap.records import Channel

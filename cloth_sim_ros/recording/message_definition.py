@@ -4,10 +4,34 @@
 """What a recording says about a message type, so that it can be read without the package."""
 
 from functools import cache
+from importlib.util import find_spec
 import json
+from pathlib import Path
 import re
 
-from cloth_sim_ros.recording.share_folder import share_folder
+from ament_index_python.packages import get_package_share_directory
+from cloth_sim_ros.sim.errors import ClothSimError
+
+
+def share_folder(package: str) -> Path:
+    """Return the share/ folder of ``package``, from the ament index or beside its Python code."""
+    try:
+        return Path(get_package_share_directory(package))
+    except KeyError:
+        pass
+    except OSError as error:
+        # Without a sourced ROS the index has no search path at all: an OSError without a number.
+        if error.errno is not None:
+            raise
+    code = find_spec(package)
+    for prefix in Path(code.origin).parents if code is not None and code.origin else ():
+        folder = prefix / 'share' / package
+        if folder.is_dir():
+            return folder
+    raise ClothSimError(
+        f'the ROS package {package} has no share folder, from which recordings take its message '
+        'definitions: install or build it, and source its setup')
+
 
 _PRIMITIVES = {
     'bool', 'byte', 'char', 'float32', 'float64', 'int8', 'uint8', 'int16', 'uint16', 'int32',

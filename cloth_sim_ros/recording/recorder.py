@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-"""A recording under way."""
+"""A recording under way, and the topics of this project as they stand in it."""
 
 from collections.abc import Callable
 import os
@@ -10,20 +10,68 @@ from queue import Empty
 from queue import SimpleQueue
 import threading
 import time
+from typing import Any
 
 from cloth_sim_ros.messages.stamp import nanoseconds
+from cloth_sim_ros.messages.topics import Topic
 from cloth_sim_ros.messages.topics import TOPICS
-from cloth_sim_ros.recording.bag_channel import BagChannel
 from cloth_sim_ros.recording.bag_folder import DIRECTORY_SETTING
 from cloth_sim_ros.recording.bag_folder import make_bag_folder
+from cloth_sim_ros.recording.bag_folder import RecordingOptions
 from cloth_sim_ros.recording.bag_folder import remove_bag_folder
+from cloth_sim_ros.recording.bag_metadata import BagChannel
+from cloth_sim_ros.recording.bag_metadata import yaml_text
 from cloth_sim_ros.recording.bag_writer import BagWriter
+from cloth_sim_ros.recording.message_definition import message_definition
+from cloth_sim_ros.recording.message_definition import type_hash
 from cloth_sim_ros.recording.recording_faults import ending
 from cloth_sim_ros.recording.recording_faults import RecordingError
 from cloth_sim_ros.recording.recording_faults import RecordingFull
 from cloth_sim_ros.recording.recording_faults import refusal
-from cloth_sim_ros.recording.recording_options import RecordingOptions
-from cloth_sim_ros.recording.topic_channel import topic_channel
+
+_FOR_EVER = (9223372036, 854775807)  # RMW_DURATION_INFINITE
+
+
+def offered_qos(topic: Topic) -> list[dict[str, Any]]:
+    """Return the profile of the one publisher of ``topic``."""
+    return [{
+        'history': 'keep_last',
+        'depth': topic.depth,
+        'reliability': 'reliable' if topic.reliable else 'best_effort',
+        'durability': 'transient_local' if topic.transient_local else 'volatile',
+        'deadline': _for_ever(),
+        'lifespan': _for_ever(),
+        'liveliness': 'automatic',
+        'liveliness_lease_duration': _for_ever(),
+        'avoid_ros_namespace_conventions': False,
+    }]
+
+
+def _for_ever() -> dict[str, int]:
+    # A new one each time: YAML would write references to a shared one.
+    return {'sec': _FOR_EVER[0], 'nsec': _FOR_EVER[1]}
+
+
+# A topic of this project as it stands in its recordings.
+
+
+def topic_channel(topic: Topic, node_name: str) -> BagChannel:
+    """
+    Return ``topic`` of the node ``node_name``, which has its namespace.
+
+    :raises ClothSimError: when the package of its type is missing
+    :raises OSError: when the definition can't be read
+    """
+    qos = offered_qos(topic)
+    announced = type_hash(topic.type_name)
+    return BagChannel(
+        topic.full_name(node_name), topic.type_name, 'ros2msg',
+        message_definition(topic.type_name).encode(),
+        {'offered_qos_profiles': yaml_text(qos), 'topic_type_hash': announced},
+        qos, announced, topic.transient_local)
+
+
+# A recording under way.
 
 # Wall time [s]. With what a flush takes, a process that is killed loses less than a second.
 FLUSH_PERIOD = 0.5

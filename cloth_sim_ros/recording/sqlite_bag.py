@@ -13,9 +13,9 @@ from typing import Any
 from cloth_sim_ros.files.errors import cut
 from cloth_sim_ros.files.errors import shown
 from cloth_sim_ros.files.regular_file import open_regular
-from cloth_sim_ros.recording.bag_topic import BagTopic
-from cloth_sim_ros.recording.bag_topic import RawMessage
-from cloth_sim_ros.recording.recorded_qos import recorded_qos
+from cloth_sim_ros.recording.bag_messages import BagTopic
+from cloth_sim_ros.recording.bag_messages import RawMessage
+from cloth_sim_ros.recording.bag_messages import recorded_qos
 from rosbags.interfaces import MessageDefinition
 from rosbags.interfaces import MessageDefinitionFormat
 

@@ -10,7 +10,7 @@ from typing import Any
 
 from cloth_sim_ros.analysis.recorded_values import plain_value
 from cloth_sim_ros.recording.bag_metadata import folder_metadata
-from cloth_sim_ros.recording.project_version import PACKAGE
+from cloth_sim_ros.recording.bag_metadata import PACKAGE
 from cloth_sim_ros.sim.colliders import fields_with_colliders
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.scene import Scene

@@ -22,7 +22,7 @@ from tempfile import TemporaryDirectory
 from typing import Any
 
 from cloth_sim_ros.node.node_fields import NODE_FIELDS
-from cloth_sim_ros.recording.project_version import project_version
+from cloth_sim_ros.recording.bag_metadata import project_version
 from cloth_sim_ros.resimulation.listener import Listener
 from cloth_sim_ros.resimulation.recorded_run import RecordedRun
 from cloth_sim_ros.resimulation.recorded_scene import recorded_version

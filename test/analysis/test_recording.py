@@ -12,7 +12,7 @@ from cloth_sim_ros.analysis.recording import Recording
 from cloth_sim_ros.analysis.recording import SteadyTime
 from cloth_sim_ros.analysis.recording import TYPES
 from cloth_sim_ros.messages.topics import TOPICS
-from cloth_sim_ros.recording.bag_topic import BagTopic
+from cloth_sim_ros.recording.bag_messages import BagTopic
 from cloth_sim_ros.recording.recorder import Recorder
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.snapshot import POINT_DTYPE

@@ -16,7 +16,7 @@ from cloth_sim_ros.playback.played_topic import header_stamp
 from cloth_sim_ros.playback.played_topic import played_quality
 from cloth_sim_ros.playback.played_topic import PlayedTopic
 from cloth_sim_ros.recording.bag_metadata import yaml_text
-from cloth_sim_ros.recording.offered_qos import offered_qos
+from cloth_sim_ros.recording.recorder import offered_qos
 import pytest
 from rclpy.qos import DurabilityPolicy
 from rclpy.qos import QoSProfile

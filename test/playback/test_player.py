@@ -10,9 +10,9 @@ from builtin_interfaces.msg import Time
 from cloth_sim_interfaces.msg import ClothState
 from cloth_sim_interfaces.msg import ClothStats
 from cloth_sim_ros.messages.topics import TOPICS
+from cloth_sim_ros.recording.bag_folder import RecordingOptions
 from cloth_sim_ros.recording.bag_reader import BagReader
 from cloth_sim_ros.recording.recorder import Recorder
-from cloth_sim_ros.recording.recording_options import RecordingOptions
 from copied_bag import copy_bag
 from copied_bag import WALL
 from player_process import PlayerProcess

@@ -6,8 +6,8 @@
 from cloth_sim_ros.messages.topics import TOPICS
 from cloth_sim_ros.recording.bag_metadata import BagMetadata
 from cloth_sim_ros.recording.message_definition import type_hash
-from cloth_sim_ros.recording.offered_qos import offered_qos
-from cloth_sim_ros.recording.topic_channel import topic_channel
+from cloth_sim_ros.recording.recorder import offered_qos
+from cloth_sim_ros.recording.recorder import topic_channel
 import pytest
 import yaml
 

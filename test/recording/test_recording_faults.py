@@ -8,8 +8,8 @@ import os
 from pathlib import Path
 
 from cloth_sim_ros.recording.recording_faults import ending
+from cloth_sim_ros.recording.recording_faults import FileChangedError
 from cloth_sim_ros.recording.recording_faults import refusal
-from cloth_sim_ros.recording.watched_file import FileChangedError
 import pytest
 
 WAYS_OUT = {

@@ -10,12 +10,12 @@ from cloth_sim_interfaces.msg import ClothState
 from cloth_sim_interfaces.msg import ClothStats
 from cloth_sim_ros.messages.geometry import serialise_topology
 from cloth_sim_ros.messages.topics import TOPICS
+from cloth_sim_ros.recording.bag_folder import RecordingOptions
 from cloth_sim_ros.recording.bag_reader import BagReader
 from cloth_sim_ros.recording.bag_writer import BagWriter
 from cloth_sim_ros.recording.recorder import Recorder
+from cloth_sim_ros.recording.recorder import topic_channel
 from cloth_sim_ros.recording.recording_faults import RecordingFull
-from cloth_sim_ros.recording.recording_options import RecordingOptions
-from cloth_sim_ros.recording.topic_channel import topic_channel
 from cloth_sim_ros.sim.scene import Scene
 from made_cloud import make_cloud
 from mcap.reader import make_reader

@@ -11,7 +11,7 @@ from cloth_sim_interfaces.msg import ClothState
 from cloth_sim_ros.analysis.frames import read_frames
 from cloth_sim_ros.analysis.recording import Recording
 from cloth_sim_ros.messages.inputs import serialise_parameter_event
-from cloth_sim_ros.recording.project_version import project_version
+from cloth_sim_ros.recording.bag_metadata import project_version
 from cloth_sim_ros.recording.recorder import Recorder
 from cloth_sim_ros.sim.snapshot import FLAG_PINNED
 from cloth_sim_ros.verb.main import main

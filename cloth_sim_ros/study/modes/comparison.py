@@ -16,7 +16,7 @@ import statistics
 from typing import Any
 
 from cloth_sim_ros.gl.context import Context
-from cloth_sim_ros.recording.project_version import project_version
+from cloth_sim_ros.recording.bag_metadata import project_version
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.study.modes.contenders import BASELINE
 from cloth_sim_ros.study.modes.contenders import Contender

@@ -9,7 +9,7 @@ from dataclasses import field
 import json
 from typing import Any
 
-from cloth_sim_ros.recording.project_version import project_version
+from cloth_sim_ros.recording.bag_metadata import project_version
 from cloth_sim_ros.study.runs.run import Run
 import numpy as np
 

@@ -5,7 +5,7 @@
 
 import os
 
-from cloth_sim_ros.recording.share_folder import share_folder
+from cloth_sim_ros.recording.message_definition import share_folder
 from cloth_sim_ros.sim.errors import ClothSimError
 import pytest
 
