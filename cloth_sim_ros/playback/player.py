@@ -6,20 +6,151 @@
 from collections import deque
 from collections.abc import Callable
 from collections.abc import Iterator
+from dataclasses import dataclass
+from dataclasses import field
 import time
 
-from cloth_sim_ros.playback.opened_topics import open_topics
-from cloth_sim_ros.playback.opened_topics import other_publishers
-from cloth_sim_ros.playback.opened_topics import wanted_topics
-from cloth_sim_ros.playback.opened_topics import warning_of
-from cloth_sim_ros.playback.play_clock import PlayClock
-from cloth_sim_ros.playback.play_options import PlayOptions
-from cloth_sim_ros.playback.play_report import PlayReport
-from cloth_sim_ros.playback.player_node import PlayerNode
-from cloth_sim_ros.playback.player_node import SimulatedClock
+from builtin_interfaces.msg import Time
+from cloth_sim_ros.messages.topics import TOPICS
+from cloth_sim_ros.playback.played_topics import has_header
+from cloth_sim_ros.playback.played_topics import header_stamp
+from cloth_sim_ros.playback.played_topics import open_topics
+from cloth_sim_ros.playback.played_topics import other_publishers
+from cloth_sim_ros.playback.played_topics import PATIENCE
+from cloth_sim_ros.playback.played_topics import PlayedTopic
+from cloth_sim_ros.playback.played_topics import wanted_topics
+from cloth_sim_ros.playback.played_topics import warning_of
+from cloth_sim_ros.playback.schedule import PlayClock
+from cloth_sim_ros.playback.schedule import PlayOptions
 from cloth_sim_ros.recording.bag_messages import RawMessage
 from cloth_sim_ros.recording.bag_reader import BagReader
 from cloth_sim_ros.sim.errors import ClothSimError
+import rclpy
+from rclpy.context import Context
+from rclpy.executors import SingleThreadedExecutor
+from rclpy.node import Node
+from rclpy.qos import QoSProfile
+from rclpy.serialization import serialize_message
+from rosgraph_msgs.msg import Clock
+from std_srvs.srv import SetBool
+
+# Later than this [s] is worth a word; schedulers alone make a few milliseconds.
+_LATE = 0.05
+
+
+@dataclass
+class PlayReport:
+    """
+    What came of playing a recording.
+
+    :param messages: that were published
+    :param rounds: begun, more than one with --loop
+    :param furthest_behind: of any message, behind its time on the wall clock [s]
+    :param slipped: by how much the schedule was moved, as it could not be kept [s]
+    :param overruns: messages sent to readers that had not taken those before, by topic
+    """
+
+    messages: int = 0
+    rounds: int = 0
+    furthest_behind: float = 0.0
+    slipped: float = 0.0
+    overruns: dict[str, int] = field(default_factory=dict)
+
+    def sentences(self) -> list[str]:
+        """Return it in words: what was played, then what went wrong."""
+        rounds = f' in {self.rounds} rounds' if self.rounds > 1 else ''
+        behind = 'in time' if self.furthest_behind < _LATE else (
+            f'at most {self.furthest_behind:.2g} s late')
+        found = [f'played {self.messages} messages{rounds}, {behind}']
+        if self.slipped:
+            found.append(
+                f'this took {self.slipped:.2g} s longer than intended, as the machine or the '
+                'subscribers could not keep up: nothing was dropped, but use a lower --rate')
+        for topic, count in self.overruns.items():
+            found.append(
+                f'a subscriber of {topic} may have lost up to {count} messages, as it did not '
+                'read them in time: use a lower --rate, or a deeper queue in that subscriber')
+        return found
+
+
+# The player's place in the ROS graph, with /clock where a recording has none.
+
+NODE_NAME = 'cloth_sim_player'
+
+
+class SimulatedClock:
+    """
+    Publish the stamp of each frame ahead of it, as a node with publish.clock does.
+
+    ``topic`` is what it is published on, which waits for its readers as the others do.
+
+    :param patience: for a reader to take what it has been sent [s]
+    """
+
+    def __init__(self, node: Node, patience: float = PATIENCE) -> None:
+        """Make the publisher."""
+        topic = TOPICS['clock']
+        self.topic = PlayedTopic(
+            node, topic.name, topic.message, QoSProfile(depth=topic.depth),
+            patience=patience)
+        self._latest: Time | None = None
+
+    def read(self, message_class: type, data: bytes) -> None:
+        """Take up the stamp of a serialised message of the cloth, if it has one."""
+        if not has_header(message_class):
+            return
+        stamp = header_stamp(data)
+        if stamp != self._latest:
+            self._latest = stamp
+            self.topic.publish(serialize_message(Clock(clock=stamp)))
+
+
+class PlayerNode:
+    """
+    A node with the service ~/pause; a context manager.
+
+    :param clock: that ~/pause stops and lets go on, by time.monotonic
+    """
+
+    def __init__(self, clock: PlayClock) -> None:
+        """Join the graph."""
+        self._clock = clock
+        # In a context of its own, rclpy leaves the signals alone.
+        self._context = Context()
+        rclpy.init(args=[], context=self._context)
+        self.node = Node(
+            NODE_NAME, context=self._context, start_parameter_services=False,
+            enable_rosout=False)
+        self._executor = SingleThreadedExecutor(context=self._context)
+        self._executor.add_node(self.node)
+
+    def __enter__(self) -> 'PlayerNode':
+        """Return itself."""
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        """Leave the graph."""
+        self._executor.shutdown()
+        self.node.destroy_node()
+        rclpy.try_shutdown(context=self._context)
+
+    def offer_pause(self) -> None:
+        """Offer ~/pause: last, so that who finds it has found the topics before."""
+        self.node.create_service(SetBool, '~/pause', self._pause)
+
+    def spin(self, seconds: float) -> None:
+        """Wait up to ``seconds`` for a call of the service, and answer it."""
+        self._executor.spin_once(timeout_sec=seconds)
+
+    def _pause(self, request: SetBool.Request, response: SetBool.Response) -> SetBool.Response:
+        if request.data:
+            self._clock.pause(time.monotonic())
+        else:
+            self._clock.resume(time.monotonic())
+        response.success = True
+        response.message = 'paused' if request.data else 'playing'
+        return response
+
 
 # A signal is seen, and ~/pause answered, within this wall time [s].
 _LOOK_UP = 0.05

@@ -21,14 +21,14 @@ import sys
 
 from cloth_sim_ros.analysis.recording import find_node
 from cloth_sim_ros.node.large_messages import use_profile
-from cloth_sim_ros.playback.play_clock import PlayClock
-from cloth_sim_ros.playback.play_options import PlayOptions
 from cloth_sim_ros.playback.player import Player
-from cloth_sim_ros.playback.player_node import PlayerNode
-from cloth_sim_ros.playback.stop_signals import StopSignals
+from cloth_sim_ros.playback.player import PlayerNode
+from cloth_sim_ros.playback.schedule import PlayClock
+from cloth_sim_ros.playback.schedule import PlayOptions
 from cloth_sim_ros.recording.bag_reader import BagReader
 from cloth_sim_ros.verb.play_progress import PlayProgress
 from cloth_sim_ros.verb.recording_arguments import add_recording_arguments
+from cloth_sim_ros.verb.termination import StopSignals
 
 
 def add_arguments(parser: ArgumentParser) -> None:

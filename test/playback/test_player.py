@@ -1,15 +1,22 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-"""What is played reaches its readers as it was recorded."""
+"""Publish a recording's messages again, in their order and at their pace."""
 
 from pathlib import Path
+from signal import SIGCONT
+from signal import SIGSTOP
+import subprocess
+import sys
+from threading import Timer
 import time
 
 from builtin_interfaces.msg import Time
 from cloth_sim_interfaces.msg import ClothState
 from cloth_sim_interfaces.msg import ClothStats
 from cloth_sim_ros.messages.topics import TOPICS
+from cloth_sim_ros.playback.player import PlayReport
+from cloth_sim_ros.playback.player import SimulatedClock
 from cloth_sim_ros.recording.bag_folder import RecordingOptions
 from cloth_sim_ros.recording.bag_reader import BagReader
 from cloth_sim_ros.recording.recorder import Recorder
@@ -22,6 +29,71 @@ from rclpy.serialization import serialize_message
 from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import PointCloud2
 from shape_msgs.msg import Mesh
+
+
+def test_all_in_time_is_one_sentence():
+    """A user would look for a problem that there is not."""
+    assert PlayReport(messages=7, rounds=1, furthest_behind=0.004).sentences() == [
+        'played 7 messages, in time']
+
+
+def test_lateness_is_told():
+    """What looked jerky would be taken for the recording."""
+    told, problem = PlayReport(
+        messages=7, rounds=3, furthest_behind=60.0, slipped=59.5).sentences()
+    assert told == 'played 7 messages in 3 rounds, at most 60 s late'
+    assert 'this took 60 s longer' in problem
+    assert 'nothing was dropped' in problem
+
+
+def test_messages_that_a_reader_may_lack_are_told():
+    """A recording of what was played would have gaps, and nobody would know."""
+    _, problem = PlayReport(messages=7, rounds=1, overruns={'/a/points': 3}).sentences()
+    assert 'a subscriber of /a/points may have lost up to 3 messages' in problem
+
+
+# The clock that a recording is played with.
+
+STAMPS = 2000
+READER = f"""
+import rclpy
+from rclpy.qos import QoSProfile
+from rosgraph_msgs.msg import Clock
+rclpy.init()
+node = rclpy.create_node('clock_reader')
+received = []
+node.create_subscription(
+    Clock, '/clock', lambda message: received.append(message.clock.sec), QoSProfile(depth=1000))
+print('ready', flush=True)
+while not received or received[-1] != {STAMPS}:
+    rclpy.spin_once(node, timeout_sec=0.1)
+print(*received)
+"""
+
+
+def test_a_reader_that_is_held_up_for_a_while_gets_every_stamp(client):
+    """A node with use_sim_time would see time leap where its machine was busy."""
+    with subprocess.Popen(
+            [sys.executable, '-c', READER], stdout=subprocess.PIPE, text=True) as reader:
+        try:
+            reader.stdout.readline()
+            clock = SimulatedClock(client.node, patience=60.0)
+            client.spin_until(
+                lambda: client.node.count_subscribers('/clock'), 'the reader is found')
+            client.spin_for(0.3)
+            reader.send_signal(SIGSTOP)
+            Timer(0.1, reader.send_signal, (SIGCONT,)).start()
+            for number in range(1, STAMPS + 1):
+                stats = ClothStats()
+                stats.header.stamp = Time(sec=number)
+                clock.read(ClothStats, serialize_message(stats))
+            seconds, _ = reader.communicate(timeout=60.0)
+        finally:
+            reader.kill()
+    assert [int(each) for each in seconds.split()] == list(range(1, STAMPS + 1))
+
+
+# What is played reaches its readers as it was recorded.
 
 FRAMES = 51
 

@@ -3,8 +3,8 @@
 
 """When recorded messages are due."""
 
-from cloth_sim_ros.playback.play_clock import CATCH_UP
-from cloth_sim_ros.playback.play_clock import PlayClock
+from cloth_sim_ros.playback.schedule import CATCH_UP
+from cloth_sim_ros.playback.schedule import PlayClock
 import pytest
 
 SECOND = 10**9

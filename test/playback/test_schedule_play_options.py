@@ -3,7 +3,7 @@
 
 """What can be asked of the player."""
 
-from cloth_sim_ros.playback.play_options import PlayOptions
+from cloth_sim_ros.playback.schedule import PlayOptions
 from cloth_sim_ros.sim.errors import ClothSimError
 import pytest
 
