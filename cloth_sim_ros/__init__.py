@@ -18,7 +18,7 @@ _MODULES = {
     'ContactForce': 'sim.contacts',
     'DeviceError': 'gl.errors',
     'Difference': 'resimulation.frame_check',
-    'Entry': 'analysis.entry',
+    'Entry': 'analysis.recording',
     'FrameCheck': 'resimulation.frame_check',
     'FrameMove': 'sim.frame_paths',
     'FramePath': 'sim.frame_paths',

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-from cloth_sim_ros.analysis.entry import Entry as Entry
+from cloth_sim_ros.analysis.recording import Entry as Entry
 from cloth_sim_ros.analysis.recording import Recording as Recording
 from cloth_sim_ros.api.resimulate import resimulate as resimulate
 from cloth_sim_ros.api.scene_file import load_scene as load_scene

@@ -1,33 +1,137 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-"""The frames of a recording, in the order of time."""
+"""The frames of a recording in the order of time, with the colliders where they are then."""
 
 from collections.abc import Iterable
 from collections.abc import Iterator
 from collections.abc import Sequence
+from dataclasses import replace
+import math
+from typing import Any
 
-from cloth_sim_ros.analysis import collider_history
-from cloth_sim_ros.analysis import push_history
-from cloth_sim_ros.analysis.collider_history import ColliderHistory
+from cloth_sim_ros.analysis import input_history
 from cloth_sim_ros.analysis.frame import Frame
-from cloth_sim_ros.analysis.push_history import PushHistory
+from cloth_sim_ros.analysis.input_history import PushHistory
+from cloth_sim_ros.analysis.recorded_values import plain_value
+from cloth_sim_ros.analysis.recorded_values import recorded_pose
+from cloth_sim_ros.analysis.recording import Entry
 from cloth_sim_ros.analysis.recording import Recording
+from cloth_sim_ros.sim.colliders import Collider
+from cloth_sim_ros.sim.colliders import fields_with_colliders
+from cloth_sim_ros.sim.colliders import NAMES
+from cloth_sim_ros.sim.errors import ClothSimError
+from cloth_sim_ros.sim.frame_paths import FrameMove
+from cloth_sim_ros.sim.frame_paths import FramePaths
+from cloth_sim_ros.sim.handling import RESET
 from cloth_sim_ros.sim.push import Push
+from cloth_sim_ros.sim.scene import Scene
 import numpy as np
+
+_PARAMETERS, _TARGETS, _COMMANDS = (
+    'inputs/parameters', 'inputs/collider_target', 'inputs/command')
+COLLIDER_KEYS = (_PARAMETERS, _TARGETS, _COMMANDS)
+# The parameters that tell what the colliders are, and how the scene moves them.
+_GROUPS = ('colliders', 'collider_moves', 'motion')
+
+
+class ColliderHistory:
+    """
+    Takes up the messages of the topics COLLIDER_KEYS one after the other.
+
+    The scene's moves and the recorded targets are what the run itself has followed, so that no
+    frame of /tf is needed. ``problem`` says why there are none though the scene has some; it is
+    empty otherwise.
+    """
+
+    def __init__(self) -> None:
+        """Begin without colliders."""
+        self.problem = ''
+        self._scene: Scene | None = None
+        self._paths = FramePaths({})
+
+    def read(self, entry: Entry) -> None:
+        """Take up one message."""
+        if entry.key == _PARAMETERS and entry.message.new_parameters:
+            self._begin(entry.message.new_parameters)
+        elif entry.key == _TARGETS:
+            self._move(entry.message)
+        elif entry.key == _COMMANDS and entry.message.command == RESET:
+            self._begin_run()
+
+    def at(self, stamp: Any) -> tuple[Collider, ...]:
+        """Return the colliders where they are at the ROS time ``stamp`` of the run."""
+        if self._scene is None:
+            return ()
+        poses = [
+            (collider, self._paths.pose(collider.name, _seconds(stamp)))
+            for collider in self._scene.colliders]
+        return tuple(
+            replace(collider, position=pose.position, orientation=pose.orientation)
+            for collider, pose in poses)
+
+    def _begin(self, parameters: Any) -> None:
+        given = {
+            parameter.name: plain_value(parameter.value) for parameter in parameters
+            if parameter.name.partition('.')[0] in _GROUPS}
+        self._scene, self.problem = None, ''
+        if not given.get(NAMES):
+            return
+        known = {field.name for field in fields_with_colliders(given)}
+        try:
+            self._scene = Scene({
+                name: value for name, value in given.items() if name in known})
+        except ClothSimError as error:
+            self.problem = str(error)
+        self._begin_run()
+
+    def _begin_run(self) -> None:
+        if self._scene is not None:
+            self._paths = FramePaths(
+                {collider.name: collider.pose for collider in self._scene.colliders},
+                self._scene.timed_collider_moves())
+
+    def _move(self, message: Any) -> None:
+        if self._scene is None:
+            return
+        if message.name not in [collider.name for collider in self._scene.colliders]:
+            return
+        start = _seconds(message.header.stamp)
+        try:
+            pose = recorded_pose(message.pose)
+            orientation = None if message.keep_orientation else pose.orientation
+            if message.speed == 0.0:
+                # Where it is as the recording begins.
+                move = FrameMove(
+                    message.name, pose.position, orientation, math.inf, math.inf, start)
+            else:
+                move = FrameMove.checked(
+                    name=message.name, target=pose.position, orientation=orientation,
+                    speed=message.speed, angular_speed=message.angular_speed, start=start)
+        except ClothSimError as error:
+            self.problem = str(error)
+            return
+        self._paths.add(move)
+
+
+def _seconds(stamp: Any) -> float:
+    return stamp.sec + 1e-9 * stamp.nanosec
+
+
+# The frames of a recording, in the order of time.
 
 
 def read_frames(recording: Recording) -> Iterator[Frame]:
     """Yield every frame, with pushes given before it and colliders; one is in memory at a time."""
     pushes, colliders = PushHistory(), ColliderHistory()
-    for entry in recording.entries('points', *push_history.KEYS, *collider_history.KEYS):
+    for entry in recording.entries('points', *input_history.PUSH_KEYS, *COLLIDER_KEYS):
         if entry.key == 'points':
             yield Frame.from_points(
                 entry.time, entry.message, pushes.pushes, colliders.at(entry.message.header.stamp))
             continue
-        if entry.key in push_history.KEYS:
+        if entry.key in input_history.PUSH_KEYS:
             pushes.read(entry)
-        if entry.key in collider_history.KEYS:
+        if entry.key in COLLIDER_KEYS:
             colliders.read(entry)
 
 

@@ -17,9 +17,9 @@ from typing import Any
 from typing import cast
 
 from cloth_sim_ros.analysis.comparison import Comparison
+from cloth_sim_ros.analysis.plots import strain_histogram
 from cloth_sim_ros.analysis.recording import Recording
 from cloth_sim_ros.analysis.run import Run
-from cloth_sim_ros.analysis.strain_plot import strain_histogram
 from cloth_sim_ros.analysis.summary import Summary
 from cloth_sim_ros.sim.errors import ClothSimError
 from matplotlib import rc_context

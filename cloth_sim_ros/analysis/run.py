@@ -1,34 +1,82 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-
 """All that a recording tells of its run, read once from first to last."""
 
 from collections import Counter
 from collections.abc import Callable
 from collections.abc import Iterable
 from collections.abc import Iterator
+from collections.abc import Mapping
 
 from cloth_sim_ros.analysis.frame import Frame
 from cloth_sim_ros.analysis.frame_table import FrameTable
 from cloth_sim_ros.analysis.frame_table import STATS
-from cloth_sim_ros.analysis.mode_history import KEYS as MODE_KEYS
-from cloth_sim_ros.analysis.mode_history import ModeHistory
-from cloth_sim_ros.analysis.pin_columns import KEY as WRENCHES
-from cloth_sim_ros.analysis.pin_columns import PinColumns
-from cloth_sim_ros.analysis.push_history import KEYS as PUSH_KEYS
-from cloth_sim_ros.analysis.push_history import PushHistory
+from cloth_sim_ros.analysis.frame_table import StrainHistogram
+from cloth_sim_ros.analysis.input_history import MODE_KEYS as MODE_KEYS
+from cloth_sim_ros.analysis.input_history import ModeHistory
+from cloth_sim_ros.analysis.input_history import PUSH_KEYS as PUSH_KEYS
+from cloth_sim_ros.analysis.input_history import PushHistory
 from cloth_sim_ros.analysis.recording import Entry
 from cloth_sim_ros.analysis.recording import Recording
-from cloth_sim_ros.analysis.strain_histogram import StrainHistogram
+from cloth_sim_ros.messages.frame_names import node_of_pin
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.push import Push
 import numpy as np
 
+KEY = 'pins/wrenches'
+SUM = ('pin_force_x', 'pin_force_y', 'pin_force_z')
+LARGEST = 'largest_pin_force'
+MOST_PINS = 16
+
+Node = tuple[int, int]
+
+
+class PinColumns:
+    """Collects the force of the cloth on each holder [N], moment by moment."""
+
+    def __init__(self) -> None:
+        """Begin without forces."""
+        self._forces: dict[tuple[int, float], dict[Node, tuple[float, float, float]]] = {}
+
+    def read(self, entry: Entry) -> None:
+        """Take a message of ~/pins/wrenches; that of no pin is passed over."""
+        node = node_of_pin(entry.message.header.frame_id)
+        if node is not None:
+            force = entry.message.wrench.force
+            self._forces.setdefault((entry.resets, entry.time), {})[node] = (
+                force.x, force.y, force.z)
+
+    def columns(self, moments: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:
+        """
+        Return the sum of all pins, the largest, and each pin where there are MOST_PINS or fewer.
+
+        A value is nan where nothing was recorded. The columns of the pin (r, c) are
+        ``pin_r_c_force_x`` and so on.
+
+        :param moments: columns ``time`` and ``resets`` of the table
+        """
+        nodes = sorted({node for forces in self._forces.values() for node in forces})
+        shown = nodes if len(nodes) <= MOST_PINS else []
+        places = {node: 4 + 3 * number for number, node in enumerate(shown)}
+        values = np.full((len(moments['time']), 4 + 3 * len(shown)), np.nan)
+        for row, moment in enumerate(zip(moments['resets'].tolist(), moments['time'].tolist())):
+            forces = self._forces.get(moment, {})
+            if forces:
+                vectors = np.array(list(forces.values()))
+                values[row, :3] = vectors.sum(axis=0)
+                values[row, 3] = np.linalg.norm(vectors, axis=1).max()
+            for node in places.keys() & forces.keys():
+                values[row, places[node]:places[node] + 3] = forces[node]
+        names = [*SUM, LARGEST, *(
+            f'pin_{row}_{col}_force_{axis}' for row, col in shown for axis in 'xyz')]
+        return dict(zip(names, values.T.copy()))
+
+
 # ClothState.STOPPED: a recording is read without the interfaces.
 _STOPPED = 'stopped'
 _FIGURES = ('points', 'stats')
-KEYS = (*_FIGURES, WRENCHES, 'state', 'inputs/mode', 'inputs/pin', *PUSH_KEYS)
+KEYS = (*_FIGURES, KEY, 'state', 'inputs/mode', 'inputs/pin', *PUSH_KEYS)
 
 # Without a message on another topic nothing was done to the cloth.
 _TELLING = (*_FIGURES, 'state', 'inputs/mode')
@@ -97,7 +145,7 @@ class Run:
             self._read_points(entry)
         elif key == 'stats':
             self._read_stats(entry)
-        elif key == WRENCHES:
+        elif key == KEY:
             self._pins.read(entry)
         elif key in PUSH_KEYS:
             self.counts['pushes'] += key == 'inputs/push'

@@ -10,7 +10,7 @@ from cloth_sim_ros.analysis.frame import Frame
 from cloth_sim_ros.analysis.frames import frames_at
 from cloth_sim_ros.analysis.frames import read_frames
 from cloth_sim_ros.analysis.recording import Recording
-from cloth_sim_ros.analysis.run_outcome import RunOutcome
+from cloth_sim_ros.analysis.summary import RunOutcome
 from cloth_sim_ros.rendering.camera import Camera
 from cloth_sim_ros.rendering.layout import Layout
 from cloth_sim_ros.rendering.renderer import draw_panel

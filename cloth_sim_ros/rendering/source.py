@@ -11,9 +11,9 @@ from collections.abc import Sequence
 from functools import cached_property
 from pathlib import Path
 
-from cloth_sim_ros.analysis.collider_history import ColliderHistory
-from cloth_sim_ros.analysis.collider_history import KEYS
 from cloth_sim_ros.analysis.frame import Frame
+from cloth_sim_ros.analysis.frames import COLLIDER_KEYS
+from cloth_sim_ros.analysis.frames import ColliderHistory
 from cloth_sim_ros.analysis.frames import default_times
 from cloth_sim_ros.analysis.frames import frames_at
 from cloth_sim_ros.analysis.frames import read_frames
@@ -133,8 +133,8 @@ class RecordingSource(Source):
         modes: list[str] = []
         device = ''
         colliders = ColliderHistory()
-        for entry in self._recording.entries('inputs/mode', 'state', *KEYS):
-            if entry.key in KEYS:
+        for entry in self._recording.entries('inputs/mode', 'state', *COLLIDER_KEYS):
+            if entry.key in COLLIDER_KEYS:
                 colliders.read(entry)
             elif entry.key == 'state':
                 device = entry.message.device

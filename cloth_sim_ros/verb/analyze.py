@@ -92,7 +92,7 @@ def main(args: Namespace) -> int:
 
 def _write_run(run: Run, summary: Summary, folder: Path) -> None:
     # Drawing takes a second to load, and a table alone does not need it.
-    from cloth_sim_ros.analysis.run_plots import run_plots
+    from cloth_sim_ros.analysis.plots import run_plots
     write_frames(run, folder / 'frames.csv')
     write_json(summary_values(summary, run), folder / 'summary.json')
     for name, figure in run_plots(run):
@@ -101,7 +101,7 @@ def _write_run(run: Run, summary: Summary, folder: Path) -> None:
 
 def _write_comparisons(
         comparisons: Sequence[Comparison], names: Sequence[str], folder: Path) -> None:
-    from cloth_sim_ros.analysis.comparison_plot import comparison_plot
+    from cloth_sim_ros.analysis.plots import comparison_plot
     for comparison, name in zip(comparisons, names[1:]):
         write_comparison(comparison, folder / f'{name}_against_{names[0]}.csv')
     write_json([comparison_values(each) for each in comparisons], folder / 'comparison.json')
@@ -109,7 +109,7 @@ def _write_comparisons(
 
 
 def _write_curves(runs: Sequence[Run], names: Sequence[str], folder: Path) -> None:
-    from cloth_sim_ros.analysis.comparison_plot import overlay_plot
+    from cloth_sim_ros.analysis.plots import overlay_plot
     write_plot(overlay_plot(runs, names), folder / 'curves.png')
 
 

@@ -19,8 +19,8 @@ import sys
 
 from cloth_sim_ros.analysis.recording import Recording
 from cloth_sim_ros.analysis.run import Run
-from cloth_sim_ros.analysis.run_outcome import outcome_table
-from cloth_sim_ros.analysis.run_outcome import RunOutcome
+from cloth_sim_ros.analysis.summary import outcome_table
+from cloth_sim_ros.analysis.summary import RunOutcome
 from cloth_sim_ros.api.scene_file import scene_from
 from cloth_sim_ros.rendering.run_sheet import write_run_sheet
 from cloth_sim_ros.sim.errors import ClothSimError

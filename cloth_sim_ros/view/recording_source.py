@@ -11,8 +11,8 @@ import time
 
 from cloth_sim_ros.analysis.frame import Frame
 from cloth_sim_ros.analysis.frames import read_frames
-from cloth_sim_ros.analysis.mode_history import KEYS
-from cloth_sim_ros.analysis.mode_history import ModeHistory
+from cloth_sim_ros.analysis.input_history import MODE_KEYS
+from cloth_sim_ros.analysis.input_history import ModeHistory
 from cloth_sim_ros.analysis.recording import Recording
 from cloth_sim_ros.view.source import Moment
 from cloth_sim_ros.view.source import PAUSED
@@ -39,7 +39,7 @@ class RecordingSource(Source):
         recording = Recording(path, node)
         self.name = recording.name
         self._modes = ModeHistory()
-        for entry in recording.entries(*KEYS):
+        for entry in recording.entries(*MODE_KEYS):
             self._modes.read(entry)
         self._frames: list[Frame] = []
         stride = 1

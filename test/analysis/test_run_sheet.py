@@ -4,7 +4,7 @@
 """A sheet of runs, of which some blow up."""
 
 from cloth_sim_ros.analysis.recording import Recording
-from cloth_sim_ros.analysis.run_outcome import RunOutcome
+from cloth_sim_ros.analysis.summary import RunOutcome
 from cloth_sim_ros.messages.frame import PointsMessage
 from cloth_sim_ros.recording.recorder import Recorder
 from cloth_sim_ros.rendering.run_sheet import write_run_sheet

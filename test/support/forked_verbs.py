@@ -25,7 +25,7 @@ from typing import NamedTuple
 MODULES = (
     'cloth_sim_ros.verb.main', 'cloth_sim_ros.verb.info', 'cloth_sim_ros.verb.analyze',
     'cloth_sim_ros.verb.render', 'cloth_sim_ros.verb.resimulate', 'cloth_sim_ros.verb.run',
-    'cloth_sim_ros.verb.play', 'cloth_sim_ros.analysis.run_plots', 'PIL.Image',
+    'cloth_sim_ros.verb.play', 'cloth_sim_ros.analysis.plots', 'PIL.Image',
     'rosbags.typesys.stores.ros2_jazzy', 'zstandard', 'lz4.frame')
 # Of address space, so that a hostile file can't take the machine [bytes].
 _MOST_MEMORY = 12 << 30

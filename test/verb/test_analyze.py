@@ -14,9 +14,9 @@ import shutil
 from cloth_sim_interfaces.msg import ClothStats
 from cloth_sim_ros.analysis.frame_table import COLUMNS
 from cloth_sim_ros.analysis.frame_table import STATS
+from cloth_sim_ros.analysis.plots import run_plots
 from cloth_sim_ros.analysis.recording import Recording
 from cloth_sim_ros.analysis.run import Run
-from cloth_sim_ros.analysis.run_plots import run_plots
 from cloth_sim_ros.analysis.summary import Summary
 from cloth_sim_ros.verb.main import main
 from copied_bag import copy_bag

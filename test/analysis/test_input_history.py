@@ -6,7 +6,7 @@
 
 from types import SimpleNamespace
 
-from cloth_sim_ros.analysis.mode_history import ModeHistory
+from cloth_sim_ros.analysis.input_history import ModeHistory
 from cloth_sim_ros.analysis.recording import Entry
 
 

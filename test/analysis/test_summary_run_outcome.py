@@ -5,8 +5,8 @@
 
 from cloth_sim_ros.analysis.recording import Recording
 from cloth_sim_ros.analysis.run import Run
-from cloth_sim_ros.analysis.run_outcome import outcome_table
-from cloth_sim_ros.analysis.run_outcome import RunOutcome
+from cloth_sim_ros.analysis.summary import outcome_table
+from cloth_sim_ros.analysis.summary import RunOutcome
 from cloth_sim_ros.messages.frame import PointsMessage
 from cloth_sim_ros.messages.frame import stats_message
 from cloth_sim_ros.messages.state import state_message

@@ -4,9 +4,9 @@
 
 """Plots of a run: which there are, their units, and what was done to the cloth."""
 
+from cloth_sim_ros.analysis.plots import run_plots
 from cloth_sim_ros.analysis.recording import Recording
 from cloth_sim_ros.analysis.run import Run
-from cloth_sim_ros.analysis.run_plots import run_plots
 from cloth_sim_ros.messages.frame import PointsMessage
 from cloth_sim_ros.messages.frame import stats_message
 from cloth_sim_ros.messages.inputs import mode_message

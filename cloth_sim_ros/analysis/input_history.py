@@ -1,14 +1,57 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-
-"""The modes of a recording over its time."""
+"""The pushes and the modes of a recording over its time."""
 
 from dataclasses import dataclass
+from dataclasses import replace
 
+from cloth_sim_ros.analysis.recorded_values import parts
 from cloth_sim_ros.analysis.recording import Entry
+from cloth_sim_ros.sim.push import Push
 
-KEYS = ('inputs/mode', 'state')
+PUSH_KEYS = ('inputs/push', 'inputs/command')
+
+
+class PushHistory:
+    """
+    Takes up the messages of the topics PUSH_KEYS one after the other.
+
+    ``pushes`` are those known so far; one that was ended early has the duration it had.
+    """
+
+    def __init__(self) -> None:
+        """Begin without a push."""
+        self.pushes: list[Push] = []
+
+    def read(self, entry: Entry) -> None:
+        """Take up one message."""
+        if entry.key == 'inputs/push':
+            self.pushes.append(_push(entry))
+        else:
+            # Both commands, a reset and a removal of all pushes, end what acts.
+            self.pushes = [
+                _ended(push, entry.time) for push in self.pushes if push.start < entry.time]
+
+
+def _push(entry: Entry) -> Push:
+    message = entry.message
+    stamp = message.header.stamp
+    return Push(
+        force=parts(message.force),
+        # From the time of the run, which a reset puts back, to the time of the recording.
+        start=message.start + entry.time - (stamp.sec + 1e-9 * stamp.nanosec),
+        duration=message.duration, region=message.region, center=parts(message.center),
+        radius=message.radius)
+
+
+def _ended(push: Push, time: float) -> Push:
+    return replace(push, duration=min(push.duration, time - push.start))
+
+
+# The modes of a recording over its time.
+
+MODE_KEYS = ('inputs/mode', 'state')
 
 
 @dataclass(frozen=True)
@@ -26,7 +69,7 @@ class ModeSwitch:
 
 class ModeHistory:
     """
-    Takes up the messages of the topics KEYS one after the other.
+    Takes up the messages of the topics MODE_KEYS one after the other.
 
     ``switches`` are those while it was recorded; ``first`` is the mode before them, empty where
     nothing tells it.

@@ -5,7 +5,7 @@
 
 from types import SimpleNamespace
 
-from cloth_sim_ros.analysis.message_check import check_message
+from cloth_sim_ros.analysis.recorded_values import check_message
 from cloth_sim_ros.sim.errors import ClothSimError
 import numpy as np
 import pytest
