@@ -72,7 +72,7 @@ class Depth(Part):
         """Place the camera."""
         # Drawing takes longer to import than the rest, and most environments do without.
         from cloth_sim_ros.rendering.camera import Camera
-        from cloth_sim_ros.rendering.depth_camera import DepthCamera
+        from cloth_sim_ros.rendering.camera import DepthCamera
         height, width = _checked_size(size)
         try:
             view = Camera(**camera).looking_at(points, width, height)

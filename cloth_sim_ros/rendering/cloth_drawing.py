@@ -15,11 +15,11 @@ from cloth_sim_ros.rendering.camera import View
 from cloth_sim_ros.rendering.look import HEM_SHADE
 from cloth_sim_ros.rendering.look import LIGHT_DEFINES
 from cloth_sim_ros.rendering.look import LIMIT_COLOR
+from cloth_sim_ros.rendering.look import PALETTE_SIZE
 from cloth_sim_ros.rendering.look import set_light
 from cloth_sim_ros.rendering.look import SHADOW_COLOR
+from cloth_sim_ros.rendering.look import StrainScale
 from cloth_sim_ros.rendering.look import UNKNOWN_COLOR
-from cloth_sim_ros.rendering.strain_scale import PALETTE_SIZE
-from cloth_sim_ros.rendering.strain_scale import StrainScale
 from cloth_sim_ros.sim.snapshot import FLAG_AT_LIMIT
 import numpy as np
 

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 
 from cloth_sim_ros.analysis.collider_surface import collider_surface
 from cloth_sim_ros.analysis.frame import Frame
-from cloth_sim_ros.rendering.strain_scale import StrainRange
+from cloth_sim_ros.rendering.look import StrainRange
 from cloth_sim_ros.sim.colliders import Collider
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.push import Push

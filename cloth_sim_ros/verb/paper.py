@@ -22,7 +22,7 @@ from cloth_sim_ros.analysis.run import Run
 from cloth_sim_ros.analysis.summary import outcome_table
 from cloth_sim_ros.analysis.summary import RunOutcome
 from cloth_sim_ros.api.scene_file import scene_from
-from cloth_sim_ros.rendering.run_sheet import write_run_sheet
+from cloth_sim_ros.rendering.picture import write_run_sheet
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.modes import AVAILABLE
 from cloth_sim_ros.sim.scene import Scene

@@ -11,10 +11,10 @@ from cloth_sim_ros.analysis.recording import Recording
 from cloth_sim_ros.files.errors import cut
 from cloth_sim_ros.files.errors import shown
 from cloth_sim_ros.rendering.camera import Camera
+from cloth_sim_ros.rendering.renderer import Style
 from cloth_sim_ros.rendering.source import RecordingSource
 from cloth_sim_ros.rendering.source import Source
 from cloth_sim_ros.rendering.source import StateSource
-from cloth_sim_ros.rendering.stage import Style
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.verb.recording_arguments import add_node_argument
 

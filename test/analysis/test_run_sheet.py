@@ -7,7 +7,7 @@ from cloth_sim_ros.analysis.recording import Recording
 from cloth_sim_ros.analysis.summary import RunOutcome
 from cloth_sim_ros.messages.frame import PointsMessage
 from cloth_sim_ros.recording.recorder import Recorder
-from cloth_sim_ros.rendering.run_sheet import write_run_sheet
+from cloth_sim_ros.rendering.picture import write_run_sheet
 from cloth_sim_ros.sim.errors import ClothSimError
 from made_snapshot import make_snapshot
 import numpy as np

@@ -8,8 +8,8 @@ from collections.abc import Iterator
 
 from cloth_sim_ros.analysis.frame import Frame
 from cloth_sim_ros.rendering.camera import Camera
+from cloth_sim_ros.rendering.look import StrainScale
 from cloth_sim_ros.rendering.renderer import Renderer
-from cloth_sim_ros.rendering.strain_scale import StrainScale
 from cloth_sim_ros.rendering.survey import Survey
 from cloth_sim_ros.sim.snapshot import POINT_DTYPE
 import numpy as np

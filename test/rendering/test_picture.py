@@ -4,12 +4,12 @@
 """Sheets as files."""
 
 from cloth_sim_ros.analysis.recording import Recording
-from cloth_sim_ros.rendering.layout import Layout
 from cloth_sim_ros.rendering.picture import draw_picture
 from cloth_sim_ros.rendering.picture import write_picture
+from cloth_sim_ros.rendering.renderer import Style
+from cloth_sim_ros.rendering.sheet import Layout
 from cloth_sim_ros.rendering.source import RecordingSource
 from cloth_sim_ros.rendering.source import StateSource
-from cloth_sim_ros.rendering.stage import Style
 from cloth_sim_ros.sim.errors import ClothSimError
 from matplotlib.image import imread
 import numpy as np

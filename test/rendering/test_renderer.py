@@ -1,20 +1,27 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-"""What is drawn is where the projection says, in the colour that the scale and the lamp say."""
+"""Draw a frame into an image, and the panels that a picture or a video is made of."""
 
 import sys
 import warnings
 
+from cloth_sim_ros.analysis.recording import Recording
 from cloth_sim_ros.gl.program import RenderProgram
 from cloth_sim_ros.rendering import look
 from cloth_sim_ros.rendering.camera import Camera
 from cloth_sim_ros.rendering.look import LIMIT_COLOR
 from cloth_sim_ros.rendering.look import PIN_COLOR
 from cloth_sim_ros.rendering.look import PUSH_COLOR
+from cloth_sim_ros.rendering.look import StrainRange
+from cloth_sim_ros.rendering.look import StrainScale
 from cloth_sim_ros.rendering.look import UNKNOWN_COLOR
-from cloth_sim_ros.rendering.strain_scale import StrainRange
-from cloth_sim_ros.rendering.strain_scale import StrainScale
+from cloth_sim_ros.rendering.renderer import labels_of
+from cloth_sim_ros.rendering.renderer import note_of
+from cloth_sim_ros.rendering.renderer import Style
+from cloth_sim_ros.rendering.renderer import title_of
+from cloth_sim_ros.rendering.source import RecordingSource
+from cloth_sim_ros.rendering.source import StateSource
 from cloth_sim_ros.sim.push import Push
 from cloth_sim_ros.sim.snapshot import FLAG_AT_LIMIT
 from cloth_sim_ros.sim.snapshot import FLAG_PINNED
@@ -317,3 +324,33 @@ def test_only_what_is_drawn_is_compiled(flat, rendered, monkeypatch):
     monkeypatch.setattr(RenderProgram, '__init__', counted)
     rendered(flat())
     assert sorted(compiled) == ['render/cloth.vert', 'render/cloth.vert', 'render/floor.vert']
+
+
+# What a picture says of its sources.
+
+
+@pytest.fixture
+def sources(known, tmp_path, flat):
+    """Return a recording and a state file without strain."""
+    np.savez(tmp_path / 'last.npz', positions=flat().positions)
+    return [RecordingSource(Recording(known.folder)), StateSource(tmp_path / 'last.npz')]
+
+
+def test_the_title_tells_size_and_modes(sources, flat):
+    """A picture could not be told from that of another run."""
+    assert title_of(sources[:1], [flat(4, 5)]) == '4 x 5 nodes, mass_spring'
+    assert title_of(sources, [flat(4, 5)]) == '4 x 5 nodes'
+    assert title_of(sources, [flat(4, 5), flat(6, 5)]) == ''
+
+
+def test_rows_are_named_by_folder_and_mode_or_as_asked(sources):
+    """A reader would not know which row is which."""
+    assert labels_of(sources, Style()) == ['known (mass_spring)', 'last']
+    assert labels_of(sources, Style(labels=('one', 'two'))) == ['one', 'two']
+
+
+def test_the_note_tells_what_is_not_drawn(sources):
+    """A cloth without pins and strain would be taken for one that has none."""
+    assert note_of(sources) == (
+        'simulated on a device; last lacks strain and pins and limits: not drawn')
+    assert note_of(sources[:1]) == 'simulated on a device'
