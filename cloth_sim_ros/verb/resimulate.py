@@ -23,9 +23,9 @@ from typing import Any
 
 from cloth_sim_ros.node.node_fields import NODE_FIELDS
 from cloth_sim_ros.recording.bag_metadata import project_version
-from cloth_sim_ros.resimulation.listener import Listener
+from cloth_sim_ros.resimulation.input_replay import Listener
+from cloth_sim_ros.resimulation.recorded_run import recorded_version
 from cloth_sim_ros.resimulation.recorded_run import RecordedRun
-from cloth_sim_ros.resimulation.recorded_scene import recorded_version
 from cloth_sim_ros.resimulation.rerun import Rerun
 from cloth_sim_ros.resimulation.verdict import Verdict
 from cloth_sim_ros.resimulation.verdict import version_lines

@@ -3,7 +3,7 @@
 
 """Runs that stop, as recorded or with other settings."""
 
-from cloth_sim_ros.resimulation.listener import Listener
+from cloth_sim_ros.resimulation.input_replay import Listener
 from cloth_sim_ros.sim.errors import NonFiniteStateError
 from cloth_sim_ros.sim.scene_fields import MODES
 from made_again import assert_same

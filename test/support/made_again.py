@@ -11,7 +11,7 @@ from typing import Any
 
 from cloth_sim_ros.analysis.recording import Recording
 from cloth_sim_ros.node.node_fields import NODE_FIELDS
-from cloth_sim_ros.resimulation.listener import Listener
+from cloth_sim_ros.resimulation.input_replay import Listener
 from cloth_sim_ros.resimulation.recorded_run import RecordedRun
 from cloth_sim_ros.resimulation.rerun import Rerun
 from cloth_sim_ros.sim.scene import Scene

@@ -8,8 +8,8 @@ from cloth_sim_ros.messages.inputs import parameters_message
 from cloth_sim_ros.node.node_fields import NODE_FIELDS
 from cloth_sim_ros.recording.bag_metadata import project_version
 from cloth_sim_ros.recording.recorder import Recorder
-from cloth_sim_ros.resimulation.recorded_scene import recorded_version
-from cloth_sim_ros.resimulation.recorded_scene import RecordedScene
+from cloth_sim_ros.resimulation.recorded_run import recorded_version
+from cloth_sim_ros.resimulation.recorded_run import RecordedScene
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.scene_fields import Field
