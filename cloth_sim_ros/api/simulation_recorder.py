@@ -1,8 +1,9 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-"""Record a simulation that a Python program drives."""
+"""Record a run that has no node, as the node would have, and one that a program drives."""
 
+from collections.abc import Callable
 from collections.abc import Mapping
 from contextlib import AbstractContextManager
 import math
@@ -11,17 +12,159 @@ import time
 from typing import Any
 import warnings
 
-from cloth_sim_ros.api.run_recording import RunRecording
+from cloth_sim_interfaces.msg import ClothState
+from cloth_sim_ros.messages.frame import PointsMessage
+from cloth_sim_ros.messages.frame import stats_message
+from cloth_sim_ros.messages.pins import PinFrames
+from cloth_sim_ros.messages.pins import too_many_pins
+from cloth_sim_ros.messages.pins import WrenchMessages
+from cloth_sim_ros.messages.state import state_of
+from cloth_sim_ros.node.body_topics import body_messages
+from cloth_sim_ros.node.body_topics import GRASPS
+from cloth_sim_ros.node.body_topics import wanted_of_bodies
 from cloth_sim_ros.node.inputs import Inputs
 from cloth_sim_ros.node.node_fields import checked_node_values
 from cloth_sim_ros.node.node_fields import NODE_FIELDS
+from cloth_sim_ros.node.recording_session import RecordingSession
+from cloth_sim_ros.node.recording_session import write_opening
+from cloth_sim_ros.recording.bag_folder import RecordingOptions
 from cloth_sim_ros.recording.recording_faults import RecordingError
+from cloth_sim_ros.recording.recording_faults import RecordingFull
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.errors import NonFiniteStateError
 from cloth_sim_ros.sim.handling import InputListener
 from cloth_sim_ros.sim.handling import RESET
 from cloth_sim_ros.sim.scene import refuse_unknown
 from cloth_sim_ros.sim.simulation import Simulation
+import numpy as np
+from rclpy.serialization import serialize_message
+
+
+class RunRecording:
+    """
+    A recording of points, stats, pins, grasps, colliders and inputs.
+
+    ``problem`` says why it is not whole; it is empty when it is, or when it was completed at the
+    size that was asked for.
+
+    :param directory: folder that the recording's own folder is made in
+    :param lost: called with the reason when the recording has ended before it was closed; by
+        default that is said
+    :param node_name: for the names of the topics, with its namespace
+    :param say: is given each thing that a user should know, one sentence
+    :param setting: what ``directory`` was given by, for errors
+    """
+
+    def __init__(
+            self, simulation: Simulation, node_values: dict[str, Any], directory: str, *,
+            say: Callable[[str], None], lost: Callable[[RecordingError], None] | None = None,
+            node_name: str = 'cloth_sim',
+            setting: str = '--record') -> None:
+        """Open the recording and write what it begins with, the start pose too."""
+        self._simulation = simulation
+        self._say = say
+        self._lost = lost or (lambda error: say(str(error)))
+        self._node_values = node_values
+        self._node_name = node_name
+        self._frame_id = node_values['frame_id']
+        self._points = PointsMessage(
+            simulation.scene.rows, simulation.scene.cols, self._frame_id)
+        self._pin_frames = PinFrames(node_name, self._frame_id)
+        self._wrenches = WrenchMessages(node_name)
+        self.problem = ''
+        self._session = RecordingSession(
+            directory, node_name, self._on_lost, setting,
+            options=RecordingOptions.from_values(node_values))
+        self.path = self._session.start(node_values['recording.name'])
+        values = {**simulation.scene.values, **node_values}
+        write_opening(self._session, simulation, values, f'/{node_name.strip("/")}')
+        self._write_state(ClothState.RUNNING)
+        reason = too_many_pins(int(np.count_nonzero(self._pins())))
+        self._has_wrenches = node_values['publish.wrenches'] and not reason
+        self._has_pin_frames = node_values['publish.tf'] and not reason
+        if reason and (node_values['publish.wrenches'] or node_values['publish.tf']):
+            self._say(reason)
+        self._recorded = 0.0
+        self.write(0.0, 0.0)
+
+    def write(self, step_wall_time: float, real_time_factor: float) -> None:
+        """Write the present instant."""
+        if not self._session.active:
+            return
+        of_bodies = wanted_of_bodies(self._simulation, self._node_values, self)
+        snapshot = self._simulation.snapshot(
+            pin_forces=self._has_wrenches or GRASPS in of_bodies)
+        stats = stats_message(
+            snapshot, self._frame_id, step_wall_time=step_wall_time,
+            real_time_factor=real_time_factor)
+        self._session.write('points', self._points.serialise(snapshot), snapshot.time)
+        # Not at the end: an interrupt may come in between.
+        self._recorded = snapshot.time
+        self._session.write('stats', serialize_message(stats), snapshot.time)
+        held = self._simulation.grasped_nodes()
+        if self._has_pin_frames and self._pins().any():
+            self._session.write('tf', self._pin_frames.serialise(snapshot, held), snapshot.time)
+        if self._has_wrenches:
+            for data in self._wrenches.serialise(snapshot, held):
+                self._session.write('pins/wrenches', data, snapshot.time)
+        for key, message in body_messages(
+                self._simulation, snapshot, of_bodies, self._node_name, self._frame_id):
+            self.send_message(key, message, snapshot.time)
+
+    def wanted(self, key: str, *, by_recording: bool = True) -> bool:
+        """Tell whether messages of the topic ``key`` are written now."""
+        return by_recording and self._session.active
+
+    def send_message(self, key: str, message: Any, sim_time: float) -> None:
+        """Write ``message`` of the topic ``key`` at ``sim_time`` [s], as a node's outlet does."""
+        self._session.write(key, serialize_message(message), sim_time)
+
+    def send(self, key: str, serialise: Callable[[], bytes], sim_time: float) -> None:
+        """Write what ``serialise`` returns, of the topic ``key``, at ``sim_time`` [s]."""
+        self._session.write(key, serialise(), sim_time)
+
+    def rewind(self) -> None:
+        """Go on as simulated time is about to return to 0."""
+        self._session.rewind(self._simulation.time)
+
+    def write_stop(self) -> None:
+        """Write that the run has stopped before its end."""
+        self._write_state(ClothState.STOPPED)
+
+    def close(self) -> None:
+        """Finish the recording; where that fails, ``problem`` says so."""
+        try:
+            self._session.close()
+        except RecordingError as error:
+            self._on_lost(error)
+
+    def close_interrupted(self) -> None:
+        """Finish the recording of a run that was interrupted, and say how far it goes."""
+        is_whole = self._session.active
+        try:
+            self.close()
+        finally:
+            if is_whole and not self.problem:
+                self._say(
+                    f'interrupted; the recording {self.path} is complete up to '
+                    f'{self._recorded:.6g} s')
+
+    def _pins(self) -> np.ndarray:
+        return self._simulation.pinned_nodes() & ~self._simulation.grasped_nodes()
+
+    def _write_state(self, run_state: str) -> None:
+        state = state_of(
+            self._simulation, frame_id=self._frame_id, run_state=run_state,
+            recording_path=self.path)
+        self._session.write('state', serialize_message(state), self._simulation.time)
+
+    def _on_lost(self, error: RecordingError) -> None:
+        if not isinstance(error, RecordingFull):
+            self.problem = str(error)
+        self._lost(error)
+
+
+# Record a simulation that a Python program drives.
 
 _ROUNDING = 1e-9  # of a sum of frame times
 

@@ -18,7 +18,7 @@ from cloth_sim_ros.verb.termination import sayer
 from tqdm import tqdm
 
 if TYPE_CHECKING:
-    from cloth_sim_ros.api.run_recording import RunRecording
+    from cloth_sim_ros.api.simulation_recorder import RunRecording
 
 # Of a step: what a sum of frame times may fall short of it, as in Simulation.advance.
 _ROUNDING = 1e-6
@@ -99,7 +99,7 @@ class BatchRun:
     def _open_recording(self) -> None:
         if self._record_directory is not None:
             # The ROS packages are needed for a recording alone.
-            from cloth_sim_ros.api.run_recording import RunRecording
+            from cloth_sim_ros.api.simulation_recorder import RunRecording
             self._recording = RunRecording(
                 self._simulation, self._node_values, self._record_directory,
                 say=sayer('run'), setting=self._setting)
