@@ -7,7 +7,7 @@ from collections.abc import Callable
 import traceback
 
 from cloth_sim_ros.files.errors import cut
-from cloth_sim_ros.node.ignored_messages import LogThrottle
+from cloth_sim_ros.node.refusals import LogThrottle
 
 # The same fault may come with every frame: its trace is logged once in this time [s].
 QUIET = 10.0

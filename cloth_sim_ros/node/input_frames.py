@@ -9,8 +9,8 @@ from typing import Any
 from cloth_sim_ros.messages.stamp import NANOSECONDS
 from cloth_sim_ros.node.frame_history import Sample
 from cloth_sim_ros.node.frame_tree import FrameTree
-from cloth_sim_ros.node.ignored_messages import IgnoredMessages
 from cloth_sim_ros.node.own_frames import OwnFrames
+from cloth_sim_ros.node.refusals import IgnoredMessages
 from cloth_sim_ros.node.tf_messages import checked_pose
 from cloth_sim_ros.node.tf_messages import read_transforms
 from cloth_sim_ros.sim.errors import ClothSimError

@@ -8,7 +8,7 @@ import threading
 import time
 
 from cloth_sim_interfaces.srv import SetMode
-from cloth_sim_ros.node.answer import serve_later
+from cloth_sim_ros.node.refusals import serve_later
 from cloth_sim_ros.sim.engine import Preparation
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.simulation import Simulation

@@ -1,21 +1,40 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-"""~/pause, ~/step and ~/reset, and ~/start_recording and ~/stop_recording."""
+"""~/pause, ~/step, ~/reset, ~/start_recording, ~/stop_recording, and what follows: ~/state."""
 
 from collections.abc import Callable
+from typing import Any
 
 from cloth_sim_interfaces.srv import StartRecording
 from cloth_sim_interfaces.srv import Step
-from cloth_sim_ros.node.answer import answer
-from cloth_sim_ros.node.answer import serve_later
-from cloth_sim_ros.node.at_rest import at_rest
+from cloth_sim_ros.messages.state import state_of
+from cloth_sim_ros.node.mode_switch import ModeSwitch
+from cloth_sim_ros.node.outlet import Outlet
 from cloth_sim_ros.node.recording_session import RecordingSession
+from cloth_sim_ros.node.refusals import answer
+from cloth_sim_ros.node.refusals import serve_later
 from cloth_sim_ros.node.run_loop import RunLoop
 from cloth_sim_ros.sim.simulation import Simulation
 from rclpy.node import Node
+from rclpy.task import Future
 from std_srvs.srv import SetBool
 from std_srvs.srv import Trigger
+
+
+def at_rest(simulation: Simulation, action: Callable[[], Any]) -> Future:
+    """Return a future with the result of ``action``, called now or when the step has ended."""
+    future = Future()
+
+    def act() -> None:
+        try:
+            future.set_result(action())
+        except Exception as error:
+            # Raised where it is awaited: it is the answer of a request, not the end of the step.
+            future.set_exception(error)
+
+    simulation.stepping.at_rest(act)
+    return future
 
 
 class RecordingServices:
@@ -91,3 +110,26 @@ class RunServices:
     async def _on_reset(self, _: Trigger.Request, __: Trigger.Response) -> str:
         await at_rest(self._simulation, self._reset)
         return f'reset to the start, {self._run_loop.run_state}'
+
+
+class StateTopic:
+    """Send the state put together from the parts that hold it."""
+
+    def __init__(
+            self, outlet: Outlet, simulation: Simulation, run_loop: RunLoop,
+            switch: ModeSwitch, recording: RecordingSession, frame_id: str) -> None:
+        """Keep the parts."""
+        self._switch = switch
+        self._outlet = outlet
+        self._simulation = simulation
+        self._run_loop = run_loop
+        self._recording = recording
+        self._frame_id = frame_id
+
+    def send(self) -> None:
+        """Send the state as it is now."""
+        state = state_of(
+            self._simulation, frame_id=self._frame_id, run_state=self._run_loop.run_state,
+            preparing=self._switch.preparing, compiled=self._switch.compiled,
+            recording_path=self._recording.path)
+        self._outlet.send_message('state', state, self._simulation.stepping.edit_time)

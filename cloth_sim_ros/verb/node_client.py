@@ -12,8 +12,8 @@ from typing import Any
 from cloth_sim_interfaces.srv import SetMode
 from cloth_sim_ros.files.errors import cut
 from cloth_sim_ros.files.errors import shown
-from cloth_sim_ros.node.answer import no_node
 from cloth_sim_ros.node.interfaces import check_interfaces
+from cloth_sim_ros.node.refusals import no_node
 from cloth_sim_ros.sim.errors import ClothSimError
 import rclpy
 from rclpy._rclpy_pybind11 import RCLError

@@ -8,7 +8,7 @@ from cloth_sim_interfaces.msg import Push
 from cloth_sim_interfaces.srv import ApplyPush
 from cloth_sim_interfaces.srv import SetMode
 from cloth_sim_interfaces.srv import StartRecording
-from cloth_sim_ros.node.ignored_messages import QUIET
+from cloth_sim_ros.node.refusals import QUIET
 from cloth_under_test import ClothUnderTest
 from cloth_under_test import PAUSED
 from command import cloth_sim

@@ -51,7 +51,7 @@ def status_of(cloth, faults=1):
     pytest.param('clear_pushes', Trigger, '_clear', marks=pytest.mark.long)])
 def test_a_request_that_fails_is_answered(client, tmp_path, service, kind, method):
     """The node would end, or the caller wait for ever for an answer."""
-    start = with_fault('node.push_requests', 'PushRequests', method)
+    start = with_fault('node.load_requests', 'PushRequests', method)
     with NodeProcess(tmp_path, PAUSED, '-r', '__ns:=/fails', start=start) as node:
         cloth = ClothUnderTest(client, PAUSED, '/fails/cloth_sim')
         for _ in range(2):
@@ -78,7 +78,7 @@ def test_a_coroutine_that_fails_is_answered(client, tmp_path):
 
 def test_a_message_that_fails_is_left_out(client, tmp_path):
     """A message on a topic would end the node."""
-    start = with_fault('node.push_requests', 'PushRequests', '_on_push', '(1,)')
+    start = with_fault('node.load_requests', 'PushRequests', '_on_push', '(1,)')
     with NodeProcess(tmp_path, PAUSED, '-r', '__ns:=/topic', start=start):
         cloth = ClothUnderTest(client, PAUSED, '/topic/cloth_sim')
         publisher = client.node.create_publisher(Push, '/topic/cloth_sim/push', 10)

@@ -16,8 +16,8 @@ from cloth_sim_interfaces.srv import SetMode
 from cloth_sim_interfaces.srv import SetPin
 from cloth_sim_interfaces.srv import Step
 from cloth_sim_ros.analysis.frame import Frame
-from cloth_sim_ros.node.answer import no_node
 from cloth_sim_ros.node.interfaces import check_interfaces
+from cloth_sim_ros.node.refusals import no_node
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.view.ros.node_colliders import NodeColliders
 from cloth_sim_ros.view.source import Moment

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-"""Pushes from outside: two services, ~/push, and clicks in RViz or Foxglove."""
+"""Pushes and wind from outside: services, ~/push, ~/wind, and clicks in a viewer."""
 
 from collections.abc import Mapping
 from typing import Any
@@ -9,19 +9,20 @@ from typing import Any
 from cloth_sim_interfaces.msg import Command
 from cloth_sim_interfaces.msg import Push
 from cloth_sim_interfaces.srv import ApplyPush
-from cloth_sim_ros.node.answer import answer
-from cloth_sim_ros.node.ignored_messages import IgnoredMessages
 from cloth_sim_ros.node.input_frames import InputFrames
 from cloth_sim_ros.node.inputs import Inputs
+from cloth_sim_ros.node.refusals import answer
+from cloth_sim_ros.node.refusals import IgnoredMessages
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.push_field import AppliedPush
 from cloth_sim_ros.sim.simulation import Simulation
 from geometry_msgs.msg import PointStamped
 from geometry_msgs.msg import Vector3
+from geometry_msgs.msg import Vector3Stamped
 from rclpy.node import Node
 from std_srvs.srv import Trigger
 
-_DEPTH = 10
+_PUSH_DEPTH = 10
 
 
 class PushRequests:
@@ -44,8 +45,8 @@ class PushRequests:
         self._frames = frames
         node.create_service(ApplyPush, '~/apply_push', answer(self._apply))
         node.create_service(Trigger, '~/clear_pushes', answer(self._clear))
-        node.create_subscription(Push, '~/push', self._on_push, _DEPTH)
-        node.create_subscription(PointStamped, '/clicked_point', self._on_click, _DEPTH)
+        node.create_subscription(Push, '~/push', self._on_push, _PUSH_DEPTH)
+        node.create_subscription(PointStamped, '/clicked_point', self._on_click, _PUSH_DEPTH)
 
     def _apply(self, request: ApplyPush.Request, response: ApplyPush.Response) -> str:
         given = self._frames.given(request.header)
@@ -86,3 +87,36 @@ class PushRequests:
         applied = self._simulation.push(**request)
         self._inputs.push(applied.push)
         return applied
+
+
+# The wind, as a topic: ~/wind.
+
+# A sensor or a model of the wind at 1 kHz fills it in the time of a few frames.
+_WIND_DEPTH = 100
+
+
+class WindTopic:
+    """
+    Listen to ~/wind: each message blows until the next one, from the end of the step under way.
+
+    :param frames: says what headers mean
+    :param ignored: is given the messages that make no sense
+    """
+
+    def __init__(
+            self, node: Node, simulation: Simulation, inputs: Inputs, frames: InputFrames,
+            ignored: IgnoredMessages) -> None:
+        """Make the subscription."""
+        self._simulation = simulation
+        self._inputs = inputs
+        self._frames = frames
+        self._ignored = ignored
+        node.create_subscription(Vector3Stamped, '~/wind', self._on_message, _WIND_DEPTH)
+
+    def _on_message(self, message: Vector3Stamped) -> None:
+        try:
+            velocity = self._frames.given(message.header).vector(message.vector)
+            self._simulation.set_wind(velocity)
+            self._inputs.wind(velocity)
+        except ClothSimError as error:
+            self._ignored.note('~/wind', error)

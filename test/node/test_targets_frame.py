@@ -7,7 +7,7 @@ from cloth_sim_interfaces.srv import Grasp
 from cloth_sim_interfaces.srv import MoveFrame
 from cloth_sim_interfaces.srv import Release
 from cloth_sim_interfaces.srv import Step
-from cloth_sim_ros.node.frame_targets import Intervals
+from cloth_sim_ros.node.targets import Intervals
 from geometry_msgs.msg import Point
 from geometry_msgs.msg import Pose
 from geometry_msgs.msg import PoseStamped
