@@ -24,7 +24,7 @@ from tempfile import NamedTemporaryFile
 import time
 
 from cloth_sim_interfaces.msg import ClothStats
-from cloth_sim_ros.node.large_messages import VARIABLE
+from cloth_sim_ros.node.shared_memory import VARIABLE
 from cloth_sim_ros.playback.played_topics import header_stamp
 from cloth_sim_ros.sim.snapshot import POINT_DTYPE
 import rclpy

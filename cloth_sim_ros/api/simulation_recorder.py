@@ -19,12 +19,12 @@ from cloth_sim_ros.messages.pins import PinFrames
 from cloth_sim_ros.messages.pins import too_many_pins
 from cloth_sim_ros.messages.pins import WrenchMessages
 from cloth_sim_ros.messages.state import state_of
-from cloth_sim_ros.node.body_topics import body_messages
-from cloth_sim_ros.node.body_topics import GRASPS
-from cloth_sim_ros.node.body_topics import wanted_of_bodies
-from cloth_sim_ros.node.inputs import Inputs
+from cloth_sim_ros.node.frames import body_messages
+from cloth_sim_ros.node.frames import GRASPS
+from cloth_sim_ros.node.frames import wanted_of_bodies
 from cloth_sim_ros.node.node_fields import checked_node_values
 from cloth_sim_ros.node.node_fields import NODE_FIELDS
+from cloth_sim_ros.node.outlet import Inputs
 from cloth_sim_ros.node.recording_session import RecordingSession
 from cloth_sim_ros.node.recording_session import write_opening
 from cloth_sim_ros.recording.bag_folder import RecordingOptions

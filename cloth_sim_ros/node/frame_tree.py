@@ -1,16 +1,173 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-"""The frames of tf: which hangs on which, and where one is, seen from another, at a time."""
+"""The frames of tf: heard, kept for seconds, and where one is, seen from another, at a time."""
 
+from bisect import bisect_left
 from collections.abc import Callable
+from collections.abc import Iterator
+from dataclasses import dataclass
+import math
+import struct
 
 from cloth_sim_ros.files.errors import shown
 from cloth_sim_ros.messages.stamp import NANOSECONDS
-from cloth_sim_ros.node.frame_history import FrameHistory
-from cloth_sim_ros.node.frame_history import Sample
 from cloth_sim_ros.sim.errors import ClothSimError
+from cloth_sim_ros.sim.pose import between
 from cloth_sim_ros.sim.pose import Pose
+from rclpy.serialization import deserialize_message
+from rclpy.serialization import serialize_message
+from tf2_msgs.msg import TFMessage
+
+_LITTLE_ENDIAN = b'\x00\x01'
+_COUNT = struct.Struct('<I')
+_STAMP_AND_LENGTH = struct.Struct('<iII')
+_PLACE = struct.Struct('<7d')
+# Of a rotation: farther from a length of 1 it is a mistake, as in tf2.
+_TOLERANCE = 0.01
+
+# Frame, time [ns], parent, and x y z with a quaternion x y z w.
+Transform = tuple[str, int, str, tuple[float, ...]]
+
+
+def read_transforms(data: bytes) -> Iterator[Transform]:
+    """
+    Yield the transforms of a serialised TFMessage one by one.
+
+    A transform takes rclpy 20 us, and this a tenth of that.
+
+    :raises ClothSimError: when it is none
+    """
+    if data[:2] != _LITTLE_ENDIAN:
+        data = bytes(serialize_message(deserialize_message(data, TFMessage)))
+    # Alignment counts from behind the encapsulation.
+    body = data[4:]
+    try:
+        count, = _COUNT.unpack_from(body)
+        at = _COUNT.size
+        for _ in range(count):
+            at += -at % 4
+            sec, nanosec, length = _STAMP_AND_LENGTH.unpack_from(body, at)
+            at += _STAMP_AND_LENGTH.size
+            parent = _name(body, at, length)
+            at += length
+            at += -at % 4
+            length, = _COUNT.unpack_from(body, at)
+            at += _COUNT.size
+            frame = _name(body, at, length)
+            at += length
+            at += -at % 8
+            place = _PLACE.unpack_from(body, at)
+            at += _PLACE.size
+            yield frame, sec * NANOSECONDS + nanosec, parent, place
+    except (struct.error, UnicodeDecodeError) as error:
+        raise ClothSimError(
+            f'it is no TFMessage: {error}; publish tf2_msgs/msg/TFMessage') from None
+
+
+def checked_pose(frame: str, place: tuple[float, ...]) -> Pose:
+    """Return the pose of ``frame`` that a transform has; ClothSimError if it makes no sense."""
+    x, y, z, *rotation = place
+    if not all(map(math.isfinite, place)):
+        raise ClothSimError(
+            f'the transform of the frame {shown(frame)} must have finite numbers, got '
+            f'{list(place)}: give x, y and z [m], and a quaternion x y z w')
+    length = math.hypot(*rotation)
+    if abs(length - 1.0) > _TOLERANCE:
+        raise ClothSimError(
+            f'the rotation of the frame {shown(frame)} must be a quaternion of length 1, got '
+            f'{rotation}: divide it by its length')
+    qx, qy, qz, qw = rotation
+    return Pose((x, y, z), (qx / length, qy / length, qz / length, qw / length))
+
+
+def _name(body: bytes, at: int, length: int) -> str:
+    # Names of ROS 1 begin with a slash.
+    return body[at:at + max(length - 1, 0)].decode().removeprefix('/')
+
+
+# Where one frame was in the last seconds, and where it was between.
+
+# As tf2 does by default [ns].
+KEPT = 10 * NANOSECONDS
+# Of one frame: 10 s at 200 Hz. At higher rates memory counts more than old stamps.
+MOST_SAMPLES = 2000
+
+
+@dataclass(frozen=True, slots=True)
+class Sample:
+    """
+    Where a frame is at one time.
+
+    :param time: [ns], of the clock of its publisher
+    :param parent: the frame that ``pose`` is given in
+    :param pose: of the frame
+    """
+
+    time: int
+    parent: str
+    pose: Pose
+
+
+class FrameHistory:
+    """The samples of one frame, by the rules of tf2."""
+
+    def __init__(self) -> None:
+        """Begin without any."""
+        self._times: list[int] = []
+        self._samples: list[Sample] = []
+
+    @property
+    def oldest(self) -> Sample:
+        """Return the sample of the earliest time."""
+        return self._samples[0]
+
+    @property
+    def latest(self) -> Sample:
+        """Return the sample of the latest time."""
+        return self._samples[-1]
+
+    def add(self, sample: Sample) -> None:
+        """
+        Keep ``sample``; of several of one time, the first counts.
+
+        One that is older than all that is kept starts anew: its publisher was reset.
+        """
+        times = self._times
+        if times and sample.time < times[-1] - KEPT:
+            self.drop_from(times[0])
+        place = bisect_left(times, sample.time)
+        if place < len(times) and times[place] == sample.time:
+            return
+        times.insert(place, sample.time)
+        self._samples.insert(place, sample)
+        outdated = max(bisect_left(times, times[-1] - KEPT), len(times) - MOST_SAMPLES)
+        del times[:outdated], self._samples[:outdated]
+
+    def drop_from(self, time: int) -> None:
+        """Forget the samples of ``time`` [ns] and later."""
+        place = bisect_left(self._times, time)
+        del self._times[place:], self._samples[place:]
+
+    def at(self, time: int) -> Sample | None:
+        """Return where the frame was at ``time`` [ns]; None outside what is known."""
+        place = bisect_left(self._times, time)
+        if place == len(self._times):
+            return None
+        after = self._samples[place]
+        if after.time == time:
+            return after
+        if place == 0:
+            return None
+        before = self._samples[place - 1]
+        # Between two parents, the frame is still at the first.
+        if before.parent != after.parent:
+            return Sample(time, before.parent, before.pose)
+        share = (time - before.time) / (after.time - before.time)
+        return Sample(time, before.parent, between(before.pose, after.pose, share))
+
+
+# The frames of tf: which hangs on which, and where one is, seen from another, at a time.
 
 MOST_FRAMES = 10_000
 

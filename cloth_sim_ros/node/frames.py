@@ -4,24 +4,133 @@
 """What a frame is made of: the cloud, markers, plain numbers, pins and bodies of one moment."""
 
 from collections.abc import Callable
+from collections.abc import Collection
 from collections.abc import Mapping
+from collections.abc import Sequence
+from functools import partial
 import time
 from typing import Any
+from typing import Protocol
 
+from cloth_sim_ros.messages.body_frames import body_frames
+from cloth_sim_ros.messages.body_frames import body_poses
+from cloth_sim_ros.messages.body_frames import collider_wrenches
+from cloth_sim_ros.messages.body_frames import grasp_wrenches
 from cloth_sim_ros.messages.frame import PointsMessage
 from cloth_sim_ros.messages.frame import stats_message
 from cloth_sim_ros.messages.markers import MarkersMessage
+from cloth_sim_ros.messages.pins import PinFrames
+from cloth_sim_ros.messages.pins import too_many_pins
+from cloth_sim_ros.messages.pins import WrenchMessages
 from cloth_sim_ros.messages.stamp import stamp
-from cloth_sim_ros.node.body_topics import body_messages
-from cloth_sim_ros.node.body_topics import GRASPS
-from cloth_sim_ros.node.body_topics import wanted_of_bodies
+from cloth_sim_ros.node.input_frames import OwnFrames
 from cloth_sim_ros.node.outlet import Outlet
-from cloth_sim_ros.node.own_frames import OwnFrames
-from cloth_sim_ros.node.pin_topics import PinTopics
-from cloth_sim_ros.node.pin_topics import WRENCHES
 from cloth_sim_ros.sim.simulation import Simulation
+from cloth_sim_ros.sim.snapshot import Snapshot
+import numpy as np
 from rclpy.serialization import serialize_message
 from rosgraph_msgs.msg import Clock
+
+PIN_FRAMES, WRENCHES = 'tf', 'pins/wrenches'
+_PIN_PARAMETERS = {PIN_FRAMES: 'publish.tf', WRENCHES: 'publish.wrenches'}
+
+
+class PinTopics:
+    """
+    Send /tf, one message a frame, and ~/pins/wrenches, one message a pin.
+
+    :param values: the node's parameter values, read at each frame
+    :param node_name: with its namespace
+    :param warn: called with the reason when pins become too many
+    """
+
+    def __init__(
+            self, simulation: Simulation, outlet: Outlet, values: Mapping[str, Any],
+            node_name: str, warn: Callable[[str], None]) -> None:
+        """Keep the parts."""
+        self._simulation = simulation
+        self._outlet = outlet
+        self._values = values
+        self._warn = warn
+        self._frames = PinFrames(node_name, values['frame_id'])
+        self._wrenches = WrenchMessages(node_name)
+        self._reason = ''
+
+    def wanted(self, *, by_recording: bool = True) -> frozenset[str]:
+        """Return which of PIN_FRAMES and WRENCHES are sent; WRENCHES need the pins' forces."""
+        wanted = frozenset(
+            key for key, parameter in _PIN_PARAMETERS.items()
+            if self._values[parameter] and self._outlet.wanted(key, by_recording=by_recording))
+        if not wanted:
+            return wanted
+        pins = int(np.count_nonzero(
+            self._simulation.pinned_nodes() & ~self._simulation.grasped_nodes()))
+        reason = too_many_pins(pins)
+        if reason and not self._reason:
+            self._warn(reason)
+        self._reason = reason
+        return wanted if pins > 0 and not reason else frozenset()
+
+    def send(
+            self, snapshot: Snapshot, wanted: Collection[str], *,
+            to_recording: bool = True) -> None:
+        """Send what is ``wanted`` of ``snapshot``, the frames before what is given in them."""
+        held = self._simulation.grasped_nodes()
+        if PIN_FRAMES in wanted:
+            self._outlet.send(
+                PIN_FRAMES, lambda: self._frames.serialise(snapshot, held), snapshot.time,
+                to_recording=to_recording)
+        if WRENCHES in wanted:
+            for data in self._wrenches.serialise(snapshot, held):
+                self._outlet.send(
+                    WRENCHES, partial(bytes, data), snapshot.time, to_recording=to_recording)
+
+
+# What is sent of grasps and colliders: their frames, and what the cloth does to them.
+
+FRAMES, GRASPS, COLLIDERS = 'tf', 'grasps/wrenches', 'colliders/wrenches'
+_BODY_PARAMETERS = {
+    FRAMES: 'publish.tf', GRASPS: 'publish.wrenches', COLLIDERS: 'publish.wrenches'}
+
+
+class Readers(Protocol):
+    """What knows whether a topic is read."""
+
+    def wanted(self, key: str, *, by_recording: bool = True) -> bool:
+        """Tell whether anybody reads the topic ``key`` now."""
+
+
+def wanted_of_bodies(
+        simulation: Simulation, values: Mapping[str, Any], readers: Readers, *,
+        by_recording: bool = True) -> frozenset[str]:
+    """Return which of FRAMES, GRASPS and COLLIDERS are to be sent; GRASPS need the pin forces."""
+    there = set()
+    if simulation.grasps:
+        there |= {FRAMES, GRASPS}
+    if simulation.colliders:
+        there |= {FRAMES, COLLIDERS}
+    return frozenset(
+        key for key in there if values[_BODY_PARAMETERS[key]]
+        and readers.wanted(key, by_recording=by_recording))
+
+
+def body_messages(
+        simulation: Simulation, snapshot: Snapshot, wanted: frozenset[str], node_name: str,
+        frame_id: str) -> Sequence[tuple[str, Any]]:
+    """Return topics and messages of what is ``wanted``, the frames before what is in them."""
+    now, grasps, colliders = snapshot.time, simulation.grasps, simulation.colliders
+    messages: list[tuple[str, Any]] = []
+    if FRAMES in wanted:
+        poses = body_poses(node_name, grasps, colliders)
+        messages.append((FRAMES, body_frames(poses, now, frame_id)))
+    if GRASPS in wanted:
+        wrenches = grasp_wrenches(node_name, grasps, simulation.grasp_forces(snapshot), now)
+        messages += [(GRASPS, wrench) for wrench in wrenches]
+    if COLLIDERS in wanted:
+        wrenches = collider_wrenches(node_name, colliders, simulation.contact_forces(), now)
+        messages += [(COLLIDERS, wrench) for wrench in wrenches]
+    return messages
+
 
 _PARTS = ('points', 'markers', 'stats')
 

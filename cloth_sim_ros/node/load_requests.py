@@ -10,7 +10,7 @@ from cloth_sim_interfaces.msg import Command
 from cloth_sim_interfaces.msg import Push
 from cloth_sim_interfaces.srv import ApplyPush
 from cloth_sim_ros.node.input_frames import InputFrames
-from cloth_sim_ros.node.inputs import Inputs
+from cloth_sim_ros.node.outlet import Inputs
 from cloth_sim_ros.node.refusals import answer
 from cloth_sim_ros.node.refusals import IgnoredMessages
 from cloth_sim_ros.sim.errors import ClothSimError

@@ -7,12 +7,12 @@ from collections.abc import Sequence
 import signal
 
 from cloth_sim_ros.node.cloth_sim_node import ClothSimNode
-from cloth_sim_ros.node.dead_segments import Reclaimed
 from cloth_sim_ros.node.interfaces import check_interfaces
-from cloth_sim_ros.node.large_messages import SharedMemory
 from cloth_sim_ros.node.refusals import is_about_security
 from cloth_sim_ros.node.refusals import no_node
 from cloth_sim_ros.node.refusals import ros_reason
+from cloth_sim_ros.node.shared_memory import Reclaimed
+from cloth_sim_ros.node.shared_memory import SharedMemory
 from cloth_sim_ros.sim.errors import ClothSimError
 import rclpy
 from rclpy._rclpy_pybind11 import RCLError

@@ -13,7 +13,7 @@ from cloth_sim_interfaces.srv import MovePin
 from cloth_sim_interfaces.srv import Release
 from cloth_sim_interfaces.srv import SetPin
 from cloth_sim_ros.node.input_frames import InputFrames
-from cloth_sim_ros.node.inputs import Inputs
+from cloth_sim_ros.node.outlet import Inputs
 from cloth_sim_ros.node.refusals import answer
 from cloth_sim_ros.node.refusals import IgnoredMessages
 from cloth_sim_ros.sim.errors import ClothSimError

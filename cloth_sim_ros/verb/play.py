@@ -20,7 +20,7 @@ from argparse import Namespace
 import sys
 
 from cloth_sim_ros.analysis.recording import find_node
-from cloth_sim_ros.node.large_messages import use_profile
+from cloth_sim_ros.node.shared_memory import use_profile
 from cloth_sim_ros.playback.player import Player
 from cloth_sim_ros.playback.player import PlayerNode
 from cloth_sim_ros.playback.schedule import PlayClock

@@ -7,7 +7,7 @@ from typing import Any
 
 from cloth_sim_interfaces.msg import Command
 from cloth_sim_ros.api.simulation_recorder import RunRecording
-from cloth_sim_ros.node.inputs import Inputs
+from cloth_sim_ros.node.outlet import Inputs
 from cloth_sim_ros.resimulation.input_replay import Listener
 from cloth_sim_ros.sim.frame_paths import FrameMove
 from cloth_sim_ros.sim.grasps import Grasp

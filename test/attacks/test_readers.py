@@ -13,7 +13,7 @@ import sys
 
 from cloth_sim_interfaces.msg import ClothStats
 from cloth_sim_interfaces.srv import SetMode
-from cloth_sim_ros.node.large_messages import VARIABLE
+from cloth_sim_ros.node.shared_memory import VARIABLE
 from graph_client import GraphClient
 from node_process import NodeProcess
 import pytest

@@ -1,20 +1,187 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-"""The way from one frame to another, against products of 4 x 4 matrices."""
+"""The frames of tf: heard, kept for seconds, and where one is, seen from another, at a time."""
 
-from cloth_sim_ros.node.frame_history import FrameHistory
-from cloth_sim_ros.node.frame_history import Sample
+import math
+
+from builtin_interfaces.msg import Time
+from cloth_sim_ros.node.frame_tree import checked_pose
+from cloth_sim_ros.node.frame_tree import FrameHistory
 from cloth_sim_ros.node.frame_tree import FrameTree
+from cloth_sim_ros.node.frame_tree import KEPT
 from cloth_sim_ros.node.frame_tree import MOST_FRAMES
+from cloth_sim_ros.node.frame_tree import MOST_SAMPLES
+from cloth_sim_ros.node.frame_tree import read_transforms
+from cloth_sim_ros.node.frame_tree import Sample
 from cloth_sim_ros.node.frame_tree import seconds
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.pose import Pose
+from geometry_msgs.msg import Quaternion
+from geometry_msgs.msg import Transform
+from geometry_msgs.msg import TransformStamped
+from geometry_msgs.msg import Vector3
 import numpy as np
 import pytest
+from rclpy.serialization import serialize_message
 from scipy.spatial.transform import Rotation
+from scipy.spatial.transform import Slerp
+from std_msgs.msg import Header
+from tf2_msgs.msg import TFMessage
+
+NAMES = ('', 'a', 'ab', 'abc', 'abcd', 'tool0_link', 'Größe', '/old')
+
+
+def message_of(names, generator):
+    """Return a TFMessage with a transform between any two of ``names``."""
+    return TFMessage(transforms=[
+        TransformStamped(
+            header=Header(stamp=Time(
+                sec=int(generator.integers(-5, 2**31 - 1)),
+                nanosec=int(generator.integers(10**9))), frame_id=parent),
+            child_frame_id=frame, transform=Transform(
+                translation=Vector3(**dict(zip('xyz', generator.normal(size=3).tolist()))),
+                rotation=Quaternion(**dict(zip('xyzw', generator.normal(size=4).tolist())))))
+        for parent in names for frame in names])
+
+
+@pytest.mark.parametrize('names', [NAMES, NAMES[3:5], ()])
+def test_it_is_read_as_rclpy_reads_it(names):
+    """A frame would get the place, the parent or the time of another one."""
+    message = message_of(names, np.random.default_rng(2))
+    read = list(read_transforms(bytes(serialize_message(message))))
+    assert len(read) == len(message.transforms)
+    for (frame, time, parent, place), told in zip(read, message.transforms):
+        stamp, at, turn = told.header.stamp, told.transform.translation, told.transform.rotation
+        assert frame == told.child_frame_id.removeprefix('/')
+        assert parent == told.header.frame_id.removeprefix('/')
+        assert time == stamp.sec * 10**9 + stamp.nanosec
+        assert place == (at.x, at.y, at.z, turn.x, turn.y, turn.z, turn.w)
+
+
+def test_bytes_that_are_no_transforms_are_refused():
+    """A broken message would be half taken without a word, or end the node."""
+    whole = bytes(serialize_message(message_of(NAMES[:3], np.random.default_rng(2))))
+    for broken in (b'\x00\x01\x00\x00', b'\x00\x01\x00\x00\xff\xff\xff\x7f', whole[:-1]):
+        with pytest.raises(ClothSimError, match='it is no TFMessage'):
+            list(read_transforms(broken))
+    name = whole.index(b'ab\x00')
+    with pytest.raises(ClothSimError, match='it is no TFMessage'):
+        list(read_transforms(whole[:name] + b'\xff\xfe' + whole[name + 2:]))
+
+
+@pytest.mark.parametrize('place, reason', [
+    ((math.nan, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0), 'finite numbers, got [nan, 0.0'),
+    ((0.0, 0.0, 0.0, 0.0, 0.0, math.inf, 1.0), 'finite numbers'),
+    ((0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0), 'of length 1, got [0.0, 0.0, 0.0, 0.0]'),
+    ((0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.02), 'of length 1, got [0.0, 0.0, 0.0, 1.02]')])
+def test_a_transform_that_makes_no_sense_is_refused(place, reason):
+    """A robot that is not ready yet would send the cloth to no place."""
+    with pytest.raises(ClothSimError) as refused:
+        checked_pose('tool0', place)
+    assert "the frame 'tool0' must" in str(refused.value) and reason in str(refused.value)
+
+
+def test_a_rotation_is_made_a_unit():
+    """Each link of a chain would stretch what comes after it."""
+    pose = checked_pose('tool0', (1.0, 2.0, 3.0, 0.0, 0.6003, 0.0, 0.8004))
+    assert pose.position == (1.0, 2.0, 3.0)
+    assert pose.orientation == pytest.approx((0.0, 0.6, 0.0, 0.8), abs=1e-15)
+
+
+# What is kept of one frame, and where it was between.
 
 SECOND = 1_000_000_000
+
+
+def history_of(*times, parent='base'):
+    """Return a history with a sample at each of ``times`` [ns]; x tells which came when."""
+    history = FrameHistory()
+    for number, time in enumerate(times):
+        history.add(Sample(time, parent, Pose((float(number), 0.0, 0.0))))
+    return history
+
+
+def test_between_samples_it_is_on_the_straight_line_and_the_shortest_turn():
+    """An input would be taken from where its frame never was."""
+    generator = np.random.default_rng(5)
+    for _ in range(200):
+        places = generator.normal(size=(2, 3))
+        turns = Rotation.random(2, random_state=generator)
+        # Either of the two quaternions of a rotation can come.
+        signs = generator.choice([-1.0, 1.0], size=(2, 1))
+        history = FrameHistory()
+        for time, place, turn in zip((3, 7), places, signs * turns.as_quat()):
+            history.add(Sample(time * SECOND, 'base', Pose(tuple(place), tuple(turn))))
+        share = generator.uniform()
+        found = history.at(int((3.0 + 4.0 * share) * SECOND)).pose
+        np.testing.assert_allclose(
+            found.position, places[0] + share * (places[1] - places[0]), atol=1e-8)
+        expected = Slerp([0.0, 1.0], turns)(share)
+        assert (expected * Rotation.from_quat(found.orientation).inv()).magnitude() < 1e-7
+
+
+def test_at_a_sample_it_has_the_bits_of_the_sample():
+    """A recorded stamp would be looked up with rounding errors."""
+    pose = Pose((0.1, 0.2, 0.3), (0.0, 0.6, 0.0, 0.8))
+    history = history_of(1, 3)
+    history.add(Sample(2, 'base', pose))
+    assert history.at(2).pose is pose
+
+
+def test_nothing_is_known_before_the_first_and_after_the_last():
+    """A frame would be guessed to be where it was long ago, or is yet to come."""
+    history = history_of(5, 9)
+    assert history.at(4) is None and history.at(10) is None
+    assert history.at(5).pose.position[0] == 0.0 and history.at(9).pose.position[0] == 1.0
+    assert (history.oldest.time, history.latest.time) == (5, 9)
+    alone = history_of(5)
+    assert alone.at(4) is None and alone.at(6) is None and alone.at(5) is not None
+
+
+def test_samples_need_not_come_in_order_and_the_first_of_a_time_counts():
+    """A late message would be lost, or two publishers make a frame jump to and fro."""
+    history = history_of(10, 30, 20, 20)
+    assert [history.at(time).pose.position[0] for time in (10, 15, 20, 25, 30)] == [
+        0.0, 1.0, 2.0, 1.5, 1.0]
+
+
+def test_ten_seconds_are_kept():
+    """Memory would fill up, or a message that is a few seconds late be refused."""
+    history = history_of(0, 4 * SECOND, 10 * SECOND)
+    assert history.oldest.time == 0
+    history.add(Sample(10 * SECOND + 1, 'base', Pose((0.0, 0.0, 0.0))))
+    assert history.oldest.time == 4 * SECOND
+    assert history_of(*range(MOST_SAMPLES + 5)).oldest.time == 5
+
+
+def test_a_publisher_that_was_reset_starts_anew():
+    """The old times would hide the new ones until those come up to them."""
+    history = history_of(100 * SECOND, 101 * SECOND)
+    history.add(Sample(101 * SECOND - KEPT - 1, 'base', Pose((9.0, 0.0, 0.0))))
+    assert history.latest.pose.position[0] == 9.0 and history.oldest is history.latest
+
+
+def test_between_two_parents_it_is_still_at_the_first():
+    """A frame would be put on the way between places of two frames."""
+    history = history_of(10)
+    history.add(Sample(20, 'hand', Pose((5.0, 0.0, 0.0))))
+    found = history.at(19)
+    assert (found.parent, found.pose.position[0]) == ('base', 0.0)
+    assert history.at(20).parent == 'hand'
+
+
+def test_the_present_replaces_what_was_said_of_it():
+    """A grasp of the same name, made anew while paused, would be where the old one was."""
+    history = history_of(10, 20, 30)
+    history.drop_from(20)
+    assert history.latest.time == 10
+    history.add(Sample(20, 'base', Pose((7.0, 0.0, 0.0))))
+    assert history.latest.pose.position[0] == 7.0
+
+
+# The way from one frame to another, against products of 4 x 4 matrices.
+
 HERE = Pose((0.0, 0.0, 0.0))
 
 

@@ -1,18 +1,222 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-"""What the topics show, against a simulation without a node on the same device."""
+"""What a frame is made of: the cloud, markers, plain numbers, pins and bodies of one moment."""
+
+from pathlib import Path
 
 from cloth_sim_interfaces.srv import ApplyPush
+from cloth_sim_interfaces.srv import Grasp
+from cloth_sim_interfaces.srv import MoveFrame
+from cloth_sim_interfaces.srv import MovePin
 from cloth_sim_interfaces.srv import SetPin
+from cloth_sim_interfaces.srv import StartRecording
 from cloth_sim_interfaces.srv import Step
+from cloth_under_test import PAUSED
 from geometry_msgs.msg import Point
+from geometry_msgs.msg import Pose
+from geometry_msgs.msg import Quaternion
 from geometry_msgs.msg import Vector3
+from geometry_msgs.msg import WrenchStamped
+from node_process import NodeProcess
 import numpy as np
 import pytest
+from recorded import Recorded
 from sensor_msgs.msg import PointField
 from std_srvs.srv import SetBool
+from std_srvs.srv import Trigger
+from tf2_msgs.msg import TFMessage
 from visualization_msgs.msg import Marker
+
+KEY = 'pins/wrenches'
+PIN = 'node_tests_cloth_sim_pin_{}_{}'
+
+
+def frames_of(messages):
+    """Return parent and place of each child frame."""
+    frames = {}
+    for message in messages:
+        for frame in message.transforms:
+            place, turn = frame.transform.translation, frame.transform.rotation
+            assert (turn.x, turn.y, turn.z, turn.w) == (0.0, 0.0, 0.0, 1.0)
+            frames[frame.child_frame_id] = (frame.header.frame_id, (place.x, place.y, place.z))
+    return frames
+
+
+def forces_of(messages):
+    """Return the force of each message by its frame."""
+    vectors = {message.header.frame_id: message.wrench.force for message in messages}
+    return {frame: (force.x, force.y, force.z) for frame, force in vectors.items()}
+
+
+def wait_for_wrenches(cloth, *, steps, count):
+    """Return the wrenches after ``steps`` steps, when ``count`` have come."""
+    def of_then():
+        return [message for message in cloth[KEY] if cloth.steps_of(message) == steps]
+
+    cloth.client.spin_until(lambda: len(of_then()) >= count, f'{count} wrenches')
+    return of_then()
+
+
+def expected_forces(simulation):
+    """Return the force that each holder of the simulation's cloth feels, by its frame."""
+    held = simulation.snapshot(pin_forces=True).pin_forces
+    return {
+        PIN.format(row, col): tuple(-part for part in force)
+        for (row, col), force in zip(held.nodes.tolist(), held.forces.tolist())}
+
+
+def test_each_holder_feels_its_pin(cloth, simulation):
+    """A gripper would read another force than it holds with, or one of another time."""
+    assert cloth.call(SetPin, 'set_pin', row=3, col=4).success
+    assert cloth.call(Step, 'step', steps=20).success
+    simulation.pin(3, 4)
+    simulation.step(20)
+    told = forces_of(wait_for_wrenches(cloth, steps=20, count=3))
+    assert set(told) == {PIN.format(0, 0), PIN.format(0, 9), PIN.format(3, 4)}
+    assert told == expected_forces(simulation)
+
+
+def test_every_wrench_has_its_frame(cloth, simulation):
+    """A viewer could not draw a wrench, for want of a transform, or would draw it elsewhere."""
+    assert cloth.call(
+        MovePin, 'move_pin', row=0, col=9, target=Point(x=0.5, y=0.3, z=1.2), speed=1.0).success
+    # Other steps than in the test before, of which a wrench can still be under way.
+    assert cloth.call(Step, 'step', steps=24).success
+    told = cloth.wait_for('tf', lambda message: cloth.steps_of(message.transforms[0]) == 24)
+    assert {cloth.steps_of(frame) for frame in told.transforms} == {24}
+    simulation.move_pin(0, 9, (0.5, 0.3, 1.2), 1.0)
+    simulation.step(24)
+    positions = simulation.snapshot().positions
+    assert frames_of([told]) == {
+        PIN.format(row, col): ('world', tuple(positions[row, col].tolist()))
+        for row, col in ((0, 0), (0, 9))}
+    wrenches = wait_for_wrenches(cloth, steps=24, count=2)
+    assert {message.header.frame_id for message in wrenches} == set(frames_of([told]))
+
+
+def test_a_recording_has_them(cloth):
+    """What a robot would have felt could not be looked up afterwards."""
+    path = Path(cloth.call(StartRecording, 'start_recording', name='').path)
+    assert cloth.call(Step, 'step', steps=8).success
+    assert cloth.call(Trigger, 'stop_recording').success
+    recorded = Recorded(path).messages(KEY)
+    assert [cloth.steps_of(message) for message in recorded] == [0, 0, 8, 8]
+    published = wait_for_wrenches(cloth, steps=8, count=2)
+    assert forces_of(recorded[2:]) == forces_of(published)
+    places = [message for topic, _, message in Recorded(path).entries if topic == '/tf']
+    assert [cloth.steps_of(message.transforms[0]) for message in places] == [0, 8]
+    assert set(frames_of(places[1:])) == set(forces_of(recorded[2:]))
+
+
+def test_the_parameter_turns_them_off_and_on(cloth):
+    """A topic nobody wants would still cost time, or could not be had back."""
+    assert cloth.set_parameters(publish__wrenches=False, publish__tf=False).successful
+    assert cloth.call(Step, 'step', steps=2).success
+    cloth.frame(2)
+    # A paused node shows each second where it is: both come then from here on, for step 2 as well.
+    cloth.client.spin_for(0.2)
+    assert all(cloth.steps_of(message) != 2 for message in cloth[KEY])
+    assert all(cloth.steps_of(message.transforms[0]) != 2 for message in cloth['tf'])
+    assert cloth.set_parameters(publish__wrenches=True, publish__tf=True).successful
+    assert cloth.call(Step, 'step', steps=2).success
+    cloth.wait_for(KEY, lambda message: cloth.steps_of(message) == 4)
+    cloth.wait_for('tf', lambda message: cloth.steps_of(message.transforms[0]) == 4)
+
+
+def test_too_many_pins_are_told_and_not_sent(client, tmp_path):
+    """A cloth that is pinned all over would bring its node to a stand, or be silent unasked."""
+    scene = {**PAUSED, 'rows': 33, 'cols': 33, 'pins': ['all']}
+    with NodeProcess(tmp_path, scene, '-r', '__ns:=/many_pins') as node:
+        watch = client.watch(WrenchStamped, '/many_pins/cloth_sim/pins/wrenches')
+        frames = client.watch(TFMessage, '/tf')
+        client.spin_until(lambda: 'so neither is published' in node.output, 'the warning')
+        assert not watch.messages
+        assert not any(
+            frame.startswith('many_pins') for frame in frames_of(frames.messages))
+    assert node.output.count('so neither is published') == 1
+
+
+# Frames and wrenches of grasps and colliders, against a simulation on the same device.
+
+FRAME = 'handled_cloth_sim_{}'
+
+
+def at_step(cloth, key, steps):
+    """Return the messages of that step, when there are any."""
+    cloth.client.spin_until(
+        lambda: any(cloth.steps_of(message) == steps for message in cloth[key]), key)
+    cloth.client.spin_until_quiet()
+    return {
+        message.header.frame_id: message.wrench for message in cloth[key]
+        if cloth.steps_of(message) == steps}
+
+
+def parts(vector):
+    """Return the components of a message as an array."""
+    return np.array([vector.x, vector.y, vector.z])
+
+
+def test_bodies_feel_the_cloth_in_their_own_frames(handled, twin):
+    """A sensor in a hand would read in other axes, about another point, or another time."""
+    orientation = Quaternion(x=0.0, y=0.6, z=0.0, w=0.8)
+    here = Pose(position=Point(x=-0.5, y=-0.3, z=1.0), orientation=orientation)
+    assert handled.call(Grasp, 'grasp', name='hand', pose=here, radius=0.2).success
+    twin.grasp('hand', (-0.5, -0.3, 1.0), (0.0, 0.6, 0.0, 0.8), radius=0.2)
+    to = Pose(position=Point(x=0.0, y=0.0, z=1.0), orientation=orientation)
+    assert handled.call(MoveFrame, 'move_collider', name='ball', pose=to).success
+    twin.move_collider('ball', (0.0, 0.0, 1.0), (0.0, 0.6, 0.0, 0.8))
+    assert handled.call(Step, 'step', steps=60).success
+    twin.step(60)
+    (felt,), (grasp,) = twin.grasp_forces(), twin.grasps
+    wrench = at_step(handled, 'grasps/wrenches', 60)[FRAME.format('grasp_hand')]
+    np.testing.assert_array_equal(parts(wrench.force), grasp.pose.axes @ felt.force)
+    np.testing.assert_array_equal(parts(wrench.torque), grasp.pose.axes @ felt.torque)
+    assert np.linalg.norm(felt.torque) > 1e-3
+    wrenches = at_step(handled, 'colliders/wrenches', 60)
+    contacts = dict(zip(twin.colliders, twin.contact_forces()))
+    assert len(wrenches) == len(contacts) == 2
+    for collider, contact in contacts.items():
+        wrench = wrenches[FRAME.format(f'collider_{collider.name}')]
+        np.testing.assert_array_equal(parts(wrench.force), collider.axes @ contact.force)
+        np.testing.assert_array_equal(parts(wrench.torque), collider.axes @ contact.torque)
+    assert contacts[twin.colliders[0]].force[2] < -0.1
+
+
+def test_every_wrench_has_its_frame_and_held_nodes_have_no_other(handled, twin):
+    """A viewer could not draw a wrench, or would count the force of a held node twice."""
+    here = Pose(position=Point(x=-0.45, y=-0.35, z=1.0))
+    assert handled.call(Grasp, 'grasp', name='hand', pose=here, radius=0.12).success
+    assert handled.call(Step, 'step', steps=34).success
+    at_step(handled, 'grasps/wrenches', 34)
+    frames = {
+        frame.child_frame_id: (frame.header.frame_id, frame.transform)
+        for message in handled['tf'] for frame in message.transforms
+        if handled.steps_of(frame) == 34}
+    assert set(frames) == {FRAME.format(name) for name in (
+        'grasp_hand', 'collider_ball', 'collider_floor', 'pin_0_0', 'pin_0_9')}
+    parent, transform = frames[FRAME.format('collider_ball')]
+    assert parent == 'world'
+    assert parts(transform.translation).tolist() == [0.0, 0.0, 0.85]
+    assert set(at_step(handled, 'pins/wrenches', 34)) == {
+        FRAME.format('pin_0_0'), FRAME.format('pin_0_9')}
+
+
+def test_the_parameters_turn_them_off(handled):
+    """Topics nobody wants would still cost time."""
+    assert handled.set_parameters(publish__wrenches=False, publish__tf=False).successful
+    handled.client.spin_until_quiet()
+    handled.clear()
+    assert handled.call(Step, 'step', steps=2).success
+    handled.frame(2)
+    handled.client.spin_for(0.2)
+    # On /tf there are other nodes, too.
+    assert not handled['colliders/wrenches'] and not any(
+        frame.child_frame_id.startswith(FRAME.format(''))
+        for message in handled['tf'] for frame in message.transforms)
+
+
+# What the topics show, against a simulation without a node on the same device.
 
 
 def test_points_are_the_simulation_bit_for_bit(cloth, simulation):

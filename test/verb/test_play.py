@@ -7,7 +7,7 @@ from signal import SIGINT
 from signal import SIGTERM
 
 from cloth_sim_interfaces.msg import ClothStats
-from cloth_sim_ros.node.large_messages import VARIABLE
+from cloth_sim_ros.node.shared_memory import VARIABLE
 from cloth_sim_ros.recording.recorder import Recorder
 from cloth_sim_ros.verb.main import main
 from graph_client import GraphClient

@@ -8,8 +8,8 @@ from dataclasses import replace
 from typing import Any
 
 from cloth_sim_ros.messages.frame_names import collider_frame
-from cloth_sim_ros.node.tf_messages import checked_pose
-from cloth_sim_ros.node.tf_messages import read_transforms
+from cloth_sim_ros.node.frame_tree import checked_pose
+from cloth_sim_ros.node.frame_tree import read_transforms
 from cloth_sim_ros.sim.colliders import Collider
 from cloth_sim_ros.sim.colliders import colliders_of
 from cloth_sim_ros.sim.colliders import fields_with_colliders

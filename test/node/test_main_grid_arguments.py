@@ -5,7 +5,7 @@
 
 from pathlib import Path
 
-from cloth_sim_ros.node.grid_arguments import grid_of_arguments
+from cloth_sim_ros.node.main import grid_of_arguments
 from cloth_sim_ros.sim.given_values import load_parameters
 import pytest
 
