@@ -62,8 +62,8 @@ def main(args: Namespace) -> int:
         raise ClothSimError(
             f'--fps must be above 0 and at most {_MOST_FPS:g}, got {args.fps:g}')
     # Viser is optional; without it this says so before anything is started.
-    from cloth_sim_ros.view.server import address
-    from cloth_sim_ros.view.server import open_server
+    from cloth_sim_ros.view.window import address
+    from cloth_sim_ros.view.window import open_server
     from cloth_sim_ros.view.window import Window
     with open_server(args.host, args.port) as server:
         source = _source(args)

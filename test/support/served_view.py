@@ -9,9 +9,9 @@ import socket
 from threading import Event
 from threading import Thread
 
-from cloth_sim_ros.view.server import LOOPBACK
-from cloth_sim_ros.view.server import open_server
 from cloth_sim_ros.view.source import Source
+from cloth_sim_ros.view.window import LOOPBACK
+from cloth_sim_ros.view.window import open_server
 from cloth_sim_ros.view.window import Window
 
 

@@ -3,7 +3,9 @@
 
 """A running node: what it publishes is shown, and what is asked for goes to its services."""
 
+from collections.abc import Callable
 from collections.abc import Sequence
+from dataclasses import replace
 import os
 from threading import Event
 from threading import Thread
@@ -16,14 +18,21 @@ from cloth_sim_interfaces.srv import SetMode
 from cloth_sim_interfaces.srv import SetPin
 from cloth_sim_interfaces.srv import Step
 from cloth_sim_ros.analysis.frame import Frame
+from cloth_sim_ros.messages.frame_names import collider_frame
+from cloth_sim_ros.node.frame_tree import checked_pose
+from cloth_sim_ros.node.frame_tree import read_transforms
 from cloth_sim_ros.node.interfaces import check_interfaces
 from cloth_sim_ros.node.refusals import no_node
+from cloth_sim_ros.sim.colliders import Collider
+from cloth_sim_ros.sim.colliders import colliders_of
+from cloth_sim_ros.sim.colliders import fields_with_colliders
+from cloth_sim_ros.sim.colliders import NAMES
 from cloth_sim_ros.sim.errors import ClothSimError
-from cloth_sim_ros.view.ros.node_colliders import NodeColliders
 from cloth_sim_ros.view.source import Moment
 from cloth_sim_ros.view.source import Source
 from geometry_msgs.msg import Point
 from geometry_msgs.msg import Vector3
+from rcl_interfaces.srv import GetParameters
 import rclpy
 from rclpy._rclpy_pybind11 import RCLError
 from rclpy.client import Client
@@ -31,12 +40,82 @@ from rclpy.context import Context
 from rclpy.exceptions import InvalidTopicNameException
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
+from rclpy.parameter import parameter_value_to_python
 from rclpy.qos import DurabilityPolicy
 from rclpy.qos import QoSProfile
 from rclpy.validate_full_topic_name import validate_full_topic_name
 from sensor_msgs.msg import PointCloud2
 from std_srvs.srv import SetBool
 from std_srvs.srv import Trigger
+from tf2_msgs.msg import TFMessage
+
+
+class NodeColliders:
+    """
+    Learns of the colliders of a node, in callbacks of ``node``.
+
+    A node without colliders is asked once, and /tf is left alone.
+
+    :param node: this program's own place in the graph
+    :param name: of the node that has the colliders, with its namespace
+    """
+
+    def __init__(self, node: Node, name: str) -> None:
+        """Ask for them."""
+        self._node = node
+        self._name = name
+        self._client = node.create_client(GetParameters, f'{name}/get_parameters')
+        self._by_frame: dict[str, Collider] = {}
+        self._is_asked = False
+
+    @property
+    def present(self) -> tuple[Collider, ...]:
+        """Return the colliders where they were last; none before it is known."""
+        return tuple(self._by_frame.values())
+
+    def ask(self) -> None:
+        """Ask the node for its colliders, once, as soon as it answers requests."""
+        if not self._is_asked and self._client.service_is_ready():
+            self._is_asked = True
+            self._get([NAMES], self._ask_for_each)
+
+    def _ask_for_each(self, values: dict[str, Any]) -> None:
+        if not values[NAMES]:
+            return
+        names = [
+            field.name for field in fields_with_colliders(values)
+            if field.name.startswith('colliders.')]
+        self._get(names, self._begin)
+
+    def _begin(self, values: dict[str, Any]) -> None:
+        self._by_frame = {
+            collider_frame(self._name, collider.name): collider
+            for collider in colliders_of(values)}
+        self._node.create_subscription(TFMessage, '/tf', self._take, 10, raw=True)
+
+    def _take(self, data: bytes) -> None:
+        try:
+            for frame, _, _, place in read_transforms(data):
+                if frame in self._by_frame:
+                    pose = checked_pose(frame, place)
+                    self._by_frame[frame] = replace(
+                        self._by_frame[frame], position=pose.position,
+                        orientation=pose.orientation)
+        except ClothSimError:
+            # The topic is everybody's.
+            pass
+
+    def _get(self, names: list[str], take: Callable[[dict[str, Any]], None]) -> None:
+        def answer(future: Any) -> None:
+            values = [parameter_value_to_python(value) for value in future.result().values]
+            try:
+                take(dict(zip(names, values)))
+            except (ClothSimError, KeyError, TypeError):
+                # Of a node of another version: its cloth is shown without them.
+                self._by_frame = {}
+
+        self._client.call_async(GetParameters.Request(names=names)).add_done_callback(answer)
+
 
 _SERVICES = {
     'set_mode': SetMode, 'pause': SetBool, 'step': Step, 'reset': Trigger,

@@ -6,9 +6,9 @@
 import socket
 
 from cloth_sim_ros.sim.errors import ClothSimError
-from cloth_sim_ros.view.server import address
-from cloth_sim_ros.view.server import LOOPBACK
-from cloth_sim_ros.view.server import open_server
+from cloth_sim_ros.view.window import address
+from cloth_sim_ros.view.window import LOOPBACK
+from cloth_sim_ros.view.window import open_server
 import pytest
 from served_view import free_port
 

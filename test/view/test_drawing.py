@@ -4,7 +4,7 @@
 """A page shows the colliders where they are."""
 
 from cloth_sim_ros.sim.scene import Scene
-from cloth_sim_ros.view.collider_drawing import COLOR
+from cloth_sim_ros.view.drawing import COLOR
 from cloth_sim_ros.view.scene_source import SceneSource
 import numpy as np
 from served_view import served

@@ -1,0 +1,179 @@
+# SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
+# SPDX-License-Identifier: Apache-2.0
+
+"""What is in the scene of a page: the cloth, handles at its pins, and what it can touch."""
+
+from collections.abc import Callable
+from typing import Any
+
+from cloth_sim_ros.analysis.collider_surface import local_surface
+from cloth_sim_ros.analysis.frame import Frame
+from cloth_sim_ros.messages.geometry import FULL_STRAIN
+from cloth_sim_ros.messages.geometry import strain_colors
+from cloth_sim_ros.messages.geometry import triangles
+from cloth_sim_ros.sim.colliders import Collider
+from cloth_sim_ros.view.source import Source
+from cloth_sim_ros.view.surface import band_colors
+from cloth_sim_ros.view.surface import Surface
+import numpy as np
+import viser
+
+_PIN_COLOR = (220, 40, 40)
+# Of the diagonal of the cloth.
+_PIN_SIZE = 0.012
+# Props of a mesh that shows nothing: viser takes no empty one.
+_NO_VERTICES = np.zeros((3, 3), np.float32)
+_NO_FACES = np.array([[0, 1, 2]], np.uint32)
+
+
+class ClothDrawing:
+    """A mesh for each band of strain, and a dot for each pin; a chain of nodes has dots alone."""
+
+    def __init__(self, server: viser.ViserServer) -> None:
+        """Add the bands, without triangles."""
+        self._scene = server.scene
+        self.surface = Surface(1, 2)
+        self.full_strain = 0.0
+        self._shape: tuple[int, int] = (0, 0)
+        self._size = 0.0
+        self._bands = [
+            self._scene.add_mesh_simple(
+                f'/cloth/strain_{band}', _NO_VERTICES, _NO_FACES, color=color, side='double',
+                visible=False)
+            for band, color in enumerate(band_colors())]
+
+    def draw(self, frame: Frame, full_strain: float) -> None:
+        """
+        Show the cloth as it is in ``frame``.
+
+        :param full_strain: that the last colour stands for
+        """
+        if frame.strain.shape != self._shape:
+            self._shape = frame.strain.shape
+            self.surface = Surface(*self._shape)
+            points = self.surface.points(frame)
+            self._size = _PIN_SIZE * float(np.linalg.norm(np.ptp(points, axis=0)))
+        self.full_strain = full_strain
+        for handle, mesh in zip(self._bands, self.surface.bands(frame, full_strain)):
+            handle.visible = mesh is not None
+            if mesh is not None:
+                handle.vertices, handle.faces = mesh
+        if not len(self.surface.faces):
+            strain = self.surface.strain(frame) * (FULL_STRAIN / full_strain)
+            colors = (255 * strain_colors(strain)[:, :3]).astype(np.uint8)
+            self._add_dots('/cloth/nodes', self.surface.points(frame), colors)
+        pins = frame.positions[frame.pinned].astype(np.float32)
+        self._add_dots('/cloth/pins', pins, _PIN_COLOR)
+
+    def _add_dots(
+            self, name: str, points: np.ndarray,
+            colors: np.ndarray | tuple[int, int, int]) -> None:
+        # Added anew each time, as their number changes.
+        self._scene.add_point_cloud(
+            name, points, colors, point_size=self._size, point_shape='circle',
+            precision='float32', visible=len(points) > 0)
+
+
+# What the cloth can touch, in the scene of a page.
+
+COLOR = (140, 148, 158)
+# How far a plane is shown from its origin, in diagonals of the cloth.
+_PLANE = 3.0
+
+
+class ColliderDrawing:
+    """A mesh for each collider, which moves with it."""
+
+    def __init__(self, server: viser.ViserServer) -> None:
+        """Begin without colliders."""
+        self._scene = server.scene
+        self._handles: dict[str, viser.MeshHandle] = {}
+        self._shown: tuple[Collider, ...] = ()
+
+    def draw(self, colliders: tuple[Collider, ...], positions: np.ndarray) -> None:
+        """
+        Show ``colliders`` where they are.
+
+        :param positions: of the cloth, which the size of planes is chosen by, (rows, cols, 3) [m]
+        """
+        if colliders == self._shown:
+            return
+        self._shown = colliders
+        names = {collider.name for collider in colliders}
+        for name in self._handles.keys() - names:
+            self._handles.pop(name).remove()
+        for collider in colliders:
+            if collider.name not in self._handles:
+                self._handles[collider.name] = self._add(collider, positions)
+            handle = self._handles[collider.name]
+            x, y, z, w = collider.orientation
+            handle.position, handle.wxyz = np.array(collider.position), np.array((w, x, y, z))
+
+    def _add(self, collider: Collider, positions: np.ndarray) -> viser.MeshHandle:
+        size = float(np.linalg.norm(np.ptp(positions.reshape(-1, 3), axis=0)))
+        points, _ = local_surface(collider.shape, collider.size, _PLANE * size)
+        return self._scene.add_mesh_simple(
+            f'/colliders/{collider.name}', points.reshape(-1, 3).astype(np.float32),
+            triangles(*points.shape[:2]), color=COLOR)
+
+
+# Handles by which pins are dragged.
+
+# More would hide the cloth; other pins are dots.
+MOST_HANDLES = 16
+# Of the diagonal of the cloth.
+_SIZE = 0.12
+
+Node = tuple[int, int]
+
+
+class PinHandles:
+    """
+    A set of arrows at each pin.
+
+    :param answer: does an action for a page, and tells it what is wrong
+    """
+
+    def __init__(
+            self, server: viser.ViserServer, source: Source,
+            answer: Callable[[Any, Callable[[], Any]], None]) -> None:
+        """Begin without pins."""
+        self._scene = server.scene
+        self._source = source
+        self._answer = answer
+        self._handles: dict[Node, viser.TransformControlsHandle] = {}
+        # Those in somebody's hand: they lead their pins, and do not follow them.
+        self._dragged: set[Node] = set()
+
+    def follow(self, frame: Frame, is_shown: bool) -> None:
+        """Put a handle at each of the first pins, and none elsewhere."""
+        pins = [(int(row), int(col)) for row, col in np.argwhere(frame.pinned)[:MOST_HANDLES]]
+        wanted = set(pins) if is_shown else set()
+        for node in self._handles.keys() - wanted:
+            self._handles.pop(node).remove()
+            self._dragged.discard(node)
+        positions = frame.positions
+        for node in pins if is_shown else ():
+            if node not in self._handles:
+                extent = np.linalg.norm(np.ptp(positions.reshape(-1, 3), axis=0))
+                self._handles[node] = self._add(node, _SIZE * float(extent))
+            handle = self._handles[node]
+            if node not in self._dragged and not np.array_equal(handle.position, positions[node]):
+                handle.position = positions[node]
+
+    def _add(self, node: Node, size: float) -> viser.TransformControlsHandle:
+        handle = self._scene.add_transform_controls(
+            f'/handles/{node[0]}_{node[1]}', scale=size, disable_rotations=True,
+            depth_test=False)
+
+        @handle.on_update
+        def _(event: viser.TransformControlsEvent) -> None:
+            if event.phase == 'start':
+                self._dragged.add(node)
+            elif event.phase == 'end':
+                self._dragged.discard(node)
+            else:
+                target = tuple(float(part) for part in event.target.position)
+                self._answer(event.client, lambda: self._source.move_pin(*node, target))
+
+        return handle
