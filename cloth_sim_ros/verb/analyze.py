@@ -38,7 +38,7 @@ from cloth_sim_ros.analysis.summary import Summary
 from cloth_sim_ros.analysis.summary import summary_lines
 from cloth_sim_ros.analysis.summary import text_table
 from cloth_sim_ros.sim.errors import ClothSimError
-from cloth_sim_ros.verb.reading_progress import ReadingProgress
+from cloth_sim_ros.verb.progress import ReadingProgress
 from cloth_sim_ros.verb.recording_arguments import add_node_argument
 
 

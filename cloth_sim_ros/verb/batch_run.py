@@ -3,8 +3,14 @@
 
 """Run a simulation to an end as fast as it goes, into a recording where one is asked for."""
 
+from argparse import ArgumentParser
+from argparse import Namespace
+from collections.abc import Iterator
+from contextlib import contextmanager
 import math
 from pathlib import Path
+import sys
+import threading
 import time
 from typing import Any
 from typing import TYPE_CHECKING
@@ -13,12 +19,66 @@ from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.errors import NonFiniteStateError
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.simulation import Simulation
-from cloth_sim_ros.verb.compile_notice import compile_notice
 from cloth_sim_ros.verb.termination import sayer
 from tqdm import tqdm
 
 if TYPE_CHECKING:
     from cloth_sim_ros.api.simulation_recorder import RunRecording
+
+
+# The node's parameter that each stands for.
+_PARAMETERS = {
+    'max_bag_size': 'recording.max_bagfile_size',
+    'max_bag_duration': 'recording.max_bagfile_duration',
+    'max_recording_size': 'recording.max_size',
+    'fsync': 'recording.fsync',
+}
+
+
+def add_recording_options(parser: ArgumentParser) -> None:
+    """Add the arguments for files, limit and fsync of a recording."""
+    parser.add_argument(
+        '--max-bag-size', type=int, metavar='BYTES',
+        help='split the recording into files of this size')
+    parser.add_argument(
+        '--max-bag-duration', type=float, metavar='T',
+        help='split the recording every T seconds of simulated time')
+    parser.add_argument(
+        '--max-recording-size', type=int, metavar='BYTES',
+        help='stop the recording at this total size; the simulation continues')
+    parser.add_argument(
+        '--fsync', action='store_true', default=None,
+        help='sync the recording to disk at every flush, twice a second')
+
+
+def recording_changes(args: Namespace) -> list[str]:
+    """Return the arguments that were given as changes of parameters, name=value."""
+    given = {name: getattr(args, name) for name in _PARAMETERS}
+    return [
+        f'{_PARAMETERS[name]}={str(value).lower()}' for name, value in given.items()
+        if value is not None]
+
+
+# Say what a command is busy with while it compiles shaders.
+
+# What takes less is not worth a word [s].
+_LONG = 0.5
+
+
+@contextmanager
+def compile_notice(mode: str) -> Iterator[None]:
+    """Say on stderr that the shaders of ``mode`` are being compiled, if the block takes long."""
+    def say() -> None:
+        print(f'compiling shaders for mode {mode} ...', file=sys.stderr, flush=True)
+
+    timer = threading.Timer(_LONG, say)
+    timer.daemon = True
+    timer.start()
+    try:
+        yield
+    finally:
+        timer.cancel()
+
 
 # Of a step: what a sum of frame times may fall short of it, as in Simulation.advance.
 _ROUNDING = 1e-6

@@ -26,7 +26,7 @@ from cloth_sim_ros.playback.player import PlayerNode
 from cloth_sim_ros.playback.schedule import PlayClock
 from cloth_sim_ros.playback.schedule import PlayOptions
 from cloth_sim_ros.recording.bag_reader import BagReader
-from cloth_sim_ros.verb.play_progress import PlayProgress
+from cloth_sim_ros.verb.progress import PlayProgress
 from cloth_sim_ros.verb.recording_arguments import add_recording_arguments
 from cloth_sim_ros.verb.termination import StopSignals
 

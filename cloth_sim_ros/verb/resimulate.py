@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-r"""
+"""
 Rerun a recorded simulation from its recording alone.
 
 The scene and the inputs (pushes, pins, pin targets, mode switches, resets) are read from the
@@ -18,6 +18,8 @@ from argparse import ArgumentParser
 from argparse import Namespace
 from contextlib import AbstractContextManager
 from contextlib import nullcontext
+from itertools import count
+from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
 
@@ -33,11 +35,19 @@ from cloth_sim_ros.sim.colliders import fields_with_colliders
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.scene import refuse_unknown
 from cloth_sim_ros.verb import analyze
-from cloth_sim_ros.verb.fresh_name import fresh_name
 from cloth_sim_ros.verb.recording_arguments import add_recording_arguments
 from cloth_sim_ros.verb.recording_arguments import open_recording
 from cloth_sim_ros.verb.scene_arguments import parse_change
 from tqdm import tqdm
+
+
+def fresh_name(directory: str | Path, name: str) -> str:
+    """Return ``name`` or, where it is taken in ``directory``, ``name`` with a number."""
+    folder = Path(directory).expanduser()
+    return next(
+        candidate for candidate in (f'{name}_{number}' if number else name for number in count())
+        if not (folder / candidate).exists())
+
 
 _BAR = '{percentage:3.0f}% |{bar}| {n}/{total} frames{postfix}'
 

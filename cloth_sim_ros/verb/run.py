@@ -21,9 +21,9 @@ import sys
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.simulation import Simulation
 from cloth_sim_ros.sim.snapshot import Snapshot
+from cloth_sim_ros.verb.batch_run import add_recording_options
 from cloth_sim_ros.verb.batch_run import BatchRun
-from cloth_sim_ros.verb.recording_option_arguments import add_recording_options
-from cloth_sim_ros.verb.recording_option_arguments import recording_changes
+from cloth_sim_ros.verb.batch_run import recording_changes
 from cloth_sim_ros.verb.scene_arguments import add_scene_arguments
 from cloth_sim_ros.verb.scene_arguments import read_scene
 import numpy as np

@@ -19,9 +19,24 @@ from argparse import RawDescriptionHelpFormatter
 from importlib import import_module
 from types import ModuleType
 
-from cloth_sim_ros.study.studies import STUDIES
 from cloth_sim_ros.verb.scene_arguments import add_scene_arguments
 from cloth_sim_ros.verb.scene_arguments import read_scene
+
+# The studies that `cloth_sim study` knows.
+#
+# A study is a module of cloth_sim_ros.study with `add_arguments(parser)` and
+# `main(args) -> int`, the exit code; its docstring is its help text. Where it has
+# `TAKES_SCENE = True`, the verb adds SCENE.yaml and --set, and `args.scene` is the Scene when
+# main is called.
+
+STUDIES = {
+    'tradeoff': 'accuracy-cost trade-off of modes and settings for a scene',
+    'presets': 'values of the parameter preset, derived from a tradeoff study',
+    'stability': 'measured and predicted stability limits of each mode',
+    'extremes': 'robustness against extreme scenes in every mode',
+    'answers': 'service response times of a node, also while a mode is compiled',
+    'cost': 'cost of each feature of a scene, and the error without it',
+}
 
 
 def add_arguments(parser: ArgumentParser) -> None:

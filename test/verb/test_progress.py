@@ -4,7 +4,7 @@
 
 """The progress bar over recordings."""
 
-from cloth_sim_ros.verb.reading_progress import ReadingProgress
+from cloth_sim_ros.verb.progress import ReadingProgress
 import pytest
 
 

@@ -5,7 +5,7 @@
 
 import time
 
-from cloth_sim_ros.verb.compile_notice import compile_notice
+from cloth_sim_ros.verb.batch_run import compile_notice
 import pytest
 
 
