@@ -31,13 +31,13 @@ from cloth_sim_ros.study.feature.pass_list import pass_list
 from cloth_sim_ros.study.feature.pass_list import pass_table
 from cloth_sim_ros.study.feature.report import cost_table
 from cloth_sim_ros.study.feature.report import passes_report
-from cloth_sim_ros.study.runs.arguments import add_run_arguments
-from cloth_sim_ros.study.runs.arguments import workers_of
-from cloth_sim_ros.study.runs.make_runs import make_runs
-from cloth_sim_ros.study.runs.result import Result
-from cloth_sim_ros.study.runs.results_folder import ResultsFolder
-from cloth_sim_ros.study.runs.run import Run
+from cloth_sim_ros.study.make_runs import make_runs
+from cloth_sim_ros.study.results import Result
+from cloth_sim_ros.study.results import ResultsFolder
+from cloth_sim_ros.study.results import Run
 from cloth_sim_ros.study.scene_values import given_values
+from cloth_sim_ros.study.workers import add_run_arguments
+from cloth_sim_ros.study.workers import workers_of
 
 TAKES_SCENE = True
 _RUNS = 'cloth_sim_ros.study.feature.costs'

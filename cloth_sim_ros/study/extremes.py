@@ -20,11 +20,11 @@ from pathlib import Path
 from cloth_sim_ros.study.extremity.report import extreme_table
 from cloth_sim_ros.study.extremity.report import is_right
 from cloth_sim_ros.study.extremity.scenes import EXTREMES
-from cloth_sim_ros.study.runs.arguments import add_run_arguments
-from cloth_sim_ros.study.runs.arguments import workers_of
-from cloth_sim_ros.study.runs.make_runs import make_runs
-from cloth_sim_ros.study.runs.results_folder import ResultsFolder
-from cloth_sim_ros.study.runs.run import Run
+from cloth_sim_ros.study.make_runs import make_runs
+from cloth_sim_ros.study.results import ResultsFolder
+from cloth_sim_ros.study.results import Run
+from cloth_sim_ros.study.workers import add_run_arguments
+from cloth_sim_ros.study.workers import workers_of
 
 _FUNCTION = 'cloth_sim_ros.study.extremity.run:run_by_name'
 

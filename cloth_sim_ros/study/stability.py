@@ -19,15 +19,15 @@ from argparse import Namespace
 from pathlib import Path
 
 from cloth_sim_ros.sim.errors import ClothSimError
-from cloth_sim_ros.study.runs.arguments import add_run_arguments
-from cloth_sim_ros.study.runs.arguments import workers_of
-from cloth_sim_ros.study.runs.make_runs import make_runs
-from cloth_sim_ros.study.runs.results_folder import ResultsFolder
+from cloth_sim_ros.study.make_runs import make_runs
+from cloth_sim_ros.study.results import ResultsFolder
 from cloth_sim_ros.study.scene_values import given_values
 from cloth_sim_ros.study.stable.plan import edges
 from cloth_sim_ros.study.stable.plan import map_points
 from cloth_sim_ros.study.stable.report import edge_table
 from cloth_sim_ros.study.stable.report import map_table
+from cloth_sim_ros.study.workers import add_run_arguments
+from cloth_sim_ros.study.workers import workers_of
 
 TAKES_SCENE = True
 

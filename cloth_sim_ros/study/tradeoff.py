@@ -26,9 +26,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from cloth_sim_ros.sim.errors import ClothSimError
-from cloth_sim_ros.study.runs.arguments import add_run_arguments
-from cloth_sim_ros.study.runs.arguments import workers_of
-from cloth_sim_ros.study.runs.results_folder import ResultsFolder
+from cloth_sim_ros.study.results import ResultsFolder
 from cloth_sim_ros.study.trade.budget import Budget
 from cloth_sim_ros.study.trade.budget import BUDGETS
 from cloth_sim_ros.study.trade.budget import StrainBudget
@@ -41,6 +39,8 @@ from cloth_sim_ros.study.trade.measured import measure
 from cloth_sim_ros.study.trade.page import write_table
 from cloth_sim_ros.study.trade.row import Row
 from cloth_sim_ros.study.trade.variant import Variant
+from cloth_sim_ros.study.workers import add_run_arguments
+from cloth_sim_ros.study.workers import workers_of
 
 TAKES_SCENE = True
 

@@ -7,12 +7,12 @@ from pathlib import Path
 from typing import Any
 
 from cloth_sim_ros.sim.scene import Scene
-from cloth_sim_ros.study.runs.results_folder import ResultsFolder
-from cloth_sim_ros.study.runs.workers import Workers
+from cloth_sim_ros.study.results import ResultsFolder
 from cloth_sim_ros.study.trade.compared import Measured
 from cloth_sim_ros.study.trade.grid import Grid
 from cloth_sim_ros.study.trade.grid import grid_of
 from cloth_sim_ros.study.trade.measured import measure
+from cloth_sim_ros.study.workers import Workers
 
 SOFT = {
     'rows': 8, 'cols': 8, 'stiffness.structural': 20.0, 'stiffness.shear': 20.0,

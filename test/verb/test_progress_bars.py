@@ -23,10 +23,10 @@ _COMMANDS = {
 
 
 _STUDY = """
-from cloth_sim_ros.study.runs.make_runs import make_runs
-from cloth_sim_ros.study.runs.results_folder import ResultsFolder
-from cloth_sim_ros.study.runs.run import Run
-from cloth_sim_ros.study.runs.workers import Workers
+from cloth_sim_ros.study.make_runs import make_runs
+from cloth_sim_ros.study.results import ResultsFolder
+from cloth_sim_ros.study.results import Run
+from cloth_sim_ros.study.workers import Workers
 if __name__ == '__main__':
     runs = [Run('study_runs:sleep', {}, {'seconds': 0.1 * n}) for n in range(3)]
     with ResultsFolder('study') as results:

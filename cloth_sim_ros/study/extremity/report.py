@@ -9,7 +9,7 @@ from collections.abc import Sequence
 from cloth_sim_ros.study.extremity.extreme import OUTCOMES
 from cloth_sim_ros.study.extremity.nonsense import MOST_GAIN
 from cloth_sim_ros.study.extremity.scenes import EXTREMES
-from cloth_sim_ros.study.runs.result import Result
+from cloth_sim_ros.study.results import Result
 
 _RIGHT = 'as it should'
 _REPORTED = 'reported'

@@ -24,7 +24,7 @@ from cloth_sim_ros.study.extremity.nonsense import MOST_GAIN
 from cloth_sim_ros.study.extremity.nonsense import nonsense_of
 from cloth_sim_ros.study.extremity.nonsense import tells_of
 from cloth_sim_ros.study.extremity.scenes import EXTREMES
-from cloth_sim_ros.study.process_context import process_context
+from cloth_sim_ros.study.workers import process_context
 import numpy as np
 
 _SEED = 3

@@ -18,7 +18,7 @@ from cloth_sim_ros.sim.simulation import Simulation
 from cloth_sim_ros.study.feature.features import SCENE_FEATURES
 from cloth_sim_ros.study.feature.features import without
 from cloth_sim_ros.study.feature.pass_list import pass_list
-from cloth_sim_ros.study.process_context import process_context
+from cloth_sim_ros.study.workers import process_context
 import numpy as np
 
 WHOLE = 'everything'

@@ -8,7 +8,7 @@ from typing import Any
 
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.scene_fields import MODES
-from cloth_sim_ros.study.runs.run import Run
+from cloth_sim_ros.study.results import Run
 from cloth_sim_ros.study.scene_values import scaled_damping
 from cloth_sim_ros.study.stable.runs import with_stiffness
 import numpy as np

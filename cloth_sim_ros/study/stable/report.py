@@ -8,7 +8,7 @@ from collections.abc import Sequence
 
 from cloth_sim_ros.sim.modes import AVAILABLE
 from cloth_sim_ros.sim.scene_fields import MODES
-from cloth_sim_ros.study.runs.result import Result
+from cloth_sim_ros.study.results import Result
 from cloth_sim_ros.study.stable.probe_outcome import REFUSED
 from cloth_sim_ros.study.stable.probe_outcome import STABLE
 from cloth_sim_ros.study.stable.probe_outcome import UNSTABLE

@@ -17,7 +17,6 @@ from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.stability import any_shape_limit
 from cloth_sim_ros.sim.stability import spring_substeps
 from cloth_sim_ros.sim.stability import stability_limit
-from cloth_sim_ros.study.process_context import process_context
 from cloth_sim_ros.study.scene_values import scaled_stiffness
 from cloth_sim_ros.study.stable.hanging_cloth import hang
 from cloth_sim_ros.study.stable.hanging_cloth import hanging_probe
@@ -28,6 +27,7 @@ from cloth_sim_ros.study.stable.probe_outcome import REFUSED
 from cloth_sim_ros.study.stable.probe_outcome import STABLE
 from cloth_sim_ros.study.stable.rest_probe import rest_probe
 from cloth_sim_ros.study.stable.rest_probe import rest_scene
+from cloth_sim_ros.study.workers import process_context
 import numpy as np
 from scipy import sparse
 from scipy.optimize import brentq

@@ -9,9 +9,8 @@ import tempfile
 
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.scene import Scene
-from cloth_sim_ros.study.runs.make_runs import make_runs
-from cloth_sim_ros.study.runs.results_folder import ResultsFolder
-from cloth_sim_ros.study.runs.workers import Workers
+from cloth_sim_ros.study.make_runs import make_runs
+from cloth_sim_ros.study.results import ResultsFolder
 from cloth_sim_ros.study.trade.choice import read_choice
 from cloth_sim_ros.study.trade.compared import compare
 from cloth_sim_ros.study.trade.compared import own_model
@@ -20,6 +19,7 @@ from cloth_sim_ros.study.trade.grid import Setting
 from cloth_sim_ros.study.trade.plan import Plan
 from cloth_sim_ros.study.trade.row import Row
 from cloth_sim_ros.study.trade.variant import Variant
+from cloth_sim_ros.study.workers import Workers
 
 
 def check(

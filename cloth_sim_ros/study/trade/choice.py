@@ -11,7 +11,7 @@ from cloth_sim_ros.files.regular_file import read_regular
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.given_values import load_parameters
 from cloth_sim_ros.sim.scene import Scene
-from cloth_sim_ros.study.runs.run import Run
+from cloth_sim_ros.study.results import Run
 from cloth_sim_ros.study.trade.budget import Budget
 from cloth_sim_ros.study.trade.budget import BUDGETS
 from cloth_sim_ros.study.trade.row import Row

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.modes import AVAILABLE
 from cloth_sim_ros.sim.scene import Scene
-from cloth_sim_ros.study.runs.result import Result
+from cloth_sim_ros.study.results import Result
 from cloth_sim_ros.study.trade.errors import errors
 from cloth_sim_ros.study.trade.grid import Grid
 from cloth_sim_ros.study.trade.grid import Setting

@@ -10,10 +10,9 @@ import statistics
 
 from cloth_sim_ros.gl.context import is_software
 from cloth_sim_ros.sim.scene import Scene
-from cloth_sim_ros.study.runs.make_runs import make_runs
-from cloth_sim_ros.study.runs.results_folder import ResultsFolder
-from cloth_sim_ros.study.runs.run import Run
-from cloth_sim_ros.study.runs.workers import Workers
+from cloth_sim_ros.study.make_runs import make_runs
+from cloth_sim_ros.study.results import ResultsFolder
+from cloth_sim_ros.study.results import Run
 from cloth_sim_ros.study.trade.compared import compare
 from cloth_sim_ros.study.trade.compared import Measured
 from cloth_sim_ros.study.trade.front import near_front
@@ -21,6 +20,7 @@ from cloth_sim_ros.study.trade.grid import Grid
 from cloth_sim_ros.study.trade.plan import Plan
 from cloth_sim_ros.study.trade.row import Row
 from cloth_sim_ros.study.trade.variant import Variant
+from cloth_sim_ros.study.workers import Workers
 
 
 def measure(

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.stability import choose_substeps
-from cloth_sim_ros.study.runs.run import Run
+from cloth_sim_ros.study.results import Run
 from cloth_sim_ros.study.trade.grid import Grid
 from cloth_sim_ros.study.trade.grid import Setting
 from cloth_sim_ros.study.trade.variant import Variant

@@ -6,7 +6,7 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from cloth_sim_ros.study.runs.result import Result
+from cloth_sim_ros.study.results import Result
 from cloth_sim_ros.study.trade.path import distances
 from cloth_sim_ros.study.trade.path import Path
 from cloth_sim_ros.study.trade.path import path_of

@@ -5,7 +5,7 @@
 
 from dataclasses import dataclass
 
-from cloth_sim_ros.study.runs.result import Result
+from cloth_sim_ros.study.results import Result
 from cloth_sim_ros.study.trade.errors import Errors
 from cloth_sim_ros.study.trade.grid import Setting
 from cloth_sim_ros.study.trade.variant import Variant

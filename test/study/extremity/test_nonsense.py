@@ -16,7 +16,7 @@ from cloth_sim_ros.study.extremity.nonsense import nonsense_of
 from cloth_sim_ros.study.extremity.report import extreme_table
 from cloth_sim_ros.study.extremity.report import is_right
 from cloth_sim_ros.study.extremity.run import run_extreme
-from cloth_sim_ros.study.runs.make_runs import perform
+from cloth_sim_ros.study.make_runs import perform
 import numpy as np
 import pytest
 from springs import SPRINGS

@@ -5,11 +5,10 @@
 
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.stability import stability_limit
-from cloth_sim_ros.study.runs.make_runs import make_runs
-from cloth_sim_ros.study.runs.make_runs import perform
-from cloth_sim_ros.study.runs.results_folder import LINES
-from cloth_sim_ros.study.runs.results_folder import ResultsFolder
-from cloth_sim_ros.study.runs.workers import Workers
+from cloth_sim_ros.study.make_runs import make_runs
+from cloth_sim_ros.study.make_runs import perform
+from cloth_sim_ros.study.results import LINES
+from cloth_sim_ros.study.results import ResultsFolder
 from cloth_sim_ros.study.stable.figures import draw_edges
 from cloth_sim_ros.study.stable.figures import draw_maps
 from cloth_sim_ros.study.stable.plan import edges
@@ -18,6 +17,7 @@ from cloth_sim_ros.study.stable.report import edge_table
 from cloth_sim_ros.study.stable.report import map_table
 from cloth_sim_ros.study.stable.runs import run_edge
 from cloth_sim_ros.study.stable.runs import run_point
+from cloth_sim_ros.study.workers import Workers
 import numpy as np
 import pytest
 

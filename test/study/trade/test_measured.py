@@ -6,7 +6,7 @@
 import json
 
 from cloth_sim_ros.sim.errors import ClothSimError
-from cloth_sim_ros.study.runs.results_folder import LINES
+from cloth_sim_ros.study.results import LINES
 from cloth_sim_ros.study.trade.budget import ErrorBudget
 from cloth_sim_ros.study.trade.budget import SpeedBudget
 from cloth_sim_ros.study.trade.page import page

@@ -5,7 +5,7 @@
 
 from cloth_sim_ros.reference.explicit_cloth import MassSpringReference
 from cloth_sim_ros.sim.scene import Scene
-from cloth_sim_ros.study.runs.make_runs import perform
+from cloth_sim_ros.study.make_runs import perform
 from cloth_sim_ros.study.trade.path import distances
 from cloth_sim_ros.study.trade.path import Path
 from cloth_sim_ros.study.trade.plan import Plan

@@ -22,16 +22,16 @@ from typing import Any
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.errors import NonFiniteStateError
 from cloth_sim_ros.sim.scene_fields import SCENE_FIELDS
-from cloth_sim_ros.study.runs.result import describe
-from cloth_sim_ros.study.runs.result import DONE
-from cloth_sim_ros.study.runs.result import FAILED
-from cloth_sim_ros.study.runs.result import REFUSED
-from cloth_sim_ros.study.runs.result import Result
-from cloth_sim_ros.study.runs.result import STOPPED
-from cloth_sim_ros.study.runs.result import unmade
-from cloth_sim_ros.study.runs.results_folder import ResultsFolder
-from cloth_sim_ros.study.runs.run import Run
-from cloth_sim_ros.study.runs.workers import Workers
+from cloth_sim_ros.study.results import describe
+from cloth_sim_ros.study.results import DONE
+from cloth_sim_ros.study.results import FAILED
+from cloth_sim_ros.study.results import REFUSED
+from cloth_sim_ros.study.results import Result
+from cloth_sim_ros.study.results import ResultsFolder
+from cloth_sim_ros.study.results import Run
+from cloth_sim_ros.study.results import STOPPED
+from cloth_sim_ros.study.results import unmade
+from cloth_sim_ros.study.workers import Workers
 import numpy as np
 from tqdm import tqdm
 

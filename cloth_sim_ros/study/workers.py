@@ -3,17 +3,28 @@
 
 """Who makes the runs: processes of this machine, or those of a Dask scheduler."""
 
+from argparse import ArgumentParser
+from argparse import Namespace
 from collections.abc import Iterator
 from concurrent.futures import Executor
 from concurrent.futures import ProcessPoolExecutor
 from contextlib import contextmanager
 from dataclasses import dataclass
+from functools import cache
 import multiprocessing
 import os
 import signal
 from threading import Thread
 
+from cloth_sim_ros.gl.context import Context
 from cloth_sim_ros.sim.errors import ClothSimError
+
+
+@cache
+def process_context() -> Context:
+    """Return the context of this process, made when it is first asked for; not to be closed."""
+    return Context(single_thread=True)
+
 
 _TIMEOUT = 10.0
 
@@ -77,8 +88,6 @@ class Workers:
         :raises ClothSimError: when the scheduler can't be used
         """
         if self.scheduler:
-            # Optional, and slow to import.
-            from cloth_sim_ros.study.runs.workers import dask_executor
             with dask_executor(self.scheduler) as lent:
                 yield lent
             return
@@ -116,3 +125,22 @@ def checked_workers(jobs: int | None, scheduler: str) -> Workers:
     if jobs is not None and jobs < 1:
         raise ClothSimError(f'--jobs must be 1 or more, got {jobs}')
     return Workers(jobs, scheduler)
+
+
+# The arguments of every study that makes runs.
+
+
+def add_run_arguments(parser: ArgumentParser, folder: str) -> None:
+    """Add --jobs, --scheduler and --out; ``folder`` is the default of the last."""
+    parser.add_argument('--jobs', type=int, metavar='N',
+                        help='number of worker processes (default: one per CPU core)')
+    parser.add_argument('--scheduler', default='', metavar='tcp://HOST:PORT',
+                        help='use the workers of this Dask scheduler instead')
+    parser.add_argument('--out', default=folder, metavar='DIR',
+                        help='folder of the results; existing runs are not repeated '
+                             '(default: %(default)s)')
+
+
+def workers_of(args: Namespace) -> Workers:
+    """Return who makes the runs; ClothSimError when an argument is wrong."""
+    return checked_workers(args.jobs, args.scheduler)

@@ -11,15 +11,15 @@ import subprocess
 import sys
 import time
 
-from cloth_sim_ros.study.runs.make_runs import Forecast
-from cloth_sim_ros.study.runs.make_runs import in_minutes
-from cloth_sim_ros.study.runs.make_runs import make_runs
-from cloth_sim_ros.study.runs.result import DONE
-from cloth_sim_ros.study.runs.result import unmade
-from cloth_sim_ros.study.runs.results_folder import LINES
-from cloth_sim_ros.study.runs.results_folder import ResultsFolder
-from cloth_sim_ros.study.runs.run import Run
-from cloth_sim_ros.study.runs.workers import Workers
+from cloth_sim_ros.study.make_runs import Forecast
+from cloth_sim_ros.study.make_runs import in_minutes
+from cloth_sim_ros.study.make_runs import make_runs
+from cloth_sim_ros.study.results import DONE
+from cloth_sim_ros.study.results import LINES
+from cloth_sim_ros.study.results import ResultsFolder
+from cloth_sim_ros.study.results import Run
+from cloth_sim_ros.study.results import unmade
+from cloth_sim_ros.study.workers import Workers
 import pytest
 
 SMALL = {'rows': 10, 'cols': 10}
@@ -164,10 +164,10 @@ def test_alone_each_run_has_a_fresh_process(tmp_path):
 def test_a_stopped_study_goes_on(tmp_path, stop):
     """What was done would be lost, or processes would stay behind."""
     program = (
-        'from cloth_sim_ros.study.runs.make_runs import make_runs\n'
-        'from cloth_sim_ros.study.runs.results_folder import ResultsFolder\n'
-        'from cloth_sim_ros.study.runs.run import Run\n'
-        'from cloth_sim_ros.study.runs.workers import Workers\n'
+        'from cloth_sim_ros.study.make_runs import make_runs\n'
+        'from cloth_sim_ros.study.results import ResultsFolder\n'
+        'from cloth_sim_ros.study.results import Run\n'
+        'from cloth_sim_ros.study.workers import Workers\n'
         'import os\n'
         'if __name__ == "__main__":\n'
         f'    runs = [Run("study_runs:square", {{}}, {{"number": n}}) for n in range(3)]\n'

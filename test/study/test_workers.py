@@ -6,10 +6,10 @@
 import sys
 
 from cloth_sim_ros.sim.errors import ClothSimError
-from cloth_sim_ros.study.runs.make_runs import make_runs
-from cloth_sim_ros.study.runs.results_folder import ResultsFolder
-from cloth_sim_ros.study.runs.run import Run
-from cloth_sim_ros.study.runs.workers import Workers
+from cloth_sim_ros.study.make_runs import make_runs
+from cloth_sim_ros.study.results import ResultsFolder
+from cloth_sim_ros.study.results import Run
+from cloth_sim_ros.study.workers import Workers
 from distributed import LocalCluster
 import pytest
 
