@@ -19,12 +19,12 @@ from pathlib import Path
 
 from cloth_sim_ros.sim.scene_fields import PRESETS
 from cloth_sim_ros.study.results import ResultsFolder
-from cloth_sim_ros.study.trade.budget import ErrorBudget
+from cloth_sim_ros.study.trade.choice import ErrorBudget
 from cloth_sim_ros.study.trade.choice import write_choice
 from cloth_sim_ros.study.trade.grid import default_grid_path
 from cloth_sim_ros.study.trade.grid import load_grid
+from cloth_sim_ros.study.trade.grid import Variant
 from cloth_sim_ros.study.trade.measured import measure
-from cloth_sim_ros.study.trade.variant import Variant
 from cloth_sim_ros.study.workers import add_run_arguments
 from cloth_sim_ros.study.workers import workers_of
 

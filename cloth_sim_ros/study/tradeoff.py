@@ -27,18 +27,19 @@ from pathlib import Path
 
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.study.results import ResultsFolder
-from cloth_sim_ros.study.trade.budget import Budget
-from cloth_sim_ros.study.trade.budget import BUDGETS
-from cloth_sim_ros.study.trade.budget import StrainBudget
+from cloth_sim_ros.study.trade.choice import Budget
+from cloth_sim_ros.study.trade.choice import BUDGETS
+from cloth_sim_ros.study.trade.choice import StrainBudget
 from cloth_sim_ros.study.trade.choice import write_choice
-from cloth_sim_ros.study.trade.compared import Measured
+from cloth_sim_ros.study.trade.front import Row
 from cloth_sim_ros.study.trade.front import within_strain
 from cloth_sim_ros.study.trade.grid import default_grid_path
 from cloth_sim_ros.study.trade.grid import load_grid
+from cloth_sim_ros.study.trade.grid import Variant
+from cloth_sim_ros.study.trade.measured import check
 from cloth_sim_ros.study.trade.measured import measure
+from cloth_sim_ros.study.trade.measured import Measured
 from cloth_sim_ros.study.trade.page import write_table
-from cloth_sim_ros.study.trade.row import Row
-from cloth_sim_ros.study.trade.variant import Variant
 from cloth_sim_ros.study.workers import add_run_arguments
 from cloth_sim_ros.study.workers import workers_of
 
@@ -73,7 +74,6 @@ def main(args: Namespace) -> int:
     grid = load_grid(args.grid or default_grid_path())
     with ResultsFolder(args.out) as results:
         if args.check:
-            from cloth_sim_ros.study.trade.check import check
             return check(Path(args.check), args.scene, grid, results, workers_of(args))
         measured = measure(
             args.scene, grid, results, workers_of(args), _wanted(budget))

@@ -8,10 +8,10 @@ from typing import Any
 
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.study.results import ResultsFolder
-from cloth_sim_ros.study.trade.compared import Measured
 from cloth_sim_ros.study.trade.grid import Grid
 from cloth_sim_ros.study.trade.grid import grid_of
 from cloth_sim_ros.study.trade.measured import measure
+from cloth_sim_ros.study.trade.measured import Measured
 from cloth_sim_ros.study.workers import Workers
 
 SOFT = {

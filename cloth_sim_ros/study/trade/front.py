@@ -1,12 +1,119 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-"""Which settings no other one beats."""
+"""The settings that were measured, row by row, and which of them no other one beats."""
 
 from collections.abc import Iterable
+from dataclasses import dataclass
 
 from cloth_sim_ros.sim.errors import ClothSimError
-from cloth_sim_ros.study.trade.row import Row
+from cloth_sim_ros.study.results import Result
+from cloth_sim_ros.study.trade.accuracy import Errors
+from cloth_sim_ros.study.trade.grid import Setting
+from cloth_sim_ros.study.trade.grid import Variant
+
+# Of the side: what is off by more shows another motion, and is no choice at any cost.
+WORST_ERROR = 0.1
+
+
+@dataclass(frozen=True)
+class Row:
+    """
+    What was measured of a setting.
+
+    :param run: the result errors were measured on
+    :param own: against the reference of its own model; None where there is none
+    :param scene: against the reference of the scene as it was given
+    :param rounds: wall time in a simulated second of each round; empty where it was not timed
+    :param wall_share: wall time over processor time, of rows of the variant that were timed
+    """
+
+    variant: Variant
+    setting: Setting
+    run: Result
+    own: Errors | None
+    scene: Errors | None
+    rounds: tuple[float, ...] = ()
+    wall_share: float = 1.0
+
+    @property
+    def wall_seconds(self) -> float | None:
+        """Return the median wall time in a simulated second; None where it was not timed."""
+        return sorted(self.rounds)[len(self.rounds) // 2] if self.rounds else None
+
+    @property
+    def cost(self) -> float:
+        """Return the wall time, or what the processor time lets expect of it."""
+        return self.wall_seconds or self.wall_share * self.run.values['processor_seconds']
+
+    @property
+    def peak_strain(self) -> float:
+        """Return the largest strain of a structural or shear edge at any frame of the run."""
+        return float(self.run.arrays['strains'].max())
+
+    @property
+    def shows_its_model(self) -> bool:
+        """Tell whether the run was made and is near to the finest of its own model, or is that."""
+        return self.run.is_done and (self.own is None or self.own.position <= WORST_ERROR)
+
+    def error(self, of_scene: bool) -> float | None:
+        """Return the error in position; None where there is none."""
+        errors = self.scene if of_scene else self.own
+        return errors.position if errors else None
+
+    def known_error(self, of_scene: bool) -> float:
+        """Return the error in position of a row that has one."""
+        error = self.error(of_scene)
+        assert error is not None
+        return error
+
+    @property
+    def own_errors(self) -> Errors:
+        """Return ``own`` of a row that has it."""
+        assert self.own is not None
+        return self.own
+
+    @property
+    def scene_errors(self) -> Errors:
+        """Return ``scene`` of a row that has it."""
+        assert self.scene is not None
+        return self.scene
+
+    def is_useful(self, of_scene: bool) -> bool:
+        """
+        Tell whether it shows the same motion, and may be compared with the other rows.
+
+        Errors against a scene's own model are compared where the model is that of springs.
+        """
+        error = self.error(of_scene)
+        return error is not None and error <= WORST_ERROR and (
+            of_scene or self.setting.model == 'springs')
+
+    def is_choice(self, of_scene: bool) -> bool:
+        """Tell whether it is useful, and was timed."""
+        return self.is_useful(of_scene) and bool(self.rounds)
+
+    def as_dict(self) -> dict[str, object]:
+        """Return a flat line of the table."""
+        values = self.run.values
+        line: dict[str, object] = {
+            'resolution': self.variant.resolution, 'stiffness': self.variant.stiffness,
+            'method': self.setting.method, 'model': self.setting.model,
+            'setting': self.setting.label, 'outcome': self.run.outcome}
+        for prefix, errors in (('', self.own), ('scene_', self.scene)):
+            for name in ('position', 'strain', 'energy'):
+                line[f'{prefix}{name}_error'] = getattr(errors, name) if errors else None
+        line['peak_strain'] = self.own.peak_strain if self.own else None
+        line.update({name: values.get(name) for name in (
+            'substeps', 'passes', 'processor_seconds')})
+        wall = self.wall_seconds
+        line.update({
+            'wall_seconds': wall, 'real_time_factor': 1.0 / wall if wall else None,
+            'reason': self.run.reason, 'device': self.run.device, 'run': self.run.key})
+        return line
+
+
+# Which settings no other one beats.
 
 
 def front(rows: Iterable[Row], *, of_scene: bool) -> list[Row]:

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-"""What a study of the trade measures, read from a YAML file."""
+"""What a study of the trade measures: settings and variants, from a YAML file, and its runs."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -14,10 +14,74 @@ from cloth_sim_ros.files.checked_yaml import load_yaml
 from cloth_sim_ros.files.errors import cut
 from cloth_sim_ros.files.errors import shown
 from cloth_sim_ros.gl.shared_directory import shared_directory
+from cloth_sim_ros.sim.colliders import fields_with_colliders
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.scene import refuse_unknown
+from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.scene_fields import SCENE_FIELDS
-from cloth_sim_ros.study.trade.variant import Variant
+from cloth_sim_ros.sim.stability import choose_substeps
+from cloth_sim_ros.study.results import Run
+from cloth_sim_ros.study.scene_values import scaled_stiffness
+
+
+@dataclass(frozen=True)
+class Variant:
+    """
+    A scene that was changed.
+
+    :param resolution: spacings of nodes along each side, over those of the scene
+    :param stiffness: of all springs, over that of the scene; their damping stays
+    """
+
+    resolution: float = 1.0
+    stiffness: float = 1.0
+
+    @property
+    def is_scene(self) -> bool:
+        """Tell whether nothing was changed."""
+        return self == Variant()
+
+    @property
+    def name(self) -> str:
+        """Return what was changed, in a few words."""
+        parts = [f'{name} x {factor:g}' for name, factor in vars(self).items() if factor != 1.0]
+        return ', '.join(parts) or 'the scene'
+
+    def values(self, scene: Scene) -> dict[str, Any]:
+        """Return the parameters of ``scene`` with the changes, without those at their default."""
+        rows, cols = (
+            n if n == 1 else max(2, round((n - 1) * self.resolution) + 1)
+            for n in (scene.rows, scene.cols))
+        changed = {
+            **scene.values, 'preset': 'none', 'rows': rows, 'cols': cols,
+            'node_mass': scene['node_mass'] * scene.node_count / (rows * cols),
+            **scaled_stiffness(scene, self.stiffness)}
+        for name in ('pins', 'pin_moves.node'):
+            # Two pins may come to be one.
+            moved = [_moved(node, scene, rows, cols) for node in scene[name]]
+            changed[name] = list(dict.fromkeys(moved)) if name == 'pins' else moved
+        return without_defaults(changed)
+
+
+def without_defaults(values: Mapping[str, Any]) -> dict[str, Any]:
+    """Return those of ``values`` that differ from their default, with lists for tuples."""
+    given = {
+        field.name: values[field.name] for field in fields_with_colliders(values)
+        if field.name in values and field.check(values[field.name]) != field.default}
+    return {name: list(value) if isinstance(value, tuple) else value
+            for name, value in given.items()}
+
+
+def _moved(node: str, scene: Scene, rows: int, cols: int) -> str:
+    row, comma, col = node.partition(',')
+    if not comma:
+        return node
+    return ','.join(
+        str(round(int(place) * (new - 1) / max(old - 1, 1)))
+        for place, old, new in ((row, scene.rows, rows), (col, scene.cols, cols)))
+
+
+# What a study of the trade measures, read from a YAML file.
 
 _SHORT = {
     'refine': 'refine {}', 'dt': 'dt {:g} s', 'solver.tolerance': 'tolerance {:g}',
@@ -140,3 +204,48 @@ def _settings(method: str, parts: Mapping[str, Any]) -> list[Setting]:
     return [
         Setting(method, model, dict(fixed), dict(zip(over, chosen)))
         for chosen in product(*over.values())]
+
+
+# Which runs a study of the trade is made of.
+
+_TRAJECTORY = 'cloth_sim_ros.study.trade.runs:trajectory'
+_REFERENCE = 'cloth_sim_ros.study.trade.runs:spring_reference'
+_COST = 'cloth_sim_ros.study.trade.runs:cost'
+
+
+@dataclass(frozen=True)
+class Plan:
+    """The runs of ``grid`` on ``scene``."""
+
+    scene: Scene
+    grid: Grid
+
+    def trajectory(self, variant: Variant, setting: Setting) -> Run:
+        """Return the run that the error of ``setting`` is measured on."""
+        return Run(
+            _TRAJECTORY, {**variant.values(self.scene), **setting.values}, self._times)
+
+    def references(self, variant: Variant) -> list[Run]:
+        """Return the runs of the springs of ``variant``, coarse to fine, to extrapolate from."""
+        values = {
+            **variant.values(self.scene), 'mode': 'mass_spring', 'auto_substeps': True,
+            'dt': self.grid.frame}
+        scene = Scene(values)
+        frames = self.grid.times[-1] / self.grid.frame
+        work = sum(self.grid.reference_refine) * frames * choose_substeps(
+            Scene({**values, 'refine': 1})) * scene.node_count
+        fits = work <= self.grid.float64_node_steps and not scene['pin_moves.start']
+        return [
+            Run(_REFERENCE if fits else _TRAJECTORY, {**values, 'refine': refine}, self._times)
+            for refine in self.grid.reference_refine]
+
+    def cost(self, variant: Variant, settings: list[Setting]) -> Run:
+        """Return the run that measures the wall time of ``settings``, in turn."""
+        return Run(_COST, variant.values(self.scene), {
+            'settings': [setting.values for setting in settings],
+            'seconds': self.grid.times[-1], 'frame': self.grid.frame,
+            'rounds': self.grid.rounds})
+
+    @property
+    def _times(self) -> dict[str, object]:
+        return {'times': list(self.grid.times), 'frame': self.grid.frame}

@@ -10,12 +10,12 @@ import csv
 import json
 from pathlib import Path
 
-from cloth_sim_ros.study.trade.compared import Measured
+from cloth_sim_ros.study.trade.accuracy import distances
 from cloth_sim_ros.study.trade.front import front
-from cloth_sim_ros.study.trade.path import distances
-from cloth_sim_ros.study.trade.row import Row
-from cloth_sim_ros.study.trade.row import WORST_ERROR
-from cloth_sim_ros.study.trade.variant import Variant
+from cloth_sim_ros.study.trade.front import Row
+from cloth_sim_ros.study.trade.front import WORST_ERROR
+from cloth_sim_ros.study.trade.grid import Variant
+from cloth_sim_ros.study.trade.measured import Measured
 import numpy as np
 
 _SPEEDS = (0.1, 0.25, 0.5, 1.0, 2.0, 4.0, 8.0)

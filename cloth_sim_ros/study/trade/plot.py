@@ -6,10 +6,10 @@
 from collections.abc import Iterable
 from pathlib import Path
 
-from cloth_sim_ros.study.trade.compared import Measured
 from cloth_sim_ros.study.trade.front import front
-from cloth_sim_ros.study.trade.row import Row
-from cloth_sim_ros.study.trade.variant import Variant
+from cloth_sim_ros.study.trade.front import Row
+from cloth_sim_ros.study.trade.grid import Variant
+from cloth_sim_ros.study.trade.measured import Measured
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 import numpy as np

@@ -7,11 +7,11 @@ import json
 
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.study.results import LINES
-from cloth_sim_ros.study.trade.budget import ErrorBudget
-from cloth_sim_ros.study.trade.budget import SpeedBudget
+from cloth_sim_ros.study.trade.choice import ErrorBudget
+from cloth_sim_ros.study.trade.choice import SpeedBudget
+from cloth_sim_ros.study.trade.grid import Variant
 from cloth_sim_ros.study.trade.page import page
 from cloth_sim_ros.study.trade.page import write_table
-from cloth_sim_ros.study.trade.variant import Variant
 from made_study import small_study
 import numpy as np
 import pytest

@@ -1,15 +1,19 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-"""Simulate a scene and return where the cloth has been, with the work that takes."""
+"""One run of a study of the trade: a trajectory, a reference in float64, or a cost."""
 
+from collections.abc import Mapping
 from collections.abc import Sequence
 import time
 from typing import Any
 
+from cloth_sim_ros.gl.context import Context
+from cloth_sim_ros.reference.explicit_cloth import MassSpringReference
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.simulation import Simulation
+from cloth_sim_ros.sim.simulation import SINGLE_THREAD_NODES
 import numpy as np
 
 # Of the springs of the cloth in an iteration of each solver: the product, and the cycle.
@@ -85,3 +89,64 @@ def trajectory(
         'processor_seconds': processor / times[-1], **work.in_a_second(times[-1])}
     simulation.close()
     return result
+
+
+# The same springs in float64: the run that errors are measured against.
+
+
+def spring_reference(
+        scene: dict[str, Any], *, times: Sequence[float], frame: float) -> dict[str, Any]:
+    """
+    Return positions at ``times``, strain and energies at every ``frame``, as trajectory does.
+
+    The timed moves of pins are not made here.
+    """
+    cloth = MassSpringReference(Scene({**scene, 'dt': frame}))
+    positions, strains, energies = [], [], []
+    for number in range(1, round(times[-1] / frame) + 1):
+        cloth.step()
+        strains.append(float(cloth.node_strain().max()))
+        now = cloth.energies()
+        energies.append([now.kinetic, now.elastic, now.gravitational])
+        if any(abs(number * frame - moment) < 1e-6 for moment in times):
+            positions.append(cloth.positions.copy())
+    return {'device': 'NumPy, float64', 'positions': np.array(positions),
+            'strains': np.array(strains), 'energies': np.array(energies)}
+
+
+# How long settings take by the clock, measured in turn with nothing beside them.
+
+
+def cost(
+        scene: dict[str, Any], *, settings: Sequence[Mapping[str, Any]], seconds: float,
+        frame: float, rounds: int) -> dict[str, Any]:
+    """
+    Return the wall time of each setting in each round, in a simulated second.
+
+    :param settings: scene parameters of each; in a round each has its turn, from the start
+    :param seconds: simulated in a turn
+    :param frame: simulated in one call, after which the device is waited for [s]
+    """
+    context = Context(single_thread=Scene(scene).node_count < SINGLE_THREAD_NODES)
+    runs = [Simulation(Scene({**scene, **values}), context=context) for values in settings]
+    for run in runs:
+        # The first steps compile what the device puts off until then.
+        _wall_seconds(run, frame, 1)
+    wall = [
+        [_wall_seconds(run, frame, round(seconds / frame)) / seconds for run in runs]
+        for _ in range(rounds)]
+    result = {'device': context.device, 'wall_seconds': [list(own) for own in zip(*wall)]}
+    for run in runs:
+        run.close()
+    context.close()
+    return result
+
+
+def _wall_seconds(run: Simulation, frame: float, frames: int) -> float:
+    run.reset()
+    run.finish()
+    begin = time.perf_counter()
+    for _ in range(frames):
+        run.advance(frame)
+        run.finish()
+    return time.perf_counter() - begin
