@@ -27,7 +27,7 @@ from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.scene_fields import MODES
 from cloth_sim_ros.sim.simulation import Simulation
 from cloth_sim_ros.study.energy_account import EnergyAccount
-from cloth_sim_ros.study.extremity.nonsense import tells_of
+from cloth_sim_ros.study.extremes import tells_of
 import numpy as np
 
 _SECONDS = 3.0

@@ -21,8 +21,8 @@ from typing import Any
 
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.simulation import Simulation
-from cloth_sim_ros.study.modes.contenders import LIGHT_CLOTH
-from cloth_sim_ros.study.modes.stretch import edge_stretch
+from cloth_sim_ros.study.mode_runs import edge_stretch
+from cloth_sim_ros.study.mode_runs import LIGHT_CLOTH
 import numpy as np
 
 TIMES = (0.2, 0.4, 0.6, 0.8)

@@ -38,9 +38,9 @@ import statistics
 
 from cloth_sim_ros.files.errors import shown
 from cloth_sim_ros.study.contact_speed import measure_contact
-from cloth_sim_ros.study.modes.comparison import compare_modes
-from cloth_sim_ros.study.modes.contenders import CONTENDERS
-from cloth_sim_ros.study.modes.report import comparison_table
+from cloth_sim_ros.study.mode_comparison import compare_modes
+from cloth_sim_ros.study.mode_comparison import comparison_table
+from cloth_sim_ros.study.mode_runs import CONTENDERS
 from cloth_sim_ros.study.solver_speed import compare_solvers
 from cloth_sim_ros.study.solver_speed import SolverComparison
 from cloth_sim_ros.study.speed import compare_variants

@@ -11,7 +11,7 @@ from cloth_sim_ros.reference.edge_law import limited_law
 from cloth_sim_ros.reference.edge_law import spring_law
 from cloth_sim_ros.reference.implicit_cloth import ImplicitCloth
 from cloth_sim_ros.sim.scene import Scene
-from cloth_sim_ros.study.modes.contenders import LIGHT_CLOTH
+from cloth_sim_ros.study.mode_runs import LIGHT_CLOTH
 from force_tremor import SCENES
 import numpy as np
 import pytest

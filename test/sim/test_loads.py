@@ -13,7 +13,7 @@ from cloth_sim_ros.sim.push import Push
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.simulation import Simulation
 from cloth_sim_ros.sim.state import State
-from cloth_sim_ros.study.feature.pass_list import pass_list
+from cloth_sim_ros.study.feature_costs import pass_list
 import numpy as np
 import pytest
 from springs import SPRINGS

@@ -11,8 +11,8 @@ a line a scene and mode.
 
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.simulation import Simulation
-from cloth_sim_ros.study.extremity.run import run_extreme
-from cloth_sim_ros.study.extremity.scenes import EXTREMES
+from cloth_sim_ros.study.extreme_scenes import EXTREMES
+from cloth_sim_ros.study.extremes import run_extreme
 import numpy as np
 import pytest
 from springs import SPRINGS

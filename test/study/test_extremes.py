@@ -9,13 +9,13 @@ from cloth_sim_ros.gl.context import Context
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.simulation import Simulation
 from cloth_sim_ros.study.energy_account import EnergyAccount
+from cloth_sim_ros.study.extreme_scenes import Extreme
 from cloth_sim_ros.study.extremes import extreme_runs
-from cloth_sim_ros.study.extremity.extreme import Extreme
-from cloth_sim_ros.study.extremity.nonsense import message_nonsense
-from cloth_sim_ros.study.extremity.nonsense import nonsense_of
-from cloth_sim_ros.study.extremity.report import extreme_table
-from cloth_sim_ros.study.extremity.report import is_right
-from cloth_sim_ros.study.extremity.run import run_extreme
+from cloth_sim_ros.study.extremes import extreme_table
+from cloth_sim_ros.study.extremes import is_right
+from cloth_sim_ros.study.extremes import message_nonsense
+from cloth_sim_ros.study.extremes import nonsense_of
+from cloth_sim_ros.study.extremes import run_extreme
 from cloth_sim_ros.study.make_runs import perform
 import numpy as np
 import pytest

@@ -1,13 +1,15 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-"""Stretch is measured as it is defined."""
+"""The runs in which modes are compared: which settings compete, how they stretch and cost."""
 
 from cloth_sim_ros.sim.scene import Scene
-from cloth_sim_ros.study.modes.contenders import StretchBound
-from cloth_sim_ros.study.modes.stretch import edge_stretch
-from cloth_sim_ros.study.modes.stretch import Stretch
-from cloth_sim_ros.study.modes.stretch import stretch_of
+from cloth_sim_ros.study.mode_runs import edge_stretch
+from cloth_sim_ros.study.mode_runs import RunRecord
+from cloth_sim_ros.study.mode_runs import Stretch
+from cloth_sim_ros.study.mode_runs import stretch_of
+from cloth_sim_ros.study.mode_runs import StretchBound
+from made_snapshot import make_snapshot
 import numpy as np
 import pytest
 
@@ -75,3 +77,50 @@ def test_both_bounds_have_to_hold(peak, percentile, is_within):
     """A cloth that is stretched all over would be compared with one that is not."""
     stretch = Stretch(peak=peak, worst_frame_percentile=percentile, percentile=0.0)
     assert stretch.is_within(StretchBound(peak=0.02, percentile=0.012)) is is_within
+
+
+# Work and energy of a run are those of its snapshots.
+
+# 0.2 kg, 9.81 m/s2 and 0.5 m: M g L is 0.981 J.
+SCENE = Scene({'rows': 3, 'cols': 4, 'width': 2.0, 'height': 0.5, 'areal_density': 0.2})
+
+
+def energies(kinetic, elastic, gravitational):
+    """Return a snapshot with these energies [J]."""
+    return make_snapshot(
+        3, 4, kinetic_energy=kinetic, elastic_energy=elastic,
+        gravitational_energy=gravitational)
+
+
+def test_work_is_that_of_all_steps():
+    """A rate would be that of the last step, or of a step that a few solves made seem cheap."""
+    record = RunRecord(SCENE, make_snapshot(3, 4))
+    for substeps, solves, mean in ((3, 6, 10.0), (1, 2, 4.0)):
+        record.add_step(make_snapshot(
+            3, 4, dt=0.005, substeps=substeps, solves=solves, mean_iterations=mean))
+    assert record.substep_rate == pytest.approx(400.0)
+    assert record.solve_rate == pytest.approx(800.0)
+    assert record.iterations_per_solve == pytest.approx(68.0 / 8.0)
+
+
+def test_without_a_solver_there_are_no_iterations():
+    """A mode without a solver would seem to have one that needs none."""
+    record = RunRecord(SCENE, make_snapshot(3, 4))
+    record.add_step(make_snapshot(3, 4, dt=0.005, substeps=3))
+    assert (record.solve_rate, record.iterations_per_solve) == (0.0, None)
+
+
+def test_the_largest_rise_of_energy_counts():
+    """What was gained and lost again would not be told, or not over M g L."""
+    record = RunRecord(SCENE, energies(0.0, 0.0, 1.0))
+    for snapshot in (energies(0.3, 0.1, 0.5), energies(0.5, 0.2, 0.4981),
+                     energies(0.1, 0.1, 0.4)):
+        record.add_frame(snapshot)
+    assert record.energy_rise == pytest.approx(0.1981 / 0.981)
+
+
+def test_energy_that_only_falls_is_no_rise():
+    """Damping would be taken for a negative rise."""
+    record = RunRecord(SCENE, energies(0.0, 0.0, 1.0))
+    record.add_frame(energies(0.3, 0.1, 0.5))
+    assert record.energy_rise == 0.0

@@ -1,10 +1,12 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-"""The runs of the stability study: points of its maps, and edges found by bisection."""
+"""The runs of the stability study, points of its maps and edges by bisection, and its tables."""
 
+from collections import Counter
 from collections.abc import Callable
 from collections.abc import Mapping
+from collections.abc import Sequence
 from dataclasses import dataclass
 import math
 from typing import Any
@@ -14,19 +16,22 @@ from cloth_sim_ros.reference.edges import edges_of
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.modes import AVAILABLE
 from cloth_sim_ros.sim.scene import Scene
+from cloth_sim_ros.sim.scene_fields import MODES
 from cloth_sim_ros.sim.stability import any_shape_limit
 from cloth_sim_ros.sim.stability import spring_substeps
 from cloth_sim_ros.sim.stability import stability_limit
+from cloth_sim_ros.study.results import Result
 from cloth_sim_ros.study.scene_values import scaled_stiffness
-from cloth_sim_ros.study.stable.hanging_cloth import hang
-from cloth_sim_ros.study.stable.hanging_cloth import hanging_probe
-from cloth_sim_ros.study.stable.hanging_cloth import hanging_scene
-from cloth_sim_ros.study.stable.moving_probe import moving_probe
-from cloth_sim_ros.study.stable.probe_outcome import ProbeOutcome
-from cloth_sim_ros.study.stable.probe_outcome import REFUSED
-from cloth_sim_ros.study.stable.probe_outcome import STABLE
-from cloth_sim_ros.study.stable.rest_probe import rest_probe
-from cloth_sim_ros.study.stable.rest_probe import rest_scene
+from cloth_sim_ros.study.stability_probes import hang
+from cloth_sim_ros.study.stability_probes import hanging_probe
+from cloth_sim_ros.study.stability_probes import hanging_scene
+from cloth_sim_ros.study.stability_probes import moving_probe
+from cloth_sim_ros.study.stability_probes import ProbeOutcome
+from cloth_sim_ros.study.stability_probes import REFUSED
+from cloth_sim_ros.study.stability_probes import rest_probe
+from cloth_sim_ros.study.stability_probes import rest_scene
+from cloth_sim_ros.study.stability_probes import STABLE
+from cloth_sim_ros.study.stability_probes import UNSTABLE
 from cloth_sim_ros.study.workers import process_context
 import numpy as np
 from scipy import sparse
@@ -226,3 +231,59 @@ def _is_refused(values: Mapping[str, Any], dt: float) -> bool:
     except ClothSimError:
         return True
     return False
+
+
+# The tables of the stability study.
+
+PROBES = {'rest': 'at rest', 'hanging': 'hanging', 'moving': 'moving'}
+
+
+def edge_table(results: Sequence[Result]) -> str:
+    """Return the edges as a table in Markdown: predicted, measured, and their ratio."""
+    lines = [
+        '| mode | cloth | varied | value | predicted [s] | this lattice [s] | measured [s] '
+        '| measured / predicted |', '|---|---|---|---|---|---|---|---|']
+    for result in results:
+        settings, found = result.settings, result.values
+        start = (f'| {result.scene["mode"]} | {PROBES[settings["probe"]]} | {settings["vary"]} '
+                 f'| {settings["value"]:g} |')
+        if not result.is_done:
+            lines.append(f'{start} | | {result.outcome}: {result.reason} | |')
+            continue
+        lattice = f'{found["lattice"]:.4g}' if 'lattice' in found else ''
+        lines.append(
+            f'{start} {found["predicted"]:.4g} | {lattice} | '
+            + (f'{found["measured"]:.4g} | {found["ratio"]:.3f} |' if found['measured']
+               else f'stable at {found["stable"]:.4g} | |'))
+    return '\n'.join(lines) + '\n'
+
+
+def map_table(results: Sequence[Result]) -> str:
+    """Return how many points of each map are stable, unstable, refused."""
+    lines = ['| mode | steps | stable | unstable | refused |', '|---|---|---|---|---|']
+    for mode in MODES:
+        for forced in (True, False):
+            counts = Counter(
+                result.values['outcome'] if result.is_done else result.outcome
+                for result in points_of(results, mode, forced))
+            others = ', '.join(
+                f'{count} {name}' for name, count in counts.items()
+                if name not in (STABLE, UNSTABLE, REFUSED))
+            lines.append(
+                f'| {mode} | {steps_of(mode, forced)} | {counts[STABLE]} | {counts[UNSTABLE]} '
+                f'| {counts[REFUSED]} |'
+                + (f' {others}' if others else ''))
+    return '\n'.join(lines) + '\n'
+
+
+def steps_of(mode: str, forced: bool) -> str:
+    """Return how the steps of a map are made, and what its cloth does."""
+    if not forced:
+        return 'by default, moving'
+    return f'one step a dt, {"hanging" if AVAILABLE[mode].is_implicit else "at rest"}'
+
+
+def points_of(results: Sequence[Result], mode: str, forced: bool) -> list[Result]:
+    """Return the points of one map."""
+    return [result for result in results
+            if result.scene['mode'] == mode and result.settings['forced'] == forced]

@@ -4,8 +4,8 @@
 """Rest state and limit of a hanging cloth, against a chain worked out by hand."""
 
 from cloth_sim_ros.sim.scene import Scene
-from cloth_sim_ros.study.stable.hanging_cloth import hang
-from cloth_sim_ros.study.stable.hanging_cloth import hanging_scene
+from cloth_sim_ros.study.stability_probes import hang
+from cloth_sim_ros.study.stability_probes import hanging_scene
 import numpy as np
 import pytest
 

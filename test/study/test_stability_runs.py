@@ -9,14 +9,14 @@ from cloth_sim_ros.study.make_runs import make_runs
 from cloth_sim_ros.study.make_runs import perform
 from cloth_sim_ros.study.results import LINES
 from cloth_sim_ros.study.results import ResultsFolder
-from cloth_sim_ros.study.stable.figures import draw_edges
-from cloth_sim_ros.study.stable.figures import draw_maps
-from cloth_sim_ros.study.stable.plan import edges
-from cloth_sim_ros.study.stable.plan import map_points
-from cloth_sim_ros.study.stable.report import edge_table
-from cloth_sim_ros.study.stable.report import map_table
-from cloth_sim_ros.study.stable.runs import run_edge
-from cloth_sim_ros.study.stable.runs import run_point
+from cloth_sim_ros.study.stability import edges
+from cloth_sim_ros.study.stability import map_points
+from cloth_sim_ros.study.stability_figures import draw_edges
+from cloth_sim_ros.study.stability_figures import draw_maps
+from cloth_sim_ros.study.stability_runs import edge_table
+from cloth_sim_ros.study.stability_runs import map_table
+from cloth_sim_ros.study.stability_runs import run_edge
+from cloth_sim_ros.study.stability_runs import run_point
 from cloth_sim_ros.study.workers import Workers
 import numpy as np
 import pytest

@@ -3,14 +3,14 @@
 
 """Variants are timed in turn, and compared with the whole scene."""
 
-from cloth_sim_ros.study.feature.costs import ALL_OUTPUTS
-from cloth_sim_ros.study.feature.costs import compare_results
-from cloth_sim_ros.study.feature.costs import list_passes
-from cloth_sim_ros.study.feature.costs import NOTHING
-from cloth_sim_ros.study.feature.costs import time_variants
-from cloth_sim_ros.study.feature.costs import WHOLE
-from cloth_sim_ros.study.feature.features import OUTPUTS
-from cloth_sim_ros.study.feature.report import cost_table
+from cloth_sim_ros.study.cost import cost_table
+from cloth_sim_ros.study.feature_costs import ALL_OUTPUTS
+from cloth_sim_ros.study.feature_costs import compare_results
+from cloth_sim_ros.study.feature_costs import list_passes
+from cloth_sim_ros.study.feature_costs import NOTHING
+from cloth_sim_ros.study.feature_costs import OUTPUTS
+from cloth_sim_ros.study.feature_costs import time_variants
+from cloth_sim_ros.study.feature_costs import WHOLE
 import pytest
 from springs import SPRINGS
 

@@ -5,7 +5,7 @@
 
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.stability import stability_limit
-from cloth_sim_ros.study.stable.runs import lattice_limit
+from cloth_sim_ros.study.stability_runs import lattice_limit
 import numpy as np
 import pytest
 from springs import SPRINGS

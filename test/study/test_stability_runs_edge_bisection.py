@@ -3,7 +3,7 @@
 
 """An edge is found wherever it is, and said not to be there where it is not."""
 
-from cloth_sim_ros.study.stable.runs import bisect_edge
+from cloth_sim_ros.study.stability_runs import bisect_edge
 import numpy as np
 import pytest
 

@@ -8,14 +8,14 @@ import json
 from cloth_sim_ros.gl.context import Context
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.simulation import Simulation
-from cloth_sim_ros.study.modes.comparison import compare_modes
-from cloth_sim_ros.study.modes.comparison import growth_exponents
-from cloth_sim_ros.study.modes.comparison import ModeSpeed
-from cloth_sim_ros.study.modes.contenders import Contender
-from cloth_sim_ros.study.modes.contenders import CONTENDERS
-from cloth_sim_ros.study.modes.report import comparison_table
-from cloth_sim_ros.study.modes.stretch import edge_stretch
-from cloth_sim_ros.study.modes.stretch import stretch_of
+from cloth_sim_ros.study.mode_comparison import compare_modes
+from cloth_sim_ros.study.mode_comparison import comparison_table
+from cloth_sim_ros.study.mode_comparison import growth_exponents
+from cloth_sim_ros.study.mode_comparison import ModeSpeed
+from cloth_sim_ros.study.mode_runs import Contender
+from cloth_sim_ros.study.mode_runs import CONTENDERS
+from cloth_sim_ros.study.mode_runs import edge_stretch
+from cloth_sim_ros.study.mode_runs import stretch_of
 import numpy as np
 import pytest
 

@@ -7,13 +7,13 @@ from cloth_sim_ros.gl.context import Context
 from cloth_sim_ros.sim.modes import AVAILABLE
 from cloth_sim_ros.sim.modes.mass_spring import MassSpring
 from cloth_sim_ros.sim.scene import Scene
-from cloth_sim_ros.study.feature.features import has_feature
-from cloth_sim_ros.study.feature.features import SCENE_FEATURES
-from cloth_sim_ros.study.feature.features import without
-from cloth_sim_ros.study.feature.pass_list import modelled
-from cloth_sim_ros.study.feature.pass_list import pass_list
-from cloth_sim_ros.study.feature.pass_list import pass_table
-from cloth_sim_ros.study.feature.report import passes_report
+from cloth_sim_ros.study.cost import passes_report
+from cloth_sim_ros.study.feature_costs import has_feature
+from cloth_sim_ros.study.feature_costs import modelled
+from cloth_sim_ros.study.feature_costs import pass_list
+from cloth_sim_ros.study.feature_costs import pass_table
+from cloth_sim_ros.study.feature_costs import SCENE_FEATURES
+from cloth_sim_ros.study.feature_costs import without
 import pytest
 from springs import SPRINGS
 

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-"""A cloth that hangs from its top edge: at rest, and whether it stays in its plane."""
+"""Whether a cloth is stable at one dt: at rest, as it moves, and as it hangs."""
 
 from collections.abc import Mapping
 from contextlib import closing
@@ -12,25 +12,150 @@ from typing import Any
 from cloth_sim_ros.gl.context import Context
 from cloth_sim_ros.reference.edges import Edges
 from cloth_sim_ros.reference.edges import edges_of
+from cloth_sim_ros.sim.errors import ClothSimError
+from cloth_sim_ros.sim.errors import NonFiniteStateError
 from cloth_sim_ros.sim.scene import FAMILIES
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.simulation import Simulation
-from cloth_sim_ros.study.stable.probe_outcome import GROWN
-from cloth_sim_ros.study.stable.probe_outcome import grown
-from cloth_sim_ros.study.stable.probe_outcome import ProbeOutcome
+from cloth_sim_ros.study.energy_account import EnergyAccount
 import numpy as np
 from scipy import sparse
 from scipy.sparse.linalg import eigsh
 from scipy.sparse.linalg import splu
+
+STABLE = 'stable'
+UNSTABLE = 'unstable'
+REFUSED = 'refused'
+
+# Of the amplitude at the start. A wave that is stable at 0.999 of its limit reaches 22 times what
+# it begins with; at 1.001 of it, a wave grows by 1.09 in each step.
+GROWN = 30.0
+
+
+@dataclass(frozen=True)
+class ProbeOutcome:
+    """
+    The end of one run.
+
+    :param outcome: stable, unstable or refused
+    :param growth: largest amplitude over that at the start; infinite for what is not finite
+    :param substeps: of the last dt; 0 where the scene was refused
+    :param detail: why it was refused, or why the run stopped
+    """
+
+    outcome: str
+    growth: float = 0.0
+    substeps: int = 0
+    detail: str = ''
+
+    def as_dict(self) -> dict[str, object]:
+        """Return plain values for JSON, which has no infinity: None in its place."""
+        return {**vars(self), 'growth': self.growth if math.isfinite(self.growth) else None}
+
+
+def grown(growth: float, substeps: int, detail: str = '') -> ProbeOutcome:
+    """Return the outcome of a run whose amplitude has become ``growth`` times that at first."""
+    # Written so that what is no number is unstable.
+    return ProbeOutcome(STABLE if growth < GROWN else UNSTABLE, growth, substeps, detail)
+
+
+# Whether the flat cloth at rest stays at rest, with springs and one step a dt.
+
+# Small, so that springs answer in proportion; large beside what float32 rounds of a position.
+JITTER = 1e-3
+_REST_STEPS = 600
+_REST_LOOKS = 12
+
+
+def rest_scene(values: Mapping[str, Any]) -> dict[str, Any]:
+    """
+    Return the cloth of ``values`` alone: no gravity, no pins, no pushes, all its waves seeded.
+
+    It lies at the origin, where float32 has most digits.
+    """
+    alone = {name: value for name, value in values.items()
+             if not name.startswith(('pushes.', 'pin_moves.'))}
+    return {
+        **alone, 'gravity': [0.0, 0.0, 0.0], 'start.pose': 'horizontal', 'start.z': 0.0,
+        'start.jitter': JITTER, 'pins': ['none'], 'auto_substeps': False, 'substeps': 1}
+
+
+def rest_probe(
+        values: Mapping[str, Any], dt: float, *, context: Context | None = None) -> ProbeOutcome:
+    """
+    Step the cloth of ``values`` at rest by ``dt`` [s], beyond any check, and look at its growth.
+
+    The growth is the root of kinetic and elastic energy over those at the start. Below the limit
+    a conserved energy bounds it; above, the fastest wave grows without end.
+    """
+    scene = Scene({**rest_scene(values), 'dt': dt})
+    with closing(Simulation(
+            scene, context=context, check_stability=False, stop_at_non_finite=False)) as run:
+        begin = _energy(run)
+        growth = 1.0
+        for _ in range(_REST_LOOKS):
+            run.step(_REST_STEPS // _REST_LOOKS)
+            growth = max(growth, math.sqrt(_energy(run) / begin)) if begin else 0.0
+            if not growth < GROWN:
+                break
+        return grown(growth, run.substeps)
+
+
+def _energy(run: Simulation) -> float:
+    seen = run.measure()
+    return seen.kinetic_energy + seen.elastic_energy if seen.finite else math.inf
+
+
+# Whether a scene keeps its energy as it moves, in any mode, at one dt.
+
+# Of the most kinetic and elastic energy: gained from nothing, more than the scheme's own error.
+MOST_GAIN = 0.1
+_MOVING_LOOKS = 25
+
+
+def moving_probe(
+        values: Mapping[str, Any], dt: float, *, seconds: float, most_steps: int = 10**9,
+        check_stability: bool = True, context: Context | None = None) -> ProbeOutcome:
+    """
+    Run the scene of ``values`` with ``dt`` [s] and keep the books of its energy.
+
+    It is unstable when it stops at the last finite state, or gains more than a tenth of its most
+    kinetic and elastic energy from nothing. The growth is that share.
+
+    :param seconds: simulated, and at least one step
+    :param most_steps: after which the run ends in any case
+    :param check_stability: False takes a dt that would be refused
+    """
+    scene = Scene({**values, 'dt': dt})
+    steps = max(1, min(most_steps, math.ceil(seconds / dt - 1e-9)))
+    try:
+        run = Simulation(scene, context=context, check_stability=check_stability)
+    except ClothSimError as error:
+        return ProbeOutcome(REFUSED, detail=str(error))
+    with closing(run):
+        account = EnergyAccount(run)
+        looks = min(steps, _MOVING_LOOKS)
+        try:
+            for look in range(looks):
+                account.step((look + 1) * steps // looks - look * steps // looks)
+                if not account.gained <= MOST_GAIN:
+                    break
+        except NonFiniteStateError as error:
+            return ProbeOutcome(UNSTABLE, math.inf, run.substeps, str(error))
+        stable = account.gained <= MOST_GAIN
+        return ProbeOutcome(STABLE if stable else UNSTABLE, account.gained, run.substeps)
+
+
+# A cloth that hangs from its top edge: at rest, and whether it stays in its plane.
 
 _GRAVITY = 9.81
 # Of the stiffness of hard edges: what holds a cloth without shear, whose rows may slide.
 _HOLD = 1e-9
 _DENSE = 64
 # Of the spacing, out of the plane: edges get longer by its square only.
-_JITTER = 1e-5
-_STEPS = 200
-_LOOKS = 20
+_OFFSET = 1e-5
+_HANGING_STEPS = 200
+_HANGING_LOOKS = 20
 
 
 @dataclass(frozen=True)
@@ -129,14 +254,14 @@ def hanging_probe(
     scene = Scene({**hanging_scene(values), 'dt': dt})
     positions = hang(scene).positions.copy()
     offsets = np.random.default_rng(scene['start.seed']).uniform(
-        -_JITTER * min(scene.spacing), _JITTER * min(scene.spacing), positions.shape[:2])
+        -_OFFSET * min(scene.spacing), _OFFSET * min(scene.spacing), positions.shape[:2])
     positions[..., 1] += np.where(scene.pinned_nodes(), 0.0, offsets)
     with closing(Simulation(scene, context=context, stop_at_non_finite=False)) as run:
         run.set_state(positions, np.zeros_like(positions))
         begin = _rms(positions[..., 1])
         growth = 1.0
-        for _ in range(_LOOKS):
-            run.step(_STEPS // _LOOKS - 2)
+        for _ in range(_HANGING_LOOKS):
+            run.step(_HANGING_STEPS // _HANGING_LOOKS - 2)
             growth = max(growth, _alternating(run) / begin)
             if not growth < GROWN:
                 break
