@@ -18,7 +18,7 @@ from typing import Any
 from cloth_sim_ros.gl.context import Context
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.simulation import Simulation
-from cloth_sim_ros.study.timed_steps import time_steps
+from cloth_sim_ros.study.speed import time_steps
 
 MODES = ('mass_spring', 'adaptive')
 # A swinging cloth, held along one edge, that stays far from the default limit.

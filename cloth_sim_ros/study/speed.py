@@ -1,22 +1,38 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-"""How fast variants of a scene step, measured side by side on one device."""
+"""How fast variants of a scene step, side by side on one device; what colliders cost."""
 
 from collections.abc import Iterator
 from collections.abc import Mapping
 from collections.abc import Sequence
+from contextlib import closing
+from contextlib import ExitStack
 from dataclasses import asdict
 from dataclasses import dataclass
+import math
 import statistics
+import time
 from typing import Any
 
 from cloth_sim_ros.gl.context import Context
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.simulation import Simulation
+from cloth_sim_ros.sim.simulation import SINGLE_THREAD_NODES
 from cloth_sim_ros.sim.stability import SAFETY
 from cloth_sim_ros.sim.stability import stability_limit
-from cloth_sim_ros.study.timed_steps import time_steps
+
+
+def time_steps(run: Simulation, count: int) -> float:
+    """Make ``count`` steps of dt and return the wall time [s]."""
+    run.finish()
+    begin = time.perf_counter()
+    run.step(count)
+    run.finish()
+    return time.perf_counter() - begin
+
+
+# How fast variants of a scene step, measured side by side on one device.
 
 _STEPS_BEFORE = 2
 
@@ -107,3 +123,98 @@ def _steps_for(run: Simulation, seconds: float) -> int:
     # The first steps compile what the device puts off until then.
     time_steps(run, _STEPS_BEFORE)
     return max(1, round(_STEPS_BEFORE * seconds / time_steps(run, _STEPS_BEFORE)))
+
+
+# What colliders cost: a cloth dropped over a sphere, the same without it, and among twenty.
+
+# All variants take turns after so much simulated time [s].
+_TURN = 0.02
+_SPHERE = {'shape': 'sphere', 'size': [0.15], 'friction': 0.3}
+# Bodies beside the sphere that the cloth never comes near to.
+_OTHERS = 19
+
+
+@dataclass(frozen=True)
+class ContactSpeed:
+    """
+    Wall time of one mode.
+
+    :param seconds: wall time of a simulated second in each round, by variant [s]
+    :param ratios: of each variant to the one without colliders in each round
+    """
+
+    mode: str
+    nodes: int
+    device: str
+    seconds: dict[str, list[float]]
+    ratios: dict[str, list[float]]
+
+    def as_dict(self) -> dict[str, Any]:
+        """Return it for JSON."""
+        return asdict(self)
+
+    def in_words(self) -> str:
+        """Return lines for people."""
+        lines = [f'{self.mode}, {self.nodes} x {self.nodes} on {self.device}']
+        for variant, rounds in self.seconds.items():
+            ratios = self.ratios[variant]
+            lines.append(
+                f'  {variant:22}{statistics.median(rounds):7.2f} s for a simulated second, '
+                f'{statistics.median(ratios):5.2f} x ({min(ratios):.2f} to {max(ratios):.2f})')
+        return '\n'.join(lines)
+
+
+def variants(mode: str, nodes: int) -> dict[str, Scene]:
+    """Return the scenes that are compared, by name; the first is without colliders."""
+    cloth: dict[str, Any] = {
+        'mode': mode, 'rows': nodes, 'cols': nodes, 'width': 1.0, 'height': 1.0,
+        'areal_density': 0.15, 'material.preset': 'none', 'start.pose': 'horizontal',
+        'start.z': 0.2, 'pins': ['none'], 'dt': 0.005}
+    places: dict[str, Sequence[float]] = {'ball': (0.0, 0.0, 0.0), **{
+        f'other_{number}': (
+            5.0 * math.cos(number), 5.0 * math.sin(number), 0.0) for number in range(_OTHERS)}}
+    return {
+        'no collider': Scene(cloth), 'a sphere': Scene({**cloth, **_spheres(places, 1)}),
+        f'{_OTHERS + 1} spheres': Scene({**cloth, **_spheres(places, None)})}
+
+
+def measure_contact(
+        mode: str, nodes: int, *, seconds: float = 1.0, rounds: int = 3) -> ContactSpeed:
+    """Run the variants in turns from the drop on, ``rounds`` times."""
+    scenes = variants(mode, nodes)
+    walls: dict[str, list[float]] = {name: [] for name in scenes}
+    with closing(Context(single_thread=nodes * nodes < SINGLE_THREAD_NODES)) as context:
+        for _ in range(rounds):
+            for name, wall in _round(scenes, context, seconds).items():
+                walls[name].append(wall / seconds)
+        device = context.device
+    first = next(iter(walls.values()))
+    return ContactSpeed(mode, nodes, device, walls, {
+        name: [wall / without for wall, without in zip(rounds_of, first)]
+        for name, rounds_of in walls.items()})
+
+
+def _round(scenes: dict[str, Scene], context: Context, seconds: float) -> dict[str, float]:
+    walls = dict.fromkeys(scenes, 0.0)
+    with ExitStack() as stack:
+        runs = {
+            name: stack.enter_context(Simulation(scene, context=context))
+            for name, scene in scenes.items()}
+        for run in runs.values():
+            run.warm_up()
+            run.finish()
+        for _ in range(round(seconds / _TURN)):
+            for name, run in runs.items():
+                begin = time.perf_counter()
+                run.advance(_TURN)
+                run.finish()
+                walls[name] += time.perf_counter() - begin
+    return walls
+
+
+def _spheres(places: dict[str, Sequence[float]], count: int | None) -> dict[str, Any]:
+    names = list(places)[:count]
+    return {
+        'colliders.names': names,
+        **{f'colliders.{name}.{part}': value for name in names
+           for part, value in {**_SPHERE, 'position': list(places[name])}.items()}}

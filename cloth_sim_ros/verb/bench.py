@@ -37,7 +37,6 @@ import json
 import statistics
 
 from cloth_sim_ros.files.errors import shown
-from cloth_sim_ros.study.contact_speed import measure_contact
 from cloth_sim_ros.study.mode_comparison import compare_modes
 from cloth_sim_ros.study.mode_comparison import comparison_table
 from cloth_sim_ros.study.mode_runs import CONTENDERS
@@ -45,7 +44,8 @@ from cloth_sim_ros.study.solver_speed import compare_solvers
 from cloth_sim_ros.study.solver_speed import SolverComparison
 from cloth_sim_ros.study.speed import compare_variants
 from cloth_sim_ros.study.speed import Comparison
-from cloth_sim_ros.study.timed_solver import BASELINES
+from cloth_sim_ros.study.speed import measure_contact
+from cloth_sim_ros.study.timed_solvers import BASELINES
 from cloth_sim_ros.verb.scene_arguments import parse_change
 from tqdm import tqdm
 

@@ -17,7 +17,7 @@ from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.scene_program import scene_defines
 from cloth_sim_ros.sim.solver.solver_buffers import Levels
 from cloth_sim_ros.sim.solver.solver_programs import solver_defines
-from cloth_sim_ros.study.paper_solver import paper_solver_defines
+from cloth_sim_ros.study.timed_solvers import paper_solver_defines
 import pytest
 from springs import SPRINGS
 

@@ -4,8 +4,8 @@
 """Random scenes with colliders: no node inside, no energy from nothing, the same bits twice."""
 
 from body_distance import distance_to
-from cloth_sim_ros.study.contact_work import compression_energy
-from cloth_sim_ros.study.contact_work import contact_work
+from cloth_sim_ros.study.energy_account import compression_energy
+from cloth_sim_ros.study.energy_account import contact_work
 import numpy as np
 import pytest
 

@@ -6,7 +6,7 @@
 from collections.abc import Callable
 
 from cloth_sim_ros.sim.solver.edge_law import BETA
-from cloth_sim_ros.study.draped_cloth import draped_states
+from cloth_sim_ros.study.solver_speed import draped_states
 from implicit_system import relative_error
 import numpy as np
 import pytest

@@ -9,9 +9,9 @@ from collections.abc import Iterator
 from cloth_sim_ros.gl.context import Context
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.solver.edge_law import hard_edges
-from cloth_sim_ros.study.draped_cloth import draped_states
-from cloth_sim_ros.study.draped_cloth import unit_scene
-from cloth_sim_ros.study.paper_solver import PaperSolver
+from cloth_sim_ros.study.solver_speed import draped_states
+from cloth_sim_ros.study.solver_speed import unit_scene
+from cloth_sim_ros.study.timed_solvers import PaperSolver
 from implicit_system import ImplicitSystem
 from implicit_system import relative_error
 import numpy as np
