@@ -10,6 +10,7 @@ from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.simulation import Simulation
 import numpy as np
 import pytest
+from springs import SPRINGS
 
 DT = 0.001
 BATCH = 50_000
@@ -19,7 +20,7 @@ BATCH = 50_000
 def test_time_and_conserved_quantities_stay(steps):
     """Time would drift from steps times dt, stamps stand still, or rounding add up to motion."""
     scene = Scene({
-        'rows': 2, 'cols': 3, 'width': 1.0, 'height': 0.5, 'dt': DT, 'pins': ['none'],
+        **SPRINGS, 'rows': 2, 'cols': 3, 'width': 1.0, 'height': 0.5, 'dt': DT, 'pins': ['none'],
         'gravity': [0.0, 0.0, 0.0], 'damping.structural': 0.0, 'damping.shear': 0.0,
         'damping.bend': 0.0, 'start.jitter': 0.2, 'start.seed': 4})
     simulation = Simulation(scene)

@@ -7,12 +7,14 @@ from contextlib import closing
 
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.simulation import Simulation
+from springs import SPRINGS
 
 
 def test_friction_of_what_slides_is_found_in_few_solves(context):
     """Nodes that slide on would be taken to stick in each substep, and be found out by solves."""
     scene = Scene({
-        'mode': 'constraint', 'rows': 16, 'cols': 16, 'areal_density': 0.15, 'pins': ['none'],
+        **SPRINGS, 'mode': 'constraint', 'rows': 16, 'cols': 16, 'areal_density': 0.15,
+        'pins': ['none'],
         'start.pose': 'horizontal', 'start.z': 0.2, 'colliders.names': ['ball'],
         'colliders.ball.shape': 'sphere', 'colliders.ball.size': [0.15],
         'colliders.ball.friction': 0.3})
