@@ -80,7 +80,7 @@ def _springs_of(
         raise ClothSimError(
             f'material.shear {shear:g} needs diagonals that are stiffer along the cloth than its '
             f'material, in cells of {spacing[0]:g} x {spacing[1]:g} m: take at most '
-            f'{largest:.3g}, or cells that are nearer to squares')
+            f'{largest:.3g}, cells that are nearer to squares, or springs (material.preset: none)')
     return {
         'structural': (left[WARP] / ratio, left[WEFT] * ratio),
         'shear': shear * 0.5 * (ratio + 1.0 / ratio)}

@@ -79,7 +79,7 @@ def test_a_scene_made_again_is_the_same():
      'material.weft 60 stands without material.warp: give that too, in N/m'),
     ({**MATERIAL, 'rows': 11, 'cols': 11, 'width': 3.0},
      'material.shear 20 needs diagonals that are stiffer along the cloth than its material, in '
-     'cells of 0.3 x 0.1 m: take at most 10, or cells that are nearer to squares'),
+     'cells of 0.3 x 0.1 m: take at most 10, cells that are nearer to squares, or springs'),
     ({'stiffness.structural': [1.0, 2.0, 3.0]},
      'stiffness.structural takes one value, or one for warp and one for weft, got 3: write a '
      'number or [warp, weft]'),
