@@ -186,7 +186,8 @@ void rub(inout Hold hold, Contact contact, vec3 v, vec3 x, vec3 reaction, int wa
     float most = most_friction();
     float speed = length(slid);
     float share = -dot(done, slid) / max(most * speed, 1e-30);
-    bool is_near = is_fast(speed) && share > NEARLY && share * NEARLY < 1.0;
+    // A step of Newton's method that ends the substep could drive a node.
+    bool is_near = !ends_turns && is_fast(speed) && share > NEARLY && share * NEARLY < 1.0;
     bool slides = contact.kind != STICKS;
     bool sticks_again = was > STICKS && !slides && turns > 0.0;
     if (was_grip > 0.0 || sticks_again || slides && (ends_turns || is_near)) {
