@@ -3,6 +3,8 @@
 
 """What is done to a running cloth from outside, and who is told of it."""
 
+from abc import ABC
+from abc import abstractmethod
 from collections.abc import Sequence
 from contextlib import AbstractContextManager
 
@@ -95,7 +97,7 @@ def usual_reach(scene: Scene) -> float:
     return max(USUAL_REACH, dx if scene.cols > 1 else 0.0, dy if scene.rows > 1 else 0.0)
 
 
-class Handling(RunStatus):
+class Handling(RunStatus, ABC):
     """
     The part of a Simulation that takes requests.
 
@@ -110,14 +112,14 @@ class Handling(RunStatus):
     _grasps: GraspRequests
     _held: Grasps
 
-    # Simulation has both: what is asked of a cloth depends on where it is.
+    # What is asked of a cloth depends on where it is.
+    @abstractmethod
     def positions(self) -> np.ndarray:
         """Return all positions [m], (rows, cols, 3) float32."""
-        raise NotImplementedError
 
+    @abstractmethod
     def _settled_state(self) -> AbstractContextManager[None]:
         """Return what has the state of the end of a step in place of one within it."""
-        raise NotImplementedError
 
     @property
     def pushes(self) -> tuple[AppliedPush, ...]:

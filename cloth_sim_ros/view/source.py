@@ -61,6 +61,7 @@ class Source(ABC):
     def close(self) -> None:
         """Give everything back."""
 
+    # A page asks for these only where `span`, `modes` and `can_act` say that the source has them.
     def go_to(self, time: float) -> None:
         """Show the moment at ``time`` [s], and stay there."""
         raise NotImplementedError

@@ -5,7 +5,6 @@
 
 import math
 
-from cloth_sim_ros.gl.context import Context
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.layout import choose_layout
 from cloth_sim_ros.sim.loads import Loads
@@ -23,14 +22,6 @@ AIR = {**SMALL, 'air.density': 1.225, 'air.wind': [2.0, 0.0, 1.0]}
 # Set, and without effect where there is no air.
 UNUSED = {**SMALL, 'air.drag': 2.0, 'air.friction': 0.5, 'air.wind': [5.0, 0.0, 0.0],
           'gusts.start': [0.0], 'gusts.duration': [1.0], 'gusts.wind': [1.0, 2.0, 3.0]}
-
-
-@pytest.fixture
-def context():
-    """Return a context, which ends with the test."""
-    context = Context(single_thread=True)
-    yield context
-    context.close()
 
 
 @pytest.fixture

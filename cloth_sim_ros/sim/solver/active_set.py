@@ -247,7 +247,6 @@ class SolverContacts:
         """
         program = self._use('BEGIN', forcing, length, kick)
         program.set_float('guess', guess)
-        program.set_float('most_unsolved', self._most_unsolved)
         self._run(program, state)
 
     def hold(self) -> None:
@@ -262,7 +261,6 @@ class SolverContacts:
             self._react.run()
         touch_of(forcing).begin_decision()
         program = self._use('END' if is_last else 'AGAIN', forcing, length, length)
-        program.set_float('most_unsolved', self._most_unsolved)
         program.set_int('ends_turns', int(ends_turns))
         self._run(program, state)
 
@@ -274,6 +272,7 @@ class SolverContacts:
     def _use(self, stage: str, forcing: Forcing, length: float, kick: float) -> Program:
         program = self._decide[stage].use_for_step(forcing, length, kick)
         self._programs.set_sizes(program)
+        program.set_float('most_unsolved', self._most_unsolved)
         touch_of(forcing).set_in(program, length)
         return program
 

@@ -14,10 +14,9 @@ def test_friction_of_what_slides_is_found_in_few_solves(context):
     """Nodes that slide on would be taken to stick in each substep, and be found out by solves."""
     scene = Scene({
         **SPRINGS, 'mode': 'constraint', 'rows': 16, 'cols': 16, 'areal_density': 0.15,
-        'pins': ['none'],
-        'start.pose': 'horizontal', 'start.z': 0.2, 'colliders.names': ['ball'],
-        'colliders.ball.shape': 'sphere', 'colliders.ball.size': [0.15],
-        'colliders.ball.friction': 0.3})
+        'pins': ['none'], 'start.pose': 'horizontal', 'start.z': 0.2,
+        'colliders.names': ['ball'], 'colliders.ball.shape': 'sphere',
+        'colliders.ball.size': [0.15], 'colliders.ball.friction': 0.3})
     substeps = solves = sliding = 0
     with closing(Simulation(scene, context=context)) as simulation:
         simulation.advance(0.15)
