@@ -120,10 +120,10 @@ void main() {
             int index = node_index(first.y + row - HALO, first.x + col - HALO);
             vec4 v = load_velocity(index);
             v.xyz = next_velocity(v, force[row][col], applied_acceleration(index));
-            velocity_out[index] = v;
+            // Both w stand in every pair of buffers; software devices store number by number.
+            velocity_out[index].xyz = v.xyz;
 #if STRAIN_LIMIT == NO_LIMIT
-            position_out[index] =
-                vec4(next_position(position[row][col].xyz, v.xyz), position[row][col].w);
+            position_out[index].xyz = next_position(position[row][col].xyz, v.xyz);
 #endif
         }
     }

@@ -3,6 +3,9 @@
 
 """A buffer on the device, read by shaders as storage or through a texture."""
 
+from collections.abc import Iterable
+from collections.abc import Sequence
+
 from cloth_sim_ros.gl.context import loss_noticed
 from cloth_sim_ros.gl.context import refuse_lost_context
 from cloth_sim_ros.gl.inventory import drop_buffer
@@ -14,6 +17,7 @@ from cloth_sim_ros.gl.quick_calls import bind_buffer_base
 from cloth_sim_ros.gl.quick_calls import bind_texture
 from cloth_sim_ros.gl.quick_calls import Call
 from cloth_sim_ros.gl.quick_calls import memory_barrier
+from cloth_sim_ros.gl.quick_calls import multi_bind
 from cloth_sim_ros.gl.quick_calls import read_buffer
 from cloth_sim_ros.gl.quick_calls import write_buffer
 import numpy as np
@@ -43,42 +47,47 @@ class Buffer:
         """Allocate the memory and fill it."""
         self.bytes = data if isinstance(data, int) else data.nbytes
         content = None if isinstance(data, int) else np.ascontiguousarray(data)
-        self._buffer = int(GL.glGenBuffers(1))
+        self.name = int(GL.glGenBuffers(1))
         self._texture: int | None = None
-        GL.glBindBuffer(GL.GL_SHADER_STORAGE_BUFFER, self._buffer)
+        GL.glBindBuffer(GL.GL_SHADER_STORAGE_BUFFER, self.name)
         GL.glBufferData(
             GL.GL_SHADER_STORAGE_BUFFER, self.bytes, content, GL.GL_DYNAMIC_COPY)
         note_buffer(self)
 
     def bind_storage(self, binding: int) -> None:
         """Let shaders reach it as the storage block ``binding``."""
-        bind_buffer_base(_STORAGE, binding, self._buffer)
+        bind_buffer_base(_STORAGE, binding, self.name)
 
-    def bind_texture(self, unit: int) -> None:
-        """Let shaders read it, four floats a texel, as the samplerBuffer of ``unit``."""
+    def bind_texture(self, unit: int) -> int:
+        """
+        Let shaders read it, four floats a texel, as the samplerBuffer of ``unit``.
+
+        :return: the name of its texture
+        """
         activate_texture(_FIRST_UNIT + unit)
         if self._texture is None:
             self._texture = int(GL.glGenTextures(1))
             GL.glBindTexture(GL.GL_TEXTURE_BUFFER, self._texture)
-            GL.glTexBuffer(GL.GL_TEXTURE_BUFFER, GL.GL_RGBA32F, self._buffer)
+            GL.glTexBuffer(GL.GL_TEXTURE_BUFFER, GL.GL_RGBA32F, self.name)
         else:
             bind_texture(_TEXTURE_BUFFER, self._texture)
+        return self._texture
 
     def bind_dispatches(self) -> None:
         """Let indirect dispatches take their workgroups from it."""
-        bind_buffer(_DISPATCHES, self._buffer)
+        bind_buffer(_DISPATCHES, self.name)
 
     def write(self, data: np.ndarray, offset: int = 0) -> None:
         """Overwrite the bytes from ``offset`` on with ``data``."""
         content = np.ascontiguousarray(data)
-        bind_buffer(_STORAGE, self._buffer)
+        bind_buffer(_STORAGE, self.name)
         write_buffer(_STORAGE, offset, content.nbytes, content.ctypes.data)
         refuse_lost_context()
 
     def clear(self) -> None:
         """Make all of it zero."""
         with loss_noticed():
-            GL.glBindBuffer(GL.GL_SHADER_STORAGE_BUFFER, self._buffer)
+            GL.glBindBuffer(GL.GL_SHADER_STORAGE_BUFFER, self.name)
             GL.glClearBufferData(
                 GL.GL_SHADER_STORAGE_BUFFER, GL.GL_R32UI, GL.GL_RED_INTEGER, GL.GL_UNSIGNED_INT,
                 None)
@@ -86,7 +95,7 @@ class Buffer:
     def read_into(self, target: np.ndarray, offset: int = 0) -> None:
         """Fill ``target`` (contiguous) with the bytes from ``offset`` on."""
         memory_barrier(_READS)
-        bind_buffer(_STORAGE, self._buffer)
+        bind_buffer(_STORAGE, self.name)
         read_buffer(_STORAGE, offset, target.nbytes, target.ctypes.data)
         refuse_lost_context()
 
@@ -94,8 +103,47 @@ class Buffer:
         """Give the memory back."""
         if self._texture is not None:
             GL.glDeleteTextures(1, [self._texture])
-        GL.glDeleteBuffers(1, [self._buffer])
+        GL.glDeleteBuffers(1, [self.name])
         drop_buffer(self)
+
+
+class BufferRow:
+    """
+    Buffers that stand in a row of bindings, bound in one call where the driver has it (GL 4.4).
+
+    :param buffers: in the order of their bindings
+    """
+
+    def __init__(self, buffers: Iterable[Buffer]) -> None:
+        """Remember them; nothing is bound."""
+        self._buffers = tuple(buffers)
+        self._calls = multi_bind()
+        self._names = _Names([buffer.name for buffer in self._buffers])
+        self._textures: _Names | None = None
+
+    def bind_storage(self, first: int) -> None:
+        """Let shaders reach them as the storage blocks from ``first`` on."""
+        if self._calls is None:
+            for binding, buffer in enumerate(self._buffers, first):
+                buffer.bind_storage(binding)
+        else:
+            self._calls.bind_buffers(
+                _STORAGE, first, len(self._buffers), self._names.address)
+
+    def bind_textures(self, first: int) -> None:
+        """Let shaders read them as the samplerBuffers of the units from ``first`` on."""
+        if self._calls is None or self._textures is None:
+            self._textures = _Names(
+                [buffer.bind_texture(unit) for unit, buffer in enumerate(self._buffers, first)])
+        else:
+            self._calls.bind_textures(first, len(self._buffers), self._textures.address)
+
+
+class _Names:
+    # As the driver reads them. An address asked for each time would take longer than the call.
+    def __init__(self, names: Sequence[int]) -> None:
+        self._values = np.array(names, dtype=np.uint32)
+        self.address: int = self._values.ctypes.data
 
 
 def most_bytes() -> int:

@@ -166,7 +166,7 @@ class Program(LinkedProgram):
 
     def dispatch(self, groups_x: int, groups_y: int = 1) -> None:
         """Run the program in use on ``groups_x`` x ``groups_y`` workgroups."""
-        if max(groups_x, groups_y) > _MOST_GROUPS:
+        if groups_x > _MOST_GROUPS or groups_y > _MOST_GROUPS:
             raise ShaderError(
                 f'{self.name} needs {groups_x} x {groups_y} workgroups, at most {_MOST_GROUPS} '
                 'are allowed per side: use fewer nodes')

@@ -11,7 +11,10 @@ shows in the next call that is looked at.
 
 from collections.abc import Callable
 from ctypes import c_size_t
+from functools import cache
+from typing import NamedTuple
 
+from cloth_sim_ros.gl.libraries import GL
 from cloth_sim_ros.gl.libraries import PLATFORM
 from OpenGL.raw.GL import _types as gl_type
 
@@ -38,3 +41,25 @@ write_buffer = _quick(
     'glBufferSubData', gl_type.GLenum, gl_type.GLintptr, gl_type.GLsizeiptr, c_size_t)
 activate_texture = _quick('glActiveTexture', gl_type.GLenum)
 bind_texture = _quick('glBindTexture', gl_type.GLenum, gl_type.GLuint)
+
+
+class MultiBind(NamedTuple):
+    """
+    The calls of GL 4.4 that bind many objects to successive places, by the address of their names.
+
+    :param bind_buffers: to blocks, of a target
+    :param bind_textures: to units, each to its own target
+    """
+
+    bind_buffers: Callable[..., None]
+    bind_textures: Callable[..., None]
+
+
+@cache
+def multi_bind() -> MultiBind | None:
+    """Return those calls; None where the driver of the context that is current lacks them."""
+    if not (GL.glBindBuffersBase and GL.glBindTextures):
+        return None
+    return MultiBind(
+        _quick('glBindBuffersBase', gl_type.GLenum, gl_type.GLuint, gl_type.GLsizei, c_size_t),
+        _quick('glBindTextures', gl_type.GLuint, gl_type.GLsizei, c_size_t))

@@ -76,6 +76,11 @@ class Grasps:
             replace(grasp, pose=self._paths.pose(name, now))
             for name, grasp in self._held.items())
 
+    @property
+    def can_be_lost(self) -> bool:
+        """Tell whether one of them holds no more than a force."""
+        return any(grasp.max_force for grasp in self._held.values())
+
     def under_way(self, now: float) -> tuple[FramePath, ...]:
         """Return the paths of those that move."""
         return self._paths.under_way(now)

@@ -16,7 +16,7 @@ from cloth_sim_ros.sim.layout import Layout
 from cloth_sim_ros.sim.loads import Loads
 from cloth_sim_ros.sim.modes.mode import finish
 from cloth_sim_ros.sim.modes.mode import Mode
-from cloth_sim_ros.sim.modes.mode import Pieces
+from cloth_sim_ros.sim.modes.mode import Steps
 from cloth_sim_ros.sim.observer import Observer
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.scene_program import SceneProgram
@@ -28,6 +28,8 @@ import numpy as np
 
 # Of the shortest spacing: a node that moves further in a substep has left what its springs know.
 _FAR = 0.5
+# Makes up to so many steps, from the one of a number on.
+StepsFrom = Callable[[int, int], Steps]
 # A strain that no cloth was laid out for.
 _OVERSTRETCHED = 10.0
 
@@ -170,7 +172,7 @@ class GuardedSteps:
         self.check = BoundsCheck(scene, layout)
 
     def make(
-            self, first: int, count: int, step: Callable[[int], Pieces], mode: Mode,
+            self, first: int, count: int, step: StepsFrom, mode: Mode,
             loads: Loads, others: Sequence[Restorable] = (), *,
             is_due: Callable[[], bool] = _never,
             settle: Callable[[int], None] = _nothing) -> Generator[None, None, None]:
@@ -181,7 +183,7 @@ class GuardedSteps:
         Meanwhile the state may be looked at as it was kept. Closed there, it goes back to that.
 
         :param first: number of the first step, counted from 0 at the start of the run
-        :param step: makes the step of a number, by ``mode``
+        :param step: makes some steps from that of a number on, by ``mode``; returns how many
         :param loads: those that ``step`` uses
         :param others: what else ``step`` changes
         :param settle: called with the number of steps made, when they have passed a check
@@ -189,22 +191,26 @@ class GuardedSteps:
         """
         parts: tuple[Restorable, ...] = (self._state, loads, *others)
         kept = _keep(parts)
-        since, substeps = first, 0
-        for number in range(first, first + count):
+        since = number = first
+        substeps = 0
+        while number < first + count:
+            most = -(-(_MOST_SUBSTEPS - substeps) // mode.substeps)
             try:
-                yield from _in_pieces(step(number), is_due)
+                made = yield from _in_pieces(
+                    step(number, min(most, first + count - number)), is_due)
             except BaseException:
                 # Closed, interrupted, or the device has failed: no half step is left behind.
                 _go_back(parts, kept, mode)
                 raise
-            substeps += mode.substeps
-            ends = number == first + count - 1 or is_due()
-            if not ends and (not self._guarded or substeps < _MOST_SUBSTEPS):
+            number += made
+            substeps += made * mode.substeps
+            ends = number == first + count or is_due()
+            if not ends and substeps < _MOST_SUBSTEPS:
                 continue
             if self._guarded and not self.check.passes(self._state):
                 _go_back(parts, kept, mode)
-                self._step_to_the_last_finite(since, number + 1, step, mode, loads, parts)
-            since, substeps = number + 1, 0
+                self._step_to_the_last_finite(since, number, step, mode, loads, parts)
+            since, substeps = number, 0
             settle(since)
             if ends:
                 return
@@ -215,11 +221,11 @@ class GuardedSteps:
         self.check.delete()
 
     def _step_to_the_last_finite(
-            self, begin: int, end: int, step: Callable[[int], Pieces], mode: Mode,
+            self, begin: int, end: int, step: StepsFrom, mode: Mode,
             loads: Loads, parts: Sequence[Restorable]) -> NoReturn:
         for number in range(begin, end):
             kept = _keep(parts)
-            finish(step(number))
+            finish(step(number, 1))
             if self.check.passes(self._state):
                 continue
             time, substeps = number * self._dt, mode.substeps
@@ -240,14 +246,14 @@ class GuardedSteps:
         return self._observer.record(self._state, Forcing(self._scene['gravity']), None)[1]
 
 
-def _in_pieces(pieces: Pieces, is_due: Callable[[], bool]) -> Generator[None, None, None]:
-    """Do the work, and yield between pieces when that is due."""
+def _in_pieces(pieces: Steps, is_due: Callable[[], bool]) -> Generator[None, None, int]:
+    """Do the work, and yield between pieces when that is due; return what the work returns."""
     waited = None
     while True:
         try:
             pieces.send(waited)
-        except StopIteration:
-            return
+        except StopIteration as end:
+            return int(end.value)
         waited = is_due()
         if waited:
             yield

@@ -131,6 +131,14 @@ class Loads:
         parts = (self.pushes, self.air, self.contacts)
         return min(part.quiet_until(now) for part in parts if part is not None)
 
+    def still_until(self, now: float) -> float:
+        """Return until when gravity alone acts: ``now`` [s] itself where more does."""
+        return now if self.air is not None else self.same_until(now)
+
+    def same_until(self, now: float) -> float:
+        """Return until when ``forcing`` is that of ``now`` [s], and touches nothing."""
+        return now if self.contacts is not None else self.quiet_until(now)
+
     def speed_gained(self, begin: float, end: float) -> float:
         """Return by how much loads other than gravity make a node faster at most [m/s]."""
         pushed = self.pushes.speed_gained(begin, end)

@@ -5,6 +5,7 @@
 
 from collections.abc import Collection
 from collections.abc import Sequence
+import math
 
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.pins import check_node
@@ -123,6 +124,17 @@ class PinMotion:
     def leave_out_before(self, now: float) -> None:
         """Drop the timed moves that would have begun before ``now`` [s]."""
         self._waiting = [move for move in self._waiting if move.start >= now]
+
+    def rests_until(self, now: float) -> float:
+        """Return until when no pin moves: ``now`` [s] itself where one does, or infinite."""
+        if self._paths:
+            return now
+        return max(self._waiting[0].start, now) if self._waiting else math.inf
+
+    def rest(self) -> None:
+        """Note that no pin has moved in the last step, nor in the one before."""
+        self._latest = self._earlier = {}
+        self._stalled = 0
 
     def begin_step(self, begin: float, end: float, too_hard: Collection[Node] = ()) -> None:
         """

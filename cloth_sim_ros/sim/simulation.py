@@ -46,6 +46,8 @@ import numpy as np
 
 # Below this many nodes llvmpipe is faster without its worker threads (docs/notes/performance.md).
 SINGLE_THREAD_NODES = 128 * 128
+# Of a step: what is short of it by less is a whole one.
+_ROUNDING = 1e-6
 _NONE_MOVED: Mapping[str, Pose] = {}
 
 
@@ -133,7 +135,7 @@ class Simulation(Handling, AbstractContextManager['Simulation']):
 
         def make_steps(first: int, count: int) -> Generator[None, None, None]:
             return engine.guard.make(
-                first, count, self._make_step, engine.mode, self.loads, [self._pin_motion],
+                first, count, self._make_steps, engine.mode, self.loads, [self._pin_motion],
                 is_due=lambda: stepping.has_edits or is_due(), settle=stepping.settle)
 
         with closing(stepping.run(make_steps)) as pieces:
@@ -314,6 +316,30 @@ class Simulation(Handling, AbstractContextManager['Simulation']):
 
     def _begin_timed_grasp(self, request: GraspRequest) -> None:
         self._grasps.begin_timed(request, self._state.read_positions())
+
+    def _make_steps(self, number: int, most: int) -> modes.Steps:
+        count = min(most, self._quiet_steps(number)) if most > 1 else 1
+        if count > 1:
+            begin = number * self.dt
+            gravity = self.loads.forcing(self._state, begin, begin + self.dt)
+            made = self.engines.in_use.mode.step_ahead(self._state, gravity, int(count))
+            if made:
+                self.stepping.step_under_way = number + made - 1
+                self._pin_motion.rest()
+                yield
+                return made
+        yield from self._make_step(number)
+        return 1
+
+    def _quiet_steps(self, number: int) -> float:
+        """Return how many steps there are before anything but gravity acts."""
+        now, stepping = number * self.dt, self.stepping
+        if self._held.can_be_lost:
+            return 0
+        until = min(self.loads.still_until(now), self._pin_motion.rests_until(now))
+        # By its number from the start, the last of them is the same wherever they begin.
+        last = math.floor(until / self.dt + _ROUNDING) if math.isfinite(until) else math.inf
+        return min(last, stepping.next_timed_edit) - number
 
     def _make_step(self, number: int) -> modes.Pieces:
         self.stepping.step_under_way = number

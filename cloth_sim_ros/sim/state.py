@@ -8,6 +8,7 @@ from collections.abc import Sequence
 from contextlib import contextmanager
 
 from cloth_sim_ros.gl.buffer import Buffer
+from cloth_sim_ros.gl.buffer import BufferRow
 from cloth_sim_ros.sim import bindings
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.layout import Layout
@@ -18,6 +19,10 @@ import numpy as np
 MOST_MAGNITUDE = 1e12
 
 _PAIRS = 3
+# A pair of buffers that neither holds the present state nor the one that was kept.
+_SPARE = {
+    (now, kept): next(pair for pair in range(_PAIRS) if pair not in (now, kept))
+    for now in range(_PAIRS) for kept in range(_PAIRS)}
 
 
 class State:
@@ -38,6 +43,7 @@ class State:
         size = layout.stored * 4 * np.dtype(np.float32).itemsize
         self._positions = [Buffer(size) for _ in range(_PAIRS)]
         self._velocities = [Buffer(size) for _ in range(_PAIRS)]
+        self._pairs = [BufferRow(pair) for pair in zip(self._positions, self._velocities)]
         self._now = 0
         self._kept = 0
         self._next = 1
@@ -76,10 +82,12 @@ class State:
             return
         self.edits += 1
         self.pinned[row, col] = pinned
+        # A step writes no w, so all pairs need it.
+        is_free = np.full(1, not pinned, dtype=np.float32)
+        for buffer in self._velocities:
+            buffer.write(is_free, self._offset(row, col) + 3 * is_free.itemsize)
         if pinned:
-            self._write(self._velocities, row, col, np.zeros(4))
-        else:
-            self._write(self._velocities, row, col, np.ones(1), first=3)
+            self._write(self._velocities, row, col, np.zeros(3))
 
     def set_pin_velocity(self, row: int, col: int, velocity: np.ndarray) -> None:
         """Let the pinned node (row, col) move with ``velocity`` [m/s], (3,), from now on."""
@@ -115,13 +123,14 @@ class State:
 
     def bind_in(self) -> None:
         """Let the next dispatch read the present state."""
-        self._bind(bindings.POSITION_IN, self._positions[self._now])
-        self._bind(bindings.VELOCITY_IN, self._velocities[self._now])
+        if self._layout.texture_loads:
+            self._pairs[self._now].bind_textures(bindings.POSITION_IN)
+        else:
+            self._pairs[self._now].bind_storage(bindings.POSITION_IN)
 
     def bind_out(self) -> None:
         """Let the next dispatch write the state to come."""
-        self._positions[self._next].bind_storage(bindings.POSITION_OUT)
-        self._velocities[self._next].bind_storage(bindings.VELOCITY_OUT)
+        self._pairs[self._next].bind_storage(bindings.POSITION_OUT)
 
     def bind_out_for_reading(self) -> None:
         """Let the next dispatches read the velocities to come in place of the present ones."""
@@ -135,18 +144,18 @@ class State:
     def swap(self) -> None:
         """Make what was written the present state."""
         self._now = self._next
-        self._next = self._spare()
+        self._next = _SPARE[self._now, self._kept]
 
     def keep(self) -> None:
         """Keep the present state, in place of the one kept before, for ``restore``."""
         self._kept = self._now
-        self._next = self._spare()
+        self._next = _SPARE[self._now, self._kept]
 
     def restore(self, _: None = None) -> None:
         """Go back to the state that was kept; pins set since then are not undone."""
         self.edits += 1
         self._now = self._kept
-        self._next = self._spare()
+        self._next = _SPARE[self._now, self._kept]
 
     def delete(self) -> None:
         """Give the buffers back."""
@@ -159,19 +168,14 @@ class State:
         else:
             buffer.bind_storage(binding)
 
-    def _spare(self) -> int:
-        return next(pair for pair in range(_PAIRS) if pair not in (self._now, self._kept))
-
     def _read(self, buffers: Sequence[Buffer]) -> np.ndarray:
         stored = np.empty((self._layout.stored, 4), dtype=np.float32)
         buffers[self._now].read_into(stored)
         return self._layout.load(stored)[..., :3].copy()
 
     def _write(
-            self, buffers: list[Buffer], row: int, col: int, values: np.ndarray,
-            first: int = 0) -> None:
-        entry = values.astype(np.float32)
-        buffers[self._now].write(entry, self._offset(row, col) + first * entry.itemsize)
+            self, buffers: list[Buffer], row: int, col: int, values: np.ndarray) -> None:
+        buffers[self._now].write(values.astype(np.float32), self._offset(row, col))
 
     def _offset(self, row: int, col: int) -> int:
         return self._layout.index(row, col) * 4 * np.dtype(np.float32).itemsize

@@ -64,6 +64,11 @@ class Stepping:
         return self.steps < self._goal
 
     @property
+    def next_timed_edit(self) -> float:
+        """Return how many steps are made before the next timed change; infinite for none."""
+        return self._timed[0][0] if self._timed else math.inf
+
+    @property
     def has_edits(self) -> bool:
         """Tell whether changes wait for the end of the step."""
         return bool(self._edits) or any(

@@ -11,6 +11,9 @@ import pytest
 SCENE = '/**: {ros__parameters: {rows: 9, cols: 12, mode: %s}}'
 WITHOUT_TEXTURES = {
     'MESA_EXTENSION_OVERRIDE': '-GL_ARB_texture_buffer_object', 'MESA_GL_VERSION_OVERRIDE': '4.5'}
+# Mesa cannot leave these calls of GL 4.4 out, other drivers can.
+WITHOUT_MULTI_BIND = (
+    'from cloth_sim_ros.gl import quick_calls; quick_calls.multi_bind = lambda: None')
 
 
 @pytest.fixture(scope='module', autouse=True)
@@ -55,6 +58,13 @@ def run(tmp_path, environment, mode='mass_spring', *options, before=''):
 def test_what_can_run_runs_the_same(environment, tmp_path, usual):
     """A user would get a traceback, or another cloth, for a variable that changes nothing here."""
     result, positions = run(tmp_path, environment)
+    assert result.returncode == 0, result.stderr
+    np.testing.assert_array_equal(positions, usual)
+
+
+def test_a_driver_without_multi_bind_runs_the_same(tmp_path, usual):
+    """A driver that has OpenGL 4.3 and no more would fail in the first step."""
+    result, positions = run(tmp_path, {}, before=WITHOUT_MULTI_BIND)
     assert result.returncode == 0, result.stderr
     np.testing.assert_array_equal(positions, usual)
 

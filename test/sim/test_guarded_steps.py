@@ -16,6 +16,7 @@ from cloth_sim_ros.sim.layout import choose_layout
 from cloth_sim_ros.sim.loads import Loads
 from cloth_sim_ros.sim.modes.mass_spring import MassSpring
 from cloth_sim_ros.sim.modes.mode import Pieces
+from cloth_sim_ros.sim.modes.mode import Steps
 from cloth_sim_ros.sim.observer import Observer
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.simulation import Simulation
@@ -229,8 +230,9 @@ def test_a_blow_up_by_memory_alone_is_told():
     loads = Loads(scene, layout, state)
     guard, mode = GuardedSteps(scene, layout, observer, state), _Remembering(scene, layout)
 
-    def step(number: int) -> Pieces:
-        return mode.step(state, number * scene['dt'], loads)
+    def step(number: int, most: int) -> Steps:
+        yield from mode.step(state, number * scene['dt'], loads)
+        return 1
 
     with pytest.raises(
             NonFiniteStateError, match='without what the mode had carried over') as caught:

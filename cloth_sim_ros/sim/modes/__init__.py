@@ -9,8 +9,9 @@ from cloth_sim_ros.sim.modes.mass_spring import MassSpring
 from cloth_sim_ros.sim.modes.mode import finish
 from cloth_sim_ros.sim.modes.mode import Mode
 from cloth_sim_ros.sim.modes.mode import Pieces
+from cloth_sim_ros.sim.modes.mode import Steps
 
-__all__ = ('AVAILABLE', 'Mode', 'Pieces', 'finish')
+__all__ = ('AVAILABLE', 'Mode', 'Pieces', 'Steps', 'finish')
 
 AVAILABLE: dict[str, type[Mode]] = {
     mode.name: mode for mode in (MassSpring, Constraint, Adaptive)}

@@ -50,6 +50,16 @@ class OnePass:
         self.run(state, forcing, length, kick)
         state.swap()
 
+    def substeps(self, state: State, forcing: Forcing, length: float, count: int) -> None:
+        """Step ``state`` on ``count`` times by ``length`` [s], with nothing between to touch."""
+        step = self._step.use_for_step(forcing, length, length)
+        for _ in range(count):
+            state.bind_in()
+            state.bind_out()
+            step.dispatch(*self._groups)
+            shader_writes_visible()
+            state.swap()
+
     def run(
             self, state: State, forcing: Forcing, length: float,
             kick: float | None = None) -> None:
@@ -87,6 +97,11 @@ class TwoPass:
         self._force.use()
         self._update.use()
 
+    def substeps(self, state: State, forcing: Forcing, length: float, count: int) -> None:
+        """Step ``state`` on ``count`` times by ``length`` [s]."""
+        for _ in range(count):
+            self.substep(state, forcing, length)
+
     def substep(self, state: State, forcing: Forcing, length: float) -> None:
         """Step ``state`` on by ``length`` [s], in place."""
         state.bind_in()
@@ -107,6 +122,12 @@ class TwoPass:
         self._masses.delete()
 
 
+# Substeps that can't be interrupted, by their nodes: a few milliseconds on one core.
+_NODES_AT_ONCE = 2**18
+# Of a substep: what is short of it by less is a whole one.
+_ROUNDING = 1e-6
+
+
 class MassSpring:
     """Forces and update in one pass; the paper's two passes when the scene asks for them."""
 
@@ -123,6 +144,7 @@ class MassSpring:
         self._length: float = scene['dt'] / self.substeps
         self.substep_margin = self._length / self.stability_limit
         self._passes = OnePass(scene, layout) if layout.kind == 'fused' else TwoPass(scene, layout)
+        self._most_at_once = max(1, _NODES_AT_ONCE // scene.node_count)
 
     @staticmethod
     def edge_model(scene: Scene) -> str:
@@ -145,11 +167,28 @@ class MassSpring:
 
     def step(self, state: State, begin: float, loads: Loads) -> Pieces:
         """Step ``state`` on by one dt, in substeps of equal length."""
-        for substep in range(self.substeps):
-            start = begin + substep * self._length
+        made = 0
+        while made < self.substeps:
+            start = begin + made * self._length
             forcing = loads.forcing(state, start, start + self._length)
-            self._passes.substep(state, forcing, self._length)
+            count = min(self.substeps - made, self._alike(start, loads))
+            if count > 1:
+                self._passes.substeps(state, forcing, self._length, count)
+            else:
+                self._passes.substep(state, forcing, self._length)
+            made += count
             yield
+
+    def step_ahead(self, state: State, gravity: Forcing, most: int) -> int:
+        """Make up to ``most`` steps at once under gravity alone; return how many."""
+        count = min(most, self._most_at_once // self.substeps)
+        self._passes.substeps(state, gravity, self._length, count * self.substeps)
+        return count
+
+    def _alike(self, start: float, loads: Loads) -> int:
+        """Return how many substeps from ``start`` [s] on are made at once, under equal loads."""
+        quiet = loads.same_until(start) - start
+        return max(1, int(min(self._most_at_once, quiet / self._length + _ROUNDING)))
 
     def run_all_passes(self, state: State, loads: Loads) -> Pieces:
         """Make a substep of a ``state`` that nobody needs."""

@@ -9,6 +9,7 @@ from typing import Any
 from typing import Protocol
 
 from cloth_sim_ros.gl.buffer import Buffer
+from cloth_sim_ros.sim.forcing import Forcing
 from cloth_sim_ros.sim.layout import Layout
 from cloth_sim_ros.sim.loads import Loads
 from cloth_sim_ros.sim.scene import Scene
@@ -19,9 +20,11 @@ import numpy as np
 # A piece of work that can wait at each yield. What is sent back is True when something else may
 # have used the device meanwhile: then everything is bound anew.
 Pieces = Generator[None, bool | None, None]
+# Pieces that return how many steps of dt they have made.
+Steps = Generator[None, bool | None, int]
 
 
-def finish(pieces: Pieces) -> None:
+def finish(pieces: Pieces | Steps) -> None:
     """Do all the work at once."""
     for _ in pieces:
         pass
@@ -86,6 +89,15 @@ class Mode(Protocol):
 
         :param begin: simulated time at which the step begins [s]
         :param loads: what accelerates the nodes besides the edges, by time
+        """
+
+    def step_ahead(self, state: State, gravity: Forcing, most: int) -> int:
+        """
+        Make several steps of dt at once, all under gravity alone and with pins at rest.
+
+        :param gravity: alone, as all of them have it
+        :param most: steps to make
+        :return: how many were made; 0 where ``step`` has to make each
         """
 
     def run_all_passes(self, state: State, loads: Loads) -> Pieces:
