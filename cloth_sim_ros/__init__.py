@@ -13,6 +13,7 @@ from importlib import import_module
 # The types of these names are in __init__.pyi.
 _MODULES = {
     'AppliedPush': 'sim.push_field',
+    'Batch': 'sim.batch',
     'ClothSimError': 'sim.errors',
     'Collider': 'sim.colliders',
     'ContactForce': 'sim.contacts',

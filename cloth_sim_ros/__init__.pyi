@@ -11,6 +11,7 @@ from cloth_sim_ros.recording.recording_faults import RecordingError as Recording
 from cloth_sim_ros.resimulation.frame_check import Difference as Difference
 from cloth_sim_ros.resimulation.frame_check import FrameCheck as FrameCheck
 from cloth_sim_ros.resimulation.verdict import Verdict as Verdict
+from cloth_sim_ros.sim.batch import Batch as Batch
 from cloth_sim_ros.sim.colliders import Collider as Collider
 from cloth_sim_ros.sim.contacts import ContactForce as ContactForce
 from cloth_sim_ros.sim.errors import ClothSimError as ClothSimError

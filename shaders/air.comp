@@ -19,6 +19,7 @@ layout(std430, binding = AIR_OUT) writeonly buffer AirOut { vec4 air_out[]; };
 
 uniform vec3 past;           // [m/s] the wind less what gravity adds to a free cloth in the lead
 uniform float inverse_area;  // [1/m2] of a cell at rest
+uniform ivec2 stack;         // rows of a cloth, and from one cloth to the next
 
 // An inner node has a part in 12 triangles.
 #define SHARE (1.0 / 12.0)
@@ -28,9 +29,10 @@ struct Node {
     vec4 velocity;  // times how often the node counts, which stands in w
 };
 
-Node load_node(int row, int col) {
+// row_of_cloth: counted from the first row of the cloth that the node is of.
+Node load_node(int row, int col, int row_of_cloth) {
     int index = node_index(row, col);
-    float counts = (row == 0 || row == ROWS - 1 ? 2.0 : 1.0)
+    float counts = (row_of_cloth == 0 || row_of_cloth == stack.x - 1 ? 2.0 : 1.0)
         * (col == 0 || col == COLS - 1 ? 2.0 : 1.0);
     return Node(load_position(index), vec4(counts * load_velocity(index).xyz, counts));
 }
@@ -57,15 +59,16 @@ void main() {
     if (row >= ROWS || col >= COLS) {
         return;
     }
-    Node here = load_node(row, col);
-    Node left = load_node(row, col - 1);
-    Node right = load_node(row, col + 1);
-    Node above = load_node(row - 1, col);
-    Node below = load_node(row + 1, col);
-    vec3 given = cell(here, left, above, load_node(row - 1, col - 1));
-    given += cell(here, right, above, load_node(row - 1, col + 1));
-    given += cell(here, left, below, load_node(row + 1, col - 1));
-    given += cell(here, right, below, load_node(row + 1, col + 1));
+    int of_cloth = row % stack.y;
+    Node here = load_node(row, col, of_cloth);
+    Node left = load_node(row, col - 1, of_cloth);
+    Node right = load_node(row, col + 1, of_cloth);
+    Node above = load_node(row - 1, col, of_cloth - 1);
+    Node below = load_node(row + 1, col, of_cloth + 1);
+    vec3 given = cell(here, left, above, load_node(row - 1, col - 1, of_cloth - 1));
+    given += cell(here, right, above, load_node(row - 1, col + 1, of_cloth - 1));
+    given += cell(here, left, below, load_node(row + 1, col - 1, of_cloth + 1));
+    given += cell(here, right, below, load_node(row + 1, col + 1, of_cloth + 1));
     int index = node_index(row, col);
     vec4 pushed = has_region_pushes ? load_region_pushes(index) : vec4(0.0);
     air_out[index] = vec4(pushed.xyz + SHARE * here.velocity.w * given, pushed.w);

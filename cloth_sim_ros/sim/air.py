@@ -89,8 +89,7 @@ class Air:
         # How fast a cloth is moved, as a rule: as if it fell its own size on earth [m/s].
         size = math.hypot(scene['width'], scene['height'])
         self._own_speed = math.sqrt(2.0 * _GRAVITY * size)
-        self._accelerations = Buffer(layout.store(
-            np.zeros((scene.rows, scene.cols, 4), dtype=np.float32)))
+        self._accelerations = Buffer(np.zeros((layout.stored, 4), dtype=np.float32))
         self._set: tuple[float, float, tuple[float, float, float]] | None = None
         self.begin_run()
 

@@ -4,6 +4,7 @@
 """How the lattice lies in memory, and the compile-time choices that suit a device."""
 
 from dataclasses import dataclass
+from dataclasses import replace
 
 from cloth_sim_ros.gl.context import Context
 from cloth_sim_ros.gl.errors import DeviceError
@@ -31,6 +32,7 @@ class Layout:
     :param texture_loads: True when shaders read the state through textures
     :param block: nodes along each side of an invocation
     :param local: invocations of a workgroup, x and y
+    :param cloth_rows: of each cloth, where several are stacked; 0 for one cloth
     """
 
     rows: int
@@ -39,6 +41,23 @@ class Layout:
     texture_loads: bool
     block: int
     local: tuple[int, int]
+    cloth_rows: int = 0
+
+    @property
+    def period(self) -> int:
+        """Rows from one cloth of a stack to the next: whole blocks, and ghosts between."""
+        return _round_up((self.cloth_rows or self.rows) + HALO, self.block)
+
+    def stacked(self, count: int, context: Context) -> 'Layout':
+        """
+        Return the layout of ``count`` such cloths, one below the other.
+
+        :raises DeviceError: when they do not fit into the device's buffers
+        """
+        layout = replace(
+            self, rows=(count - 1) * self.period + self.rows, cloth_rows=self.rows)
+        _refuse_too_large(layout, context)
+        return layout
 
     @property
     def pitch(self) -> int:
@@ -70,6 +89,12 @@ class Layout:
         stored[HALO:HALO + self.rows, HALO:HALO + self.cols] = values
         return stored
 
+    def stored_rows(self, values: np.ndarray) -> np.ndarray:
+        """Return (n, cols, ...) ``values`` of some rows as stored, with ghosts on both sides."""
+        stored = np.zeros((len(values), self.pitch, *values.shape[2:]), values.dtype)
+        stored[:, HALO:HALO + self.cols] = values
+        return stored
+
     def load(self, stored: np.ndarray) -> np.ndarray:
         """Return the (rows, cols, ...) part of ``stored`` values that belongs to nodes."""
         lattice = stored.reshape(-1, self.pitch, *stored.shape[1:])
@@ -85,6 +110,7 @@ class Layout:
         """Set the uniform of lattice.glsl in the program in use."""
         program.set_int_vectors(
             'lattice', np.array([(self.rows, self.cols, self.pitch, self.stored)]))
+        program.set_int_vectors('stack', np.array([(self.cloth_rows or self.rows, self.period)]))
 
     def defines(self) -> dict[str, object]:
         """Return the choices that every shader on this lattice compiles in, its size aside."""

@@ -135,6 +135,22 @@ class Way(Protocol):
         """Return what takes the pin from ``at_begin`` at ``begin`` to its place at ``end``."""
 
 
+def path_velocities(
+        origins: np.ndarray, targets: np.ndarray,
+        speeds: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """
+    Return the velocities [m/s] of straight ways, and how long each takes [s].
+
+    :param origins: (..., 3) [m]
+    :param targets: (..., 3) [m]
+    :param speeds: (...) [m/s]
+    """
+    ways = targets - origins
+    lengths = np.sqrt((ways * ways).sum(axis=-1))
+    rates = np.divide(speeds, lengths, out=np.zeros_like(lengths), where=lengths > 0.0)
+    return ways * rates[..., None], lengths / speeds
+
+
 class PinPath:
     """
     The path of one pin, in float64, without accumulated error: it ends exactly at its target.
@@ -150,11 +166,10 @@ class PinPath:
         self.move = move
         self._origin = np.asarray(origin, dtype=float)
         self._target = np.array(move.target)
-        way = self._target - self._origin
-        length = float(np.linalg.norm(way))
+        self._velocity, duration = path_velocities(
+            self._origin, self._target, np.array(move.speed))
         self.begin = move.start
-        self.arrival = move.start + length / move.speed
-        self._velocity = way * (move.speed / length) if length > 0.0 else np.zeros(3)
+        self.arrival = move.start + float(duration)
 
     def put_off(self, now: float, until: float) -> 'PinPath':
         """Return the rest of the way, on which the pin stands still from ``now`` ``until`` [s]."""

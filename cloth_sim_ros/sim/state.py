@@ -11,6 +11,7 @@ from cloth_sim_ros.gl.buffer import Buffer
 from cloth_sim_ros.gl.buffer import BufferRow
 from cloth_sim_ros.sim import bindings
 from cloth_sim_ros.sim.errors import ClothSimError
+from cloth_sim_ros.sim.layout import HALO
 from cloth_sim_ros.sim.layout import Layout
 import numpy as np
 
@@ -36,13 +37,24 @@ class State:
     outside, between steps.
     """
 
-    def __init__(self, layout: Layout, positions: np.ndarray, pinned: np.ndarray) -> None:
-        """Upload ``positions`` (rows, cols, 3) [m] at rest; ``pinned`` is (rows, cols) bool."""
+    def __init__(
+            self, layout: Layout, positions: np.ndarray, pinned: np.ndarray,
+            present: np.ndarray | None = None) -> None:
+        """
+        Upload ``positions`` [m] at rest.
+
+        :param positions: (rows, cols, 3)
+        :param pinned: (rows, cols) bool
+        :param present: where there are nodes, (rows, cols) bool; None for everywhere
+        """
         self._layout = layout
+        self._present = np.ones(pinned.shape, dtype=bool) if present is None else present
         self.pinned = pinned.copy()
         size = layout.stored * 4 * np.dtype(np.float32).itemsize
         self._positions = [Buffer(size) for _ in range(_PAIRS)]
         self._velocities = [Buffer(size) for _ in range(_PAIRS)]
+        for buffer in (*self._positions, *self._velocities):
+            buffer.clear()
         self._pairs = [BufferRow(pair) for pair in zip(self._positions, self._velocities)]
         self._now = 0
         self._kept = 0
@@ -66,15 +78,23 @@ class State:
 
     def write(self, positions: np.ndarray, velocities: np.ndarray) -> None:
         """Replace all positions [m] and velocities [m/s], (rows, cols, 3); pins are at rest."""
+        self.write_rows(0, positions, velocities)
+
+    def write_rows(self, first: int, positions: np.ndarray, velocities: np.ndarray) -> None:
+        """Replace those of the rows from ``first`` on, as many as there are given."""
         self.edits += 1
-        free = ~self.pinned
-        position = self._layout.store(_with_fourth(positions, 1.0))
-        velocity = self._layout.store(_with_fourth(velocities * free[..., None], free))
-        # Ghosts are never written by a step, so all pairs need theirs.
+        rows = np.s_[first:first + len(positions)]
+        present = self._present[rows]
+        free = present & ~self.pinned[rows]
+        # With the ghosts beside them. Ghosts are never written by a step: all pairs need theirs.
+        offset = self._offset(first, -HALO)
+        position = self._layout.stored_rows(_with_fourth(positions, present))
+        velocity = self._layout.stored_rows(
+            _with_fourth(velocities * free[..., None], free))
         for buffer in self._positions:
-            buffer.write(position)
+            buffer.write(position, offset)
         for buffer in self._velocities:
-            buffer.write(velocity)
+            buffer.write(velocity, offset)
 
     def set_pinned(self, row: int, col: int, pinned: bool) -> None:
         """Hold one node where it is, or let it go with the velocity its pin has."""
@@ -131,6 +151,10 @@ class State:
     def bind_out(self) -> None:
         """Let the next dispatch write the state to come."""
         self._pairs[self._next].bind_storage(bindings.POSITION_OUT)
+
+    def bind_for_changes(self) -> None:
+        """Let the next dispatch change the present state."""
+        self._pairs[self._now].bind_storage(bindings.POSITION_IN)
 
     def bind_out_for_reading(self) -> None:
         """Let the next dispatches read the velocities to come in place of the present ones."""

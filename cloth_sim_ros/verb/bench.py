@@ -18,6 +18,8 @@ docs/notes/performance.md defines the figures.
 --contact compares a cloth that is dropped over a sphere with the same cloth without it, and among
 20 spheres, in modes mass_spring and constraint. They alternate every 20 ms of simulated time.
 
+--batch compares many small cloths that step together with one simulation after the other.
+
 For example:
   cloth_sim bench
   cloth_sim bench --sizes 512 1024 --rounds 9 --json
@@ -26,6 +28,7 @@ For example:
   cloth_sim bench --solver --baseline paper
   cloth_sim bench --modes --grids 32,64
   cloth_sim bench --contact --sizes 64
+  cloth_sim bench --batch --sizes 12 32 --cloths 256
   cloth_sim bench --start-up config/drape.yaml
 """
 
@@ -37,6 +40,7 @@ import json
 import statistics
 
 from cloth_sim_ros.files.errors import shown
+from cloth_sim_ros.study.batch_speed import measure_batch
 from cloth_sim_ros.study.mode_comparison import compare_modes
 from cloth_sim_ros.study.mode_comparison import comparison_table
 from cloth_sim_ros.study.mode_runs import CONTENDERS
@@ -56,8 +60,10 @@ _SOLVER_SIZES = [52, 128]
 _PAPER_SOLVER_SIZES = [20]
 _GRIDS = [32, 64, 128]
 _CONTACT_SIZES = [64]
+_BATCH_SIZES = [32]
+_BATCH_FRAMES = 10
 _ROUNDS = 7
-# Of --modes and --contact, whose rounds on fine grids take minutes.
+# Of --modes, --contact and --batch, whose rounds on fine grids take minutes.
 _MODES_ROUNDS = 3
 
 
@@ -82,6 +88,10 @@ def add_arguments(parser: ArgumentParser) -> None:
                         help='compare whole modes on a falling cloth instead')
     parser.add_argument('--contact', action='store_true',
                         help='compare a cloth with and without colliders instead')
+    parser.add_argument('--batch', action='store_true',
+                        help='compare a batch of cloths with single runs instead')
+    parser.add_argument('--cloths', type=int, default=256, metavar='N',
+                        help='cloths of the batch (default: %(default)s)')
     parser.add_argument('--grids', type=_parse_grids, default=_GRIDS, metavar='N,N,...',
                         help='nodes along each side with --modes (default: '
                              f'{",".join(map(str, _GRIDS))})')
@@ -105,6 +115,8 @@ def main(args: Namespace) -> int:
         return _compare_modes(args)
     if args.contact:
         return _compare_contact(args)
+    if args.batch:
+        return _compare_batch(args)
     if args.rounds is None:
         args.rounds = _ROUNDS
     if args.start_up:
@@ -151,6 +163,16 @@ def _compare_contact(args: Namespace) -> int:
         for mode in ('mass_spring', 'constraint'):
             found = measure_contact(
                 mode, nodes, seconds=args.seconds,
+                rounds=_MODES_ROUNDS if args.rounds is None else args.rounds)
+            print(json.dumps(found.as_dict()) if args.json else found.in_words(), flush=True)
+    return 0
+
+
+def _compare_batch(args: Namespace) -> int:
+    for size in args.sizes or _BATCH_SIZES:
+        for is_controlled in (False, True):
+            found = measure_batch(
+                size, args.cloths, is_controlled=is_controlled, frames=_BATCH_FRAMES,
                 rounds=_MODES_ROUNDS if args.rounds is None else args.rounds)
             print(json.dumps(found.as_dict()) if args.json else found.in_words(), flush=True)
     return 0

@@ -11,7 +11,9 @@ uniform float kick;          // [s] what forces act for: mean of this substep an
 uniform float inverse_mass;  // [1/kg]
 
 vec3 next_velocity(vec4 velocity, vec3 force, vec3 applied) {
-    return velocity.xyz + velocity.w * kick * (applied + inverse_mass * force);
+    vec3 next = velocity.xyz + kick * (applied + inverse_mass * force);
+    // Not times 0: what is not finite would pass from a cloth by its ghosts to another one.
+    return velocity.w > 0.0 ? next : velocity.xyz;
 }
 
 vec3 next_position(vec3 position, vec3 velocity) {

@@ -229,7 +229,7 @@ def test_a_message_that_fails_is_left_out(client, tmp_path):
 
 def test_a_step_that_fails_stops_the_run(client, tmp_path):
     """A fault in a step would end the node, or be tried again for ever in silence."""
-    start = with_fault('sim.simulation', 'Simulation', '_make_step', '(20,)')
+    start = with_fault('sim.simulation', 'Simulation', '_make_steps', '(20,)')
     with NodeProcess(tmp_path, SCENE, '-r', '__ns:=/step', start=start) as node:
         cloth = ClothUnderTest(client, SCENE, '/step/cloth_sim')
         cloth.wait_for('state', lambda state: state.run_state == 'stopped')

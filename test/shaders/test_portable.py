@@ -58,6 +58,7 @@ _FORMS = {
     'bounds_check.comp': {'STRIP': 16},
     'mass_spring_step.comp': {'STRAIN_LIMIT': 'RIGID_LIMIT'},
     'observe.comp': {'RECORDS_WANTED': 1, 'STRIP': 16},
+    'place_pins.comp': {'PINS_LOCAL': 32},
     'paper_force.comp': {},
     'paper_update.comp': {'UPDATE_LOCAL': 1024},
     **{f'paper_solver/{name}.comp': paper_solver_defines(150, 63) for name in (

@@ -1,0 +1,369 @@
+# SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
+# SPDX-License-Identifier: Apache-2.0
+
+"""Many small cloths that step together, as policy training wants them."""
+
+from collections.abc import Hashable
+from collections.abc import Iterable
+from collections.abc import Mapping
+from collections.abc import Sequence
+from contextlib import AbstractContextManager
+import math
+from typing import Any
+
+from cloth_sim_ros.gl.context import Context
+from cloth_sim_ros.sim.errors import ClothSimError
+from cloth_sim_ros.sim.guarded_steps import BoundsCheck
+from cloth_sim_ros.sim.layout import choose_layout
+from cloth_sim_ros.sim.loads import Loads
+from cloth_sim_ros.sim.modes.mass_spring import MassSpring
+from cloth_sim_ros.sim.modes.mode import finish
+from cloth_sim_ros.sim.pins import check_node
+from cloth_sim_ros.sim.pins import PinMove
+from cloth_sim_ros.sim.scene import Scene
+from cloth_sim_ros.sim.simulation import SINGLE_THREAD_NODES
+from cloth_sim_ros.sim.stacked_pins import StackedPins
+from cloth_sim_ros.sim.state import MOST_MAGNITUDE
+from cloth_sim_ros.sim.state import State
+from cloth_sim_ros.sim.stepping import LATEST
+import numpy as np
+
+# What cloths of one stack may differ in.
+_OWN = ('start.pose', 'start.z', 'start.jitter', 'start.seed', 'pins', 'pin_points.positions',
+        'pin_points.max_distance')
+# What all cloths of a batch have in common.
+_COMMON = ('rows', 'cols', 'dt')
+# What none of them may have.
+_TIMED = ('pushes.start', 'pin_moves.start', 'grasps.start')
+
+
+class Stack:
+    """
+    Cloths that differ in nothing but their start and their pins, one below the other on a lattice.
+
+    :param scenes: of each
+    :param context: to use, which is current
+    """
+
+    def __init__(self, scenes: Sequence[Scene], context: Context) -> None:
+        """Compile, allocate and take up the start poses."""
+        scene = scenes[0]
+        self.scenes = tuple(scenes)
+        single = choose_layout(scene, context)
+        self.layout = single.stacked(len(scenes), context)
+        rows = np.arange(len(scenes))[:, None] * single.period + np.arange(scene.rows)
+        self._rows = rows
+        present = np.zeros((self.layout.rows, scene.cols), dtype=bool)
+        present[rows] = True
+        starts = np.zeros((*present.shape, 3))
+        starts[rows] = [each.start_positions() for each in scenes]
+        pinned = np.zeros_like(present)
+        pinned[rows] = [each.pinned_nodes() for each in scenes]
+        self._state = State(self.layout, starts, pinned, present)
+        self._loads = Loads(scene, self.layout, self._state)
+        self._mode = MassSpring(scene, self.layout)
+        self.pins = StackedPins(scene, self.layout, self._state)
+        self._check = BoundsCheck(scene, self.layout)
+
+    def step(self, first: int, count: int) -> np.ndarray:
+        """
+        Make ``count`` steps of dt, the first of them number ``first``.
+
+        :return: which cloths were lost on the way, (cloths,) bool: they are at rest where they
+            were before
+        """
+        self._state.keep()
+        number, end = first, first + count
+        while number < end:
+            number += self._steps(number, end - number)
+        if self._check.passes(self._state):
+            return np.zeros(len(self.scenes), dtype=bool)
+        lost = ~np.all(
+            np.abs([self.positions(), self.velocities()]) < MOST_MAGNITUDE, axis=(0, 2, 3, 4))
+        with self._state.at_kept():
+            kept = self.positions()
+        for cloth in np.flatnonzero(lost).tolist():
+            self.write(cloth, kept[cloth], np.zeros_like(kept[cloth]))
+        return lost
+
+    def positions(self) -> np.ndarray:
+        """Return all positions [m], (cloths, rows, cols, 3) float32."""
+        return self._state.read_positions()[self._rows]
+
+    def velocities(self) -> np.ndarray:
+        """Return all velocities [m/s], (cloths, rows, cols, 3) float32."""
+        return self._state.read_velocities()[self._rows]
+
+    def write(self, cloth: int, positions: np.ndarray, velocities: np.ndarray) -> None:
+        """Replace the state of one cloth, (rows, cols, 3) each; its pins are at rest."""
+        rows = self._rows[cloth]
+        self.pins.stop(slice(rows[0], rows[-1] + 1))
+        self._state.write_rows(int(rows[0]), positions, velocities)
+
+    def reset(self, cloth: int) -> None:
+        """Put one cloth back to its start."""
+        scene = self.scenes[cloth]
+        self._state.pinned[self._rows[cloth]] = scene.pinned_nodes()
+        start = scene.start_positions()
+        self.write(cloth, start, np.zeros_like(start))
+
+    def pinned(self, cloth: int) -> np.ndarray:
+        """Return which nodes of a cloth are held, (rows, cols) bool."""
+        return self._state.pinned[self._rows[cloth]]
+
+    def at(self, cloths: np.ndarray, nodes: np.ndarray) -> np.ndarray:
+        """Return row in the stack and col of ``nodes`` (n, 2), each of one of ``cloths`` (n,)."""
+        return np.stack([self._rows[cloths, nodes[:, 0]], nodes[:, 1]], axis=-1)
+
+    def delete(self) -> None:
+        """Give everything back."""
+        for part in (self._mode, self._check, self.pins, self._loads, self._state):
+            part.delete()
+
+    def _steps(self, number: int, most: int) -> int:
+        dt = self.scenes[0]['dt']
+        begin, end = number * dt, (number + 1) * dt
+        if most > 1 and self.pins.rest and self._loads.still_until(begin) == math.inf:
+            made = self._mode.step_ahead(
+                self._state, self._loads.forcing(self._state, begin, end), most)
+            if made:
+                return made
+        self.pins.begin_step(begin, end)
+        self._loads.begin_step(begin, end)
+        finish(self._mode.step(self._state, begin, self._loads))
+        self.pins.end_step(begin, end)
+        return 1
+
+
+class Batch(AbstractContextManager['Batch']):
+    """
+    Cloths in mode mass_spring that step together; each as a Simulation of its scene, to the bit.
+
+    Cloths that differ in nothing but their start and their pins step in one dispatch; of others,
+    each kind in one. All have the same rows, cols and dt. Air is in all of them where their scenes
+    have some; the bits are those of a Simulation there while all cloths of a kind are held, or
+    none. There are neither pushes nor grasps nor colliders.
+
+    A cloth whose state is lost stays where it was before the call in which that happened, and is
+    ``lost`` until it is reset; the others go on.
+
+    :param scenes: of each cloth, or one for all
+    :param count: how many cloths, where ``scenes`` is one
+    :param context: GL context to use; by default one of its own
+    :raises ClothSimError: when a scene can't be one of a batch
+    :raises DeviceError: when there is no device for it
+    """
+
+    def __init__(
+            self, scenes: Scene | Sequence[Scene], count: int | None = None, *,
+            context: Context | None = None) -> None:
+        """Compile, allocate and take up the start poses."""
+        self.scenes = _checked_scenes(scenes, count)
+        self.count = len(self.scenes)
+        self.dt: float = self.scenes[0]['dt']
+        self.steps = 0
+        self._shape = self.scenes[0].rows, self.scenes[0].cols
+        self._owns_context = context is None
+        nodes = sum(scene.node_count for scene in self.scenes)
+        self._context = context or Context(single_thread=nodes < SINGLE_THREAD_NODES)
+        self._context.make_current()
+        self.device = self._context.device
+        kinds: dict[Hashable, list[int]] = {}
+        for number, scene in enumerate(self.scenes):
+            kinds.setdefault(_kind(scene), []).append(number)
+        self._stacks: list[Stack] = []
+        # Of each stack, which cloths; and of each cloth, its stack and its place there.
+        self._members = [np.array(numbers) for numbers in kinds.values()]
+        self._places = np.empty((self.count, 2), dtype=int)
+        for stack, members in enumerate(self._members):
+            self._places[members] = np.stack(
+                [np.full(len(members), stack), np.arange(len(members))], axis=-1)
+            self._stacks.append(Stack([self.scenes[cloth] for cloth in members], self._context))
+        self.lost = np.zeros(self.count, dtype=bool)
+
+    def __exit__(self, *_: object) -> None:
+        """Close, however the block has ended."""
+        self.close()
+
+    @property
+    def time(self) -> float:
+        """Return the simulated time since the start [s]."""
+        return self.steps * self.dt
+
+    def step(self, count: int = 1) -> None:
+        """Make ``count`` steps of dt of every cloth."""
+        if not 0 <= (self.steps + count) * self.dt <= LATEST or count < 0:
+            raise ClothSimError(
+                f'cannot make {count} steps: give 0 or more, up to {LATEST} s of simulated time')
+        self._context.make_current()
+        for stack, members in zip(self._stacks, self._members):
+            self.lost[members] |= stack.step(self.steps, count)
+        self.steps += count
+
+    def positions(self) -> np.ndarray:
+        """Return all positions [m], (count, rows, cols, 3) float32."""
+        return self._gathered([stack.positions for stack in self._stacks])
+
+    def velocities(self) -> np.ndarray:
+        """Return all velocities [m/s], (count, rows, cols, 3) float32; a pin has its own."""
+        return self._gathered([stack.velocities for stack in self._stacks])
+
+    def set_state(
+            self, positions: np.ndarray, velocities: np.ndarray,
+            cloths: Iterable[int] | None = None) -> None:
+        """
+        Replace positions [m] and velocities [m/s] of some cloths; their pins are at rest then.
+
+        :param positions: (n, rows, cols, 3)
+        :param velocities: (n, rows, cols, 3)
+        :param cloths: their numbers, (n,); None for all
+        """
+        numbers = self._checked_cloths(cloths)
+        shape = (len(numbers), *self._shape, 3)
+        for name, values in (('positions', positions), ('velocities', velocities)):
+            if np.shape(values) != shape or not np.all(np.abs(values) < MOST_MAGNITUDE):
+                raise ClothSimError(
+                    f'{name} must be {shape} numbers below {MOST_MAGNITUDE:g}, got '
+                    f'{np.shape(values)} up to {np.abs(values).max(initial=0.0):g}: give one '
+                    'state for each cloth')
+        self._context.make_current()
+        for (stack, place), at, velocity in zip(
+                self._places[numbers], np.asarray(positions), np.asarray(velocities)):
+            self._stacks[stack].write(place, at, velocity)
+        self.lost[numbers] = False
+
+    def reset(self, cloths: Iterable[int] | None = None) -> None:
+        """
+        Put some cloths back to their start: pose and pins; time goes on.
+
+        :param cloths: their numbers; None for all
+        """
+        numbers = self._checked_cloths(cloths)
+        self._context.make_current()
+        for stack, place in self._places[numbers]:
+            self._stacks[stack].reset(place)
+        self.lost[numbers] = False
+
+    def pinned_nodes(self, cloth: int) -> np.ndarray:
+        """Return which nodes of a cloth are held, (rows, cols) bool."""
+        (number,) = self._checked_cloths([cloth])
+        stack, place = self._places[number]
+        return self._stacks[stack].pinned(place)
+
+    def move_pins(
+            self, cloths: np.ndarray, nodes: np.ndarray, targets: np.ndarray,
+            speeds: np.ndarray | float) -> None:
+        """
+        Begin to move pins in a straight line, each in place of its move under way.
+
+        :param cloths: the number of the cloth of each, (n,)
+        :param nodes: row and col of each, (n, 2); none of them twice
+        :param targets: (n, 3) [m]
+        :param speeds: [m/s] in simulated time, (n,) or one for all
+        :raises ClothSimError: when a node is not pinned or a value is wrong; then none moves
+        """
+        numbers = self._checked_cloths(cloths)
+        nodes, targets = np.asarray(nodes), np.asarray(targets, dtype=float)
+        if nodes.shape != (len(numbers), 2) or targets.shape != (len(numbers), 3):
+            raise ClothSimError(
+                f'{len(numbers)} pins need ({len(numbers)}, 2) nodes and ({len(numbers)}, 3) '
+                f'targets, got {nodes.shape} and {targets.shape}: give both for each pin')
+        speed = np.broadcast_to(np.asarray(speeds, dtype=float), len(numbers))
+        entries = zip(numbers.tolist(), nodes.tolist(), targets.tolist(), speed.tolist())
+        for cloth, (row, col), target, pace in entries:
+            self._check_pin(cloth, row, col)
+            PinMove.checked(row=row, col=col, target=target, speed=pace, start=self.time)
+        if len(np.unique(np.column_stack([numbers, nodes]), axis=0)) < len(numbers):
+            raise ClothSimError('a pin is given twice: give each pin one target')
+        self._context.make_current()
+        places = self._places[numbers]
+        for number, stack in enumerate(self._stacks):
+            here = places[:, 0] == number
+            if here.any():
+                stack.pins.move(
+                    stack.at(places[here, 1], nodes[here]), targets[here], speed[here], self.time)
+
+    def finish(self) -> None:
+        """Wait until the device has finished all work; for timing."""
+        self._context.finish()
+
+    def close(self) -> None:
+        """Free all memory on the device; does nothing when called again."""
+        if not self._stacks:
+            return
+        self._context.make_current()
+        for stack in self._stacks:
+            stack.delete()
+        self._stacks = []
+        if self._owns_context:
+            self._context.close()
+
+    def _gathered(self, readers: Sequence[Any]) -> np.ndarray:
+        self._context.make_current()
+        if len(readers) == 1:
+            return readers[0]()
+        values = np.empty((self.count, *self._shape, 3), dtype=np.float32)
+        for members, read in zip(self._members, readers):
+            values[members] = read()
+        return values
+
+    def _checked_cloths(self, cloths: Iterable[int] | None) -> np.ndarray:
+        if cloths is None:
+            return np.arange(self.count)
+        numbers = np.array(list(cloths), dtype=int)
+        if numbers.size and not 0 <= numbers.min() <= numbers.max() < self.count:
+            raise ClothSimError(
+                f'there is no cloth {numbers.min() if numbers.min() < 0 else numbers.max()} in a '
+                f'batch of {self.count}: give numbers from 0 to {self.count - 1}')
+        return numbers
+
+    def _check_pin(self, cloth: int, row: int, col: int) -> None:
+        check_node(row, col, *self._shape)
+        stack, place = self._places[cloth]
+        if not self._stacks[stack].pinned(place)[row, col]:
+            raise ClothSimError(
+                f'node ({row}, {col}) of cloth {cloth} is free and only a pin can be moved: pin '
+                'it in its scene')
+
+
+def _checked_scenes(scenes: Scene | Sequence[Scene], count: int | None) -> tuple[Scene, ...]:
+    if isinstance(scenes, Scene):
+        scenes = [scenes] * (1 if count is None else count)
+    elif count is not None and count != len(scenes):
+        raise ClothSimError(
+            f'count is {count}, and there are {len(scenes)} scenes: give one scene, or no count')
+    if not scenes:
+        raise ClothSimError('a batch needs one cloth or more: give a count of 1 or more')
+    for name in _COMMON:
+        values = {scene[name] for scene in scenes}
+        if len(values) > 1:
+            raise ClothSimError(
+                f'the cloths of a batch must have the same {name}, got '
+                f'{" and ".join(map(str, sorted(values)[:2]))}: make a batch of each')
+    for scene in scenes:
+        _check(scene)
+    return tuple(scenes)
+
+
+def _check(scene: Scene) -> None:
+    if scene['mode'] != MassSpring.name:
+        raise ClothSimError(
+            f'a batch steps in mode mass_spring, got {scene["mode"]}: set the mode, or run each '
+            'cloth by itself')
+    if scene['layout'] != 'fused':
+        raise ClothSimError(f'a batch needs layout fused, got {scene["layout"]}: set it')
+    for name in _TIMED:
+        if scene[name]:
+            raise ClothSimError(
+                f'a batch has nothing timed, and {name} is not empty: move pins with move_pins')
+    if scene.has_contact:
+        raise ClothSimError(
+            'a batch has no contact, and colliders.names is not empty: remove the colliders')
+
+
+def _kind(scene: Scene) -> Hashable:
+    """Return what is equal for cloths of one stack."""
+    values: Mapping[str, Any] = scene.values
+    return tuple(
+        (name, tuple(value) if isinstance(value, list) else value)
+        for name, value in sorted(values.items()) if name not in _OWN)
