@@ -41,6 +41,8 @@ class LinkedProgram:
             self._lent = PooledProgram(_linked(stages))
         self._program = self._lent.name
         self._locations = self._lent.locations
+        # What arrays were last set to: most are the same in every frame.
+        self._arrays: dict[str, bytes] = {}
 
     def delete(self) -> None:
         """Leave the program to the next who asks for its shaders; it is not used here any more."""
@@ -72,7 +74,8 @@ class LinkedProgram:
     def set_floats(self, name: str, values: Sequence[float]) -> None:
         """Set the first floats of an array uniform of the program in use."""
         flat = np.ascontiguousarray(values, dtype=np.float32)
-        GL.glUniform1fv(self._location(name), len(flat), flat)
+        if self._is_news(name, flat):
+            GL.glUniform1fv(self._location(name), len(flat), flat)
 
     def set_pair(self, name: str, values: Sequence[float]) -> None:
         """Set a vec2 uniform of the program in use."""
@@ -83,7 +86,8 @@ class LinkedProgram:
             vectors: Sequence[float] | Sequence[Sequence[float]] | np.ndarray) -> None:
         """Set a vec3 uniform, or the first of an array of them, of the program in use."""
         flat = np.ascontiguousarray(vectors, dtype=np.float32).reshape(-1, 3)
-        GL.glUniform3fv(self._location(name), len(flat), flat)
+        if self._is_news(name, flat):
+            GL.glUniform3fv(self._location(name), len(flat), flat)
 
     def set_int_vectors(self, name: str, vectors: np.ndarray) -> None:
         """Set the first of an array of ivec2 or ivec4 uniforms of the program in use."""
@@ -95,6 +99,14 @@ class LinkedProgram:
         """Set a mat4 uniform, which acts on columns, of the program in use."""
         flat = np.ascontiguousarray(matrix, dtype=np.float32)
         GL.glUniformMatrix4fv(self._location(name), 1, GL.GL_TRUE, flat)
+
+    def _is_news(self, name: str, values: np.ndarray) -> bool:
+        """Return whether the array ``name`` is not ``values`` yet, and note that it will be."""
+        data = values.tobytes()
+        if self._arrays.get(name) == data:
+            return False
+        self._arrays[name] = data
+        return True
 
     def _location(self, name: str) -> int:
         if name not in self._locations:

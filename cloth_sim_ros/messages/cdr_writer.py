@@ -7,7 +7,7 @@ import struct
 
 import numpy as np
 
-_ENCAPSULATION = b'\x00\x01\x00\x00'
+ENCAPSULATION = b'\x00\x01\x00\x00'
 _SIZES = {'B': 1, '?': 1, 'i': 4, 'I': 4, 'f': 4, 'q': 8, 'd': 8}
 
 
@@ -16,7 +16,7 @@ class CdrWriter:
 
     def __init__(self) -> None:
         """Start an empty message."""
-        self._parts: list[bytes | memoryview] = [_ENCAPSULATION]
+        self._parts: list[bytes | memoryview] = [ENCAPSULATION]
         self._size = 0  # alignment counts from behind the encapsulation
 
     def put(self, code: str, *values: float) -> None:
@@ -28,6 +28,11 @@ class CdrWriter:
         """Put a string."""
         data = text.encode() + b'\x00'
         self.put('I', len(data))
+        self._append(data)
+
+    def put_bytes(self, data: bytes | memoryview, alignment: int) -> None:
+        """Put fields that are in CDR already, the first of them aligned to ``alignment``."""
+        self._align(alignment)
         self._append(data)
 
     def put_sequence(self, array: np.ndarray) -> None:

@@ -4,9 +4,14 @@
 """One frame: the cloth as an organised point cloud, and its plain numbers."""
 
 import struct
+from typing import Any
 
 from cloth_sim_interfaces.msg import ClothStats
+from cloth_sim_ros.messages.cdr_writer import ENCAPSULATION
+from cloth_sim_ros.messages.stamp import STAMP
 from cloth_sim_ros.messages.stamp import stamp
+from cloth_sim_ros.messages.stamp import STAMP_AT
+from cloth_sim_ros.messages.stamp import stamp_parts
 from cloth_sim_ros.sim.snapshot import POINT_DTYPE
 from cloth_sim_ros.sim.snapshot import Snapshot
 import numpy as np
@@ -15,11 +20,11 @@ from sensor_msgs.msg import PointCloud2
 from sensor_msgs.msg import PointField
 from std_msgs.msg import Header
 
-_STAMP = struct.Struct('<iI')
-_STAMP_AT = 4  # behind the encapsulation; the header is the first field
 _LENGTH = struct.Struct('<I')
 _MARK = bytes(range(64, 128))  # stands for the points when looking for their place
 
+# How the types of ROS stand in a struct.
+_CODES = {'double': 'd', 'uint64': 'Q', 'uint32': 'I', 'boolean': '?'}
 _DATATYPES = {'<f4': PointField.FLOAT32, '<u4': PointField.UINT32}
 
 
@@ -59,8 +64,7 @@ class PointsMessage:
             raise ValueError(
                 f'points are {records.shape} {records.dtype}, the message is {self._shape} '
                 f'{POINT_DTYPE}: create a PointsMessage for this cloth')
-        time = stamp(snapshot.time)
-        _STAMP.pack_into(self._head, _STAMP_AT, time.sec, time.nanosec)
+        STAMP.pack_into(self._head, STAMP_AT, *stamp_parts(snapshot.time))
         self._tail[0] = snapshot.finite  # is_dense, the last field
         return b''.join((self._head, np.ascontiguousarray(records).data, self._tail))
 
@@ -82,28 +86,65 @@ def stats_message(
     """
     return ClothStats(
         header=Header(stamp=stamp(snapshot.time), frame_id=frame_id),
-        sim_time=float(snapshot.time),
-        steps=int(snapshot.steps),
-        dt=float(snapshot.dt),
-        substeps=int(snapshot.substeps),
-        stability_margin=float(snapshot.stability_margin),
-        kinetic_energy=float(snapshot.kinetic_energy),
-        elastic_energy=float(snapshot.elastic_energy),
-        gravitational_energy=float(snapshot.gravitational_energy),
-        total_energy=float(snapshot.total_energy),
-        max_strain=float(snapshot.max_strain),
-        solver_iterations=int(snapshot.solver_iterations),
-        solver_residual=float(snapshot.solver_residual),
-        solver_reached=bool(snapshot.solver_reached),
-        active_constraints=int(snapshot.active_constraints),
-        active_fraction=float(snapshot.active_fraction),
-        constraint_switches=int(snapshot.constraint_switches),
-        lengths_are_held=bool(snapshot.lengths_are_held),
-        stalled_pins=int(snapshot.stalled_pins),
-        sticking_nodes=int(snapshot.sticking_nodes),
-        sliding_nodes=int(snapshot.sliding_nodes),
-        deepest_node=float(snapshot.deepest_node),
-        step_wall_time=float(step_wall_time),
-        real_time_factor=float(real_time_factor),
-        real_time_factor_wanted=float(wanted_factor),
-        too_slow=bool(too_slow))
+        **_stats(
+            snapshot, step_wall_time, real_time_factor, wanted_factor, too_slow))
+
+
+def _stats(
+        snapshot: Snapshot, step_wall_time: float, real_time_factor: float, wanted_factor: float,
+        too_slow: bool) -> dict[str, Any]:
+    """Return the fields of the message but for its header, in their order."""
+    return {
+        'sim_time': float(snapshot.time),
+        'steps': int(snapshot.steps),
+        'dt': float(snapshot.dt),
+        'substeps': int(snapshot.substeps),
+        'stability_margin': float(snapshot.stability_margin),
+        'kinetic_energy': float(snapshot.kinetic_energy),
+        'elastic_energy': float(snapshot.elastic_energy),
+        'gravitational_energy': float(snapshot.gravitational_energy),
+        'total_energy': float(snapshot.total_energy),
+        'max_strain': float(snapshot.max_strain),
+        'solver_iterations': int(snapshot.solver_iterations),
+        'solver_residual': float(snapshot.solver_residual),
+        'solver_reached': bool(snapshot.solver_reached),
+        'active_constraints': int(snapshot.active_constraints),
+        'active_fraction': float(snapshot.active_fraction),
+        'constraint_switches': int(snapshot.constraint_switches),
+        'lengths_are_held': bool(snapshot.lengths_are_held),
+        'stalled_pins': int(snapshot.stalled_pins),
+        'sticking_nodes': int(snapshot.sticking_nodes),
+        'sliding_nodes': int(snapshot.sliding_nodes),
+        'deepest_node': float(snapshot.deepest_node),
+        'step_wall_time': float(step_wall_time),
+        'real_time_factor': float(real_time_factor),
+        'real_time_factor_wanted': float(wanted_factor),
+        'too_slow': bool(too_slow),
+    }
+
+
+class StatsMessage:
+    """
+    The same in the bytes that go out: an object of ROS checks each of its fields.
+
+    :param frame_id: of the header
+    """
+
+    def __init__(self, frame_id: str) -> None:
+        """Serialise the header, and find the place of every field."""
+        self._head = bytearray(serialize_message(Header(frame_id=frame_id)))
+        layout, size = '<', len(self._head) - len(ENCAPSULATION)
+        for kind in list(ClothStats.get_fields_and_field_types().values())[1:]:
+            code = _CODES[kind]
+            padding = -size % struct.calcsize(code)
+            layout += f'{padding}x{code}'
+            size += padding + struct.calcsize(code)
+        self._fields = struct.Struct(layout)
+
+    def serialise(
+            self, snapshot: Snapshot, *, step_wall_time: float, real_time_factor: float,
+            wanted_factor: float, too_slow: bool) -> bytes:
+        """Return the CDR bytes of what ``stats_message`` returns."""
+        STAMP.pack_into(self._head, STAMP_AT, *stamp_parts(snapshot.time))
+        return bytes(self._head) + self._fields.pack(*_stats(
+            snapshot, step_wall_time, real_time_factor, wanted_factor, too_slow).values())

@@ -9,6 +9,7 @@ from typing import Any
 
 from builtin_interfaces.msg import Time
 from cloth_sim_ros.messages.cdr_writer import CdrWriter
+from cloth_sim_ros.messages.cdr_writer import ENCAPSULATION
 from cloth_sim_ros.messages.geometry import MOST_DRAWN
 from cloth_sim_ros.messages.geometry import push_arrows
 from cloth_sim_ros.messages.geometry import strain_colors
@@ -102,11 +103,15 @@ def put_marker(
     writer.put('i', number, kind, action)
     writer.put('d', *position, *orientation, *scale)
     writer.put('f', *color)
-    writer.put('i', 0)  # lifetime: for ever
-    writer.put('I', 0)
-    writer.put('?', False)  # frame_locked
+    writer.put_bytes(_LIFETIME, 4)
     writer.put_sequence(points)
     writer.put_sequence(colors)
+    writer.put_bytes(_TAIL, 4)
+
+
+def _tail() -> bytes:
+    """Return what is behind the colours of each marker, without an encapsulation."""
+    writer = CdrWriter()
     writer.put_string('')  # texture_resource
     _put_header(writer, Time(), '')  # texture
     writer.put_string('')
@@ -117,12 +122,19 @@ def put_marker(
     writer.put_string('')  # mesh_file
     writer.put('I', 0)
     writer.put('?', False)  # mesh_use_embedded_materials
+    return writer.finish()[len(ENCAPSULATION):]
 
 
 def _put_header(writer: CdrWriter, time: Time, frame_id: str) -> None:
     writer.put('i', time.sec)
     writer.put('I', time.nanosec)
     writer.put_string(frame_id)
+
+
+# Nothing in it is aligned to more than its beginning is: 4 bytes.
+_TAIL = _tail()
+# lifetime, for ever, and frame_locked, which is false.
+_LIFETIME = bytes(4 + 4 + 1)
 
 
 class MarkersMessage:
@@ -153,14 +165,17 @@ class MarkersMessage:
         :param colliders: where they are now
         :param grasps: those that hold nodes
         """
-        markers = self._markers(snapshot, pushes)
+        size = _size(snapshot.positions)
+        # Half the distance of nodes, but still to be seen on a fine cloth.
+        node_size = size * max(0.5 / self._cells, 0.01)
+        markers = self._markers(snapshot, pushes, size, node_size)
         for number, grasp in enumerate(grasps):
             markers.append({
                 'namespace': 'grasps', 'number': number, 'kind': Marker.CUBE,
-                'scale': (2.0 * self._node_size(snapshot),) * 3, 'color': GRASP_COLOR,
+                'scale': (2.0 * node_size,) * 3, 'color': GRASP_COLOR,
                 'position': grasp.pose.position, 'orientation': grasp.pose.orientation})
         if colliders:
-            markers += collider_markers(colliders, _size(snapshot.positions))
+            markers += collider_markers(colliders, size)
         shown = {(marker['namespace'], marker['number']) for marker in markers}
         self._shown |= shown
         markers += [
@@ -173,8 +188,9 @@ class MarkersMessage:
             put_marker(writer, time=time, frame_id=self._frame_id, **marker)
         return writer.finish()
 
-    def _markers(self, snapshot: Snapshot, pushes: Iterable[Push]) -> list[dict[str, Any]]:
-        size, node_size = _size(snapshot.positions), self._node_size(snapshot)
+    def _markers(
+            self, snapshot: Snapshot, pushes: Iterable[Push], size: float,
+            node_size: float) -> list[dict[str, Any]]:
         drawn = self._surface.sample(snapshot.positions)
         markers = [self._cloth(drawn, snapshot.strain, node_size)]
         flags = np.ascontiguousarray(snapshot.flags)
@@ -194,10 +210,6 @@ class MarkersMessage:
              'scale': (0.02 * size, 0.05 * size, 0.0), 'color': PUSH_COLOR, 'points': arrow}
             for number, arrow in enumerate(arrows)]
         return markers
-
-    def _node_size(self, snapshot: Snapshot) -> float:
-        # Half the distance of nodes, but still to be seen on a fine cloth.
-        return _size(snapshot.positions) * max(0.5 / self._cells, 0.01)
 
     def _cloth(self, drawn: np.ndarray, strain: np.ndarray, node_size: float) -> dict[str, Any]:
         is_chain = self._surface.is_chain

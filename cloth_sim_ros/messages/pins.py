@@ -6,7 +6,9 @@
 import struct
 
 from cloth_sim_ros.messages.frame_names import pin_frame
-from cloth_sim_ros.messages.stamp import stamp
+from cloth_sim_ros.messages.stamp import STAMP
+from cloth_sim_ros.messages.stamp import STAMP_AT
+from cloth_sim_ros.messages.stamp import stamp_parts
 from cloth_sim_ros.sim.snapshot import FLAG_PINNED
 from cloth_sim_ros.sim.snapshot import Snapshot
 from geometry_msgs.msg import Transform
@@ -19,7 +21,6 @@ from rclpy.serialization import serialize_message
 from std_msgs.msg import Header
 from tf2_msgs.msg import TFMessage
 
-_STAMP = struct.Struct('<iI')
 _FIRST_STAMP_AT = 8  # behind the encapsulation and the length of the list
 _PLACE = struct.Struct('<3d')
 _ROTATION = struct.calcsize('<4d')
@@ -54,9 +55,9 @@ class PinFrames:
         pins = np.argwhere(pinned).tolist()
         if pins != self._pins:
             self._make_template(pins)
-        time = stamp(snapshot.time)
+        time = stamp_parts(snapshot.time)
         for (stamp_at, place_at), place in zip(self._fields, snapshot.positions[pinned].tolist()):
-            _STAMP.pack_into(self._template, stamp_at, time.sec, time.nanosec)
+            STAMP.pack_into(self._template, stamp_at, *time)
             _PLACE.pack_into(self._template, place_at, *place)
         return bytes(self._template)
 
@@ -83,7 +84,6 @@ class PinFrames:
 # More would keep the node from stepping; subscribers must have room for all of a frame.
 MOST_PINS = 1024
 
-_STAMP_AT = 4  # behind the encapsulation; the header is the first field
 _FORCE = struct.Struct('<3d')
 
 
@@ -110,7 +110,7 @@ class WrenchMessages:
 
         :param held: (rows, cols) bool, nodes to leave out: their grasp has a wrench
         """
-        time = stamp(snapshot.time)
+        time = stamp_parts(snapshot.time)
         messages = []
         pins = snapshot.pin_forces
         assert pins is not None  # Frames asks for them where this topic is read
@@ -118,7 +118,7 @@ class WrenchMessages:
             if held is not None and held[tuple(node)]:
                 continue
             data, place = self._template(*node)
-            _STAMP.pack_into(data, _STAMP_AT, time.sec, time.nanosec)
+            STAMP.pack_into(data, STAMP_AT, *time)
             _FORCE.pack_into(data, place, *force)
             messages.append(bytes(data))
         return messages

@@ -4,10 +4,15 @@
 """Simulated time as ROS writes it."""
 
 import math
+import struct
 
 from builtin_interfaces.msg import Time
+from cloth_sim_ros.messages.cdr_writer import ENCAPSULATION
 
 NANOSECONDS = 1_000_000_000
+# A stamp in CDR, and its place in a message that begins with a header: behind the encapsulation.
+STAMP = struct.Struct('<iI')
+STAMP_AT = len(ENCAPSULATION)
 
 
 def nanoseconds(seconds: float) -> int:
@@ -19,5 +24,15 @@ def nanoseconds(seconds: float) -> int:
 
 def stamp(seconds: float) -> Time:
     """Return simulated ``seconds`` as a ROS time."""
-    sec, nanosec = divmod(nanoseconds(seconds), NANOSECONDS)
+    sec, nanosec = stamp_parts(seconds)
     return Time(sec=sec, nanosec=nanosec)
+
+
+def stamp_parts(seconds: float) -> tuple[int, int]:
+    """Return the fields of that, sec and nanosec, for messages that are no objects."""
+    return divmod(nanoseconds(seconds), NANOSECONDS)
+
+
+def serialise_clock(seconds: float) -> bytes:
+    """Return the CDR bytes of a rosgraph_msgs/Clock at simulated ``seconds``."""
+    return ENCAPSULATION + STAMP.pack(*stamp_parts(seconds))

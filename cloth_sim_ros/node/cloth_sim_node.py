@@ -115,7 +115,7 @@ class ClothSimNode(GuardedNode):
             self._simulation, self._pacing, warn=self.get_logger().warning,
             say=self.get_logger().info)
         self._run_loop = RunLoop(
-            self, self._simulation, frame_seconds=1.0 / values['publish.rate'],
+            self.alarm, self._simulation, frame_seconds=1.0 / values['publish.rate'],
             pacing=self._pacing, paused=values['start_paused'],
             on_frame=self.guarded(self._on_frame, 'a frame'), on_stop=self._on_stop,
             note=self.faults.note)

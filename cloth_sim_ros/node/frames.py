@@ -17,19 +17,17 @@ from cloth_sim_ros.messages.body_frames import body_poses
 from cloth_sim_ros.messages.body_frames import collider_wrenches
 from cloth_sim_ros.messages.body_frames import grasp_wrenches
 from cloth_sim_ros.messages.frame import PointsMessage
-from cloth_sim_ros.messages.frame import stats_message
+from cloth_sim_ros.messages.frame import StatsMessage
 from cloth_sim_ros.messages.markers import MarkersMessage
 from cloth_sim_ros.messages.pins import PinFrames
 from cloth_sim_ros.messages.pins import too_many_pins
 from cloth_sim_ros.messages.pins import WrenchMessages
-from cloth_sim_ros.messages.stamp import stamp
+from cloth_sim_ros.messages.stamp import serialise_clock
 from cloth_sim_ros.node.input_frames import OwnFrames
 from cloth_sim_ros.node.outlet import Outlet
 from cloth_sim_ros.sim.simulation import Simulation
 from cloth_sim_ros.sim.snapshot import Snapshot
 import numpy as np
-from rclpy.serialization import serialize_message
-from rosgraph_msgs.msg import Clock
 
 PIN_FRAMES, WRENCHES = 'tf', 'pins/wrenches'
 _PIN_PARAMETERS = {PIN_FRAMES: 'publish.tf', WRENCHES: 'publish.wrenches'}
@@ -156,6 +154,7 @@ class Frames:
         self._frame_id = values['frame_id']
         self._points = PointsMessage(scene.rows, scene.cols, self._frame_id)
         self._markers = MarkersMessage(scene.rows, scene.cols, self._frame_id)
+        self._stats = StatsMessage(self._frame_id)
         self._pins = PinTopics(simulation, outlet, values, node_name, warn)
         self._own = own
         self._node_name = node_name
@@ -174,8 +173,8 @@ class Frames:
         """
         simulation = self._simulation
         now = simulation.time
-        self._outlet.send_message(
-            'clock', Clock(clock=stamp(now)), now, to_recording=to_recording)
+        self._outlet.send(
+            'clock', lambda: serialise_clock(now), now, to_recording=to_recording)
         made = [
             part for part in _PARTS if self._values[f'publish.{part}']
             and self._outlet.wanted(part, by_recording=to_recording)]
@@ -193,10 +192,10 @@ class Frames:
             'markers': lambda: self._markers.serialise(
                 snapshot, [applied.push for applied in simulation.pushes],
                 simulation.colliders, simulation.grasps),
-            'stats': lambda: serialize_message(stats_message(
-                snapshot, self._frame_id, step_wall_time=worked / max(steps, 1),
+            'stats': lambda: self._stats.serialise(
+                snapshot, step_wall_time=worked / max(steps, 1),
                 real_time_factor=real_time_factor,
-                wanted_factor=self._values['real_time_factor'], too_slow=too_slow)),
+                wanted_factor=self._values['real_time_factor'], too_slow=too_slow),
         }
         for part in made:
             self._outlet.send(part, makers[part], now, to_recording=to_recording)

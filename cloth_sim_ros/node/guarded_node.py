@@ -13,6 +13,8 @@ from typing import NamedTuple
 import warnings
 
 from cloth_sim_ros.files.errors import cut
+from cloth_sim_ros.node.frame_executor import Alarm
+from cloth_sim_ros.node.frame_executor import FrameExecutor
 from cloth_sim_ros.node.refusals import LogThrottle
 from rcl_interfaces.msg import SetParametersResult
 from rcl_interfaces.srv import SetParameters
@@ -20,7 +22,6 @@ from rcl_interfaces.srv import SetParametersAtomically
 from rclpy.clock import Clock
 from rclpy.clock import ClockType
 from rclpy.executors import ExternalShutdownException
-from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.qos import qos_profile_services_default
 from rclpy.qos import QoSProfile
@@ -185,6 +186,7 @@ class GuardedNode(Node):
         """Begin without a fault."""
         self.faults = Faults(lambda text: self.get_logger().error(text))
         self.fatal: Exception | None = None
+        self.alarm = Alarm(_no_frame)
         self._retries: Timer | None = None
         self._late_answers = LateAnswers(
             warn=lambda text: self.get_logger().warning(text), wait=self._begin_retries,
@@ -270,8 +272,7 @@ class GuardedNode(Node):
 
         :raises Exception: ``fatal``, or what the executor fails with again and again
         """
-        executor = SingleThreadedExecutor(context=self.context)
-        executor.add_node(self)
+        executor = FrameExecutor(self, self.alarm)
         failures = 0
         while self.context.ok() and self.fatal is None:
             try:
@@ -307,3 +308,7 @@ def _answer_with(reason: str, request: Any, response: Any) -> Any:
 
 def _name(callback: Callable[..., Any]) -> str:
     return getattr(callback, '__qualname__', type(callback).__name__)
+
+
+def _no_frame() -> None:
+    """Stand for the run loop until there is one."""

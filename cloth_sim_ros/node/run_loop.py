@@ -11,12 +11,10 @@ import time
 from cloth_sim_interfaces.msg import ClothState
 from cloth_sim_ros.gl.errors import DeviceError
 from cloth_sim_ros.messages.state import slow_pace
+from cloth_sim_ros.node.frame_executor import Alarm
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.modes import Pieces
 from cloth_sim_ros.sim.simulation import Simulation
-from rclpy.clock import Clock
-from rclpy.clock import ClockType
-from rclpy.node import Node
 from rclpy.task import Future
 
 # A late frame is caught up with, but not more than this: a machine that is too slow would
@@ -121,7 +119,6 @@ class PaceReport:
 
 # Advance the simulation frame by frame: running, paused, or stopped by a blow-up.
 
-_NANOSECONDS = 1e9
 # A step can take long: after this much wall time [s] services get their turn.
 _SLICE = 0.01
 MOST_STEPS = 100000
@@ -129,12 +126,13 @@ MOST_STEPS = 100000
 
 class RunLoop:
     """
-    Own the run state and the timer that makes the frames.
+    Own the run state, and make the frames when the alarm rings.
 
     What a frame simulates comes from ``frame_seconds`` and dt alone; the wall clock only says
     when it is made. Work is done in slices, between which everything else is served; a slice can
     end within a step.
 
+    :param alarm: rings for the next slice of work
     :param frame_seconds: simulated time of a frame [s]
     :param pacing: when the next frame is due
     :param on_frame: called after the state has changed, with the wall time that took [s] and the
@@ -145,10 +143,10 @@ class RunLoop:
     """
 
     def __init__(
-            self, node: Node, simulation: Simulation, *, frame_seconds: float, pacing: Pacing,
+            self, alarm: Alarm, simulation: Simulation, *, frame_seconds: float, pacing: Pacing,
             paused: bool, on_frame: Callable[[float, int], None],
             on_stop: Callable[[], None], note: Callable[[Exception, str], str]) -> None:
-        """Make the timer; nothing moves before start."""
+        """Prepare; nothing moves before start."""
         self._simulation = simulation
         self._frame_seconds = frame_seconds
         self._pacing = pacing
@@ -163,10 +161,8 @@ class RunLoop:
         # What a caller of step waits for.
         self._answer: Future | None = None
         self._begin_frame()
-        # Simulated time may stand still, or come from this very node: only a steady clock paces.
-        self._timer = node.create_timer(
-            1.0, self._make_slice, clock=Clock(clock_type=ClockType.STEADY_TIME))
-        self._timer.cancel()
+        alarm.ring = self._make_slice
+        self._alarm = alarm
 
     @property
     def run_state(self) -> str:
@@ -196,7 +192,7 @@ class RunLoop:
         """Make frames from now on, unless paused or stopped, and the steps asked for."""
         self._pacing.restart(time.monotonic())
         if self._simulation.is_ready and (self.running or self._answer is not None):
-            self._wait(0.0)
+            self._alarm.set(0.0)
 
     def pause(self) -> None:
         """Make no more frames; a step under way comes to its end."""
@@ -219,7 +215,7 @@ class RunLoop:
 
     def close(self) -> None:
         """Undo a step under way, while there is a device to do so."""
-        self._timer.cancel()
+        self._alarm.cancel()
         if self._work is not None:
             self._work.close()
 
@@ -263,7 +259,7 @@ class RunLoop:
 
     def _make_slice(self) -> None:
         if not (self.running or self._answer is not None or self._work is not None):
-            self._timer.cancel()
+            self._alarm.cancel()
             return
         begin = time.monotonic()
         self._deadline = begin + _SLICE
@@ -288,7 +284,7 @@ class RunLoop:
         if is_made:
             self._end_frame()
         else:
-            self._wait(0.0)
+            self._alarm.set(0.0)
 
     def _go_on(self) -> bool:
         """Work until the slice is over; return whether the frame, or all steps, are made."""
@@ -320,9 +316,9 @@ class RunLoop:
         else:
             delay = self._pacing.delay(time.monotonic(), self._frame_seconds)
         if self.running:
-            self._wait(delay)
+            self._alarm.set(delay)
         else:
-            self._timer.cancel()
+            self._alarm.cancel()
 
     def _end_steps(self, error: Exception | None) -> None:
         answer, self._answer = self._answer, None
@@ -333,7 +329,7 @@ class RunLoop:
 
     def _stop(self, error: ClothSimError | DeviceError) -> None:
         """Show the last finite state, and tell that there is no more to come."""
-        self._timer.cancel()
+        self._alarm.cancel()
         self._work = None
         self._problem = str(error)
         steps, worked = self._simulation.steps - self._first, self._worked
@@ -342,7 +338,3 @@ class RunLoop:
             self._on_frame(worked, steps)
         self._end_steps(error)
         self._on_stop()
-
-    def _wait(self, seconds: float) -> None:
-        self._timer.timer_period_ns = int(seconds * _NANOSECONDS)
-        self._timer.reset()

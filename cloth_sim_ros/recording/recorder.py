@@ -75,6 +75,7 @@ def topic_channel(topic: Topic, node_name: str) -> BagChannel:
 
 # Wall time [s]. With what a flush takes, a process that is killed loses less than a second.
 FLUSH_PERIOD = 0.5
+GATHER = 0.05          # between two looks at what waits to be written
 POLL = 2e-3            # of one thread for the other [s]
 MOST_WAITING = 2**28   # bytes not yet written, before the simulation has to wait
 
@@ -201,12 +202,16 @@ class Recorder:
     def _write_for(self, period: float) -> bool:
         """Write what comes within ``period`` [s]; return False when it was the last."""
         end = time.monotonic() + period
-        while (left := end - time.monotonic()) > 0.0:
+        while time.monotonic() < end:
             try:
-                entry = self._queue.get(timeout=left)
+                entry = self._queue.get_nowait()
             except Empty:
+                # Not woken for each message: two threads that take turns slow each other down.
+                time.sleep(GATHER)
                 # A program that ends without closing still leaves a complete recording.
-                return threading.main_thread().is_alive()
+                if self._queue.empty() and not threading.main_thread().is_alive():
+                    return False
+                continue
             if entry is None:
                 return False
             self._bag.write(*entry)

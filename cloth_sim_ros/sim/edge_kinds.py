@@ -9,6 +9,7 @@ Shaders get it by ``edge_defines``: nothing else says what edges there are.
 
 from collections.abc import Collection
 from dataclasses import dataclass
+from functools import lru_cache
 
 from cloth_sim_ros.sim.materials import WARP
 from cloth_sim_ros.sim.materials import WEFT
@@ -69,12 +70,6 @@ class EdgeKind:
         starts_inside = _are_inside(nodes, rows, cols)
         return starts_inside & _are_inside(nodes + (self.drow, self.dcol), rows, cols)
 
-    def touching(self, nodes: np.ndarray, rows: int, cols: int) -> tuple[Index, Index]:
-        """Return the starts and the ends of the edges with an end in ``nodes`` (n, 2)."""
-        starts = np.concatenate([nodes, nodes - (self.drow, self.dcol)])
-        row, col = starts[self.starting_at(starts, rows, cols)].T
-        return (row, col), (row + self.drow, col + self.dcol)
-
 
 def _are_inside(nodes: np.ndarray, rows: int, cols: int) -> np.ndarray:
     return np.all((nodes >= 0) & (nodes < (rows, cols)), axis=1)
@@ -88,6 +83,47 @@ EDGE_KINDS = (
     EdgeKind(4, 'two_row', 'bend', 0, 2, rest=3),
     EdgeKind(5, 'two_column', 'bend', 2, 0, rest=4),
 )
+
+
+@dataclass(frozen=True)
+class EdgesAt:
+    """
+    The edges with an end in some nodes, each once for each of these ends, kind by kind.
+
+    :param nodes: that end, as places in the list of nodes, (edges,)
+    :param kinds: numbers of the kinds, (edges,)
+    :param starts: rows and columns of the node each edge starts at, (2, edges)
+    :param ends: of the node it ends at, (2, edges)
+    :param others: of the end that is not the one in ``nodes``, (2, edges)
+    """
+
+    nodes: np.ndarray
+    kinds: np.ndarray
+    starts: np.ndarray
+    ends: np.ndarray
+    others: np.ndarray
+
+
+def edges_at(nodes: np.ndarray, rows: int, cols: int) -> EdgesAt:
+    """Return the edges with an end in ``nodes``, (n, 2) int, of a cloth; pins change rarely."""
+    return _edges_at(np.asarray(nodes, dtype=np.int64).tobytes(), rows, cols)
+
+
+# Of the pins and of a grasp or two, for each cloth of a process.
+@lru_cache(maxsize=16)
+def _edges_at(nodes: bytes, rows: int, cols: int) -> EdgesAt:
+    given = np.frombuffer(nodes, dtype=np.int64).reshape(-1, 2)
+    parts = []
+    for kind in EDGE_KINDS:
+        offset = np.array((kind.drow, kind.dcol))
+        for starts, others in ((given, given + offset), (given - offset, given - offset)):
+            there = np.flatnonzero(kind.starting_at(starts, rows, cols))
+            parts.append((
+                there, np.full(len(there), kind.number), starts[there].T,
+                (starts[there] + offset).T, others[there].T))
+    return EdgesAt(*(np.concatenate(part, axis=-1) for part in zip(*parts)))
+
+
 # An edge of each rest length, in their order.
 REST_KINDS = tuple({kind.rest: kind for kind in reversed(EDGE_KINDS)}[rest] for rest in range(5))
 # The walk over all edges, as shaders have it.

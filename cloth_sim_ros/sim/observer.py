@@ -50,6 +50,8 @@ class Observer:
         self._partial_sums = np.empty((strips * scene.cols, _SUMS), dtype=np.float32)
         self._sums_buffer = Buffer(self._partial_sums.nbytes)
         self._records_buffer: Buffer | None = None
+        self._law: EdgeLaw | None = None
+        self._law_in_newtons: EdgeLaw
 
     def measure(self, state: State, forcing: Forcing, law: EdgeLaw | None) -> Measures:
         """
@@ -74,6 +76,12 @@ class Observer:
         records = np.empty((self._scene.rows, self._scene.cols), dtype=POINT_DTYPE)
         return self._observe(state, forcing, law, records, limit_marks), records
 
+    def _in_newtons(self, law: EdgeLaw) -> EdgeLaw:
+        # Over the mass of a node that weighs nothing, energies would leave float32.
+        if law is not self._law:
+            self._law, self._law_in_newtons = law, law.times(self._scene.node_mass)
+        return self._law_in_newtons
+
     def delete(self) -> None:
         """Give passes and buffers back."""
         for program in self._programs.values():
@@ -90,8 +98,7 @@ class Observer:
         forcing.bind()
         program.set_int('pushed_everywhere', int(forcing.pushed_everywhere))
         if law is not None:
-            # In N: over the mass of a node that weighs nothing, energies would leave float32.
-            set_law(program, law.times(self._scene.node_mass))
+            set_law(program, self._in_newtons(law))
             program.set_int('acts_between_pins', int(law.acts_between_pins))
         state.bind_in()
         self._sums_buffer.bind_storage(bindings.PARTIAL_SUMS)

@@ -4,8 +4,11 @@
 """The forces that hold the pinned nodes, by the tension of the edges and by bending."""
 
 from dataclasses import dataclass
+from functools import lru_cache
 
 from cloth_sim_ros.sim.edge_kinds import EDGE_KINDS
+from cloth_sim_ros.sim.edge_kinds import edges_at
+from cloth_sim_ros.sim.edge_kinds import Index
 from cloth_sim_ros.sim.scene import Scene
 import numpy as np
 
@@ -91,22 +94,43 @@ def spring_tension(
     :param nodes: (n, 2) rows and columns, for the springs at these nodes alone: the others are 0
     """
     tension = np.zeros((scene.rows, scene.cols, len(EDGE_KINDS)), dtype=np.float32)
+    if nodes is not None:
+        # All kinds at once: these edges are few, and each call of NumPy costs more than they do.
+        edges = edges_at(nodes, scene.rows, scene.cols)
+        starts, ends = (edges.starts[0], edges.starts[1]), (edges.ends[0], edges.ends[1])
+        tension[(*starts, edges.kinds)] = _pull(
+            positions, velocities, starts, ends, *_springs(scene)[:, edges.kinds])
+        return tension
     for kind in EDGE_KINDS:
         if not scene.models(kind.family):
             continue
-        starts, ends = (
-            kind.everywhere(scene.rows, scene.cols) if nodes is None
-            else kind.touching(nodes, scene.rows, scene.cols))
-        d = positions[ends].astype(float) - positions[starts]
-        length = np.maximum(np.linalg.norm(d, axis=-1), _LEAST_LENGTH)
-        rest = kind.rest_length(scene)
-        stretch = length - rest
-        pull = kind.stiffness(scene) * stretch
-        if kind.damping(scene) > 0.0:
-            dv = velocities[ends].astype(float) - velocities[starts]
-            pull += kind.damping(scene) * np.sum(dv * d, axis=-1) / length
-        tension[(*starts, kind.number)] = pull
+        starts, ends = kind.everywhere(scene.rows, scene.cols)
+        tension[(*starts, kind.number)] = _pull(
+            positions, velocities, starts, ends, kind.rest_length(scene), kind.stiffness(scene),
+            kind.damping(scene))
     return tension
+
+
+@lru_cache(maxsize=8)
+def _springs(scene: Scene) -> np.ndarray:
+    """Return rest length, stiffness and damping of each kind, (3, 6); 0 where there are none."""
+    return np.array([
+        (kind.rest_length(scene), kind.stiffness(scene), kind.damping(scene))
+        if scene.models(kind.family) else (0.0, 0.0, 0.0) for kind in EDGE_KINDS]).T
+
+
+def _pull(
+        positions: np.ndarray, velocities: np.ndarray, starts: Index, ends: Index,
+        rest: float | np.ndarray, stiffness: float | np.ndarray,
+        damping: float | np.ndarray) -> np.ndarray:
+    """Return what springs from ``starts`` to ``ends`` pull with [N], of the shape of these."""
+    d = positions[ends].astype(float) - positions[starts]
+    length = np.maximum(np.linalg.norm(d, axis=-1), _LEAST_LENGTH)
+    pull = stiffness * (length - rest)
+    if np.any(damping):
+        dv = velocities[ends].astype(float) - velocities[starts]
+        pull += damping * np.sum(dv * d, axis=-1) / length
+    return pull
 
 
 @dataclass(frozen=True)
@@ -155,15 +179,12 @@ def edge_pulls(
         bending_pulls(scene, positions, velocities, nodes) if scene.has_rigidity
         else np.zeros((len(nodes), 3)))
     here = positions[tuple(nodes.T)].astype(float)
-    for kind in EDGE_KINDS:
-        offset = np.array((kind.drow, kind.dcol))
-        for starts, others in ((nodes, nodes + offset), (nodes - offset, nodes - offset)):
-            there = kind.starting_at(starts, scene.rows, scene.cols)
-            d = positions[tuple(others[there].T)] - here[there]
-            length = np.linalg.norm(d, axis=-1)
-            # An edge of no length has no direction: it pulls nowhere.
-            pull = np.divide(
-                tension[(*starts[there].T, kind.number)], length,
-                out=np.zeros_like(length), where=length > 0.0)
-            pulls[there] += pull[:, None] * d
+    edges = edges_at(nodes, scene.rows, scene.cols)
+    d = positions[tuple(edges.others)] - here[edges.nodes]
+    length = np.linalg.norm(d, axis=-1)
+    # An edge of no length has no direction: it pulls nowhere.
+    pull = np.divide(
+        tension[(*edges.starts, edges.kinds)], length, out=np.zeros_like(length),
+        where=length > 0.0)
+    np.add.at(pulls, edges.nodes, pull[:, None] * d)
     return pulls

@@ -20,6 +20,10 @@ docs/notes/performance.md defines the figures.
 
 --batch compares many small cloths that step together with one simulation after the other.
 
+--node measures what a node costs beyond its simulation: CPU time per simulated second as topics
+and the recording are added one after another, at 50 frames per second, and the clouds that a
+reliable subscriber in another process misses. It needs ROS.
+
 For example:
   cloth_sim bench
   cloth_sim bench --sizes 512 1024 --rounds 9 --json
@@ -29,6 +33,7 @@ For example:
   cloth_sim bench --modes --grids 32,64
   cloth_sim bench --contact --sizes 64
   cloth_sim bench --batch --sizes 12 32 --cloths 256
+  cloth_sim bench --node --sizes 32 64 --rounds 3
   cloth_sim bench --start-up config/drape.yaml
 """
 
@@ -44,6 +49,7 @@ from cloth_sim_ros.study.batch_speed import measure_batch
 from cloth_sim_ros.study.mode_comparison import compare_modes
 from cloth_sim_ros.study.mode_comparison import comparison_table
 from cloth_sim_ros.study.mode_runs import CONTENDERS
+from cloth_sim_ros.study.node_cost import measure_node
 from cloth_sim_ros.study.solver_speed import compare_solvers
 from cloth_sim_ros.study.solver_speed import SolverComparison
 from cloth_sim_ros.study.speed import compare_variants
@@ -62,22 +68,26 @@ _GRIDS = [32, 64, 128]
 _CONTACT_SIZES = [64]
 _BATCH_SIZES = [32]
 _BATCH_FRAMES = 10
+_NODE_SIZES = [32, 64, 128]
 _ROUNDS = 7
-# Of --modes, --contact and --batch, whose rounds on fine grids take minutes.
+# Of --modes, --contact, --batch and --node, whose rounds take minutes.
 _MODES_ROUNDS = 3
+_SECONDS = 1.2
+_NODE_SECONDS = 6.0
 
 
 def add_arguments(parser: ArgumentParser) -> None:
     """Add the arguments of this verb."""
     parser.add_argument('--sizes', type=int, nargs='+', metavar='N',
                         help='nodes along each side (default: 128 512 1024; with --contact 64, '
-                             'with --solver 52 128, with --baseline paper 20)')
+                             'with --node 32 64 128, with --solver 52 128, with --baseline paper '
+                             '20)')
     parser.add_argument('--variants', nargs='+', metavar='name=value,...',
                         default=['layout=fused', 'layout=paper'],
                         help='scene parameters of each variant (default: %(default)s)')
     parser.add_argument('--rounds', type=int, metavar='N',
-                        help=f'rounds of each variant (default: {_ROUNDS}, with --modes or '
-                             f'--contact {_MODES_ROUNDS})')
+                        help=f'rounds of each variant (default: {_ROUNDS}, with --modes, '
+                             f'--contact or --node {_MODES_ROUNDS})')
     parser.add_argument('--round-seconds', type=float, default=0.4, metavar='T',
                         help='wall time of a round [s] (default: %(default)s)')
     parser.add_argument('--solver', action='store_true',
@@ -95,9 +105,14 @@ def add_arguments(parser: ArgumentParser) -> None:
     parser.add_argument('--grids', type=_parse_grids, default=_GRIDS, metavar='N,N,...',
                         help='nodes along each side with --modes (default: '
                              f'{",".join(map(str, _GRIDS))})')
-    parser.add_argument('--seconds', type=float, default=1.2, metavar='T',
-                        help='simulated time of a round with --modes or --contact [s] '
-                             '(default: %(default)s)')
+    parser.add_argument('--node', action='store_true',
+                        help='measure the CPU time of a node instead, topic by topic')
+    parser.add_argument('--beside', metavar='CHECKOUT',
+                        help='with --node, measure the node of another checkout in turn')
+    parser.add_argument('--seconds', type=float, metavar='T',
+                        help='simulated time of a round with --modes or --contact, or of a '
+                             f'measurement with --node [s] (default: {_SECONDS}, with --node '
+                             f'{_NODE_SECONDS})')
     parser.add_argument('--only', nargs='+', choices=CONTENDERS, default=list(CONTENDERS),
                         metavar='NAME', help='modes to compare with --modes, of '
                                              f'{", ".join(CONTENDERS)} (default: all)')
@@ -105,14 +120,18 @@ def add_arguments(parser: ArgumentParser) -> None:
                         help='measure the time from the start of a node to its first point '
                              'cloud instead; needs ROS')
     parser.add_argument('--set', action='append', default=[], metavar='name=value',
-                        dest='changes', help='set a parameter of that node')
+                        dest='changes', help='set a parameter of the node of --start-up or --node')
     parser.add_argument('--json', action='store_true', help='print JSON, one line per size')
 
 
 def main(args: Namespace) -> int:
     """Measure and print."""
+    if args.seconds is None:
+        args.seconds = _NODE_SECONDS if args.node else _SECONDS
     if args.modes:
         return _compare_modes(args)
+    if args.node:
+        return _measure_node(args)
     if args.contact:
         return _compare_contact(args)
     if args.batch:
@@ -175,6 +194,15 @@ def _compare_batch(args: Namespace) -> int:
                 size, args.cloths, is_controlled=is_controlled, frames=_BATCH_FRAMES,
                 rounds=_MODES_ROUNDS if args.rounds is None else args.rounds)
             print(json.dumps(found.as_dict()) if args.json else found.in_words(), flush=True)
+    return 0
+
+
+def _measure_node(args: Namespace) -> int:
+    for cost in measure_node(
+            args.sizes or _NODE_SIZES, dict(map(parse_change, args.changes)),
+            seconds=args.seconds, rounds=_MODES_ROUNDS if args.rounds is None else args.rounds,
+            checkouts=[args.beside, ''] if args.beside else ['']):
+        print(json.dumps(cost.as_dict()) if args.json else cost.in_words(), flush=True)
     return 0
 
 

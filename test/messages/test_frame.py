@@ -5,8 +5,10 @@
 
 from dataclasses import replace
 
+from cloth_sim_interfaces.msg import ClothStats
 from cloth_sim_ros.messages.frame import PointsMessage
 from cloth_sim_ros.messages.frame import stats_message
+from cloth_sim_ros.messages.frame import StatsMessage
 from cloth_sim_ros.sim.snapshot import POINT_DTYPE
 from made_snapshot import make_snapshot
 import numpy as np
@@ -118,3 +120,15 @@ def test_a_run_that_blew_up_is_still_told(value):
     """The node would stop on the first number that is not finite."""
     stats = stats_message(make_snapshot(2, 2, kinetic_energy=value, finite=False), 'world')
     assert str(stats.kinetic_energy) == str(value)
+
+
+@pytest.mark.parametrize('frame_id', ['', 'w', 'world', 'map_01', 'großer Rahmen'])
+def test_serialised_statistics_are_those_of_the_message(frame_id):
+    """A field would be read in the place of another."""
+    snapshot = make_snapshot(
+        2, 2, time=3.000000007, steps=2**40, solver_reached=False, solver_iterations=7,
+        stalled_pins=3, deepest_node=0.25, max_strain=float('inf'))
+    pace = {'step_wall_time': 1e-3, 'real_time_factor': 0.9, 'wanted_factor': 1.0,
+            'too_slow': True}
+    data = StatsMessage(frame_id).serialise(snapshot, **pace)
+    assert deserialize_message(data, ClothStats) == stats_message(snapshot, frame_id, **pace)

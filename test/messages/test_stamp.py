@@ -6,10 +6,13 @@
 from fractions import Fraction
 
 from cloth_sim_ros.messages.stamp import nanoseconds
+from cloth_sim_ros.messages.stamp import serialise_clock
 from cloth_sim_ros.messages.stamp import stamp
 from hypothesis import given
 from hypothesis import strategies
 import pytest
+from rclpy.serialization import deserialize_message
+from rosgraph_msgs.msg import Clock
 
 
 @given(
@@ -32,3 +35,9 @@ def test_rounds_to_the_nearest_and_carries(seconds, sec, nanosec):
     """A stamp would be cut off instead of rounded, or hold 10^9 nanoseconds."""
     time = stamp(seconds)
     assert (time.sec, time.nanosec) == (sec, nanosec)
+
+
+@pytest.mark.parametrize('seconds', [0.0, 0.02, 12.000000001, 2.0**31 - 2.5])
+def test_a_clock_is_a_message_of_ros(seconds):
+    """Nodes with use_sim_time would live at another time."""
+    assert deserialize_message(serialise_clock(seconds), Clock).clock == stamp(seconds)

@@ -5,6 +5,7 @@
 
 from cloth_sim_ros.reference.edges import spring_sets
 from cloth_sim_ros.sim.edge_kinds import EDGE_KINDS
+from cloth_sim_ros.sim.edge_kinds import edges_at
 from cloth_sim_ros.sim.scene import FAMILIES
 from cloth_sim_ros.sim.scene import Scene
 import numpy as np
@@ -45,10 +46,14 @@ def test_edges_at_a_node_are_those_with_an_end_there(rows, cols):
     nodes = number_nodes(rows, cols)
     chosen = np.array([(0, 0), (rows - 1, cols // 2)])
     numbers = nodes[tuple(chosen.T)]
+    edges = edges_at(chosen, rows, cols)
+    found = list(zip(
+        *(nodes[tuple(ends)].tolist() for ends in (edges.starts, edges.ends, edges.others)),
+        numbers[edges.nodes].tolist(), edges.kinds.tolist()))
     for kind in EDGE_KINDS:
         every = {
             (int(a), int(b)) for a, b in zip(
                 *(nodes[index].ravel() for index in kind.everywhere(rows, cols)))}
-        found = zip(*(nodes[index] for index in kind.touching(chosen, rows, cols)))
-        assert {(int(a), int(b)) for a, b in found} == {
-            pair for pair in every if np.isin(pair, numbers).any()}
+        assert sorted(entry[:4] for entry in found if entry[4] == kind.number) == sorted(
+            (a, b, b if number == a else a, number)
+            for a, b in every for number in numbers.tolist() if number in (a, b))

@@ -13,6 +13,7 @@ lambda > 0 pulls. See docs/explanation/implicit_step.md.
 from collections.abc import Collection
 from dataclasses import dataclass
 from dataclasses import replace
+from functools import lru_cache
 from typing import Any
 
 from cloth_sim_ros.gl.program import Program
@@ -120,6 +121,8 @@ class EdgeLaw:
         return self.shortest[family] > 0.0 or self.longest[family] < FAR
 
 
+# Each snapshot asks for it.
+@lru_cache(maxsize=8)
 def spring_law(scene: Scene, length: float, *, geometric: float = 0.0) -> EdgeLaw:
     """Return the law of the scene's springs."""
     return edge_law(scene, length, geometric=geometric)

@@ -1,0 +1,142 @@
+# SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
+# SPDX-License-Identifier: Apache-2.0
+
+"""Wait for requests and for the time of the next frame, at a cost that does not count."""
+
+from collections.abc import Callable
+import time
+from typing import Any
+
+from rclpy.executors import ExternalShutdownException
+from rclpy.executors import ShutdownException
+from rclpy.executors import SingleThreadedExecutor
+from rclpy.executors import TimeoutException
+from rclpy.impl.implementation_singleton import rclpy_implementation as _rclpy
+from rclpy.node import Node
+
+_NANOSECONDS = 1e9
+_FOR_EVER = -1
+_GUARD = 'guard_condition'
+# In the order in which a wait set counts them.
+_KINDS = ('subscription', _GUARD, 'timer', 'client', 'service')
+
+
+class Alarm:
+    """
+    Calls ``ring`` when its time has come, and again until it is set anew or cancelled.
+
+    A timer of rclpy that is reset wakes its executor once more for that alone.
+    """
+
+    def __init__(self, ring: Callable[[], None]) -> None:
+        """Begin cancelled."""
+        self.ring = ring
+        self._due: float | None = None
+
+    def set(self, seconds: float) -> None:
+        """Ring in ``seconds`` of wall time."""
+        self._due = time.monotonic() + seconds
+
+    def cancel(self) -> None:
+        """Ring no more."""
+        self._due = None
+
+    @property
+    def left(self) -> float | None:
+        """Get the time until it rings [s], 0 when that has passed; None when cancelled."""
+        return None if self._due is None else max(self._due - time.monotonic(), 0.0)
+
+
+class FrameExecutor(SingleThreadedExecutor):
+    """
+    Serve one node, and ring an alarm in between.
+
+    rclpy collects all entities of a node for each callback, and once more as each callback wakes
+    the executor: 50 frames a second cost as much as a small cloth (docs/notes/performance.md).
+    Here what is waited for is kept, and rclpy's executor only runs when there is something to
+    serve. Events of publishers and subscriptions are served along with the next other thing.
+
+    :param alarm: rung at its time
+    """
+
+    def __init__(self, node: Node, alarm: Alarm) -> None:
+        """Serve ``node``."""
+        super().__init__(context=node.context)
+        self.add_node(node)
+        self._node = node
+        assert node.context.handle is not None  # rclpy.init comes first
+        self._context_handle = node.context.handle
+        self._alarm = alarm
+        self._is_changed = True
+        self._waited: list[tuple[Callable[[Any], Any], Any]] = []
+        self._wait_set: Any = None
+
+    def wake(self) -> None:
+        """End the wait; the node calls it when it has other entities than before."""
+        self._is_changed = True
+        super().wake()
+
+    def spin_once(self, timeout_sec: float | None = None) -> None:
+        """Serve all that is ready, each once, and ring the alarm when it is due."""
+        left = self._alarm.left
+        if self._wait(timeout_sec if left is None else left):
+            self._serve()
+        if self._alarm.left == 0.0:
+            self._alarm.ring()
+
+    def _wait(self, seconds: float | None) -> bool:
+        """Return whether there is something to serve within ``seconds``."""
+        if self._is_changed:
+            self._collect()
+        wait_set = self._wait_set
+        with wait_set, self._context_handle:
+            # A wait leaves only what is ready in the set.
+            wait_set.clear_entities()
+            for add, handle in self._waited:
+                add(handle)
+            wait_set.wait(_FOR_EVER if seconds is None else int(seconds * _NANOSECONDS))
+            if not self._context.ok():
+                raise ExternalShutdownException
+            guards = wait_set.get_ready_entities(_GUARD)
+            is_ready = any(
+                wait_set.get_ready_entities(kind) for kind in _KINDS if kind != _GUARD)
+        # The wait has reset them, and rclpy's executor is to see them as well.
+        for guard in self._node.guards if guards else ():
+            if guard.handle.pointer in guards:
+                guard.trigger()
+                is_ready = True
+        # Its own guard only ends the wait: what waits then is a task, or other entities.
+        return is_ready or bool(self._tasks)
+
+    def _collect(self) -> None:
+        """Note what there is to wait for."""
+        self._is_changed = False
+        node = self._node
+        waited: dict[str, list[Any]] = {
+            kind: [entity for entity in entities if self.can_execute(entity)]
+            for kind, entities in zip(_KINDS, (
+                node.subscriptions, node.guards, node.timers, node.clients, node.services))}
+        waited[_GUARD] += [self._guard, self._sigint_gc]
+        with self._context_handle:
+            self._wait_set = _rclpy.WaitSet(
+                *(len(waited[kind]) for kind in _KINDS), 0, self._context_handle)
+        self._waited = [
+            (getattr(self._wait_set, f'add_{kind}'), entity.handle)
+            for kind, entities in waited.items() for entity in entities]
+
+    def _serve(self) -> None:
+        while True:
+            try:
+                handler, _, _ = self.wait_for_ready_callbacks(0.0, None, _never)
+            except (TimeoutException, ShutdownException):
+                break
+            handler()
+            if handler.exception() is not None:
+                raise handler.exception()
+            handler.result()
+        # What was taken in a callback can be waited for again, and callbacks make new entities.
+        self._is_changed = True
+
+
+def _never() -> bool:
+    return False
