@@ -26,7 +26,8 @@ setup(
     name=PACKAGE,
     version='0.1.0',
     packages=find_packages(include=[PACKAGE, f'{PACKAGE}.*']),
-    package_data={PACKAGE: ['py.typed', '*.pyi']},
+    package_data={
+        PACKAGE: ['py.typed', '*.pyi'], f'{PACKAGE}.study.paper': ['*.c', '*.csv']},
     data_files=[
         ('share/ament_index/resource_index/packages', [f'resource/{PACKAGE}']),
         (f'share/{PACKAGE}', ['package.xml']),

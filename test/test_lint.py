@@ -29,7 +29,7 @@ HEADED_PLACES = (
     '.ci', 'benchmarks', 'cloth_sim_interfaces', 'cloth_sim_ros', 'examples', 'launch', 'scripts',
     'setup.py', 'shaders', 'test')
 COMMENT_OF = {
-    '.py': '#', '.sh': '#', '.txt': '#', '.comp': '//', '.glsl': '//', '': '#',
+    '.c': '//', '.py': '#', '.sh': '#', '.txt': '#', '.comp': '//', '.glsl': '//', '': '#',
 }
 # Keys of rosdep that pip installs, without saying so in their name.
 PIP_KEYS = {'mcap-ros2-support'}
@@ -199,7 +199,7 @@ def test_no_file_is_long():
     """A file would hold more than one purpose."""
     long = {
         str(path.relative_to(ROOT)): count
-        for path in files_in(HEADED_PLACES, ('.py', '.sh', '.comp', '.glsl'))
+        for path in files_in(HEADED_PLACES, ('.c', '.py', '.sh', '.comp', '.glsl'))
         if (count := len(path.read_text(encoding='utf-8').splitlines())) > 400}
     assert not long
 

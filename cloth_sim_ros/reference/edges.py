@@ -120,7 +120,10 @@ class Edges:
 
     def only(self, families: Sequence[str]) -> Edges:
         """Return the edges that belong to ``families``, in the same order."""
-        chosen = self.of(families)
+        return self.where(self.of(families))
+
+    def where(self, chosen: np.ndarray) -> Edges:
+        """Return the ``chosen`` edges, bool, in the same order."""
         return Edges(*(getattr(self, field.name)[chosen] for field in fields(self)))
 
     def differences(self, field: np.ndarray) -> np.ndarray:

@@ -18,6 +18,8 @@ from typing import Any
 from cloth_sim_ros.gl.context import Context
 from cloth_sim_ros.recording.bag_metadata import project_version
 from cloth_sim_ros.sim.errors import ClothSimError
+from cloth_sim_ros.study.growth import fit_growth
+from cloth_sim_ros.study.growth import Growth
 from cloth_sim_ros.study.mode_runs import BASELINE
 from cloth_sim_ros.study.mode_runs import Contender
 from cloth_sim_ros.study.mode_runs import FRAME
@@ -83,8 +85,8 @@ class ModeComparison:
     :param cloth: scene parameters that all have
     :param seconds: simulated in a round [s]
     :param frame: time between frames, and simulated in a turn [s]
-    :param growth: exponent p of wall time ~ N^p, N the nodes along a side, least squares of
-        logarithms over the grids; of contenders that finished on two grids at least
+    :param growth: of wall time with N, the nodes along a side; of contenders that finished on two
+        grids at least
     :param versions: of what the figures depend on, by name
     :param worker_threads: of a software device, as LP_NUM_THREADS gives them
     """
@@ -94,7 +96,7 @@ class ModeComparison:
     frame: float
     rounds: int
     speeds: tuple[ModeSpeed, ...]
-    growth: Mapping[str, float]
+    growth: Mapping[str, Growth]
     device: str
     versions: Mapping[str, str]
     worker_threads: str
@@ -147,18 +149,17 @@ def compare_modes(
             worker_threads=os.environ.get('LP_NUM_THREADS', '0'))
 
 
-def growth_exponents(speeds: Sequence[ModeSpeed]) -> dict[str, float]:
-    """Return p of wall time ~ N^p of each contender that finished on two grids at least."""
-    exponents = {}
+def growth_exponents(speeds: Sequence[ModeSpeed]) -> dict[str, Growth]:
+    """Return how wall time grows with N for each contender that finished on two grids at least."""
+    growths = {}
     for name in dict.fromkeys(speed.contender for speed in speeds):
         finished = [
-            (speed.grid, speed.real_time_factor) for speed in speeds
+            (speed.grid, 1.0 / speed.real_time_factor) for speed in speeds
             if speed.contender == name and speed.real_time_factor is not None]
-        grids, factors = np.array(finished, float).reshape(-1, 2).T
-        if len(set(grids)) > 1:
-            slope, _ = np.polyfit(np.log(grids), -np.log(factors), 1)
-            exponents[name] = float(slope)
-    return exponents
+        growth = fit_growth(*zip(*finished)) if finished else None
+        if growth is not None:
+            growths[name] = growth
+    return growths
 
 
 def _check(grids: Sequence[int], seconds: float, rounds: int) -> None:
@@ -226,7 +227,7 @@ def comparison_table(comparison: ModeComparison) -> str:
         '', *_HEAD, *map(_row, comparison.speeds)]
     if comparison.growth:
         exponents = ', '.join(
-            f'{name} {exponent:.1f}' for name, exponent in comparison.growth.items())
+            f'{name} {growth}' for name, growth in comparison.growth.items())
         lines += ['', f'Wall time grows with N to the power of: {exponents}']
     return '\n'.join(lines)
 

@@ -3,6 +3,7 @@
 
 """The solvers that can be timed side by side, the paper's own among them."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 from typing import Protocol
@@ -36,7 +37,9 @@ import numpy as np
 _BUFFERS = ('EDGES', 'NODES', 'VALUES', 'COLUMNS', 'MATRIX', 'COUNTS', 'VECTORS', 'SCALARS')
 _FAMILIES = ('structural', 'shear')
 _VALUES = 6
-_ROW_SLOTS = 16
+# Entries of the matrix that are kept for a row: an edge meets 14 others and itself, with bend
+# springs 22.
+_ROW_SLOTS = {False: 16, True: 24}
 _VECTORS = 4
 _LAMBDA, _RESIDUAL, _DIRECTION, _IMAGE = range(_VECTORS)
 _SCALARS = 4
@@ -55,15 +58,17 @@ class PaperSolver:
     :param velocities: (rows, cols, 3) [m/s]
     :param step: h [s]
     :param tolerance: norm of the residual over that at the start
+    :param families: of the hard edges
     """
 
     def __init__(
             self, scene: Scene, positions: np.ndarray, velocities: np.ndarray, step: float, *,
-            tolerance: float = 1e-2, max_iterations: int = 2000) -> None:
+            tolerance: float = 1e-2, max_iterations: int = 2000,
+            families: Sequence[str] = _FAMILIES) -> None:
         """Compile the shaders and upload the state."""
-        edges = edges_of(scene, _FAMILIES)
+        edges = edges_of(scene, families)
         free = ~scene.pinned_nodes().ravel()
-        self._kept = edges.of(_FAMILIES) & (free[edges.first] | free[edges.second])
+        self._kept = edges.of(families) & (free[edges.first] | free[edges.second])
         self._edges = edges
         self._count = int(np.count_nonzero(self._kept))
         self._shape = positions.shape
@@ -75,8 +80,14 @@ class PaperSolver:
         self._max_iterations = max_iterations
         self._iterations = 0
         self._groups = -(-self._count // _LOCAL)
+        self._row_slots = _ROW_SLOTS['bend' in families]
         self._make_buffers(velocities.reshape(-1, 3))
         self._compile(scene)
+
+    def set_state(self, positions: np.ndarray, velocities: np.ndarray) -> None:
+        """Replace positions [m] and velocities [m/s], (rows, cols, 3)."""
+        self._positions = positions.reshape(-1, 3)
+        self._buffers['NODES'].write(self._node_entries(velocities.reshape(-1, 3)))
 
     def solve(self) -> None:
         """Form the matrix and find lambda; the host looks at the residual in each iteration."""
@@ -125,16 +136,20 @@ class PaperSolver:
         def of(entries: int, kind: type = np.float32) -> np.ndarray:
             return np.zeros(entries, dtype=kind)
 
+        nodes = self._node_entries(velocities)
+        self._buffers = {name: Buffer(data) for name, data in zip(_BUFFERS, (
+            _edge_entries(self._edges, self._kept), nodes, of(_VALUES * self._count),
+            of(_VALUES * self._count, np.int32), of(4 * self._row_slots * self._count),
+            of(self._count, np.uint32), of(_VECTORS * self._count), of(_SCALARS + self._groups)))}
+
+    def _node_entries(self, velocities: np.ndarray) -> np.ndarray:
         nodes = np.zeros((2, len(velocities), 4), dtype=np.float32)
         nodes[0, :, :3], nodes[0, :, 3] = self._positions, self._inverse_mass
         nodes[1, :, :3] = velocities + self._step * self._acceleration
-        self._buffers = {name: Buffer(data) for name, data in zip(_BUFFERS, (
-            _edge_entries(self._edges, self._kept), nodes, of(_VALUES * self._count),
-            of(_VALUES * self._count, np.int32), of(4 * _ROW_SLOTS * self._count),
-            of(self._count, np.uint32), of(_VECTORS * self._count), of(_SCALARS + self._groups)))}
+        return nodes
 
     def _compile(self, scene: Scene) -> None:
-        defines = paper_solver_defines(self._count, scene.node_count)
+        defines = paper_solver_defines(self._count, scene.node_count, self._row_slots)
         self._programs = {
             name: Program(ShaderSource(f'paper_solver/{name}.comp', defines))
             for name in (
@@ -166,10 +181,11 @@ class PaperSolver:
         return float(np.sqrt(squares[0] / squares[1]))
 
 
-def paper_solver_defines(constraints: int, nodes: int) -> dict[str, object]:
+def paper_solver_defines(
+        constraints: int, nodes: int, row_slots: int = _ROW_SLOTS[False]) -> dict[str, object]:
     """Return what every shader of the paper's solver compiles in."""
     return {
-        'CONSTRAINTS': constraints, 'NODES': nodes,
+        'CONSTRAINTS': constraints, 'NODES': nodes, 'ROW_SLOTS': row_slots,
         **{f'PAPER_{name}': binding for binding, name in enumerate(_BUFFERS)}}
 
 

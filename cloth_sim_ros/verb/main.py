@@ -47,7 +47,7 @@ VERBS = {
     'play': 'replay a recording on its topics',
     'view': 'view a node, a scene or a recording in the browser',
     'resimulate': 'rerun a recorded simulation with the same or other settings',
-    'paper': 'reproduce Figs. 10 and 11 of the paper',
+    'paper': 'reproduce tables and figures of the paper',
     'study': 'measure error, cost and stability of a scene, and choose settings',
 }
 _MOST_TOLD = 500

@@ -4,6 +4,7 @@
 """Modes are compared on the same cloth, in turn, by what each came to."""
 
 import json
+import math
 
 from cloth_sim_ros.gl.context import Context
 from cloth_sim_ros.sim.errors import ClothSimError
@@ -107,7 +108,12 @@ def test_growth_is_the_exponent_of_wall_time():
     speeds += [made_speed('alone', 32, 1.0), made_speed('lost', 32, 1.0),
                made_speed('lost', 64, None, failure='lost')]
     # From one grid to the next the cost is 4 and 16 times: the line between has the power 3.
-    assert growth_exponents(speeds) == pytest.approx({'cubic': 3.0, 'bent': 3.0})
+    found = growth_exponents(speeds)
+    assert {name: growth.exponent for name, growth in found.items()} == pytest.approx(
+        {'cubic': 3.0, 'bent': 3.0})
+    # Its middle is off the line by 2 / 3 of a power of 2, the ends by 1 / 3 each.
+    assert found['cubic'].error == pytest.approx(0.0, abs=1e-9)
+    assert found['bent'].error == pytest.approx(math.sqrt(1.0 / 3.0))
 
 
 def test_a_lost_state_does_not_end_the_others():

@@ -4,9 +4,9 @@
 // The buffers of the paper's solver, its Tab. 3. CONSTRAINTS: edges between nodes of which one at
 // least is free. Every row of J has six values, so that the row pointers IA and JB need not be
 // stored, and the columns of J^T are the rows of J: A and JA are B and IB as well.
+// COO keeps ROW_SLOTS entries for a row.
 
-#define VALUES 6    // of a row of J
-#define ROW_SLOTS 16  // entries of COO kept for a row: an edge meets 14 others and itself
+#define VALUES 6  // of a row of J
 
 layout(std430, binding = PAPER_EDGES) readonly buffer Edges { vec4 edges[]; };  // ends, length
 layout(std430, binding = PAPER_NODES) readonly buffer Nodes { vec4 nodes[]; };
