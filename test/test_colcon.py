@@ -88,6 +88,13 @@ def test_installed_code_runs_without_the_checkout(installed, tmp_path):
         assert Path(place).is_relative_to(installed)
 
 
+def test_files_of_the_package_are_installed(installed):
+    """An installed `cloth_sim paper table10` would lack the printed rates, or the C source."""
+    for source in (ROOT / 'cloth_sim_ros' / 'study' / 'paper').glob('*.[!p]*'):
+        copy, = (installed / 'cloth_sim_ros').rglob(f'cloth_sim_ros/study/paper/{source.name}')
+        assert copy.read_bytes() == source.read_bytes()
+
+
 def test_workspace_build(installed, tmp_path):
     """The command that README and node tell to someone with a workspace would not work."""
     checkout = tmp_path / 'src' / 'cloth_sim_ros'

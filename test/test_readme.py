@@ -172,7 +172,7 @@ def test_figures_are_shown_small_and_with_their_command(figure):
     assert any(
         (page.parent / target).resolve() == figure
         for page, text in pages.items() for target in PICTURE.findall(text))
-    options = ('--out', '--sheet', '--figure')
+    options = ('--out', '--sheet', '--figure', '--plot')
     assert any(f'{option} {name}' in text for text in pages.values() for option in options)
     assert figure.stat().st_size < 500_000
 

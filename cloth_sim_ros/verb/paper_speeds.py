@@ -126,9 +126,9 @@ def _cloths(args: Namespace) -> list[PaperCloth]:
 
 
 def _lines(timed: Sequence[TimedCloth]) -> Iterator[str]:
-    """Yield the lines of the last cloth, with a heading where a method begins."""
+    """Yield the lines of the last cloth, under a heading where what it says changes."""
     *before, cloth = timed
-    if not before or before[-1].method != cloth.method:
+    if not before or heading(before[-1]) != heading(cloth):
         yield heading(cloth)
     yield table_rows(cloth)
 
