@@ -20,6 +20,8 @@ _LONGEST = 1e9
 # What a node on the surface of a sphere may lie outside of it, over how far from the origin the
 # sphere reaches: see Push.contains.
 _ROUNDING = 2.0**-23
+# Units in the last place by which the end of a substep can be off.
+_ROUNDED = 8.0
 
 
 @dataclass(frozen=True)
@@ -110,6 +112,14 @@ class Push:
         return np.linalg.norm(held - self.center, axis=-1) <= self.radius + _ROUNDING * reach
 
     def overlap(self, begin: float, end: float) -> float:
-        """Return the fraction of the step ``begin`` to ``end`` [s] in which it acts, 0 to 1."""
+        """
+        Return the fraction of the step ``begin`` to ``end`` [s] in which it acts, 0 to 1.
+
+        The end of the last substep can be later than that of its step by rounding: what begins
+        with the next step has no part in it.
+        """
         shared = min(end, self.end) - max(begin, self.start)
-        return max(shared, 0.0) / (end - begin)
+        goes_on = self.start < begin or end < self.end
+        if shared <= 0.0 or (goes_on and shared <= _ROUNDED * math.ulp(end)):
+            return 0.0
+        return shared / (end - begin)
