@@ -20,6 +20,12 @@ _SCENE = {'rows': 8, 'cols': 9, 'dt': 0.01, 'auto_substeps': True}
 _SPHERE = {'region': 'sphere', 'center': (0.0, 0.0, 1.0), 'radius': 0.3}
 
 
+@pytest.fixture(autouse=True)
+def in_small_pieces(monkeypatch: pytest.MonkeyPatch):
+    """Have a piece for every substep, as in a large cloth: steps alike are made in runs."""
+    monkeypatch.setattr('cloth_sim_ros.sim.modes.mass_spring._NODES_AT_ONCE', 1)
+
+
 @pytest.fixture(params=modes.AVAILABLE)
 def simulate(request: pytest.FixtureRequest, context: Context) -> Iterator[Callable]:
     """Return a function that makes a cloth in each mode there is."""
