@@ -119,7 +119,7 @@ class LateAnswers:
     def send(
             self, name: str, send: Callable[[Any, Any], None], response: Any,
             header: Any) -> None:
-        """Send ``response`` by ``send(response, header)`` of the service ``name``."""
+        """Answer a request to the service ``name`` by ``send``, with response and header."""
         answer = _Answer(name, send, response, header, self._clock() + PATIENCE)
         if _is_delivered(answer):
             return

@@ -3,6 +3,7 @@
 
 """Many small cloths that step together, as policy training wants them."""
 
+from collections.abc import Callable
 from collections.abc import Hashable
 from collections.abc import Iterable
 from collections.abc import Mapping
@@ -298,7 +299,7 @@ class Batch(AbstractContextManager['Batch']):
         if self._owns_context:
             self._context.close()
 
-    def _gathered(self, readers: Sequence[Any]) -> np.ndarray:
+    def _gathered(self, readers: Sequence[Callable[[], np.ndarray]]) -> np.ndarray:
         self._context.make_current()
         if len(readers) == 1:
             return readers[0]()

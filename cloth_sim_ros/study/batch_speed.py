@@ -93,18 +93,9 @@ def _scenes(size: int, cloths: int) -> list[Scene]:
 def _together(size: int, cloths: int, frames: int, is_controlled: bool) -> tuple[str, float]:
     numbers, corner = np.arange(cloths), np.zeros((cloths, 2), dtype=int)
     with Batch(_scenes(size, cloths)) as batch:
-        batch.step(_STEPS)
-        batch.finish()
-        places = batch.positions()
-        begin = time.perf_counter()
-        for _ in range(frames):
-            if is_controlled:
-                batch.move_pins(numbers, corner, places[:, 0, 0] + _WAY, _SPEED)
-            batch.step(_STEPS)
-            if is_controlled:
-                places = batch.positions()
-        batch.finish()
-        return batch.device, time.perf_counter() - begin
+        def move(places: np.ndarray) -> None:
+            batch.move_pins(numbers, corner, places[:, 0, 0] + _WAY, _SPEED)
+        return batch.device, _seconds(batch, move if is_controlled else None, frames)
 
 
 def _one_by_one(size: int, cloths: int, frames: int, is_controlled: bool) -> tuple[str, float]:
@@ -112,16 +103,25 @@ def _one_by_one(size: int, cloths: int, frames: int, is_controlled: bool) -> tup
     seconds = 0.0
     for scene in _scenes(size, cloths):
         with Simulation(scene, context=context) as simulation:
-            simulation.step(_STEPS)
-            simulation.finish()
-            places = simulation.positions()
-            begin = time.perf_counter()
-            for _ in range(frames):
-                if is_controlled:
-                    simulation.move_pin(0, 0, places[0, 0] + _WAY, speed=_SPEED)
-                simulation.step(_STEPS)
-                if is_controlled:
-                    places = simulation.positions()
-            simulation.finish()
-            seconds += time.perf_counter() - begin
+            def move(places: np.ndarray) -> None:
+                simulation.move_pin(0, 0, places[0, 0] + _WAY, speed=_SPEED)
+            seconds += _seconds(simulation, move if is_controlled else None, frames)
     return context.device, seconds
+
+
+def _seconds(
+        cloths: Batch | Simulation, move: Callable[[np.ndarray], None] | None,
+        frames: int) -> float:
+    """Return the wall time of ``frames`` [s], with a ``move`` from the last positions in each."""
+    cloths.step(_STEPS)
+    cloths.finish()
+    places = cloths.positions()
+    begin = time.perf_counter()
+    for _ in range(frames):
+        if move:
+            move(places)
+        cloths.step(_STEPS)
+        if move:
+            places = cloths.positions()
+    cloths.finish()
+    return time.perf_counter() - begin

@@ -9,6 +9,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from cloth_sim_ros.analysis.frame import Frame
+from cloth_sim_ros.sim.errors import ClothSimError
 
 RUNNING = 'running'
 PAUSED = 'paused'
@@ -36,7 +37,7 @@ class Source(ABC):
     A cloth that moves, of which the latest moment can be had from any thread.
 
     What is asked for raises ClothSimError when it cannot be done. What ``modes``, ``can_act`` and
-    ``span`` rule out is not offered by the page, and such a source need not define it.
+    ``span`` rule out is not offered by the page: a source need not define it, and refuses it.
 
     :param name: of the scene, the recording or the node
     :param modes: that ``set_mode`` takes; none where the mode is settled
@@ -64,34 +65,37 @@ class Source(ABC):
     # A page asks for these only where `span`, `modes` and `can_act` say that the source has them.
     def go_to(self, time: float) -> None:
         """Show the moment at ``time`` [s], and stay there."""
-        raise NotImplementedError
+        raise self._refusal('go to a time', 'a recording')
 
     def set_mode(self, mode: str) -> None:
         """Step with ``mode`` from now on."""
-        raise NotImplementedError
+        raise self._refusal('change its mode')
 
     def step(self, count: int) -> None:
         """Make ``count`` steps of dt while paused."""
-        raise NotImplementedError
+        raise self._refusal('step')
 
     def reset(self) -> None:
         """Go back to the start."""
-        raise NotImplementedError
+        raise self._refusal('be reset')
 
     def push(
             self, force: Sequence[float], center: Sequence[float], radius: float,
             duration: float) -> None:
         """Push the nodes within ``radius`` of ``center`` [m] with ``force`` [N] in all."""
-        raise NotImplementedError
+        raise self._refusal('be pushed')
 
     def hold(self, row: int, col: int) -> None:
         """Pin the node (row, col) where it is."""
-        raise NotImplementedError
+        raise self._refusal('take new pins')
 
     def release(self, row: int, col: int) -> None:
         """Let the node (row, col) go."""
-        raise NotImplementedError
+        raise self._refusal('release pins')
 
     def move_pin(self, row: int, col: int, target: Sequence[float]) -> None:
         """Let the pin (row, col) move to ``target`` [m]."""
-        raise NotImplementedError
+        raise self._refusal('move pins')
+
+    def _refusal(self, what: str, instead: str = 'a scene or a running node') -> ClothSimError:
+        return ClothSimError(f'{self.name} cannot {what}: view {instead} for that')

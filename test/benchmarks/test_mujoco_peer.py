@@ -48,7 +48,7 @@ def test_the_sheets_here_fall_over_the_sphere():
 
 
 def test_the_flex_is_the_same_sheet():
-    """MuJoCo would be given another mass, or start somewhere else."""
+    """The peer would have another mass, or start somewhere else."""
     pytest.importorskip('mujoco')
     flex = Flex(NODES, 0.001)
     assert flex._model.body_mass.sum() == pytest.approx(MASS)

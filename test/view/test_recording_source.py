@@ -67,3 +67,18 @@ def test_what_is_no_recording_is_refused(tmp_path):
     """A page would be served that never shows anything."""
     with pytest.raises(ClothSimError):
         RecordingSource(tmp_path)
+
+
+def test_what_a_recording_cannot_do_is_refused_by_name():
+    """A view that asked for it anyway would end in a traceback without a way out."""
+    source = RecordingSource(EXAMPLE)
+    for ask, what in (
+            (lambda: source.set_mode('adaptive'), 'change its mode'),
+            (lambda: source.step(1), 'step'),
+            (source.reset, 'be reset'),
+            (lambda: source.push((0, 0, 1), (0, 0, 0), 0.1, 1.0), 'be pushed'),
+            (lambda: source.hold(0, 0), 'take new pins'),
+            (lambda: source.release(0, 0), 'release pins'),
+            (lambda: source.move_pin(0, 0, (0, 0, 1)), 'move pins')):
+        with pytest.raises(ClothSimError, match=f'cannot {what}: view a scene or a running node'):
+            ask()

@@ -109,6 +109,12 @@ def test_a_run_that_is_lost_stops_with_the_reason_and_can_begin_again():
         source.reset()
 
 
+def test_a_scene_goes_to_no_other_time(source: SceneSource):
+    """A view that asked for it anyway would end in a traceback without a way out."""
+    with pytest.raises(ClothSimError, match='small cannot go to a time: view a recording'):
+        source.go_to(1.0)
+
+
 def test_a_scene_that_cannot_be_run_is_refused_at_once():
     """A page would be served that never shows anything."""
     with pytest.raises(ClothSimError, match='auto_substeps: true'):
