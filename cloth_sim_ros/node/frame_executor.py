@@ -23,7 +23,7 @@ _KINDS = ('subscription', _GUARD, 'timer', 'client', 'service')
 
 class Alarm:
     """
-    Calls ``ring`` when its time has come, and again until it is set anew or cancelled.
+    Calls ``ring`` when its time has come, and again until it is given another time or cancelled.
 
     A timer of rclpy that is reset wakes its executor once more for that alone.
     """
@@ -33,7 +33,7 @@ class Alarm:
         self.ring = ring
         self._due: float | None = None
 
-    def set(self, seconds: float) -> None:
+    def ring_in(self, seconds: float) -> None:
         """Ring in ``seconds`` of wall time."""
         self._due = time.monotonic() + seconds
 

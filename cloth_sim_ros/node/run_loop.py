@@ -192,7 +192,7 @@ class RunLoop:
         """Make frames from now on, unless paused or stopped, and the steps asked for."""
         self._pacing.restart(time.monotonic())
         if self._simulation.is_ready and (self.running or self._answer is not None):
-            self._alarm.set(0.0)
+            self._alarm.ring_in(0.0)
 
     def pause(self) -> None:
         """Make no more frames; a step under way comes to its end."""
@@ -284,7 +284,7 @@ class RunLoop:
         if is_made:
             self._end_frame()
         else:
-            self._alarm.set(0.0)
+            self._alarm.ring_in(0.0)
 
     def _go_on(self) -> bool:
         """Work until the slice is over; return whether the frame, or all steps, are made."""
@@ -316,7 +316,7 @@ class RunLoop:
         else:
             delay = self._pacing.delay(time.monotonic(), self._frame_seconds)
         if self.running:
-            self._alarm.set(delay)
+            self._alarm.ring_in(delay)
         else:
             self._alarm.cancel()
 

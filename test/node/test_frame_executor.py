@@ -40,9 +40,9 @@ def test_an_alarm_rings_until_it_is_set_anew():
     """A frame would never be made, or the same one again and again."""
     alarm = Alarm(lambda: None)
     assert alarm.left is None
-    alarm.set(100.0)
+    alarm.ring_in(100.0)
     assert 0.0 < alarm.left <= 100.0
-    alarm.set(0.0)
+    alarm.ring_in(0.0)
     assert alarm.left == 0.0
     alarm.cancel()
     assert alarm.left is None
@@ -58,10 +58,10 @@ def test_the_alarm_rings_while_everything_else_is_served(node):
 
     def ring():
         rung.append(1)
-        alarm.set(0.0)
+        alarm.ring_in(0.0)
 
     alarm = Alarm(ring)
-    alarm.set(0.0)
+    alarm.ring_in(0.0)
     executor = FrameExecutor(node, alarm)
     node.create_service(Trigger, '~/serve', answer)
     node.create_subscription(String, '~/text', lambda _: heard.append(1), 10)

@@ -127,7 +127,7 @@ def time_cloth(
         for run in runs:
             stack.callback(run.close)
         for run in runs:
-            run.open(state, turn_seconds)
+            run.start(state, turn_seconds)
         begin = time.perf_counter()
         in_rounds = [run for run in runs if run.is_quick]
         for _ in range(rounds):
@@ -181,7 +181,7 @@ class _Run:
         self._bound = bound
         self._detail = _Detail()
 
-    def open(self, state: State, turn_seconds: float) -> None:
+    def start(self, state: State, turn_seconds: float) -> None:
         """Compile, and make the first step, which tells how many make a turn."""
         least = self.contender.least_seconds(self._cloth, self._context)
         if least > self._bound:
