@@ -27,6 +27,9 @@ layout(std430, binding = SOLVER_SUMS) readonly buffer PartialSums { vec4 partial
 #define LOAD_SUMS(i) partial_sums[i].xyz
 #endif
 
+// Of the measure, which is a square: later steps leave 0.3 to 0.6 of its root.
+#define LEAST_KEPT 0.25
+
 uniform int groups_count;
 uniform ivec2 groups_of_each[MOST_GROUPS_COUNTS];  // workgroups of the passes that are switched
 
@@ -50,10 +53,11 @@ void decide(float now, float curvature, float size) {
     measure = now;
     measure_start = start;
     iterations += first && !sound ? 0.0 : 1.0;
-    // The step just found is made, and reduces the measure as the last one did. What is not sound
-    // makes no step, and stays what it is: a NaN, for one. Below zero is no small residual, but a
-    // preconditioner that is wrong.
-    measure_after = first || !sound ? abs(now) : now * min(keep, 1.0);
+    // The step just found is made, and reduces the measure as the last one did, but no more than
+    // LEAST_KEPT: the first step takes ten or thirty times as much off, and is no guide. What is not
+    // sound makes no step, and stays what it is: a NaN, for one. Below zero is no small residual,
+    // but a preconditioner that is wrong.
+    measure_after = first || !sound ? abs(now) : now * clamp(keep, LEAST_KEPT, 1.0);
     if (sets_scale) {
         scale = max(size, least_scale);
     }

@@ -43,7 +43,7 @@ FORMS = {
 SCENE = {
     'mode': 'adaptive', 'rows': 7, 'cols': 9, 'width': 1.3, 'dt': 0.005, 'start.pose': 'hanging',
     'pins': ['top_left', 'top_right'], 'adaptive.threshold': 0.02, **SOFT, 'stiffness.bend': 0.0,
-    'damping.bend': 0.0, 'solver.tolerance': 1e-6, 'solver.max_iterations': 400,
+    'damping.bend': 0.0, 'solver.tolerance': 2e-6, 'solver.max_iterations': 400,
     'auto_substeps': False, 'pushes.start': [0.0, 0.01], 'pushes.duration': [0.03, 0.05],
     'pushes.force': [0.2, 0.0, 3.0, 0.0, 1.0, 0.0],
     'pushes.center': [0.0, 0.0, 0.0, 0.0, 0.0, 1.0], 'pushes.radius': [0.0, 0.35]}

@@ -10,7 +10,7 @@ def test_mirror_symmetry(simulate, within, any_mode, layout):
     """Left and right are not treated alike: a neighbour is missing or counted twice."""
     simulation = simulate({
         'mode': any_mode, 'layout': layout, 'rows': 16, 'cols': 16, 'dt': 0.001,
-        'auto_substeps': False, 'solver.tolerance': 1e-3})
+        'auto_substeps': False})
     simulation.advance(0.5)
     positions = simulation.snapshot().positions.astype(float)
     mirrored = positions[:, ::-1] * [-1.0, 1.0, 1.0]

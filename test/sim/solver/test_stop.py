@@ -3,6 +3,9 @@
 
 """Where a solve starts, what it measures its residual by, and when it stops."""
 
+from cloth_sim_ros.sim.scene import Scene
+from cloth_sim_ros.sim.simulation import Simulation
+from cloth_sim_ros.sim.solver.edge_law import BETA
 from cloth_sim_ros.sim.solver.edge_law import spring_law
 import numpy as np
 import pytest
@@ -68,6 +71,40 @@ def test_the_error_is_about_the_residual(make_case, kind, geometric):
         # some, and of a residual it then sees a part only.
         assert 0.5 * told < error < 4.0 * told
         assert np.linalg.norm(solution - exact) <= error * np.linalg.norm(exact)
+
+
+@pytest.mark.parametrize('tolerance', [3e-2, 5e-3])
+def test_in_a_falling_cloth_no_solve_is_told_to_be_much_better_than_it_is(
+        make_case, context, tolerance):
+    """
+    A run would report that its solves are accurate, and stop each before it is.
+
+    The first iteration of such a solve leaves a twentieth, the next ones half.
+    """
+    cloth = {
+        **CLOTH, 'width': 1.0, 'height': 1.0, 'areal_density': 0.15,
+        'pins': ['top_left', 'top_right'], 'start.pose': 'horizontal',
+        'constraint.strain': 0.006}
+    with Simulation(
+            Scene({**cloth, 'mode': 'constraint', 'dt': 0.02}), context=context) as falling:
+        falling.step(15)
+        state = falling.positions(), falling.velocities()
+    context.make_current()
+    case = make_case(
+        cloth, dt=0.005, kind='hard', geometric=BETA, tolerance=tolerance, foresees_turn=True,
+        state=state)
+    change = 0.0
+    for is_further in (False, True):
+        if is_further:
+            case.apply()
+            case.prepare(is_further=True)
+        solution, exact = case.solve(), case.system.solve()
+        change = np.linalg.norm(exact) if not is_further else change
+        error = case.system.norm(solution - exact) / change
+        report = case.solver.report()
+        print(f'measured: {report.iterations} iterations, {report.residual:.1e} told, '
+              f'{error:.1e} in the norm of the matrix')
+        assert 0.5 * report.residual < error < 4.0 * report.residual
 
 
 def test_the_device_stops_at_the_tolerance(make_case, preconditioner, kind):
