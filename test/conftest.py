@@ -9,6 +9,8 @@ import socket
 
 from cloth_sim_ros.gl.context import Context
 from cloth_sim_ros.gl.errors import DeviceError
+from cloth_sim_ros.sim.tuning import OFF
+from cloth_sim_ros.sim.tuning import VARIABLE
 from hypothesis import settings
 from hypothesis.internal.conjecture import providers
 import pytest
@@ -69,6 +71,8 @@ def pytest_configure(config: pytest.Config) -> None:
     domain, config.stash[CLAIM] = claim_domain()
     os.environ['ROS_DOMAIN_ID'] = str(domain)
     os.environ['ROS_AUTOMATIC_DISCOVERY_RANGE'] = 'LOCALHOST'
+    # What somebody measured on this machine is no part of the tests.
+    os.environ[VARIABLE] = OFF
 
 
 def pytest_unconfigure(config: pytest.Config) -> None:

@@ -7,6 +7,7 @@ from collections.abc import Callable
 from collections.abc import Sequence
 import time
 from typing import Any
+import warnings
 
 from cloth_sim_interfaces.msg import Command
 from cloth_sim_ros.messages.geometry import serialise_topology
@@ -93,9 +94,12 @@ class ClothSimNode(GuardedNode):
         values = declare_fields(self, self._parameter_overrides)
         name = self.get_fully_qualified_name()
         self._values = values
-        self._simulation = Simulation(
-            Scene({field.name: values[field.name] for field in fields_with_colliders(values)}),
-            compiles=False)
+        scene = Scene({field.name: values[field.name] for field in fields_with_colliders(values)})
+        with warnings.catch_warnings(record=True) as told:
+            warnings.simplefilter('default')
+            self._simulation = Simulation(scene, compiles=False)
+        for warning in told:
+            self.get_logger().warning(str(warning.message))
         self._recording = RecordingSession(
             values['recording.directory'], name, self._on_recording_lost,
             options=RecordingOptions.from_values(values), wake=self._on_recording_ended)

@@ -25,6 +25,7 @@ from cloth_sim_ros.sim.modes import AVAILABLE
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.simulation import Simulation
 from cloth_sim_ros.sim.snapshot import FLAG_TOUCHING
+from cloth_sim_ros.sim.tuning import BUILT_IN
 
 # Without a cloud to see it by, a larger cloth has to be asked for.
 MOST_UNSEEN_NODES = 1_000_000
@@ -121,6 +122,9 @@ class Rerun:
     def __init__(self, run: RecordedRun, changes: Mapping[str, Any] | None = None) -> None:
         """Make the simulation, at the moment at which the recording begins."""
         changes = dict(changes or {})
+        if 'layout' in changes:
+            # The recorded ones were chosen for the recorded layout.
+            changes = {**vars(BUILT_IN), **changes}
         scene = run.scene.scene(changes)
         recorded = run.scene.as_recorded(changes)
         self._run = run
@@ -135,7 +139,9 @@ class Rerun:
         # What was recorded beyond the stability limit is made again as it was.
         self._limits = RerunLimits(run, recorded['dt'])
         self._limits.check_size(scene, changes)
-        self.simulation = Simulation(scene, check_stability=bool(self.changed))
+        # What an older recording left open was the built-in choice.
+        self.simulation = Simulation(
+            scene, check_stability=bool(self.changed), tuned=False)
         self.start = RunStart(run, recorded, self.simulation)
         self.start.take_up(begin)
         self.check = FrameCheck()

@@ -12,6 +12,9 @@ from cloth_sim_ros.gl.program import Program
 from cloth_sim_ros.sim.bindings import DEFINES
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.scene import Scene
+from cloth_sim_ros.sim.tuning import BUILT_IN
+from cloth_sim_ros.sim.tuning import Choice
+from cloth_sim_ros.sim.tuning import tuned_choice
 import numpy as np
 
 HALO = 2
@@ -112,6 +115,11 @@ class Layout:
             'lattice', np.array([(self.rows, self.cols, self.pitch, self.stored)]))
         program.set_int_vectors('stack', np.array([(self.cloth_rows or self.rows, self.period)]))
 
+    @property
+    def choice(self) -> Choice:
+        """Return what `cloth_sim tune` chooses from, as parameters of a scene."""
+        return Choice('texture' if self.texture_loads else 'storage', self.block)
+
     def defines(self) -> dict[str, object]:
         """Return the choices that every shader on this lattice compiles in, its size aside."""
         return {
@@ -120,33 +128,44 @@ class Layout:
         }
 
 
-def choose_layout(scene: Scene, context: Context) -> Layout:
+def choose_layout(scene: Scene, context: Context, *, tuned: bool = True) -> Layout:
     """
     Return the layout ``scene`` asks for, with what suits the device where it leaves it open.
 
+    :param tuned: False leaves out what `cloth_sim tune` has found for the device
     :raises DeviceError: when the cloth does not fit into the device's buffers
     :raises ClothSimError: when the scene asks for what its layout can't do
     """
-    kind, loads, block = scene['layout'], scene['loads'], scene['block']
-    if kind == 'paper':
-        if loads == 'texture' or block > 1:
+    given = Choice(scene['loads'], scene['block'])
+    if scene['layout'] == 'paper':
+        if given.loads == 'texture' or given.block > 1:
             raise ClothSimError(
-                f'layout paper reads storage, one node per invocation, got loads {loads} and '
-                f'block {block}: set loads: storage and block: 1, or layout: fused')
-        loads, block, local = 'storage', 1, (16, 16)
-    else:
-        block = block or _best_block(scene, context)
-        local = (8, 4) if context.is_software else (16, 8)
-    if loads == 'auto':
-        has_textures = context.is_software and context.max_texture_texels > 0
-        loads = 'texture' if has_textures else 'storage'
-    if loads == 'texture' and not context.max_texture_texels:
+                f'layout paper reads storage, one node per invocation, got loads {given.loads} '
+                f'and block {given.block}: set loads: storage and block: 1, or layout: fused')
+        layout = Layout(scene.rows, scene.cols, 'paper', False, 1, (16, 16))
+        _refuse_too_large(layout, context)
+        return layout
+    if tuned and given == BUILT_IN:
+        found = tuned_choice(scene, context.device, context.version)
+        layout = _fused(scene, context, found)
+        # It was measured on cloths that may have been smaller than this one.
+        if layout.stored <= _most_stored(layout, context):
+            return layout
+    layout = _fused(scene, context, given)
+    if layout.texture_loads and not context.max_texture_texels:
         raise DeviceError(
             f'loads: texture needs texture buffers, which {context.device} lacks: set loads: '
             'storage, or auto')
-    layout = Layout(scene.rows, scene.cols, kind, loads == 'texture', block, local)
     _refuse_too_large(layout, context)
     return layout
+
+
+def _fused(scene: Scene, context: Context, choice: Choice) -> Layout:
+    has_textures = context.is_software and context.max_texture_texels > 0
+    return Layout(
+        scene.rows, scene.cols, 'fused',
+        choice.loads == 'texture' or (choice.loads == 'auto' and has_textures),
+        choice.block or _best_block(scene, context), (8, 4) if context.is_software else (16, 8))
 
 
 def _best_block(scene: Scene, context: Context) -> int:
@@ -156,14 +175,17 @@ def _best_block(scene: Scene, context: Context) -> int:
 
 
 def _refuse_too_large(layout: Layout, context: Context) -> None:
-    limit = context.max_buffer_bytes // _BYTES_PER_NODE
-    if layout.texture_loads:
-        limit = min(limit, context.max_texture_texels)
+    limit = _most_stored(layout, context)
     if layout.stored > limit:
         side = int(limit**0.5) - 2 * HALO - layout.block
         raise DeviceError(
             f'rows {layout.rows} x cols {layout.cols} need {layout.stored} stored nodes, the '
             f'buffers of {context.device} hold {limit}: use up to about {side} x {side}')
+
+
+def _most_stored(layout: Layout, context: Context) -> int:
+    limit = context.max_buffer_bytes // _BYTES_PER_NODE
+    return min(limit, context.max_texture_texels) if layout.texture_loads else limit
 
 
 def _round_up(value: int, multiple: int) -> int:

@@ -307,8 +307,9 @@ SCENE_FIELDS = (
           low=0.0, high=1e9),
     Field('layout', str, 'fused', 'fused: forces and update in one shader pass; paper: the two '
           'passes of the paper, a baseline for benchmarks', choices=('fused', 'paper')),
-    Field('loads', str, 'auto', 'how shaders read the state; auto chooses the faster one on this '
-          'device', choices=('auto', 'texture', 'storage')),
+    Field('loads', str, 'auto', 'how shaders read the state; auto chooses for the device: what '
+          '`cloth_sim tune` has found, or texture on software devices and storage on a GPU',
+          choices=('auto', 'texture', 'storage')),
     Field('block', int, 0, 'side of the block of nodes that one shader invocation computes; 0 '
-          'to choose it for the device', low=0, high=4),
+          'to choose it for the device, as loads auto does', low=0, high=4),
 )

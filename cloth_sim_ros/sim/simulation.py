@@ -68,6 +68,7 @@ class Simulation(Handling, AbstractContextManager['Simulation']):
     :param stop_at_non_finite: False continues with a non-finite state, for studies
     :param compiles: False leaves it to ``engines``, without which nothing can be advanced or
         measured
+    :param tuned: False leaves out what `cloth_sim tune` has found for the device
     :raises ClothSimError: when the scene can't be run as it asks
     :raises DeviceError: when there is no device for it
     """
@@ -75,7 +76,7 @@ class Simulation(Handling, AbstractContextManager['Simulation']):
     def __init__(
             self, scene: Scene, *, context: Context | None = None,
             check_stability: bool = True, stop_at_non_finite: bool = True,
-            compiles: bool = True) -> None:
+            compiles: bool = True, tuned: bool = True) -> None:
         """Compile, allocate and take up the start pose."""
         self.scene = scene
         self.dt: float = scene['dt']
@@ -84,7 +85,7 @@ class Simulation(Handling, AbstractContextManager['Simulation']):
         context.make_current()
         self._first_context = context
         self.device = context.device
-        self.layout = choose_layout(scene, context)
+        self.layout = choose_layout(scene, context, tuned=tuned)
         self._state = State(self.layout, scene.start_positions(), scene.pinned_nodes())
         self.engines = Engines(
             scene, self.layout, self._state, context, check_stability=check_stability,

@@ -3,6 +3,7 @@
 
 """How fast variants of a scene step, side by side on one device; what colliders cost."""
 
+from collections.abc import Callable
 from collections.abc import Iterator
 from collections.abc import Mapping
 from collections.abc import Sequence
@@ -30,6 +31,10 @@ def time_steps(run: Simulation, count: int) -> float:
     run.step(count)
     run.finish()
     return time.perf_counter() - begin
+
+
+# Makes a number of steps of dt and returns their wall time [s].
+Timer = Callable[[Simulation, int], float]
 
 
 # How fast variants of a scene step, measured side by side on one device.
@@ -86,7 +91,7 @@ def compare_variants(
         runs = [
             Simulation(bench_scene(size, values), context=context)
             for values in variants.values()]
-        counts = [_steps_for(run, round_seconds) for run in runs]
+        counts = [steps_for(run, round_seconds) for run in runs]
         measured: list[list[float]] = [[] for _ in runs]
         for _ in range(rounds):
             for run, count, figures in zip(runs, counts, measured):
@@ -114,15 +119,15 @@ def _speed(
         name: str, run: Simulation, figures: list[float], baseline: list[float]) -> Speed:
     ratios = tuple(figure / other for figure, other in zip(figures, baseline))
     return Speed(
-        name, run.layout.kind, 'texture' if run.layout.texture_loads else 'storage',
-        run.layout.block, statistics.median(figures), tuple(figures), statistics.median(ratios),
-        ratios)
+        name, run.layout.kind, run.layout.choice.loads, run.layout.block,
+        statistics.median(figures), tuple(figures), statistics.median(ratios), ratios)
 
 
-def _steps_for(run: Simulation, seconds: float) -> int:
+def steps_for(run: Simulation, seconds: float, timer: Timer = time_steps) -> int:
+    """Return how many steps of dt take about ``seconds`` of wall time [s], after the first."""
     # The first steps compile what the device puts off until then.
-    time_steps(run, _STEPS_BEFORE)
-    return max(1, round(_STEPS_BEFORE * seconds / time_steps(run, _STEPS_BEFORE)))
+    timer(run, _STEPS_BEFORE)
+    return max(1, round(_STEPS_BEFORE * seconds / timer(run, _STEPS_BEFORE)))
 
 
 # What colliders cost: a cloth dropped over a sphere, the same without it, and among twenty.

@@ -259,7 +259,7 @@ class _SolverStep:
     def __init__(self, context: Context, scene: Scene, state: Fields, step: Step) -> None:
         """Write the state and compile the passes."""
         self.step = step
-        layout = choose_layout(scene, context)
+        layout = choose_layout(scene, context, tuned=False)
         self._state = State(layout, state[0], scene.pinned_nodes())
         self._state.write(*state)
         self._forcing = Forcing(scene['gravity'])

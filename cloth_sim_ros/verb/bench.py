@@ -56,6 +56,7 @@ from cloth_sim_ros.study.speed import compare_variants
 from cloth_sim_ros.study.speed import Comparison
 from cloth_sim_ros.study.speed import measure_contact
 from cloth_sim_ros.study.timed_solvers import BASELINES
+from cloth_sim_ros.verb.scene_arguments import add_tuning_argument
 from cloth_sim_ros.verb.scene_arguments import parse_change
 from tqdm import tqdm
 
@@ -121,6 +122,7 @@ def add_arguments(parser: ArgumentParser) -> None:
                              'cloud instead; needs ROS')
     parser.add_argument('--set', action='append', default=[], metavar='name=value',
                         dest='changes', help='set a parameter of the node of --start-up or --node')
+    add_tuning_argument(parser)
     parser.add_argument('--json', action='store_true', help='print JSON, one line per size')
 
 

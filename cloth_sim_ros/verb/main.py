@@ -10,11 +10,14 @@ code; its docstring is its help text. Only the module of the verb asked for is i
 
 from argparse import ArgumentParser
 from argparse import RawDescriptionHelpFormatter
+from collections.abc import Iterator
 from collections.abc import Sequence
+from contextlib import contextmanager
 import difflib
 from importlib import import_module
 import sys
 from typing import NoReturn
+import warnings
 
 from cloth_sim_ros.files.errors import cut
 from cloth_sim_ros.files.errors import MOST_SHOWN
@@ -29,6 +32,7 @@ VERBS = {
     'run': 'simulate a scene file, without ROS',
     'materials': 'list the measured fabrics that a scene can name',
     'bench': 'benchmark this device, without ROS',
+    'tune': 'measure what is fastest on this device, for runs to use',
     'mode': 'switch the simulation mode of a running node',
     'push': 'push the cloth of a running node, or cancel all pushes',
     'pin': 'pin, move or release a node of the cloth',
@@ -78,7 +82,7 @@ def main(argv: Sequence[str] | None = None) -> int:
             prog=f'cloth_sim {name}', description=verb.__doc__,
             formatter_class=RawDescriptionHelpFormatter)
         verb.add_arguments(parser)
-        with raise_on_sigterm():
+        with raise_on_sigterm(), _warnings_in_a_line(name):
             return verb.main(parser.parse_args(rest))
     except ClothSimError as error:
         # It may repeat what a file holds: no line breaks, and nothing that a terminal acts upon.
@@ -93,6 +97,18 @@ def main(argv: Sequence[str] | None = None) -> int:
         return INTERRUPTED
     print(f'cloth_sim {name}: {problem}', file=sys.stderr)
     return 1
+
+
+@contextmanager
+def _warnings_in_a_line(name: str) -> Iterator[None]:
+    """Print warnings as errors are, without the place in the source."""
+    before = warnings.formatwarning
+    warnings.formatwarning = lambda message, *_, **__: (
+        f'cloth_sim {name}: {cut(message, _MOST_CHARACTERS)}\n')
+    try:
+        yield
+    finally:
+        warnings.formatwarning = before
 
 
 def _no_verb(arguments: list[str]) -> int:

@@ -1,10 +1,12 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-"""The arguments of every verb that takes a scene file, and what they say."""
+"""The arguments of verbs that simulate, and what they say of the scene."""
 
+from argparse import Action
 from argparse import ArgumentParser
 from argparse import Namespace
+import os
 from typing import Any
 
 from cloth_sim_ros.api.scene_file import scene_from
@@ -14,6 +16,8 @@ from cloth_sim_ros.files.errors import shown
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.given_values import load_parameters
 from cloth_sim_ros.sim.scene import Scene
+from cloth_sim_ros.sim.tuning import OFF
+from cloth_sim_ros.sim.tuning import VARIABLE
 
 
 def add_scene_arguments(parser: ArgumentParser) -> None:
@@ -24,6 +28,22 @@ def add_scene_arguments(parser: ArgumentParser) -> None:
                              'times')
     parser.add_argument('--set', action='append', default=[], metavar='name=value', dest='changes',
                         help='set a parameter; can be given several times')
+    add_tuning_argument(parser)
+
+
+def add_tuning_argument(parser: ArgumentParser) -> None:
+    """Add --no-tune."""
+    parser.add_argument('--no-tune', action=_WithoutTuning, nargs=0,
+                        help='use the built-in loads and block, not what `cloth_sim tune` has '
+                             'found')
+
+
+class _WithoutTuning(Action):
+    """Has this process, and those that it starts, use no tuning."""
+
+    def __call__(self, *_: object) -> None:
+        """Set the variable of the environment that does so."""
+        os.environ[VARIABLE] = OFF
 
 
 def read_scene(args: Namespace) -> tuple[Scene, dict[str, Any]]:

@@ -24,6 +24,7 @@ import time
 
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.verb.node_arguments import add_node_arguments
+from cloth_sim_ros.verb.scene_arguments import add_tuning_argument
 from cloth_sim_ros.verb.scene_arguments import parse_change
 from cloth_sim_ros.verb.scene_arguments import scene_from
 from cloth_sim_ros.view.source import Source
@@ -53,6 +54,7 @@ def add_arguments(parser: ArgumentParser) -> None:
     parser.add_argument(
         '--fps', type=float, default=20.0, metavar='F',
         help='maximum frame rate [Hz] (default: %(default)s)')
+    add_tuning_argument(parser)
     add_node_arguments(parser)
 
 

@@ -8,14 +8,17 @@ from signal import SIGTERM
 import time
 
 from cloth_sim_interfaces.msg import ClothStats
+from cloth_sim_ros.gl.context import Context
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.simulation import Simulation
 from cloth_sim_ros.sim.snapshot import POINT_DTYPE
+from cloth_sim_ros.sim.tuning import Choice
 from cloth_under_test import SCENE
 from node_process import NodeProcess
 import numpy as np
 import pytest
 from recorded import Recorded
+from tuned_device import tune_device
 
 RECORDING = {
     **SCENE, 'recording.enabled': True, 'recording.name': 'run', 'real_time_factor': 0.0}
@@ -48,6 +51,22 @@ def test_stops_cleanly_with_the_recording_closed(signals, client, tmp_path):
     last = np.frombuffer(clouds[-1].data, POINT_DTYPE)
     assert last.tobytes() == simulation.snapshot().records.tobytes()
     simulation.close()
+
+
+def test_a_tuning_that_is_none_is_warned_of(monkeypatch, tmp_path):
+    """A node would not start because of a file that it can do without, or say nothing of it."""
+    context = Context(single_thread=True)
+    path = tune_device(
+        monkeypatch, tmp_path, context.device, context.version, {16: Choice('storage', 2)})
+    context.close()
+    path.write_text('{')
+    with NodeProcess(tmp_path, {**RECORDING, 'recording.enabled': False}) as node:
+        while node.running and ' nodes in mode ' not in node.output:
+            time.sleep(0.01)
+        node.send(SIGINT)
+        assert node.wait() == 0, node.output
+    warning, = (line for line in node.output.splitlines() if 'is not the tuning of' in line)
+    assert warning.startswith('[WARN] ') and warning.endswith('or set CLOTH_SIM_TUNING=off')
 
 
 def test_an_interrupt_while_starting_is_a_clean_stop(tmp_path):

@@ -18,7 +18,7 @@ from springs import SPRINGS
 def device(**changed: object) -> SimpleNamespace:
     """Return what a layout needs to know of a device."""
     return SimpleNamespace(**{
-        'device': 'some GPU', 'is_software': False, 'max_buffer_bytes': 2**27,
+        'device': 'some GPU', 'version': '4.6', 'is_software': False, 'max_buffer_bytes': 2**27,
         'max_texture_texels': 2**27, **changed})
 
 
