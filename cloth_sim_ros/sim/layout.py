@@ -20,9 +20,13 @@ import numpy as np
 HALO = 2
 # Measured on llvmpipe, docs/notes/performance.md; a GPU hides latency with many small invocations.
 _SOFTWARE_BLOCK = 4
-# Damped bending keeps more of a tile than registers hold: 4 takes three times as long.
-_SOFTWARE_BLOCK_WITH_BRAKES = 2
+# Of cloths too narrow for half a workgroup of such blocks, and with damped bending, which keeps
+# more of a tile than registers hold: 4 takes three times as long.
+_SMALL_SOFTWARE_BLOCK = 2
 _GPU_BLOCK = 1
+# Invocations of a workgroup along a row and along a column. Software runs whole workgroups.
+_SOFTWARE_LOCAL = (8, 4)
+_GPU_LOCAL = (16, 8)
 _BYTES_PER_NODE = 16
 
 
@@ -165,13 +169,16 @@ def _fused(scene: Scene, context: Context, choice: Choice) -> Layout:
     return Layout(
         scene.rows, scene.cols, 'fused',
         choice.loads == 'texture' or (choice.loads == 'auto' and has_textures),
-        choice.block or _best_block(scene, context), (8, 4) if context.is_software else (16, 8))
+        choice.block or _best_block(scene, context),
+        _SOFTWARE_LOCAL if context.is_software else _GPU_LOCAL)
 
 
 def _best_block(scene: Scene, context: Context) -> int:
     if not context.is_software:
         return _GPU_BLOCK
-    return _SOFTWARE_BLOCK_WITH_BRAKES if scene.has_bending_damping else _SOFTWARE_BLOCK
+    halves = (_SOFTWARE_BLOCK * side // 2 for side in _SOFTWARE_LOCAL)
+    is_narrow = any(count <= half for count, half in zip((scene.cols, scene.rows), halves))
+    return _SMALL_SOFTWARE_BLOCK if is_narrow or scene.has_bending_damping else _SOFTWARE_BLOCK
 
 
 def _refuse_too_large(layout: Layout, context: Context) -> None:

@@ -60,6 +60,15 @@ def test_software_devices_read_textures():
     assert choose_layout(Scene({**SPRINGS, 'loads': 'texture'}), device()).texture_loads
 
 
+@pytest.mark.parametrize(('rows', 'cols', 'block'), [
+    (9, 17, 4), (200, 200, 4), (200, 16, 2), (8, 200, 2), (2, 2, 2)])
+def test_blocks_on_software_leave_no_half_workgroup_idle(rows: int, cols: int, block: int):
+    """A small or narrow cloth would step a fifth to two fifths slower."""
+    scene = Scene({**SPRINGS, 'rows': rows, 'cols': cols})
+    assert choose_layout(scene, device(is_software=True)).block == block
+    assert choose_layout(scene, device()).block == 1
+
+
 def test_a_cloth_beyond_the_buffers_is_refused_with_the_limit():
     """The device would cut the cloth off, or crash."""
     with pytest.raises(DeviceError) as caught:

@@ -59,7 +59,7 @@ class Times:
 
 def found(context: Context, times: Times, rounds: int = 3):
     """Return what is found for a small cloth."""
-    size, = tune(context, [8], rounds, times)
+    size, = tune(context, [20], rounds, times)
     assert size.built_in == BASELINE and len(size.rivals) == 5
     return size
 
@@ -121,6 +121,6 @@ def test_what_is_out_takes_no_more_time(context):
 def test_without_textures_there_is_one_way_to_load(context, monkeypatch):
     """A device without texture buffers could not be measured."""
     monkeypatch.setattr(context, 'max_texture_texels', 0)
-    size, = tune(context, [8], 1, Times({}))
+    size, = tune(context, [20], 1, Times({}))
     assert size.built_in == Choice('storage', 4)
     assert {rival.choice for rival in size.rivals} == {Choice('storage', 1), Choice('storage', 2)}
