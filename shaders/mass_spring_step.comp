@@ -17,7 +17,7 @@
 #include "applied_acceleration.glsl"
 #include "symplectic_euler.glsl"
 #if HAS_RIGIDITY
-#include "bending.glsl"
+#include "block_bending.glsl"
 
 uniform float bending[2];  // [N/m] along a row, along a column
 #endif

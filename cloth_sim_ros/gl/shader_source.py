@@ -31,9 +31,12 @@ class ShaderSource:
         self.defines = dict(defines or {})
         self._lines: list[str] = [VERSION_LINE]
         self._origins: list[str] = ['version']
-        for key, value in self.defines.items():
-            self._append(f'#define {key} {value}', 'define')
         body = _expanded(shader_directory(), name)
+        # Without those it does not use, one program serves scenes that differ in them.
+        used = _used(self.defines, set(_words(shader_directory(), name)))
+        for key, value in self.defines.items():
+            if key in used:
+                self._append(f'#define {key} {value}', 'define')
         self._lines += (line for line, _ in body)
         self._origins += (origin for _, origin in body)
 
@@ -45,10 +48,8 @@ class ShaderSource:
     @property
     def used_defines(self) -> dict[str, object]:
         """Return those of the choices that the shader reads, names and values."""
-        words = set(_WORD.findall('\n'.join(
-            line for line, origin in zip(self._lines, self._origins) if origin != 'define')))
-        return {key: value for key, value in self.defines.items()
-                if key.partition('(')[0] in words}
+        words = _words(shader_directory(), self.name)
+        return {key: value for key, value in self.defines.items() if _name(key) in words}
 
     def origin(self, line: int) -> str:
         """Return 'file:line' and the text of line ``line`` (from 1) of the whole."""
@@ -59,6 +60,27 @@ class ShaderSource:
     def _append(self, line: str, origin: str) -> None:
         self._lines.append(line)
         self._origins.append(origin)
+
+
+def _used(defines: Mapping[str, object], words: set[str]) -> set[str]:
+    """Return which of ``defines`` are among ``words``, or in what those stand for."""
+    used: set[str] = set()
+    while more := {key for key in defines if key not in used and _name(key) in words}:
+        used |= more
+        for key in more:
+            words.update(_WORD.findall(str(defines[key])))
+    return used
+
+
+def _name(key: str) -> str:
+    return key.partition('(')[0]
+
+
+@cache
+def _words(root: Path, name: str) -> frozenset[str]:
+    """Return the words of a file and of all that it includes."""
+    return frozenset(
+        word for line, _ in _expanded(root, name) for word in _WORD.findall(line))
 
 
 @cache

@@ -12,29 +12,3 @@ vec3 second_difference(float present, vec3 behind, vec3 here, vec3 ahead) {
 
 // Both neighbours first: a mirrored cloth rounds alike.
 vec3 unbent(vec3 behind, vec3 here, vec3 ahead) { return (behind + ahead) - 2.0 * here; }
-
-// Of a tile OF with two nodes on each side of the block, and nodes in the tile NODE whose w is 0
-// for a ghost.
-#define BENT(OF, NODE, ROW, COL, DROW, DCOL) second_difference( \
-    NODE[ROW - DROW][COL - DCOL].w * NODE[ROW][COL].w * NODE[ROW + DROW][COL + DCOL].w, \
-    OF[ROW - DROW][COL - DCOL].xyz, OF[ROW][COL].xyz, OF[ROW + DROW][COL + DCOL].xyz)
-
-#define FOR_BENT(DROW, DCOL) \
-    for (int row = 2 - DROW; row < BLOCK + 2 + DROW; ++row) \
-        for (int col = 2 - DCOL; col < BLOCK + 2 + DCOL; ++col)
-
-// What bending resists at the nodes of the block, into RESISTED; C is c along a row and along a
-// column. Both second differences are kept: they are found once for three nodes.
-#define FIND_BENDING(RESISTED, OF, NODE, C) { \
-    vec3 bent[BLOCK + 4][BLOCK + 4]; \
-    FOR_BENT(0, 1) { bent[row][col] = BENT(OF, NODE, row, col, 0, 1); } \
-    FOR_BENT(0, 0) { \
-        RESISTED[row][col] = \
-            C[0] * unbent(bent[row][col - 1], bent[row][col], bent[row][col + 1]); \
-    } \
-    FOR_BENT(1, 0) { bent[row][col] = BENT(OF, NODE, row, col, 1, 0); } \
-    FOR_BENT(0, 0) { \
-        RESISTED[row][col] += \
-            C[1] * unbent(bent[row - 1][col], bent[row][col], bent[row + 1][col]); \
-    } \
-}

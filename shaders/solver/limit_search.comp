@@ -17,7 +17,7 @@
 #include "solver/edge_law.glsl"
 #include "solver/foreseen_length.glsl"
 #if HAS_RIGIDITY
-#include "bending.glsl"
+#include "block_bending.glsl"
 
 uniform float bending_weight[2];
 #endif

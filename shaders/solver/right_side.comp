@@ -21,7 +21,7 @@
 #if !IS_FURTHER
 #include "applied_acceleration.glsl"
 #if HAS_RIGIDITY
-#include "bending.glsl"
+#include "block_bending.glsl"
 
 uniform float bending_rate[2];  // [1/s2] c along a row and along a column, over the node mass
 #endif

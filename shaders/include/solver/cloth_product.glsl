@@ -9,7 +9,7 @@
 #include "solver/cloth_edges.glsl"
 #include "solver/free_directions.glsl"
 #if HAS_RIGIDITY
-#include "bending.glsl"
+#include "block_bending.glsl"
 
 // beta h^2 c along a row and along a column, over the node mass.
 uniform float bending_weight[2];
