@@ -57,6 +57,21 @@ def test_shows_topics_of_the_node(layout):
     assert view['publish']['pointTopic'] == '/clicked_point'
 
 
+def test_the_cloth_is_not_behind_the_names_of_frames(layout):
+    """Names of 20 cm, and a line from the origin to each pin, would cover the cloth."""
+    view, = panels(layout, '3D')
+    transforms = view['scene']['transforms']
+    assert transforms['showLabel'] is False
+    assert transforms['lineWidth'] == 0
+    assert transforms['axisScale'] <= 0.25
+
+
+def test_frames_are_there_wherever_a_recording_is_entered(layout):
+    """Of /tf only the last message would count there: that of the colliders, not of the pins."""
+    view, = panels(layout, '3D')
+    assert view['scene']['transforms']['enablePreloading'] is True
+
+
 def test_plots_numbers_that_are_published(layout):
     """A plot would stay empty."""
     paths = [path['value'] for plot in panels(layout, 'Plot') for path in plot['paths']]
