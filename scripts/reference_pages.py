@@ -143,7 +143,7 @@ def topic_cells(topic: Topic) -> list[str]:
     durability = 'transient local' if topic.transient_local else 'volatile'
     return [
         f'`{topic.name}`', f'`{topic.type_name}`', f'{reliability}, {durability}, {topic.depth}',
-        'yes' if topic.recorded else 'no', topic.text]
+        'yes' if topic.recorded else 'with `recording.markers`', topic.text]
 
 
 def request_cells(request: Request) -> list[str]:

@@ -15,6 +15,7 @@ import warnings
 from cloth_sim_interfaces.msg import ClothState
 from cloth_sim_ros.messages.frame import PointsMessage
 from cloth_sim_ros.messages.frame import stats_message
+from cloth_sim_ros.messages.markers import MarkersMessage
 from cloth_sim_ros.messages.pins import PinFrames
 from cloth_sim_ros.messages.pins import too_many_pins
 from cloth_sim_ros.messages.pins import WrenchMessages
@@ -69,6 +70,8 @@ class RunRecording:
         self._frame_id = node_values['frame_id']
         self._points = PointsMessage(
             simulation.scene.rows, simulation.scene.cols, self._frame_id)
+        self._markers = MarkersMessage(
+            simulation.scene.rows, simulation.scene.cols, self._frame_id)
         self._pin_frames = PinFrames(node_name, self._frame_id)
         self._wrenches = WrenchMessages(node_name)
         self.problem = ''
@@ -100,6 +103,10 @@ class RunRecording:
         self._session.write('points', self._points.serialise(snapshot), snapshot.time)
         # Not at the end: an interrupt may come in between.
         self._recorded = snapshot.time
+        if self._session.takes('markers') and self._node_values['publish.markers']:
+            self._session.write('markers', self._markers.serialise(
+                snapshot, [applied.push for applied in self._simulation.pushes],
+                self._simulation.colliders, self._simulation.grasps), snapshot.time)
         self._session.write('stats', serialize_message(stats), snapshot.time)
         held = self._simulation.grasped_nodes()
         if self._has_pin_frames and self._pins().any():

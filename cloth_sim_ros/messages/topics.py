@@ -37,7 +37,7 @@ class Topic:
     :param reliable: False for best effort
     :param transient_local: True to keep the last ``depth`` for late subscribers
     :param is_global: True for a name that does not depend on the node
-    :param recorded: False for what a recording leaves out
+    :param recorded: False for what a recording leaves out, unless it is asked for
     :param text: one line for people
     """
 
@@ -65,7 +65,8 @@ class Topic:
         return self.name.replace('~', f'/{node_name.lstrip("/")}')
 
 
-# Markers are drawn from the points, at many times their size: a recording keeps the points.
+# Markers are drawn from the points, at several times their size: a recording keeps the points,
+# and the markers only where recording.markers asks for them.
 TOPICS = {
     topic.key: topic for topic in (
         Topic('points', PointCloud2, depth=10, text='one point per node, organised as rows and '

@@ -41,6 +41,8 @@ NODE_FIELDS = (
           '1 MiB; 0 for no limit', 'bytes', low=0, high=10**15),
     Field('recording.fsync', bool, False, 'sync a recording to disk at every flush, twice a '
           'second, not only at its end'),
+    Field('recording.markers', bool, False, 'record ~/markers as well, so that viewers show the '
+          'surface and the colliders of a recording'),
     Field('clicked_point.force', float, (0.0, 0.0, 1.0), 'total force of the push triggered by a '
           'message on /clicked_point, x y z', 'N', low=-1e9, high=1e9, is_array=True, live=True),
     Field('clicked_point.radius', float, 0.1, 'radius of that push around the clicked point', 'm',

@@ -73,7 +73,7 @@ class Outlet:
 
     def wanted(self, key: str, *, by_recording: bool = True) -> bool:
         """Tell whether anybody reads the topic ``key`` now."""
-        return (by_recording and self._recorded(key)) or self._subscribed(key)
+        return (by_recording and self._recording.takes(key)) or self._subscribed(key)
 
     def send(
             self, key: str, serialise: Callable[[], bytes], sim_time: float, *,
@@ -90,7 +90,7 @@ class Outlet:
             return
         data = serialise()
         # The recording first: a publish fails when the node is being shut down.
-        if to_recording and self._recorded(key):
+        if to_recording and self._recording.takes(key):
             self._recording.write(key, data, sim_time)
         if key in self._publishers:
             self._publishers[key].publish(data)
@@ -100,9 +100,6 @@ class Outlet:
         """Do the same with a ROS message object; for messages that are small."""
         self.send(
             key, lambda: serialize_message(message), sim_time, to_recording=to_recording)
-
-    def _recorded(self, key: str) -> bool:
-        return self._recording.active and TOPICS[key].recorded
 
     def _subscribed(self, key: str) -> bool:
         publisher = self._publishers.get(key)

@@ -116,6 +116,10 @@ class RecordingSession:
         """Tell whether a recording is being written."""
         return self._recorder is not None
 
+    def takes(self, key: str) -> bool:
+        """Tell whether messages of the topic ``key`` are being recorded."""
+        return self._recorder is not None and self._recorder.takes(key)
+
     @property
     def path(self) -> str:
         """Absolute path of the folder being written to; empty when there is none."""

@@ -30,12 +30,14 @@ class RecordingOptions:
     :param max_bagfile_duration: recorded time of one file [s]; 0 for no limit
     :param max_size: of all files of the recording, which is completed there [bytes]; 0 for none
     :param fsync: True to wait for the disk at each flush, not only at the end
+    :param markers: True to record the markers too, for viewers that draw what is in a bag
     """
 
     max_bagfile_size: int = 0
     max_bagfile_duration: float = 0.0
     max_size: int = 0
     fsync: bool = False
+    markers: bool = False
 
     @classmethod
     def from_values(cls, values: Mapping[str, Any]) -> 'RecordingOptions':
@@ -44,7 +46,8 @@ class RecordingOptions:
             max_bagfile_size=values['recording.max_bagfile_size'],
             max_bagfile_duration=values['recording.max_bagfile_duration'],
             max_size=values[MAX_SIZE_SETTING],
-            fsync=values['recording.fsync'])
+            fsync=values['recording.fsync'],
+            markers=values['recording.markers'])
 
     @property
     def splits(self) -> bool:

@@ -106,7 +106,7 @@ class Recorder:
             # Read now, and kept: what is missing is told before anything is recorded.
             self._channels = {
                 key: topic_channel(topic, node_name) for key, topic in TOPICS.items()
-                if topic.recorded}
+                if topic.recorded or (key == 'markers' and options.markers)}
         except OSError as error:
             raise refusal(Path(directory), error, setting) from error
         self.path = make_bag_folder(directory, name, setting)
@@ -130,17 +130,21 @@ class Recorder:
             remove_bag_folder(self.path)
             raise refusal(self.path, error, setting) from error
 
+    def takes(self, key: str) -> bool:
+        """Tell whether messages of the topic ``key`` are recorded."""
+        return TOPICS[key].key in self._channels
+
     def write(self, key: str, data: bytes, sim_time: float) -> None:
         """
         Record ``data``, a serialised message of the topic ``key``, at ``sim_time`` [s].
 
-        What TOPICS does not record is left out, as is what comes after closing.
+        What is not recorded is left out, as is what comes after closing.
 
         :raises RecordingError: once, when the recording could not go on; after that, nothing is
             recorded
         """
         self.check()
-        if self._closed or not TOPICS[key].recorded:
+        if self._closed or not self.takes(key):
             return
         while self._taken_bytes - self._written_bytes > MOST_WAITING and not self._ended:
             time.sleep(POLL)

@@ -32,11 +32,12 @@ _PARAMETERS = {
     'max_bag_duration': 'recording.max_bagfile_duration',
     'max_recording_size': 'recording.max_size',
     'fsync': 'recording.fsync',
+    'markers': 'recording.markers',
 }
 
 
 def add_recording_options(parser: ArgumentParser) -> None:
-    """Add the arguments for files, limit and fsync of a recording."""
+    """Add the arguments for files, limit, fsync and markers of a recording."""
     parser.add_argument(
         '--max-bag-size', type=int, metavar='BYTES',
         help='split the recording into files of this size')
@@ -49,6 +50,9 @@ def add_recording_options(parser: ArgumentParser) -> None:
     parser.add_argument(
         '--fsync', action='store_true', default=None,
         help='sync the recording to disk at every flush, twice a second')
+    parser.add_argument(
+        '--markers', action='store_true', default=None,
+        help='record the markers too, so that RViz and Foxglove show surface and colliders')
 
 
 def recording_changes(args: Namespace) -> list[str]:

@@ -58,6 +58,36 @@ def test_advance_writes_at_the_rate_and_measures_the_pace(cloth, tmp_path):
         stats['real_time_factor'][1:] * stats['step_wall_time'][1:], cloth.dt)
 
 
+BALL = {
+    'colliders.names': ['ball'], 'colliders.ball.shape': 'sphere', 'colliders.ball.size': [0.1],
+    'colliders.ball.position': [0.0, 0.0, 0.5]}
+
+
+def test_markers_are_recorded_with_every_frame_where_they_are_asked_for(tmp_path):
+    """A viewer of the recording would show a cloth that bends around nothing."""
+    with Simulation(Scene({**SMALL, **BALL})) as simulation:
+        with SimulationRecorder(
+                simulation, tmp_path, 'run', parameters={'recording.markers': True}) as recorder:
+            recorder.advance(0.06)
+            simulation.push((0.0, 0.5, 1.0), duration=0.1)
+            recorder.advance(0.02)
+        with SimulationRecorder(simulation, tmp_path, 'bare') as recorder:
+            recorder.advance(0.02)
+    recorded = Recorded(tmp_path / 'run')
+    arrays = recorded.messages('markers')
+    assert len(arrays) == len(recorded.messages('points')) == 5
+    names = [{marker.ns for marker in array.markers} for array in arrays]
+    assert all({'surface', 'pins', 'collider/ball'} <= each for each in names)
+    assert ['pushes' in each for each in names] == 4 * [False] + [True]
+    # The cloth of the same moment.
+    cloud = Recording(tmp_path / 'run').arrays('points')['positions'][-1]
+    surface, = (marker for marker in arrays[-1].markers if marker.ns == 'surface')
+    corner = surface.points[0]
+    np.testing.assert_array_equal((corner.x, corner.y, corner.z), cloud[0, 0])
+    assert not Recorded(tmp_path / 'bare').messages('markers')
+    assert resimulate(tmp_path / 'run').frames.equal == 5
+
+
 def test_every_input_is_recorded_and_the_run_can_be_made_again(cloth, tmp_path):
     """What a program did to the cloth would be lost, and its run with it."""
     with SimulationRecorder(cloth, tmp_path, 'run') as recorder:

@@ -7,11 +7,13 @@ from cloth_sim_interfaces.msg import ClothStats
 from cloth_sim_ros.messages.topics import TOPICS
 from cloth_sim_ros.node.outlet import Outlet
 from cloth_sim_ros.node.recording_session import RecordingSession
+from cloth_sim_ros.recording.bag_folder import RecordingOptions
 from cloth_under_test import NAMESPACE
 import pytest
 import rclpy
 from rclpy.qos import DurabilityPolicy
 from rclpy.qos import ReliabilityPolicy
+from rosbags.highlevel import AnyReader
 from shape_msgs.msg import Mesh
 
 NAMES_AND_TYPES = {
@@ -106,6 +108,24 @@ def test_who_listens_to_itself_is_no_reader(client, tmp_path):
     client.spin_until(lambda: outlet.wanted('stats'), 'a reader is known')
     client.node.destroy_subscription(subscription)
     client.spin_until(lambda: not outlet.wanted('stats'), 'the reader has gone')
+    node.destroy_node()
+
+
+def test_a_recording_of_markers_reads_them(client, tmp_path):
+    """The node would make no markers for it, as long as no viewer shows them."""
+    node = rclpy.create_node('draws', context=client.node.context)
+    for name, markers in (('bare', False), ('drawn', True)):
+        session = RecordingSession(
+            str(tmp_path), 'draws', print, options=RecordingOptions(markers=markers))
+        outlet = Outlet(node, session)
+        assert not outlet.wanted('markers')
+        session.start(name)
+        assert outlet.wanted('markers') == markers
+        assert outlet.wanted('points') and not outlet.wanted('points', by_recording=False)
+        outlet.send('markers', lambda: b'', 0.0)
+        session.stop()
+        with AnyReader([tmp_path / name]) as reader:
+            assert reader.message_count == int(markers)
     node.destroy_node()
 
 

@@ -12,6 +12,7 @@ from cloth_sim_ros.messages.geometry import serialise_topology
 from cloth_sim_ros.messages.inputs import push_message
 from cloth_sim_ros.messages.topics import Topic
 from cloth_sim_ros.messages.topics import TOPICS
+from cloth_sim_ros.recording.bag_folder import RecordingOptions
 from cloth_sim_ros.recording.bag_metadata import yaml_text
 from cloth_sim_ros.recording.message_definition import message_definition
 from cloth_sim_ros.recording.message_definition import type_hash
@@ -35,6 +36,8 @@ from rclpy.serialization import serialize_message
 from rosbags.highlevel import AnyReader
 from sensor_msgs.msg import PointCloud2
 from springs import SPRINGS
+from visualization_msgs.msg import Marker
+from visualization_msgs.msg import MarkerArray
 import yaml
 
 # As rosbag2 of Jazzy dumps it.
@@ -193,6 +196,20 @@ def test_what_is_not_recorded_is_left_out(tmp_path):
     recorder.close()
     with AnyReader([recorder.path]) as reader:
         assert reader.message_count == 0
+
+
+def test_markers_are_recorded_where_they_are_asked_for(tmp_path):
+    """Foxglove and RViz would show the nodes of a recording, without a surface or a collider."""
+    recorder = Recorder(tmp_path, options=RecordingOptions(markers=True))
+    assert recorder.takes('markers')
+    data = serialize_message(MarkerArray(markers=[Marker(ns='collider/ball')]))
+    recorder.write('markers', data, 0.5)
+    recorder.close()
+    with AnyReader([recorder.path]) as reader:
+        (connection, time, recorded), = reader.messages()
+        marker, = reader.deserialize(recorded, connection.msgtype).markers
+    assert connection.topic == '/cloth_sim/markers'
+    assert (marker.ns, time) == ('collider/ball', 500_000_000)
 
 
 def test_closing_again_and_writing_late_change_nothing(tmp_path):

@@ -56,6 +56,15 @@ def test_a_split_recording_is_the_same_run(whole, split, tmp_path, capsys):
     assert (tmp_path / 'a.png').stat().st_size > 1000
 
 
+def test_markers_are_recorded_on_request(whole, tmp_path):
+    """A viewer would show the nodes alone, and what the cloth lies on not at all."""
+    def topics(path: Path) -> set[str]:
+        with AnyReader([path]) as reader:
+            return {each.topic for each in reader.connections if each.msgcount}
+    drawn = topics(run(tmp_path, '--markers'))
+    assert drawn - topics(whole) == {'/cloth_sim/markers'}
+
+
 def test_one_file_of_a_split_recording_shows_the_cloth(split, tmp_path, capsys):
     """A file that is sent alone could not be drawn."""
     alone = shutil.copy(split / 'small_1.mcap', tmp_path)
