@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 
 #version 430 core
-// How fast edges turn, and the strain of structural and shear edges: the largest of each, for each
-// invocation, which looks at STRIP nodes of a column. The reader takes the largest of them.
+// How fast edges turn, at most and in the mean, and the largest strain of structural and shear
+// edges, for each invocation, which looks at STRIP nodes of a column.
 // HAS_CONTACT: the velocities are those that foresee_contact.comp expects.
 
 #include "lattice.glsl"
@@ -32,20 +32,40 @@ Node load_node(int row, int col) {
     return Node(load_position(index), v.xyz);
 }
 
-// Square of the angular velocity, as if the edge had its rest length [1/s2], and its strain.
-vec2 turn_and_strain(Node here, int row, int col, int drow, int dcol, int family, int rest) {
+// Over some edges: the largest square of an angular velocity, as if the edge had its rest length
+// [1/s2], and the largest strain; the sum of what they lose, which grows with the fourth power of how
+// fast they turn, and the mean of the squares, weighted with that.
+struct Found {
+    float turn;
+    float strain;
+    float weight;
+    float mean_turn;
+};
+
+#define MOST_TURN 1e12  // [1/s2]
+
+Found found_with(
+        Found found, Node here, int row, int col, int drow, int dcol, int family, int rest) {
     Node there = load_node(row + drow, col + dcol);
     vec3 d = there.position.xyz - here.position.xyz;
     vec3 u = there.velocity - here.velocity;
     vec3 across = u - (dot(u, d) / max(dot(d, d), 1e-20)) * d;
     float present = there.position.w;
-    return present * vec2(
-        dot(across, across) / (rest_length[rest] * rest_length[rest]),
-        family != BEND ? abs(length(d) / rest_length[rest] - 1.0) : 0.0);
+    float square = rest_length[rest] * rest_length[rest];
+    float turn = present * dot(across, across) / square;
+    float strain = family != BEND ? present * abs(length(d) / rest_length[rest] - 1.0) : 0.0;
+    // No substep is short enough for more, and powers of it have to be finite.
+    float bounded = min(turn, MOST_TURN);
+    float weight = square * bounded * bounded;
+    float total = found.weight + weight;
+    float share = weight / max(total, 1e-30);
+    return Found(
+        max(found.turn, turn), max(found.strain, strain), total,
+        found.mean_turn + share * (bounded - found.mean_turn));
 }
 
-#define LOOK(MOST, EDGE, DROW, DCOL, FAMILY, REST) \
-    MOST = max(MOST, turn_and_strain(here, row, col, DROW, DCOL, FAMILY, REST));
+#define LOOK(FOUND, EDGE, DROW, DCOL, FAMILY, REST) \
+    FOUND = found_with(FOUND, here, row, col, DROW, DCOL, FAMILY, REST);
 
 void main() {
     int col = int(gl_GlobalInvocationID.x);
@@ -54,12 +74,14 @@ void main() {
     if (first >= ROWS || col >= COLS) {
         return;
     }
-    vec2 most = vec2(0.0);
+    Found found = Found(0.0, 0.0, 0.0, 0.0);
     for (int row = first; row < min(first + STRIP, ROWS); ++row) {
         Node here = load_node(row, col);
-        EACH_EDGE(LOOK, most)
+        EACH_EDGE(LOOK, found)
     }
-    int entry = 2 * (strip * COLS + col);
-    partial_sums[entry] = most.x;
-    partial_sums[entry + 1] = most.y;
+    int entry = 4 * (strip * COLS + col);
+    partial_sums[entry] = found.turn;
+    partial_sums[entry + 1] = found.strain;
+    partial_sums[entry + 2] = found.weight;
+    partial_sums[entry + 3] = found.mean_turn;
 }

@@ -13,6 +13,7 @@ from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.scene_program import SceneProgram
 from cloth_sim_ros.sim.scene_program import Strips
 from cloth_sim_ros.sim.state import State
+import numpy as np
 
 # Of the limit: a predicted strain above this makes an edge near it.
 _NEAR = 0.9
@@ -98,8 +99,9 @@ class StrainWatch:
         self._reach = min(max(2 * self._left, _FEWEST), _MOST)
 
 
-# Of the length, lost by an edge that turns in one substep: (omega h)^2 / 2.
-_TURN = 0.0025
+# Of the length of an edge that turns in one substep, (omega h)^2 / 2, in the mean over all edges,
+# weighted with what they lose by it.
+_MEAN_TURN = 0.002
 
 
 class TurnWatch:
@@ -107,18 +109,22 @@ class TurnWatch:
     Measures how fast edges turn and how far they stretch (docs/explanation/implicit_step.md).
 
     :param families: of the edges that are looked at
+    :param largest: (omega h)^2 / 2 of any edge, omega how fast it turns and h the substep
     """
 
-    def __init__(self, scene: Scene, layout: Layout, families: tuple[str, ...]) -> None:
+    def __init__(
+            self, scene: Scene, layout: Layout, families: tuple[str, ...],
+            largest: float) -> None:
         """Allocate room for the result; nothing is compiled yet."""
-        self._strips = Strips(layout, 2)
+        self._largest = largest
+        self._strips = Strips(layout, 4)
         self._program = SceneProgram('turn_watch.comp', scene, layout, {
             **Strips.defines(),
             **edge_defines(families)})
 
     def look(self, state: State, forcing: Forcing, dt: float) -> tuple[float, float]:
         """
-        Return the longest substep [s] in which no edge turns too far, and the largest strain.
+        Return the longest substep [s] in which edges do not turn too far, and the largest strain.
 
         The strain is abs(l / L0 - 1), of structural and shear edges.
 
@@ -127,8 +133,12 @@ class TurnWatch:
         _bind(state, forcing, dt)
         program = self._program.use_for_step(forcing, dt)
         self._strips.dispatch(program)
-        turns, strain = (float(largest) for largest in self._strips.largest())
-        return math.sqrt(2.0 * _TURN / turns) if turns > 0.0 else math.inf, strain
+        turns, strains, weights, means = self._strips.read().astype(float).T
+        turn = turns.max() / self._largest
+        if weights.any():
+            turn = np.fmax(turn, np.average(means, weights=weights) / _MEAN_TURN)
+        longest = math.sqrt(2.0 / turn) if turn > 0.0 else math.inf
+        return longest, float(strains.max())
 
     def delete(self) -> None:
         """Give pass and room back."""

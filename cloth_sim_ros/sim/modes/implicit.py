@@ -103,6 +103,8 @@ class ImplicitStep(ABC):
 
     # An implicit step is stable whatever its length.
     stability_limit = math.inf
+    # Of the length of any edge that turns in a substep, (omega h)^2 / 2.
+    largest_turn: float
     last_length: float
 
     def __init__(self, scene: Scene, layout: Layout, families: Collection[str]) -> None:
@@ -115,7 +117,7 @@ class ImplicitStep(ABC):
             scene, layout, families=families, preconditioner=scene['solver.preconditioner'],
             tolerance=scene['solver.tolerance'], max_iterations=scene['solver.max_iterations'],
             foresees_turn=self._solves > 1)
-        self._watch = TurnWatch(scene, layout, families)
+        self._watch = TurnWatch(scene, layout, families, self.largest_turn)
         self._free_motion = FreeMotion(scene, layout)
         self.settling = Settling()
         self.forget()

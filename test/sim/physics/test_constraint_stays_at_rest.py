@@ -16,9 +16,9 @@ def _calm(simulation, seconds, interval=0.1, kept=0.8):
 
 
 @pytest.mark.parametrize('slack', [pytest.param(0.0, marks=pytest.mark.long), 0.05])
-@pytest.mark.parametrize(('nodes', 'calm', 'rest'), [
-    (12, 25.0, 4.0), pytest.param(64, 60.0, 10.0, marks=pytest.mark.long)])
-def test_a_light_cloth_stays_at_rest(simulate, within, nodes, calm, rest, slack):
+@pytest.mark.parametrize(('nodes', 'calm', 'settle', 'rest'), [
+    (12, 25.0, 0.0, 4.0), pytest.param(64, 60.0, 20.0, 10.0, marks=pytest.mark.long)])
+def test_a_light_cloth_stays_at_rest(simulate, within, nodes, calm, settle, rest, slack):
     """A cloth at rest would tremble, swing up again, or pull at its pins with what is not."""
     simulation = simulate({
         'mode': 'constraint', 'rows': nodes, 'cols': nodes, 'areal_density': 0.15, 'dt': 0.02,
@@ -29,6 +29,8 @@ def test_a_light_cloth_stays_at_rest(simulate, within, nodes, calm, rest, slack)
         corner = simulation.scene.rest_positions()[0, 0]
         simulation.move_pin(0, 0, corner + (slack, 0.0, 0.0), 0.5)
     _calm(simulation, calm)
+    # To write a state moves a free edge of a fine cloth by a millimetre a second, which air takes.
+    simulation.advance(settle)
     weight = 0.15 * 9.81
     fastest = chequered = off = 0.0
     signs = (-1.0)**np.add.outer(np.arange(nodes), np.arange(nodes))[..., None]
