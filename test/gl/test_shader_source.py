@@ -39,9 +39,11 @@ def test_version_comes_first_and_once(shaders: Path):
 
 def test_what_a_shader_does_not_use_is_not_defined(shaders: Path):
     """Scenes that differ in it would compile the same program once more."""
-    (shaders / 'main.comp').write_text('#version 430 core\nint side() { return SQUARE(BLOCK); }\n')
+    (shaders / 'main.comp').write_text(
+        '#version 430 core\nint side() { return SQUARE(BLOCK); }\n')
     text = ShaderSource('main.comp', {
-        'ROWS': 3, 'BLOCK': 'WIDTH', 'WIDTH': 2, 'SQUARE(A)': 'A * A', 'CUBE(A)': 'A * A * A'}).text
+        'ROWS': 3, 'BLOCK': 'WIDTH', 'WIDTH': 2, 'SQUARE(A)': 'A * A',
+        'CUBE(A)': 'A * A * A'}).text
     assert text.splitlines()[1:4] == [
         '#define BLOCK WIDTH', '#define WIDTH 2', '#define SQUARE(A) A * A']
     assert 'ROWS' not in text and 'CUBE' not in text

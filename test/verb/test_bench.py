@@ -78,7 +78,8 @@ def test_modes_are_compared_in_one_document():
     assert done.returncode == 0, done.stderr
     found = json.loads(done.stdout)
     assert [(row['grid'], row['contender']) for row in found['speeds']] == [
-        (grid, name) for grid in (6, 10) for name in ('mass_spring', 'constraint', 'adaptive')]
+        (grid, name) for grid in (6, 10) for name in (
+            'mass_spring', 'stiffer_springs', 'constraint', 'adaptive')]
     assert found['device'] and found['worker_threads'] == '0'
     assert {'cloth_sim_ros', 'OpenGL', 'numpy'} <= set(found['versions'])
     for row in found['speeds']:
