@@ -5,6 +5,8 @@
 
 from argparse import ArgumentParser
 from argparse import Namespace
+import os
+import sys
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
@@ -27,4 +29,20 @@ def open_node(args: Namespace) -> 'NodeClient':
     """Return the node that the options of add_node_arguments mean."""
     # A verb may do without a node, and then without ROS.
     from cloth_sim_ros.verb.node_client import NodeClient
+    _keep_stdout_for_answers()
     return NodeClient(args.node, args.timeout)
+
+
+def _keep_stdout_for_answers() -> None:
+    """
+    Send to stderr what libraries print, from now on.
+
+    Fast DDS prints its errors to stdout, where a script reads the answer of a verb.
+    """
+    out = sys.__stdout__
+    if out is None or sys.stdout is not out:
+        return
+    out.flush()
+    answers = os.dup(out.fileno())
+    os.dup2(sys.stderr.fileno(), out.fileno())
+    sys.stdout = os.fdopen(answers, 'w', encoding=out.encoding)

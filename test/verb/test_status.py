@@ -4,6 +4,9 @@
 """cloth_sim status."""
 
 import json
+import os
+import subprocess
+import sys
 
 from cloth_sim_interfaces.srv import Step
 
@@ -42,3 +45,15 @@ def test_prints_json(verb, cloth):
     assert content['state']['run_state'] == 'paused'
     assert 'mass_spring' in content['state']['available_modes']
     assert content['stats']['steps'] == 40
+
+
+def test_what_the_middleware_prints_is_no_part_of_the_answer(cloth, tmp_path):
+    """A script would read an error of Fast DDS, which it prints to stdout, for the answer."""
+    profiles = tmp_path / 'profiles.xml'
+    profiles.write_text('<unfinished')
+    done = subprocess.run(
+        [sys.executable, '-m', 'cloth_sim_ros.verb', 'status', '--json', '--node', cloth.name],
+        capture_output=True, text=True,
+        env={**os.environ, 'FASTRTPS_DEFAULT_PROFILES_FILE': str(profiles)})
+    assert json.loads(done.stdout)['state']['run_state'] == 'paused'
+    assert 'XMLPARSER' in done.stderr
