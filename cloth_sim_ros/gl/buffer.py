@@ -33,6 +33,10 @@ _WRITES = GL.GL_SHADER_STORAGE_BARRIER_BIT | GL.GL_TEXTURE_FETCH_BARRIER_BIT
 WRITES_VISIBLE: Call = (memory_barrier, (_WRITES,))
 DISPATCHES_VISIBLE: Call = (memory_barrier, (_WRITES | GL.GL_COMMAND_BARRIER_BIT,))
 
+_TEXEL_BYTES = 16
+# Larger ones may be as large as a storage block can be.
+_LARGEST_PADDED = 2**26
+
 
 class Buffer:
     """
@@ -51,7 +55,9 @@ class Buffer:
         self._texture: int | None = None
         GL.glBindBuffer(GL.GL_SHADER_STORAGE_BUFFER, self.name)
         GL.glBufferData(
-            GL.GL_SHADER_STORAGE_BUFFER, self.bytes, content, GL.GL_DYNAMIC_COPY)
+            GL.GL_SHADER_STORAGE_BUFFER, _allocated(self.bytes), None, GL.GL_DYNAMIC_COPY)
+        if content is not None:
+            GL.glBufferSubData(GL.GL_SHADER_STORAGE_BUFFER, 0, self.bytes, content)
         note_buffer(self)
 
     def bind_storage(self, binding: int) -> None:
@@ -105,6 +111,18 @@ class Buffer:
             GL.glDeleteTextures(1, [self._texture])
         GL.glDeleteBuffers(1, [self.name])
         drop_buffer(self)
+
+
+def _allocated(size: int) -> int:
+    """
+    Return the bytes to allocate for ``size``: a power of two gets one texel more.
+
+    llvmpipe compiles a shader anew where the size of a buffer that it reads as a texture turns
+    into a power of two, or is none any more: for each such combination of its buffers.
+    """
+    is_power_of_two = size & (size - 1) == 0
+    is_padded = is_power_of_two and _TEXEL_BYTES < size <= _LARGEST_PADDED
+    return size + _TEXEL_BYTES if is_padded else size
 
 
 class BufferRow:

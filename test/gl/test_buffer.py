@@ -1,0 +1,54 @@
+# SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
+# SPDX-License-Identifier: Apache-2.0
+
+"""Buffers hold what they were given, in memory whose size asks for no other shader."""
+
+from cloth_sim_ros.gl.buffer import Buffer
+from cloth_sim_ros.gl.context import Context
+from cloth_sim_ros.gl.libraries import GL
+import numpy as np
+import pytest
+
+
+@pytest.fixture(scope='module', autouse=True)
+def context():
+    """Make a context for all tests."""
+    made = Context(single_thread=True)
+    yield made
+    made.close()
+
+
+def allocated(buffer):
+    """Return the bytes that the driver has allocated."""
+    GL.glBindBuffer(GL.GL_SHADER_STORAGE_BUFFER, buffer.name)
+    return int(GL.glGetBufferParameteriv(GL.GL_SHADER_STORAGE_BUFFER, GL.GL_BUFFER_SIZE))
+
+
+@pytest.mark.parametrize('size', [32, 4096, 4112, 65536, 2**26])
+def test_no_size_is_a_power_of_two(size):
+    """A driver that tells such textures from others would compile each size of cloth anew."""
+    buffer = Buffer(size)
+    assert allocated(buffer) & (allocated(buffer) - 1) != 0
+    assert buffer.bytes == size <= allocated(buffer) <= size + 16
+    buffer.delete()
+
+
+def test_the_largest_storage_block_is_not_exceeded():
+    """A cloth as large as the device allows would be refused, or read beyond its buffer."""
+    buffer = Buffer(2**27)
+    assert allocated(buffer) == 2**27
+    buffer.delete()
+
+
+@pytest.mark.parametrize('count', [4, 7, 1024])
+def test_content_is_what_was_given(count):
+    """What is more than was asked for would move or replace what was given."""
+    given = np.arange(count, dtype=np.float32)
+    buffer = Buffer(given)
+    found = np.empty_like(given)
+    buffer.read_into(found)
+    assert np.array_equal(found, given)
+    buffer.write(given[::-1])
+    buffer.read_into(found)
+    assert np.array_equal(found, given[::-1])
+    buffer.delete()
