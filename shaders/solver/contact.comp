@@ -259,6 +259,9 @@ void decide(int at, int index, inout vec4 x, inout vec4 v) {
     if (substep * max(length(hold.change), length(hold.impulse)) > most_unsolved) {
         note_change();
     }
+    if (hold.kind != was) {
+        note_turn();
+    }
     // What is let go has no reaction once the next solve is done.
     keep(index, hold, hold.kind == FREE ? vec3(0.0) : reaction + hold.change);
     if (hold.change != vec3(0.0)) {
