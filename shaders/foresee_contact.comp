@@ -24,9 +24,13 @@ void main() {
     }
     int index = node_index(row, col);
     vec4 v = load_velocity(index);
-    if (v.w > 0.0) {
-        vec3 without = v.xyz + substep * applied_acceleration(index);
-        v.xyz = contact_at(load_position(index).xyz, without, without, substep).velocity;
+    vec3 x = load_position(index).xyz;
+    vec3 without = v.xyz + (v.w > 0.0 ? substep * applied_acceleration(index) : vec3(0.0));
+    v.xyz = without;
+    // Software runs the body of a branch for nodes that do not take it, but no loop that ends at once.
+    bool is_near = v.w > 0.0 && near_bodies(x, 0.0, substep * length(without)) != 0u;
+    for (uint asks = is_near ? 1u : 0u; asks != 0u; asks &= asks - 1u) {
+        v.xyz = contact_at(x, without, without, substep).velocity;
     }
     velocity_out[index] = v;
 }

@@ -190,11 +190,17 @@ class Contacts:
         """Begin to ask anew whether another solve is due."""
         self._decision = self._decision % _MOST_SERIAL + 1
 
-    def is_solve_due(self) -> bool:
-        """Return whether the last decision has moved nodes by more than a solve leaves."""
-        marks = np.empty(2, dtype=np.float32)
+    def is_solve_due(self, *, is_exact: bool = False) -> bool:
+        """
+        Return whether the last decision has moved nodes by more than a solve leaves.
+
+        :param is_exact: True where the solve before it had nothing to do: then another one is due
+            only if a node sticks, slides or is let go that did not
+        """
+        marks = np.empty(3, dtype=np.float32)
         self._record.read_into(marks, self._record.bytes - _ENTRY_BYTES)
-        return bool(marks[1] == self._decision)
+        due, turned = marks[1:] == self._decision
+        return bool(due and (turned or not is_exact))
 
     def forces(self, positions: np.ndarray, time: float) -> tuple[ContactForce, ...]:
         """
@@ -347,8 +353,8 @@ class _Touch:
     def begin_decision(self) -> None:
         self._contacts.begin_decision()
 
-    def is_solve_due(self) -> bool:
-        return self._contacts.is_solve_due()
+    def is_solve_due(self, *, is_exact: bool = False) -> bool:
+        return self._contacts.is_solve_due(is_exact=is_exact)
 
 
 def _reach(collider: Collider) -> float:

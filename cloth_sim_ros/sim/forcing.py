@@ -36,7 +36,7 @@ class Touch(Protocol):
     def begin_decision(self) -> None:
         """Begin to ask anew whether another solve is due."""
 
-    def is_solve_due(self) -> bool:
+    def is_solve_due(self, *, is_exact: bool = False) -> bool:
         """Return whether the last decision has moved nodes by more than a solve leaves."""
 
 

@@ -130,13 +130,14 @@ def steps_for(run: Simulation, seconds: float, timer: Timer = time_steps) -> int
     return max(1, round(_STEPS_BEFORE * seconds / timer(run, _STEPS_BEFORE)))
 
 
-# What colliders cost: a cloth dropped over a sphere, the same without it, and among twenty.
+# What colliders cost: a cloth dropped over a sphere, the same without it, among twenty, and hung.
 
 # All variants take turns after so much simulated time [s].
 _TURN = 0.02
 _SPHERE = {'shape': 'sphere', 'size': [0.15], 'friction': 0.3}
 # Bodies beside the sphere that the cloth never comes near to.
 _OTHERS = 19
+_HUNG = 'hung, no collider'
 
 
 @dataclass(frozen=True)
@@ -146,6 +147,8 @@ class ContactSpeed:
 
     :param seconds: wall time of a simulated second in each round, by variant [s]
     :param ratios: of each variant to the one without colliders in each round
+    :param ratios_to_hung: the same to a cloth that hangs from two corners, without colliders: in
+        an implicit mode a cloth that falls freely has next to nothing to solve
     """
 
     mode: str
@@ -153,6 +156,7 @@ class ContactSpeed:
     device: str
     seconds: dict[str, list[float]]
     ratios: dict[str, list[float]]
+    ratios_to_hung: dict[str, list[float]]
 
     def as_dict(self) -> dict[str, Any]:
         """Return it for JSON."""
@@ -163,14 +167,17 @@ class ContactSpeed:
         lines = [f'{self.mode}, {self.nodes} x {self.nodes} on {self.device}']
         for variant, rounds in self.seconds.items():
             ratios = self.ratios[variant]
+            to_hung = self.ratios_to_hung[variant]
             lines.append(
                 f'  {variant:22}{statistics.median(rounds):7.2f} s for a simulated second, '
-                f'{statistics.median(ratios):5.2f} x ({min(ratios):.2f} to {max(ratios):.2f})')
+                f'{statistics.median(ratios):5.2f} x ({min(ratios):.2f} to {max(ratios):.2f}), '
+                f'{statistics.median(to_hung):5.2f} x the one that hangs '
+                f'({min(to_hung):.2f} to {max(to_hung):.2f})')
         return '\n'.join(lines)
 
 
 def variants(mode: str, nodes: int) -> dict[str, Scene]:
-    """Return the scenes that are compared, by name; the first is without colliders."""
+    """Return the scenes that are compared, by name; the first falls without colliders."""
     cloth: dict[str, Any] = {
         'mode': mode, 'rows': nodes, 'cols': nodes, 'width': 1.0, 'height': 1.0,
         'areal_density': 0.15, 'material.preset': 'none', 'start.pose': 'horizontal',
@@ -180,7 +187,8 @@ def variants(mode: str, nodes: int) -> dict[str, Scene]:
             5.0 * math.cos(number), 5.0 * math.sin(number), 0.0) for number in range(_OTHERS)}}
     return {
         'no collider': Scene(cloth), 'a sphere': Scene({**cloth, **_spheres(places, 1)}),
-        f'{_OTHERS + 1} spheres': Scene({**cloth, **_spheres(places, None)})}
+        f'{_OTHERS + 1} spheres': Scene({**cloth, **_spheres(places, None)}),
+        _HUNG: Scene({**cloth, 'pins': ['top_left', 'top_right']})}
 
 
 def measure_contact(
@@ -193,10 +201,15 @@ def measure_contact(
             for name, wall in _round(scenes, context, seconds).items():
                 walls[name].append(wall / seconds)
         device = context.device
-    first = next(iter(walls.values()))
-    return ContactSpeed(mode, nodes, device, walls, {
-        name: [wall / without for wall, without in zip(rounds_of, first)]
-        for name, rounds_of in walls.items()})
+    return ContactSpeed(
+        mode, nodes, device, walls, _ratios(walls, next(iter(walls))), _ratios(walls, _HUNG))
+
+
+def _ratios(walls: dict[str, list[float]], base: str) -> dict[str, list[float]]:
+    """Return the ratios to the variant ``base``, round by round."""
+    return {
+        name: [wall / other for wall, other in zip(rounds_of, walls[base])]
+        for name, rounds_of in walls.items()}
 
 
 def _round(scenes: dict[str, Scene], context: Context, seconds: float) -> dict[str, float]:

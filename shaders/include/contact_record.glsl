@@ -13,6 +13,9 @@ layout(std430, binding = CONTACTS) buffer Contacts { vec4 contacts[]; };
 // Leave a mark that another solve is due.
 void note_change() { contacts[COLLIDERS * record_stride].y = decision; }
 
+// Leave a mark that a node touches, is let go, sticks or slides, and did not before it.
+void note_turn() { contacts[COLLIDERS * record_stride].z = decision; }
+
 // Leave a mark that a node touches a collider in this substep.
 void note_contact() { contacts[COLLIDERS * record_stride].x = serial; }
 

@@ -56,7 +56,8 @@ void main() {
 #if HAS_CONTACT
     vec4 contact = load_contact(index);
     if (contact.w > 0.0) {
-        diagonal += Symmetric(load_grip(index).xyz, vec3(0.0));
+        vec4 grip = load_grip(index);
+        diagonal += grip.w * (scaled_identity(1.0) - outer_square(grip.xyz));
         inverse_block = moves * inverse_above(diagonal, 1.0);
         // Of the block along the surface, or the line, that the node slides on.
         vec3 image = times(inverse_block, contact.xyz);

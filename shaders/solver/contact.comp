@@ -45,6 +45,11 @@ uniform bool ends_turns;      // whether friction is to resist only, which throw
 #endif
 uniform float most_unsolved;  // [m] that a node may be moved by without another solve
 
+// Whether a node at x may come to a collider in the substep, at this velocity.
+bool is_near_body(vec3 x, vec3 v) {
+    return near_bodies(x, 0.0, substep * length(v) + spare_way) != 0u;
+}
+
 // How a node touches: what is left to a solve is grip and impulse.
 struct Hold {
     int kind;      // by the directions left to it; STICKS: none
@@ -57,8 +62,7 @@ struct Hold {
 
 void keep(int index, Hold hold, vec3 reaction) {
     system_data[cloth_entry(CONTACT, index)] = vec4(hold.normal, float(hold.kind));
-    system_data[cloth_entry(GRIP, index)] =
-        vec4(hold.grip * (1.0 - hold.line * hold.line), hold.grip);
+    system_data[cloth_entry(GRIP, index)] = vec4(hold.line, hold.grip);
     store_vector(cloth_entry(REACTION, index), reaction);
     store_vector(cloth_entry(GIVEN, index), hold.impulse);
     if (hold.kind != FREE) {
@@ -135,12 +139,25 @@ bool slides_on(inout Hold hold, int index, vec3 v) {
     return true;
 }
 
-void decide(int at, int index, inout vec4 x, inout vec4 v) {
+// The velocity that takes a node to surfaces.
+vec3 towards(int at, int index, vec3 v) {
+    vec3 last = load_vector(cloth_entry(CHANGE, index));
+    return v + guess * last + kick * applied_acceleration(at);
+}
+
+// Begin the substep of a node; return whether it may touch.
+bool may_touch(int at, int index, vec4 x, vec4 v) {
     store_vector(cloth_entry(BEGIN_POSITION, index), x.xyz);
     store_vector(cloth_entry(BEGIN_VELOCITY, index), v.xyz);
-    if (v.w == 0.0) {
-        return;
+    bool is_near = is_near_body(x.xyz, towards(at, index, v.xyz));
+    if (v.w > 0.0 && !is_near) {
+        keep(index, Hold(FREE, vec3(0.0), vec3(0.0), 0.0, vec3(0.0), vec3(0.0)), vec3(0.0));
+        vectors[cloth_entry(REACTION, index)].w = 0.0;
     }
+    return v.w > 0.0 && is_near;
+}
+
+void decide(int at, int index, inout vec4 x, inout vec4 v) {
     vec3 last = load_vector(cloth_entry(CHANGE, index));
     vec3 expected = guess > 0.0
         ? guess * (last - load_vector(cloth_entry(REACTION, index)))
@@ -149,8 +166,7 @@ void decide(int at, int index, inout vec4 x, inout vec4 v) {
     bool touched_before = guess > 0.0 && system_data[cloth_entry(CONTACT, index)].w > 0.0;
     float end = touched_before ? vectors[cloth_entry(REACTION, index)].w : 0.0;
     vectors[cloth_entry(REACTION, index)].w = 0.0;
-    vec3 towards = v.xyz + guess * last + kick * applied_acceleration(at);
-    Contact contact = contact_at(x.xyz, towards, without, substep);
+    Contact contact = contact_at(x.xyz, towards(at, index, v.xyz), without, substep);
     Hold hold = hold_of(contact, v.xyz);
     bool sticks = contact.kind == STICKS || end == STUCK && is_slow(hold, contact, x.xyz);
     if (touched_before && end != STUCK && slides_on(hold, index, v.xyz + hold.change)) {
@@ -204,15 +220,26 @@ void rub(inout Hold hold, Contact contact, vec3 v, vec3 x, vec3 reaction, int wa
     hold.impulse = along_surface(hold, contact.velocity - (v - hold.change - reaction)) - done;
 }
 
+// Return whether a node touches or may come to.
+bool may_touch(int at, int index, vec4 x, vec4 v) {
+    spare_way = most_unsolved;
+    vec3 begin = load_vector(cloth_entry(BEGIN_POSITION, index));
+    bool touches = system_data[cloth_entry(CONTACT, index)].w > 0.0;
+    bool is_near = v.w > 0.0 && (touches || is_near_body(begin, v.xyz));
+    if (!is_near) {
+        store_vector(cloth_entry(GIVEN, index), vec3(0.0));
+    }
+    return is_near;
+}
+
 void decide(int at, int index, inout vec4 x, inout vec4 v) {
     int was = int(system_data[cloth_entry(CONTACT, index)].w);
     float was_grip = system_data[cloth_entry(GRIP, index)].w;
     vec3 begin = load_vector(cloth_entry(BEGIN_POSITION, index));
     vec3 reaction = load_vector(cloth_entry(REACTION, index));
     float turns = vectors[cloth_entry(REACTION, index)].w;
-    spare_way = most_unsolved;
     Contact contact = contact_at(begin, v.xyz, v.xyz - reaction, substep);
-    if (v.w == 0.0 || (was == FREE && contact.kind == FREE)) {
+    if (was == FREE && contact.kind == FREE) {
         store_vector(cloth_entry(GIVEN, index), vec3(0.0));
         return;
     }
@@ -232,6 +259,9 @@ void decide(int at, int index, inout vec4 x, inout vec4 v) {
     if (substep * max(length(hold.change), length(hold.impulse)) > most_unsolved) {
         note_change();
     }
+    if (hold.kind != was) {
+        note_turn();
+    }
     // What is let go has no reaction once the next solve is done.
     keep(index, hold, hold.kind == FREE ? vec3(0.0) : reaction + hold.change);
     if (hold.change != vec3(0.0)) {
@@ -242,16 +272,19 @@ void decide(int at, int index, inout vec4 x, inout vec4 v) {
     }
 }
 #else
+// End the substep of a node that touches nothing; return whether it may.
+bool may_touch(int at, int index, vec4 x, vec4 v) {
+    spare_way = most_unsolved;
+    vectors[cloth_entry(REACTION, index)].w = 0.0;
+    return v.w > 0.0
+        && is_near_body(load_vector(cloth_entry(BEGIN_POSITION, index)), v.xyz);
+}
+
 void decide(int at, int index, inout vec4 x, inout vec4 v) {
     vec4 was = system_data[cloth_entry(CONTACT, index)];
     float was_grip = system_data[cloth_entry(GRIP, index)].w;
     vec3 begin = load_vector(cloth_entry(BEGIN_POSITION, index));
     vec3 reaction = load_vector(cloth_entry(REACTION, index));
-    vectors[cloth_entry(REACTION, index)].w = 0.0;
-    if (v.w == 0.0) {
-        return;
-    }
-    spare_way = most_unsolved;
     contact_at(begin, v.xyz, v.xyz - reaction, substep);
     if (touched_count == 0 && reaction != vec3(0.0)) {
         // What passes by without its reaction may come inside with it.
@@ -296,7 +329,12 @@ void main() {
     int at = state_index(row, col);
     vec4 x = load_position(at);
     vec4 v = load_velocity(at);
-    decide(at, node_index(row, col), x, v);
+    int index = node_index(row, col);
+    // Software runs the body of a branch for nodes that do not take it, but no loop that ends at once.
+    // One that a compiler can tell from a branch, that is.
+    for (uint asks = may_touch(at, index, x, v) ? 1u : 0u; asks != 0u; asks &= asks - 1u) {
+        decide(at, index, x, v);
+    }
     velocity_out[at] = v;
     position_out[at] = x;
 }

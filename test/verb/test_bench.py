@@ -117,5 +117,7 @@ def test_colliders_are_compared_with_none():
     found = [json.loads(line) for line in done.stdout.splitlines()]
     assert [each['mode'] for each in found] == ['mass_spring', 'constraint']
     for each in found:
-        assert list(each['ratios']) == ['no collider', 'a sphere', '20 spheres']
+        names = ['no collider', 'a sphere', '20 spheres', 'hung, no collider']
+        assert list(each['ratios']) == list(each['ratios_to_hung']) == names
         assert each['ratios']['no collider'] == [1.0]
+        assert each['ratios_to_hung']['hung, no collider'] == [1.0]

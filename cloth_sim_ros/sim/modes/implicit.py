@@ -285,7 +285,9 @@ class ImplicitStep(ABC):
             return False
         self._solver.resolve_contacts(
             state, forcing, ends_turns=solves >= _MOST_CONTACT_TURNS)
-        return forcing.touch.is_solve_due()
+        # What began within the tolerance is within it after a solve, unless a node has turned.
+        return forcing.touch.is_solve_due(
+            is_exact=solves > self._solves and self._solver.had_nothing_to_do())
 
     def _solve(
             self, state: State, forcing_of: Callable[[], Forcing], **how: Any) -> Pieces:

@@ -317,6 +317,10 @@ class Solver:
         _, _, _, _, after, iterations, scale = (float(value) for value in self._buffers.scalars())
         return report_of(scale, after, int(iterations), self._tolerance)
 
+    def had_nothing_to_do(self) -> bool:
+        """Return whether the last solve began within the tolerance."""
+        return self._buffers.iterations() <= 1
+
     def measured_residual(self) -> float:
         """Return the residual as it was before the last iteration of the last solve."""
         _, _, measure, _, _, _, scale = (float(value) for value in self._buffers.scalars())

@@ -36,11 +36,7 @@ void load_values(ivec2 first, int field) {
     }
 }
 
-// In all directions, also those in which a node can't follow.
-void make_whole_product(ivec2 first) {
-    FOR_TILE {
-        product[row][col] = value[row][col];
-    }
+void add_edges_to_product(ivec2 first) {
     FOR_CLOTH_EDGES(add_to_product)
 #if HAS_RIGIDITY
     vec3 resisted[TILE][TILE];
@@ -54,11 +50,26 @@ void make_whole_product(ivec2 first) {
 #endif
 }
 
+// In all directions, also those in which a node can't follow, and without friction.
+void make_whole_product(ivec2 first) {
+    FOR_TILE {
+        product[row][col] = value[row][col];
+    }
+    add_edges_to_product(first);
+}
+
 void make_product(ivec2 first) {
-    make_whole_product(first);
+    FOR_TILE {
+        product[row][col] = value[row][col];
+    }
+#if HAS_CONTACT
+    FOR_BLOCK {
+        product[row][col] += gripped(tile_index(first, row, col), value[row][col]);
+    }
+#endif
+    add_edges_to_product(first);
     FOR_BLOCK {
         product[row][col] = is_free(node[row][col])
-            ? held_product(tile_index(first, row, col), value[row][col], product[row][col])
-            : vec3(0.0);
+            ? in_free_directions(tile_index(first, row, col), product[row][col]) : vec3(0.0);
     }
 }

@@ -8,7 +8,7 @@
 #if HAS_CONTACT
 vec4 load_contact(int index) { return load_system(cloth_entry(CONTACT, index)); }
 
-// What friction resists along x, y and z; the largest.
+// The direction in which friction does not resist, if any, and how much it does across that.
 vec4 load_grip(int index) { return load_system(cloth_entry(GRIP, index)); }
 
 bool is_held(int index) { return load_contact(index).w == 1.0; }
@@ -20,9 +20,10 @@ vec3 in_free_directions(int index, vec3 v) {
         : contact.w == 2.0 ? v - along : along;
 }
 
-// Of a row of the matrix times a vector, value at the node itself.
-vec3 held_product(int index, vec3 value, vec3 product) {
-    return in_free_directions(index, product + load_grip(index).xyz * value);
+// What friction resists the value at a node with.
+vec3 gripped(int index, vec3 value) {
+    vec4 grip = load_grip(index);
+    return grip.w * (value - dot(grip.xyz, value) * grip.xyz);
 }
 
 // The directions that contact takes of a node, as a projection.
@@ -34,10 +35,14 @@ Symmetric taken_directions(int index) {
 }
 
 Symmetric grip_tensor(int index) {
-    return load_grip(index).w * (scaled_identity(1.0) - taken_directions(index));
+    vec4 grip = load_grip(index);
+    return grip.w * (
+        scaled_identity(1.0) - outer_square(grip.xyz) - taken_directions(index));
 }
 #else
 bool is_held(int index) { return false; }
 
-vec3 held_product(int index, vec3 value, vec3 product) { return product; }
+vec3 gripped(int index, vec3 value) { return vec3(0.0); }
+
+vec3 in_free_directions(int index, vec3 v) { return v; }
 #endif

@@ -47,8 +47,8 @@ uniform int level;
                    // their bend, times the root of what damping weighs, and their skew
 #define CONTACT (7 + 2 * HAS_BEND + 2 * HAS_BENDING_DAMPING)  // level 0, with contact: normal of the
                    // surface that a node touches, and in which directions that leaves it free
-#define GRIP (CONTACT + 1)  // what friction resists along x, y, z, and across where a node slides to,
-                   // over the node mass
+#define GRIP (CONTACT + 1)  // the direction that a node slides in, where friction does not resist, if
+                   // any, and what it resists across that, over the node mass
 #define GROUND 2   // coarse levels, two fields: mass, and what ties the node to pinned ones
 #define EDGES 4    // coarse levels, six fields: the tensors of the edges that begin here
 
