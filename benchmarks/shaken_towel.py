@@ -1,0 +1,113 @@
+# SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
+# SPDX-License-Identifier: Apache-2.0
+
+"""
+What a tight strain limit costs on soft springs: a light towel that is shaken at two corners.
+
+Nearly all of its edges come to a limit of 1 % and leave it again, so that the solves of a substep
+search for those in force. The options change constants of the step, to see which of them decides.
+
+For example:
+  LP_NUM_THREADS=0 python benchmarks/shaken_towel.py
+  LP_NUM_THREADS=0 python benchmarks/shaken_towel.py --beyond 0.3 --most-solves 6 --tolerance 0.03
+"""
+
+from argparse import ArgumentParser
+from dataclasses import dataclass
+from time import process_time
+
+from cloth_sim_ros.sim.modes import adaptive
+from cloth_sim_ros.sim.modes import implicit
+from cloth_sim_ros.sim.scene import Scene
+from cloth_sim_ros.sim.simulation import Simulation
+import numpy as np
+
+TOWEL = {
+    'mode': 'adaptive', 'adaptive.threshold': 0.01, 'areal_density': 0.05,
+    'stiffness.structural': 5.0, 'stiffness.shear': 5.0, 'stiffness.bend': 0.5,
+    'damping.structural': 1e-3, 'damping.shear': 1e-3, 'damping.bend': 1e-4, 'dt': 0.01}
+# Not timed: shaders are compiled in them.
+_FIRST_STEPS = 3
+_REACH = 0.05      # [m]
+_FREQUENCY = 2.0   # [Hz]
+
+
+@dataclass(frozen=True)
+class Shaking:
+    """
+    What a run took, per simulated second, substep or solve, and how far edges were strained.
+
+    :param seconds: processor time of a simulated second [s]
+    :param substeps: of a dt, mean
+    :param solves: of a substep, mean
+    :param iterations: of a solve, mean
+    :param unreached: share of the steps whose ``solver_reached`` was false
+    :param largest: strain of any edge after any step
+    :param median: over the steps of the last two thirds, of the largest strain
+    """
+
+    seconds: float
+    substeps: float
+    solves: float
+    iterations: float
+    unreached: float
+    largest: float
+    median: float
+
+
+def shake(seconds: float, **changes: object) -> Shaking:
+    """Shake the towel for ``seconds`` [s], with ``changes`` of its scene."""
+    simulation = Simulation(Scene({**TOWEL, **changes}))
+    start = simulation.snapshot().positions.astype(float)
+    pins = np.argwhere(simulation.pinned_nodes()).tolist()
+    place, begin = np.zeros(3), 0.0
+    done = []
+    for step in range(round(seconds / simulation.dt)):
+        if step == _FIRST_STEPS:
+            begin = process_time()
+        angle = 2.0 * np.pi * _FREQUENCY * (step + 1) * simulation.dt
+        goal = _REACH * np.array([np.sin(angle), 0.0, 0.5 * (1.0 - np.cos(angle))])
+        speed = float(np.linalg.norm(goal - place)) / simulation.dt
+        for row, col in pins:
+            simulation.move_pin(row, col, start[row, col] + goal, speed)
+        place = goal
+        simulation.step()
+        done.append(simulation.snapshot())
+    timed = process_time() - begin
+    substeps = sum(each.substeps for each in done)
+    solves = sum(each.solves or 0 for each in done)
+    iterations = sum((each.solves or 0) * (each.mean_iterations or 0.0) for each in done)
+    strains = [each.max_strain for each in done]
+    dt = simulation.dt
+    simulation.close()
+    return Shaking(
+        timed / ((len(done) - _FIRST_STEPS) * dt), substeps / len(done), solves / substeps,
+        iterations / max(solves, 1), 1.0 - np.mean([bool(each.solver_reached) for each in done]),
+        max(strains), float(np.median(strains[len(strains) // 3:])))
+
+
+def main() -> None:
+    """Print one run."""
+    parser = ArgumentParser(description=__doc__.partition('\n\n')[0])
+    parser.add_argument('--mode', default='adaptive')
+    parser.add_argument('--nodes', type=int, default=24, help='a side')
+    parser.add_argument('--seconds', type=float, default=0.4)
+    parser.add_argument('--tolerance', type=float, default=0.01)
+    parser.add_argument(
+        '--beyond', type=float, default=adaptive._SHARE,
+        help='of the limit: what an edge that carries the cloth is beyond it')
+    parser.add_argument(
+        '--most-solves', type=int, default=implicit._MOST_SOLVES, help='of a pass')
+    args = parser.parse_args()
+    adaptive._SHARE = args.beyond
+    implicit._MOST_SOLVES = args.most_solves
+    found = shake(args.seconds, mode=args.mode, rows=args.nodes, cols=args.nodes,
+                  **{'solver.tolerance': args.tolerance})
+    print(f'{found.seconds:.1f} s of a processor a simulated second; {found.substeps:.1f} '
+          f'substeps a dt, {found.solves:.1f} solves a substep, {found.iterations:.1f} iterations '
+          f'a solve; limits not found in {found.unreached:.0%} of the steps; largest strain '
+          f'{found.largest:.2%}, median {found.median:.2%}')
+
+
+if __name__ == '__main__':
+    main()

@@ -1,0 +1,20 @@
+# SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
+# SPDX-License-Identifier: Apache-2.0
+
+"""What a tight limit costs on a shaken towel."""
+
+import pytest
+from shaken_towel import shake
+from shaken_towel import TOWEL
+
+
+def test_a_towel_at_its_limit_is_measured():
+    """The benchmark would measure a towel that comes to no limit, or none that is shaken."""
+    towel = shake(0.15, rows=6, cols=6)
+    assert towel.median == pytest.approx(TOWEL['adaptive.threshold'], rel=0.3)
+    assert towel.largest < 2.0 * TOWEL['adaptive.threshold']
+    assert towel.solves >= 1.0
+    assert towel.iterations > 0.0
+    assert towel.seconds > 0.0
+    still = shake(0.15, rows=6, cols=6, **{'adaptive.threshold': 0.5})
+    assert still.solves < towel.solves
