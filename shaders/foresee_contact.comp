@@ -27,7 +27,8 @@ void main() {
     vec3 x = load_position(index).xyz;
     vec3 without = v.xyz + (v.w > 0.0 ? substep * applied_acceleration(index) : vec3(0.0));
     v.xyz = without;
-    // Software runs the body of a branch for nodes that do not take it, but no loop that ends at once.
+    // Software runs the body of a branch for nodes that do not take it, but no loop that ends at
+    // once (solver/contact.comp).
     bool is_near = v.w > 0.0 && near_bodies(x, 0.0, substep * length(without)) != 0u;
     for (uint asks = is_near ? 1u : 0u; asks != 0u; asks &= asks - 1u) {
         v.xyz = contact_at(x, without, without, substep).velocity;

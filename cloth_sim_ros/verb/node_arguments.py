@@ -40,9 +40,10 @@ def _keep_stdout_for_answers() -> None:
     Fast DDS prints its errors to stdout, where a script reads the answer of a verb.
     """
     out = sys.__stdout__
-    if out is None or sys.stdout is not out:
+    # A stream is None where the caller has closed it.
+    if out is None or sys.stdout is not out or sys.stderr is None:
         return
     out.flush()
     answers = os.dup(out.fileno())
     os.dup2(sys.stderr.fileno(), out.fileno())
-    sys.stdout = os.fdopen(answers, 'w', encoding=out.encoding)
+    sys.stdout = os.fdopen(answers, 'w', encoding=out.encoding, errors=out.errors)

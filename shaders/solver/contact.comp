@@ -330,8 +330,8 @@ void main() {
     vec4 x = load_position(at);
     vec4 v = load_velocity(at);
     int index = node_index(row, col);
-    // Software runs the body of a branch for nodes that do not take it, but no loop that ends at once.
-    // One that a compiler can tell from a branch, that is.
+    // Software runs the body of a branch for nodes that do not take it, but no loop that ends at
+    // once, if its compiler does not tell it from a branch.
     for (uint asks = may_touch(at, index, x, v) ? 1u : 0u; asks != 0u; asks &= asks - 1u) {
         decide(at, index, x, v);
     }

@@ -57,3 +57,12 @@ def test_what_the_middleware_prints_is_no_part_of_the_answer(cloth, tmp_path):
         env={**os.environ, 'FASTRTPS_DEFAULT_PROFILES_FILE': str(profiles)})
     assert json.loads(done.stdout)['state']['run_state'] == 'paused'
     assert 'XMLPARSER' in done.stderr
+
+
+def test_it_answers_where_stderr_is_closed(cloth):
+    """A script that has closed stderr would get no answer."""
+    done = subprocess.run(
+        ['bash', '-c', 'exec "$@" 2>&-', 'bash', sys.executable, '-m', 'cloth_sim_ros.verb',
+         'status', '--json', '--node', cloth.name], stdout=subprocess.PIPE, text=True)
+    assert done.returncode == 0
+    assert json.loads(done.stdout)['state']['run_state'] == 'paused'
