@@ -4,12 +4,12 @@
 """
 What a tight strain limit costs on soft springs: a light towel that is shaken at two corners.
 
-Nearly all of its edges come to a limit of 1 % and leave it again, so that the solves of a substep
-search for those in force. The options change constants of the step, to see which of them decides.
+Nearly all of its edges come to a limit of 1 % and leave it again, and the solves of a substep have
+to find which pull. The options change constants of the law, to see what decides how many it takes.
 
 For example:
   LP_NUM_THREADS=0 python benchmarks/shaken_towel.py
-  LP_NUM_THREADS=0 python benchmarks/shaken_towel.py --beyond 0.3 --most-solves 6 --tolerance 0.03
+  LP_NUM_THREADS=0 python benchmarks/shaken_towel.py --transition 0
 """
 
 from argparse import ArgumentParser
@@ -17,7 +17,6 @@ from dataclasses import dataclass
 from time import process_time
 
 from cloth_sim_ros.sim.modes import adaptive
-from cloth_sim_ros.sim.modes import implicit
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.simulation import Simulation
 import numpy as np
@@ -97,10 +96,11 @@ def main() -> None:
         '--beyond', type=float, default=adaptive._SHARE,
         help='of the limit: what an edge that carries the cloth is beyond it')
     parser.add_argument(
-        '--most-solves', type=int, default=implicit._MOST_SOLVES, help='of a pass')
+        '--transition', type=float, default=adaptive._TRANSITION,
+        help='of that: from there before the limit on it comes into force')
     args = parser.parse_args()
     adaptive._SHARE = args.beyond
-    implicit._MOST_SOLVES = args.most_solves
+    adaptive._TRANSITION = args.transition
     found = shake(args.seconds, mode=args.mode, rows=args.nodes, cols=args.nodes,
                   **{'solver.tolerance': args.tolerance})
     print(f'{found.seconds:.1f} s of a processor a simulated second; {found.substeps:.1f} '

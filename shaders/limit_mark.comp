@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 
 #version 430 core
-// Mark the edges of each cell, four bits a mark: which are beyond their limit now, so that it holds
-// them, which are engaged, and which were the time before. An edge is engaged when it is held, and
+// Mark the edges of each cell, four bits a mark: which come so near their limit that it holds them
+// now, which are engaged, and which were the time before. An edge is engaged when it is held, and
 // until it has been let go and has come back some way.
 
 #include "lattice.glsl"
@@ -18,6 +18,7 @@ layout(local_size_x = LOCAL_X, local_size_y = LOCAL_Y) in;
 
 layout(std430, binding = AT_LIMIT) buffer AtLimit { uint at_limit[]; };
 
+uniform float onset;    // strain from which on a limit pulls
 uniform float release;  // of the limit: an edge stays engaged above this strain
 
 float strain(int row, int col, int row2, int col2, int rest) {
@@ -29,7 +30,7 @@ float strain(int row, int col, int row2, int col2, int rest) {
 
 uint mark(uint before, int edge, float strain) {
     uint bit = 1u << edge;
-    if (strain > limit) {
+    if (strain > onset) {
         return bit | bit << ENGAGED;
     }
     return strain > release * limit ? before & bit << ENGAGED : 0u;

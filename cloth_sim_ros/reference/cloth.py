@@ -55,6 +55,10 @@ def gravitational_energy(
     return -node_mass * float(np.sum(positions @ gravity))
 
 
+# Of a time: what sums of substeps may be off by.
+_ROUNDED = 1e-12
+
+
 class ReferenceCloth(ABC):
     """
     One cloth and its state; a mode adds how a step of dt is made.
@@ -138,7 +142,8 @@ class ReferenceCloth(ABC):
     def _push_accelerations(self, begin: float, end: float) -> np.ndarray:
         """Return what the pushes add from ``begin`` to ``end`` [s], 0 at pinned nodes [m/s2]."""
         # The nodes of a push are settled once, by where they are when it begins.
-        starting = [push for push in self._waiting if push.start < end]
+        # The last substep may end later than its step by rounding.
+        starting = [push for push in self._waiting if push.start < end * (1.0 - _ROUNDED)]
         for push in starting:
             self._waiting.remove(push)
             self._acting.append((push, push_nodes(push, self.positions, self.free)))

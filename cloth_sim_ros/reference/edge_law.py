@@ -9,6 +9,10 @@ One law for hard edges, strain limits and implicit springs.
 
 lambda > 0 pulls. E is a compliance that belongs to the scene, not to the step: the energy of an
 edge is a function of its length, so a change of the step neither makes nor takes any.
+
+A limit comes into force over a transition of w on either side of it. There what is beyond it
+counts as (l - l_max + w)^2 / (4 w), so that the slope of lambda grows from that of the spring to
+that of the limit.
 """
 
 from dataclasses import dataclass
@@ -26,7 +30,8 @@ STANDARD_GRAVITY = 9.81
 WHOLE_EDGE = 0.03
 # Bend springs may bend as far as they like: it is not a strain of the cloth.
 LIMITED = ('structural', 'shear')
-# What an edge that carries the whole cloth is beyond its limit: of the limit, and as a strain.
+# What an edge that carries the whole cloth is beyond its limit: of the limit, and as a strain. As
+# long before it, it comes into force.
 BEYOND_LIMIT = 0.1
 MOST_BEYOND = 0.003
 
@@ -43,6 +48,7 @@ class EdgeLaw:
     :param stiffness: k [N/m]
     :param damping: k_d [N s/m]
     :param compliance: E [m/N]
+    :param transition: w [m]; 0 for hard edges
     """
 
     edges: Edges
@@ -51,15 +57,23 @@ class EdgeLaw:
     stiffness: np.ndarray
     damping: np.ndarray
     compliance: np.ndarray
+    transition: np.ndarray
 
     def side(self, lengths: np.ndarray) -> np.ndarray:
-        """Return which limit is in force: 1 from l_max on, -1 below l_min, 0 for none."""
-        hard = self.shortest == self.longest
-        return np.where(hard | (lengths > self.longest), 1, -(lengths < self.shortest).astype(int))
+        """Return which limit pulls: 1 for l_max, -1 for l_min, 0 for none."""
+        is_hard = self.shortest == self.longest
+        is_long = lengths > self.longest - self.transition
+        is_short = lengths < self.shortest + self.transition
+        return np.where(is_hard | is_long, 1, -is_short.astype(int))
 
     def beyond(self, lengths: np.ndarray) -> np.ndarray:
         """Return how far ``lengths`` are past their limits, 0 within them [m]."""
         return lengths - np.clip(lengths, self.shortest, self.longest)
+
+    def pull(self, lengths: np.ndarray) -> np.ndarray:
+        """Return what limits pull with, over 1 / E: what is beyond, but for the transition [m]."""
+        return (_past(lengths - self.longest, self.transition)
+                - _past(self.shortest - lengths, self.transition))
 
     def tension(self, lengths: np.ndarray, rates: np.ndarray) -> np.ndarray:
         """
@@ -69,17 +83,20 @@ class EdgeLaw:
         :param rates: dl/dt [m/s]
         """
         elastic = self.stiffness * (lengths - self.edges.rest_length) + self.damping * rates
-        return elastic + self.beyond(lengths) / self.compliance
+        return elastic + self.pull(lengths) / self.compliance
 
-    def slope(self, side: np.ndarray) -> np.ndarray:
-        """Return d lambda / dl with the limit on ``side`` in force [N/m]."""
-        return self.stiffness + np.where(side != 0, 1.0 / self.compliance, 0.0)
+    def slope(self, lengths: np.ndarray) -> np.ndarray:
+        """Return d lambda / dl [N/m]."""
+        in_force = (_slope_past(lengths - self.longest, self.transition)
+                    + _slope_past(self.shortest - lengths, self.transition))
+        hard = self.shortest == self.longest
+        return self.stiffness + np.where(hard, 1.0, in_force) / self.compliance
 
     def energy(self, lengths: np.ndarray) -> float:
         """Return the energy that edges of these lengths hold [J]."""
-        extension = lengths - self.edges.rest_length
-        beyond = self.beyond(lengths)
-        return 0.5 * float(np.sum(self.stiffness * extension**2 + beyond**2 / self.compliance))
+        past = (_energy_past(lengths - self.longest, self.transition)
+                + _energy_past(self.shortest - lengths, self.transition))
+        return self.spring_energy(lengths) + float(np.sum(past / self.compliance))
 
     def spring_energy(self, lengths: np.ndarray) -> float:
         """Return the part of it that springs hold, without hard edges and limits [J]."""
@@ -89,6 +106,27 @@ class EdgeLaw:
     def excess(self, lengths: np.ndarray) -> np.ndarray:
         """Return how far each edge is past its limits, in rest lengths, 0 within them."""
         return np.abs(self.beyond(lengths)) / self.edges.rest_length
+
+
+def _past(d: np.ndarray, w: np.ndarray) -> np.ndarray:
+    """Return the pull of a limit over its stiffness, ``d`` past it, with a transition of ``w``."""
+    within = np.clip(d, -w, w) + w
+    return np.divide(within**2, 4.0 * w, out=np.zeros_like(d), where=w > 0.0) + np.maximum(
+        d - w, 0.0)
+
+
+def _slope_past(d: np.ndarray, w: np.ndarray) -> np.ndarray:
+    """Return its slope, 0 to 1."""
+    within = np.clip(d, -w, w) + w
+    return np.divide(within, 2.0 * w, out=(d > 0.0).astype(float), where=w > 0.0)
+
+
+def _energy_past(d: np.ndarray, w: np.ndarray) -> np.ndarray:
+    """Return its integral over ``d``."""
+    within = np.clip(d, -w, w) + w
+    further = np.maximum(d - w, 0.0)
+    return (np.divide(within**3, 12.0 * w, out=np.zeros_like(d), where=w > 0.0)
+            + further * (w + 0.5 * further))
 
 
 def constraint_law(scene: Scene) -> EdgeLaw:
@@ -105,7 +143,8 @@ def constraint_law(scene: Scene) -> EdgeLaw:
     return EdgeLaw(
         edges, np.where(hard, edges.rest_length, -np.inf),
         np.where(hard, edges.rest_length, np.inf), np.where(hard, 0.0, edges.stiffness),
-        np.where(hard, 0.0, edges.damping), limit_compliance(scene, edges))
+        np.where(hard, 0.0, edges.damping), limit_compliance(scene, edges),
+        np.zeros(len(edges)))
 
 
 def limited_law(scene: Scene, limit: float | None = None) -> EdgeLaw:
@@ -126,7 +165,8 @@ def limited_law(scene: Scene, limit: float | None = None) -> EdgeLaw:
     return EdgeLaw(
         edges, np.where(limited & (limit < 1.0), edges.rest_length * (1.0 - limit), -np.inf),
         np.where(limited, edges.rest_length * (1.0 + limit), np.inf),
-        edges.stiffness, edges.damping, limit_compliance(scene, edges, beyond))
+        edges.stiffness, edges.damping, limit_compliance(scene, edges, beyond),
+        beyond * edges.rest_length)
 
 
 def spring_law(scene: Scene) -> EdgeLaw:
@@ -134,7 +174,7 @@ def spring_law(scene: Scene) -> EdgeLaw:
     edges = edges_of(scene)
     return EdgeLaw(
         edges, np.full(len(edges), -np.inf), np.full(len(edges), np.inf), edges.stiffness,
-        edges.damping, limit_compliance(scene, edges))
+        edges.damping, limit_compliance(scene, edges), np.zeros(len(edges)))
 
 
 def limit_compliance(

@@ -22,10 +22,9 @@ from cloth_sim_ros.sim.scene import Scene
 import numpy as np
 
 # Of the length of an edge that turns in one substep, (omega h)^2 / 2: in the mean over all edges,
-# weighted with the energy that they lose by it; for any; and for any where edges come to limits.
+# weighted with the energy that they lose by it; and for any.
 MEAN_TURN = 0.002
 LARGEST_TURN = 0.0075
-LARGEST_TURN_TO_LIMIT = 0.0025
 
 
 def across_edges(edges: Edges, positions: np.ndarray, velocities: np.ndarray) -> np.ndarray:
@@ -33,11 +32,9 @@ def across_edges(edges: Edges, positions: np.ndarray, velocities: np.ndarray) ->
     return edges.across(velocities, edges.directions(positions))
 
 
-def turn_substep(
-        edges: Edges, positions: np.ndarray, velocities: np.ndarray,
-        largest: float = LARGEST_TURN) -> float:
+def turn_substep(edges: Edges, positions: np.ndarray, velocities: np.ndarray) -> float:
     """
-    Return the longest substep [s] in which edges turn no more than MEAN_TURN and ``largest`` say.
+    Return the longest substep [s] in which edges turn no more than both bounds.
 
     One linear solve leaves an edge that turns at omega longer by (omega h)^2 / 2, as its force
     acts along where the edge was; and of the energy with which it turns it loses such a share.
@@ -49,7 +46,7 @@ def turn_substep(
         return math.inf
     turns = squares / edges.rest_length**2
     return math.sqrt(2.0 / max(
-        turns.max() / largest, np.average(turns, weights=squares * turns) / MEAN_TURN))
+        turns.max() / LARGEST_TURN, np.average(turns, weights=squares * turns) / MEAN_TURN))
 
 
 # Of a substep: rounding that is no reason for another one.
@@ -149,11 +146,8 @@ class ImplicitCloth(ReferenceCloth):
         if not self.scene['auto_substeps']:
             return self.scene['substeps']
         foreseen = np.where(self.free[..., None], self._foreseen_velocities(), self._asked)
-        has_limits = np.any(
-            np.isfinite(self.law.longest) & (self.law.shortest < self.law.longest))
         longest = turn_substep(
-            self.law.edges, self.positions.reshape(-1, 3), foreseen.reshape(-1, 3),
-            LARGEST_TURN_TO_LIMIT if has_limits else LARGEST_TURN)
+            self.law.edges, self.positions.reshape(-1, 3), foreseen.reshape(-1, 3))
         wanted = max(math.ceil(self.dt / longest - _NOTHING), 1)
         return min(self.scene['refine'] * wanted, self.scene['constraint.max_substeps'])
 

@@ -10,8 +10,7 @@ A pass finds the change of the velocities dv that meets
     K_geo = sum over edges of (lambda+ / l) (I - n n^T)
 
 with the directions n in J and K_geo frozen, and bending as at the start of the step in F. It is
-the minimum of a convex function, smooth but for
-kinks where limits come into force, and Newton's method with a line search finds it. First come
+the minimum of a convex function, and Newton's method with a line search finds it. First come
 ``start`` passes with the directions that edges have at the start of the step, then ``end`` passes
 with those that they have come to. docs/explanation/implicit_step.md derives it.
 """
@@ -118,6 +117,10 @@ class EdgeMatrix:
 _BENDING = 0.5
 
 
+# Of the kinetic energy of what is solved for: what Newton's last step gains by.
+_NOTHING = 1e-22
+
+
 @dataclass(frozen=True)
 class Passes:
     """
@@ -128,7 +131,7 @@ class Passes:
     :param end: passes along the edges as they are at its end; they take away what lengths are off
     :param foresees_turn: let the start passes allow for how much longer edges get by turning
     :param beta: share of K_geo in the matrix; 0 leaves it out, and large steps then blow up
-    :param solves: the most linear solves of one pass, which ends when the limits in force stay
+    :param solves: the most linear solves of one pass, which ends when nothing is missing
     """
 
     start: int = 1
@@ -288,21 +291,30 @@ class ImplicitStep:
         law, h, edges = self.law, one.h, self.law.edges
         for count in range(1, self.passes.solves + 1):
             grown = edges.along(change, one.directions)
-            side = law.side(one.lengths + h * grown)
+            slopes = law.slope(one.lengths + h * grown)
             right = self._right(one, change)
-            slope = h * (h * law.slope(side) + law.damping)
+            slope = h * (h * slopes + law.damping)
             outer = one.directions[:, :, None] * one.directions[:, None, :]
             added = self._matrix.solve(
                 slope[:, None, None] * outer
                 + one.across[:, None, None] * (np.eye(3) - outer), right,
                 _BENDING * h**2, None if one.damping is None else h * one.damping)
             lengths = one.lengths + h * edges.along(change + added, one.directions)
-            if np.array_equal(law.side(lengths), side):
-                # No kink on the way: Newton's step goes to the minimum of a parabola.
+            is_straight = np.array_equal(law.slope(lengths), slopes)
+            if is_straight or self._is_nothing(one, change, added, right):
+                # Along a straight law Newton's step goes to the minimum of a parabola.
                 change = change + added
                 return change, self._law(one, change), True, count
             change = change + self._share(one, change, added) * added
         return change, self._law(one, change), False, count
+
+    def _is_nothing(
+            self, one: _Pass, change: np.ndarray, added: np.ndarray, right: np.ndarray) -> bool:
+        """Return whether Newton's step gains no more than float64 resolves."""
+        pull = one.h * self._law(one, change + added)
+        scale = self._mass * float(np.sum(one.driven**2) + np.sum(change**2)) + (
+            float(np.sum(pull**2)) / self._mass)
+        return float(np.sum(right * added)) <= _NOTHING * scale
 
     def _share(self, one: _Pass, change: np.ndarray, added: np.ndarray) -> float:
         """Return which share of ``added`` to take: up to the minimum along it, 1 at most."""

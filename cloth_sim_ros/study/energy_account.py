@@ -296,9 +296,13 @@ def _pull_of_limits(
         positions: np.ndarray) -> float:
     """Return what one side's limits of some edges of a kind push them apart with, summed [N]."""
     bound = getattr(law, side)[FAMILIES.index(kind.family)] * kind.rest_length(scene)
-    beyond = _lengths(scene, kind, positions)[some] - bound
-    beyond = np.minimum(beyond, 0.0) if side == 'shortest' else np.maximum(beyond, 0.0)
-    return -scene.node_mass * law.limit_stiffness[kind.rest] * float(beyond.sum())
+    sign = -1.0 if side == 'shortest' else 1.0
+    past = sign * (_lengths(scene, kind, positions)[some] - bound)
+    width = law.transition * kind.rest_length(scene)
+    pull = np.maximum(past, 0.0)
+    if width > 0.0:
+        pull = np.where(np.abs(past) < width, (past + width)**2 / (4.0 * width), pull)
+    return -sign * scene.node_mass * law.limit_stiffness[kind.rest] * float(pull.sum())
 
 
 def _lengths(scene: Scene, kind: EdgeKind, positions: np.ndarray) -> np.ndarray:

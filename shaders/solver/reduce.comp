@@ -18,6 +18,8 @@ uniform int sum_count;
 uniform float tolerance_square;
 uniform bool sets_scale;     // in a first solve
 uniform float least_scale;   // of it
+uniform bool may_stay;       // where the solve begins may be the solution
+uniform float early_square;  // of the measure at the start, what may be left
 
 #if LOADS_TEXTURE
 layout(binding = SOLVER_SUMS) uniform samplerBuffer sums_in;
@@ -61,7 +63,12 @@ void decide(float now, float curvature, float size) {
     if (sets_scale) {
         scale = max(size, least_scale);
     }
-    uint another = sound && measure_after > tolerance_square * scale ? 1u : 0u;
+    float allowed = tolerance_square * scale;
+    if (may_stay && first && now <= allowed) {
+        step_length = 0.0;
+    }
+    allowed = max(allowed, early_square * start);
+    uint another = sound && measure_after > allowed ? 1u : 0u;
     for (int i = 0; i < groups_count; ++i) {
         dispatches[3 * i] = another * uint(groups_of_each[i].x);
         dispatches[3 * i + 1] = uint(groups_of_each[i].y);

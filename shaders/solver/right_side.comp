@@ -8,7 +8,8 @@
 // that it has at the length expected of the solution.
 // IS_FURTHER 0: the first solve, from the velocities before, FORESEES_TURN with what moving across
 // its direction adds to the length of an edge.
-// IS_FURTHER 1: nodes have moved, and the solve finds what the tensions lack of the law there.
+// IS_FURTHER 1: nodes have moved, and the solve finds what the tensions lack of the law there. It is
+// not worth a solve where they lack no more than the lengths of edges are rounded by.
 
 #include "solver/levels.glsl"
 #include "solver/vectors.glsl"
@@ -18,7 +19,10 @@
 #include "solver/cloth_tile.glsl"
 #include "solver/edge_law.glsl"
 #include "solver/foreseen_length.glsl"
-#if !IS_FURTHER
+#if IS_FURTHER
+#define SCALARS_ACCESS
+#include "solver/scalars.glsl"
+#else
 #include "applied_acceleration.glsl"
 #if HAS_RIGIDITY
 #include "block_bending.glsl"
@@ -40,6 +44,18 @@ vec3 expected[TILE][TILE];   // change of velocity
 vec3 change[TILE][TILE];
 vec4 tension[TILE][TILE];    // found last
 vec4 begun[TILE][TILE];
+#if IS_FURTHER
+bool is_off_here = false;
+
+// A coordinate is rounded by 2^-24 of it at most; of those of both ends some three times that comes
+// together in a length.
+#define ROUNDED 1.8e-7
+
+float rounding_of_length(vec3 from, vec3 to) {
+    vec3 far = max(abs(from), abs(to));
+    return ROUNDED * max(max(far.x, far.y), far.z);
+}
+#endif
 #if HAS_BEND
 vec4 bend_tension[TILE][TILE];
 vec4 bend_weight[TILE][TILE];
@@ -54,7 +70,7 @@ float found_tension(int row, int col, int edge) {
     return tension[row][col][edge];
 }
 
-void keep(int row, int col, int edge, float begun_here, float along_here, float across_here) {
+void store_edge(int row, int col, int edge, float begun_here, float along_here, float across_here) {
 #if HAS_BEND
     if (edge >= EDGE_TWO_ROW) {
         bend_tension[row][col][edge - EDGE_TWO_ROW + 2] = begun_here;
@@ -88,6 +104,8 @@ void add_edge(int row, int col, int drow, int dcol, int edge, int family, int re
         ? found_tension(row, col, edge) : pull_at(l, l, 0.0, family, rest).tension;
 #if IS_FURTHER
     float missing = tension_here - found;
+    is_off_here = is_off_here || is_in_block(row, col)
+        && abs(missing) > moves * pull.slope * rounding_of_length(from.xyz, to.xyz);
 #else
     float missing = tension_here;
 #endif
@@ -95,7 +113,7 @@ void add_edge(int row, int col, int drow, int dcol, int edge, int family, int re
         moves * geometric * substep * substep * max(found, 0.0) * inverse_length;
     float weight = moves * substep * (substep * pull.slope + edge_damping[rest]);
     if (is_in_block(row, col)) {
-        keep(row, col, edge, tension_here, (weight - sideways) / square, sideways);
+        store_edge(row, col, edge, tension_here, (weight - sideways) / square, sideways);
     }
     vec3 impulse = (substep * missing) * n;
     change[row][col] -= impulse;
@@ -124,6 +142,11 @@ void main() {
 #endif
     }
     FOR_CLOTH_EDGES(add_edge)
+#if IS_FURTHER
+    if (is_off_here) {
+        atomicOr(is_off, 1u);
+    }
+#endif
 #if HAS_RIGIDITY && !IS_FURTHER
     vec3 resisted[TILE][TILE];
     FIND_BENDING(resisted, node, node, bending_rate)

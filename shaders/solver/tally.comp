@@ -18,6 +18,7 @@ layout(std430, binding = SOLVER_TALLY) buffer Tally {
 };
 
 uniform float tolerance_square;
+uniform bool is_final;  // false where another solve goes on from there
 
 void main() {
     most_iterations = max(most_iterations, iterations);
@@ -27,6 +28,8 @@ void main() {
     float residual = abs(scale > 0.0 ? measure_after / scale : measure_after);
     // Written so that what is no number counts as not reached, and stays.
     bool reached = scale >= 0.0 && residual <= tolerance_square;
-    unreached += reached ? 0.0 : 1.0;
-    worst_residual = residual <= worst_residual ? worst_residual : residual;
+    if (is_final) {
+        unreached += reached ? 0.0 : 1.0;
+        worst_residual = residual <= worst_residual ? worst_residual : residual;
+    }
 }

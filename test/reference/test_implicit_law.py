@@ -41,8 +41,11 @@ LIMIT_HARDNESS = 9.81 / (0.003 * 0.03)
     ('hard', 1.002, 2.0, HARDNESS * 0.002),
     ('hard', 0.998, 2.0, -HARDNESS * 0.002),
     ('limited', 1.05, 2.0, 40.0 * 0.05 + 0.3 * 2.0),
-    ('limited', 1.102, 0.0, 40.0 * 0.102 + LIMIT_HARDNESS * 0.002),
-    ('limited', 0.898, 0.0, -40.0 * 0.102 - LIMIT_HARDNESS * 0.002)])
+    ('limited', 1.104, 0.0, 40.0 * 0.104 + LIMIT_HARDNESS * 0.004),
+    ('limited', 0.896, 0.0, -40.0 * 0.104 - LIMIT_HARDNESS * 0.004),
+    # From 0.003 before the limit on it comes into force, which is half of that at the limit.
+    ('limited', 1.1, 0.0, 40.0 * 0.1 + LIMIT_HARDNESS * 0.003 / 4.0),
+    ('limited', 1.0969, 0.0, 40.0 * 0.0969)])
 def test_tension(law, length, rate, tension):
     """An edge does not pull with k (l - L0) + k_d dl/dt, and what its limits add."""
     assert _tension(LAWS[law](_two_nodes()), length, rate) == pytest.approx(tension, rel=1e-9)

@@ -102,8 +102,8 @@ def test_a_strip_hangs_still_at_its_limit(name, dt):
     assert np.mean(last) == pytest.approx(1.0, abs=1e-3)
     assert np.std(last) < 1e-3
     assert max(strains) <= 1.1 * scene['adaptive.threshold']
-    # The limit carries what springs cannot, or this is about springs.
-    assert max(strains) > scene['adaptive.threshold']
+    # The limit carries what springs cannot, or this is about springs: from 0.9 of it on it does.
+    assert max(strains) > 0.91 * scene['adaptive.threshold']
     assert max(gains) <= 0.0
 
 

@@ -191,16 +191,27 @@ class ImplicitSystem:
         law = self._law
         shortest, longest = (
             limits[family] * rest_length for limits in (law.shortest, law.longest))
-        above = (judged > longest) | (shortest == longest)
-        # There is no lower limit at 0: where an edge turns over within the step, its length along
-        # n comes out below.
-        below = ~above & (judged < shortest) & (shortest > 0.0)
-        limit = law.limit_stiffness[rest] * (above | below)
-        bound = np.where(above, longest, shortest)
+        if shortest == longest:
+            slope, past = np.ones_like(length), length - longest
+        else:
+            # There is no lower limit at 0: where an edge turns over within the step, its length
+            # along n comes out below.
+            sides = [(1.0, judged - longest)]
+            if shortest > 0.0:
+                sides.append((-1.0, shortest - judged))
+            slope, past = np.zeros_like(length), np.zeros_like(length)
+            width = law.transition * rest_length
+            for sign, beyond in sides:
+                into = np.clip((beyond + width) / (2.0 * width), 0.0, 1.0) if width else (
+                    1.0 * (beyond > 0.0))
+                past += sign * (width * into**2 + np.maximum(beyond - width, 0.0))
+                slope += into
+            past += slope * (length - judged)
+        limit = law.limit_stiffness[rest]
         tension = (
             law.stiffness[rest] * (length - rest_length) + law.damping[rest] * rate
-            + limit * (length - bound))
-        return tension, law.stiffness[rest] + limit
+            + limit * past)
+        return tension, law.stiffness[rest] + limit * slope
 
     def _add_up(self) -> tuple[np.ndarray, csc_matrix]:
         """Return the diagonal blocks (nodes, 3, 3) and the matrix."""

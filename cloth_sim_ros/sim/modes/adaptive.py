@@ -37,6 +37,19 @@ LIMITED = ('structural', 'shear')
 # no more than a strain at which a push of many times the weight is held as well.
 _SHARE = 0.1
 _MOST = 0.003
+# Of that: from there before the limit on it comes into force. With a kink, Newton's method would
+# search for the edges that are past it, most of them in vain.
+_TRANSITION = 1.0
+
+
+def strain_past_limit(scene: Scene) -> float:
+    """Return the strain by which an edge that carries the whole cloth passes its limit."""
+    return min(_SHARE * scene['adaptive.threshold'], _MOST)
+
+
+def transition_of(scene: Scene) -> float:
+    """Return the strain before a limit from which on it comes into force."""
+    return _TRANSITION * strain_past_limit(scene)
 
 
 class LimitedSprings(ImplicitStep):
@@ -45,9 +58,6 @@ class LimitedSprings(ImplicitStep):
 
     A cloth that comes from beyond its limit is held to the strain it has, which closes in.
     """
-
-    # Which edges come to their limits is found in fewer solves.
-    largest_turn = 0.0025
 
     def __init__(self, scene: Scene, layout: Layout, families: Collection[str]) -> None:
         """Compile the solver."""
@@ -64,7 +74,7 @@ class LimitedSprings(ImplicitStep):
         return edge_law(
             self._scene, length, springs=self._families, limited=LIMITED,
             limit=max(settling, self._scene['adaptive.threshold']),
-            strain=min(_SHARE * self._scene['adaptive.threshold'], _MOST),
+            strain=strain_past_limit(self._scene), transition=transition_of(self._scene),
             geometric=BETA if self._solves > 1 else 0.0)
 
 
@@ -86,6 +96,8 @@ class LimitMarks:
     def __init__(self, scene: Scene, layout: Layout) -> None:
         """Allocate the marks; the pass is compiled when it is first needed."""
         self._layout = layout
+        self._onset = scene['adaptive.threshold'] - (
+            0.0 if scene['adaptive.scheme'] == 'paper' else transition_of(scene))
         self._program = SceneProgram('limit_mark.comp', scene, layout, {
             'LOCAL_X': _LOCAL[0], 'LOCAL_Y': _LOCAL[1]})
         self._groups = -(-layout.cols // _LOCAL[0]), -(-layout.rows // _LOCAL[1])
@@ -114,6 +126,7 @@ class LimitMarks:
             state.bind_in()
             self.buffer.bind_storage(bindings.AT_LIMIT)
             program = self._program.use()
+            program.set_float('onset', self._onset)
             program.set_float('release', _RELEASE if self._fading > 1 else math.inf)
             program.dispatch(*self._groups)
             shader_writes_visible()

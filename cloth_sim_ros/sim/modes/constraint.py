@@ -21,8 +21,6 @@ class Constraint(ImplicitStep):
     name = 'constraint'
     is_implicit = True
     has_memory = True
-    # A further pass still mends such a length.
-    largest_turn = 0.0075
 
     def __init__(self, scene: Scene, layout: Layout, *, check_stability: bool = True) -> None:
         """Compile the solver for the edges the scene asks for."""

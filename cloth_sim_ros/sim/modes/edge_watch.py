@@ -100,8 +100,9 @@ class StrainWatch:
 
 
 # Of the length of an edge that turns in one substep, (omega h)^2 / 2, in the mean over all edges,
-# weighted with what they lose by it.
+# weighted with what they lose by it; and of any edge: a further pass still mends such a length.
 _MEAN_TURN = 0.002
+_LARGEST_TURN = 0.0075
 
 
 class TurnWatch:
@@ -109,14 +110,10 @@ class TurnWatch:
     Measures how fast edges turn and how far they stretch (docs/explanation/implicit_step.md).
 
     :param families: of the edges that are looked at
-    :param largest: (omega h)^2 / 2 of any edge, omega how fast it turns and h the substep
     """
 
-    def __init__(
-            self, scene: Scene, layout: Layout, families: tuple[str, ...],
-            largest: float) -> None:
+    def __init__(self, scene: Scene, layout: Layout, families: tuple[str, ...]) -> None:
         """Allocate room for the result; nothing is compiled yet."""
-        self._largest = largest
         self._strips = Strips(layout, 4)
         self._program = SceneProgram('turn_watch.comp', scene, layout, {
             **Strips.defines(),
@@ -134,7 +131,7 @@ class TurnWatch:
         program = self._program.use_for_step(forcing, dt)
         self._strips.dispatch(program)
         turns, strains, weights, means = self._strips.read().astype(float).T
-        turn = turns.max() / self._largest
+        turn = turns.max() / _LARGEST_TURN
         if weights.any():
             turn = np.fmax(turn, np.average(means, weights=weights) / _MEAN_TURN)
         longest = math.sqrt(2.0 / turn) if turn > 0.0 else math.inf

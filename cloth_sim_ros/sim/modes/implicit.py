@@ -7,6 +7,7 @@ from abc import ABC
 from abc import abstractmethod
 from collections.abc import Callable
 from collections.abc import Collection
+from collections.abc import Generator
 from dataclasses import replace
 from functools import partial
 import math
@@ -103,8 +104,6 @@ class ImplicitStep(ABC):
 
     # An implicit step is stable whatever its length.
     stability_limit = math.inf
-    # Of the length of any edge that turns in a substep, (omega h)^2 / 2.
-    largest_turn: float
     last_length: float
 
     def __init__(self, scene: Scene, layout: Layout, families: Collection[str]) -> None:
@@ -117,7 +116,7 @@ class ImplicitStep(ABC):
             scene, layout, families=families, preconditioner=scene['solver.preconditioner'],
             tolerance=scene['solver.tolerance'], max_iterations=scene['solver.max_iterations'],
             foresees_turn=self._solves > 1)
-        self._watch = TurnWatch(scene, layout, families, self.largest_turn)
+        self._watch = TurnWatch(scene, layout, families)
         self._free_motion = FreeMotion(scene, layout)
         self.settling = Settling()
         self.forget()
@@ -270,7 +269,8 @@ class ImplicitStep(ABC):
         is_due = self._resolve_contacts(state, forcing_of(), 1)
         solves = 1
         while solves < self._solves or (is_due and solves < _MOST_CONTACT_SOLVES):
-            yield from self._solve(state, forcing_of, kick=kick, is_further=True)
+            if not (yield from self._solve(state, forcing_of, kick=kick, is_further=True)):
+                break
             self._solver.apply(state, further=True)
             yield
             solves += 1
@@ -290,10 +290,14 @@ class ImplicitStep(ABC):
             is_exact=solves > self._solves and self._solver.had_nothing_to_do())
 
     def _solve(
-            self, state: State, forcing_of: Callable[[], Forcing], **how: Any) -> Pieces:
+            self, state: State, forcing_of: Callable[[], Forcing],
+            **how: Any) -> Generator[None, bool | None, bool]:
+        """Find the solution of a pass, and return whether there was anything to solve for."""
         for count in range(_MOST_SOLVES):
             # Asked for each time: a look at the state, between two pieces, may change the buffer.
-            self._solver.prepare(state, forcing_of(), is_again=count > 0, **how)
+            if not self._solver.prepare(
+                    state, forcing_of(), is_again=count > 0, may_stop_early=True, **how):
+                return False
             yield
             yield from self._solver.solve_in_pieces()
             is_last = count == _MOST_SOLVES - 1
@@ -301,6 +305,7 @@ class ImplicitStep(ABC):
                 break
             self._unsettled += is_last
         self._solver.find_tensions()
+        return True
 
 
 def _uneven(forcing: Forcing) -> Forcing:

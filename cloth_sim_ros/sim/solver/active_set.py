@@ -121,6 +121,8 @@ class LimitSearch:
     """
     Runs limit_search.comp and start_between.comp; nothing is compiled before that.
 
+    ``last_share`` is that of the way of the last solve after which the next one starts.
+
     :param is_further: as of RightSide
     :param foresees_turn: as of RightSide
     """
@@ -137,6 +139,7 @@ class LimitSearch:
         self._groups = levels.cloth.groups
         self._points = -(-levels.cloth.stored // (POINTS * POINT_LOCAL))
         self._law_in: EdgeLaw | None = None
+        self.last_share = 1.0
 
     def prepare(self) -> None:
         """Compile both passes."""
@@ -150,20 +153,21 @@ class LimitSearch:
 
     def move_start(
             self, law: EdgeLaw, start: Start, buffers: SolverBuffers, missing: float,
-            into: int) -> bool:
+            into: int, *, is_early: bool = False) -> bool:
         """
         Leave in a field where the next solve starts; return False where none is needed.
 
         :param start: of the last solve
         :param missing: of the square of what tensions lack, that may be left
         :param into: the field, of SolverBuffers
+        :param is_early: whether another solve is due in any case
         """
         self._set(law, start)
         share = 1.0
         look = self._look(share, buffers)
         # Written so that what is no number is not looked at again. Where nothing moves and nothing
         # is applied there is no way to go.
-        if not (look.missing > missing and look.curvature > 0.0):
+        if not ((is_early or look.missing > missing) and look.curvature > 0.0):
             return False
         low, high = 0.0, 1.0
         low_slope, high_slope = -1.0, look.slope(1.0)
@@ -178,6 +182,7 @@ class LimitSearch:
                     low, low_slope = share, slope
                 else:
                     high, high_slope = share, slope
+        self.last_share = share
         self._start_between(share, start, into)
         return True
 

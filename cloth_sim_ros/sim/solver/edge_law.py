@@ -7,7 +7,8 @@ How hard edges pull in the implicit step: hard edges, strain limits and springs 
     lambda(l) = k (l - L0) + k_d dl/dt + (l - l_max) / E    above l_max
                                        + (l - l_min) / E    below l_min
 
-lambda > 0 pulls. See docs/explanation/implicit_step.md.
+lambda > 0 pulls. A limit comes into force over a transition on either side of it, where what is
+beyond it counts as (l - l_max + w)^2 / 4 w. See docs/explanation/implicit_step.md.
 """
 
 from collections.abc import Collection
@@ -50,6 +51,7 @@ class EdgeLaw:
     :param geometric: beta of the geometric mass term; 0 leaves it out
     :param bending: what bending along a row and along a column resists [1/s2]
     :param bending_damping: its damping time [s]
+    :param transition: w, the same for all limits [rest lengths]; 0 for a kink
     :param acts_between_pins: whether an edge pulls, and stores energy, where both ends are pinned
     """
 
@@ -62,6 +64,7 @@ class EdgeLaw:
     geometric: float = 0.0
     bending: tuple[float, float] = (0.0, 0.0)
     bending_damping: float = 0.0
+    transition: float = 0.0
     acts_between_pins: bool = True
 
     @property
@@ -139,7 +142,7 @@ def hard_edges(
 def edge_law(
         scene: Scene, length: float, *, hard: Collection[str] = (),
         springs: Collection[str] = FAMILIES, limited: Collection[str] = (), limit: float = 0.0,
-        strain: float = 0.008, geometric: float = 0.0) -> EdgeLaw:
+        strain: float = 0.008, transition: float = 0.0, geometric: float = 0.0) -> EdgeLaw:
     """
     Return the law of a step in which families of edges are hard, springs, limited, or left out.
 
@@ -147,6 +150,7 @@ def edge_law(
     :param springs: have the scene's stiffness and damping
     :param limited: have the strain ``limit``
     :param strain: of a hard edge that carries the weight of the cloth, which E follows from
+    :param transition: strain from which on, before a limit, it comes into force
     """
     mass = scene.node_mass
     is_spring = [family in springs and family not in hard for family in FAMILIES]
@@ -170,7 +174,7 @@ def edge_law(
               for family, kind in zip(_FAMILY_OF, REST_KINDS)),
         tuple(shortest), tuple(longest),
         limits, geometric, (scene.bending[0] / mass, scene.bending[1] / mass),
-        scene['bending.damping'])
+        scene['bending.damping'], transition)
 
 
 def set_law(program: Program, law: EdgeLaw) -> None:
@@ -180,6 +184,7 @@ def set_law(program: Program, law: EdgeLaw) -> None:
     program.set_floats('shortest', law.shortest)
     program.set_floats('longest', law.longest)
     program.set_floats('limit_stiffness', law.limit_stiffness)
+    program.set_float('transition', law.transition)
     program.set_floats('bending_rate', law.bending)
     program.set_floats('bending_weight', law.bending_weights)
 

@@ -4,7 +4,6 @@
 """Preconditioned conjugate gradients on the device, which decides itself when to stop."""
 
 from collections.abc import Generator
-import math
 
 from cloth_sim_ros.gl.buffer import DISPATCHES_VISIBLE
 from cloth_sim_ros.gl.buffer import shader_dispatches_visible
@@ -36,6 +35,7 @@ from cloth_sim_ros.sim.solver.solver_programs import POINT_LOCAL
 from cloth_sim_ros.sim.solver.solver_programs import POINTS
 from cloth_sim_ros.sim.solver.solver_programs import SolverPass
 from cloth_sim_ros.sim.solver.solver_programs import SolverPrograms
+from cloth_sim_ros.sim.solver.tally import least_scale
 from cloth_sim_ros.sim.solver.tally import report_of
 from cloth_sim_ros.sim.solver.tally import SolveReport
 from cloth_sim_ros.sim.solver.tally import Tally
@@ -48,9 +48,12 @@ PRECONDITIONERS: dict[str, type[Preconditioner]] = {
 
 # Of the tolerance. What the last iteration leaves is foretold, not measured.
 _AIM = 0.8
-# Of the change that what is applied would make: to rest is to change by nothing, and a residual
-# small beside that is never reached.
-_LEAST_CHANGE = 0.001
+# Of what is missing at its start, what a solve may leave that another one goes on from, with other
+# limits in force.
+_EARLY = 0.3
+# Of the way of such a solve: where less can be gone, those that follow are exact. Hard edges meet
+# first what an early one leaves.
+_HALF = 0.5
 # Of the change of velocity: less than this is missing of tensions by the rounding of lengths.
 _LEAST_MISSING = 5e-6
 # Iterations that are submitted together where asking in between is a wait.
@@ -91,12 +94,11 @@ class Solver:
             has_rigidity=scene.has_rigidity, has_bending_damping=scene.has_bending_damping,
             has_contact=scene.has_contact)
         self._damps_bending = scene.has_bending_damping
-        self._right_sides = {is_further: RightSide(
-            scene, state, self._programs, levels, is_further=is_further,
-            foresees_turn=foresees_turn) for is_further in (False, True)}
-        self._searches = {is_further: LimitSearch(
-            scene, state, self._programs, levels, is_further=is_further,
-            foresees_turn=foresees_turn) for is_further in (False, True)}
+        parts = scene, state, self._programs, levels
+        self._right_sides = {further: RightSide(
+            *parts, is_further=further, foresees_turn=foresees_turn) for further in (False, True)}
+        self._searches = {further: LimitSearch(
+            *parts, is_further=further, foresees_turn=foresees_turn) for further in (False, True)}
         self._tally = Tally(self._programs, tolerance)
         self._contacts = SolverContacts(
             scene, state, self._programs, levels.cloth.node_groups,
@@ -111,7 +113,7 @@ class Solver:
         # One over the length of the step whose change the next one begins with; 0 for none.
         self._last_rate = 0.0
         self._start = Start(CHANGE, 0.0)
-        self._is_further = False
+        self._is_further = self._is_again = self._may_stop_early = False
         self._compile(levels)
 
     def set_law(self, law: EdgeLaw) -> None:
@@ -152,9 +154,12 @@ class Solver:
 
     def prepare(
             self, state: State, forcing: Forcing, *, kick: float | None = None,
-            is_further: bool = False, is_again: bool = False) -> None:
+            is_further: bool = False, is_again: bool = False,
+            may_stop_early: bool = False) -> bool:
         """
         Make system and right side, and prepare the preconditioner.
+
+        Return False, and prepare nothing, where a further solve would mend what is rounded.
 
         :param forcing: what accelerates the nodes besides the edges
         :param kick: that it acts for [s]; the length of the step when None
@@ -162,12 +167,16 @@ class Solver:
             nodes have come to
         :param is_again: True after ``move_start``: the same solve, with the limits in force that
             it has led to
+        :param may_stop_early: True where ``move_start`` is asked for another solve after this one
         """
         length = self._law.length
         kick = length if kick is None else kick
         self._buffers.bind()
         state.bind_in()
         self._is_further = is_further
+        if is_again:
+            self._tally.add(is_final=False)
+        self._buffers.clear_scalars(keep_scale=is_further or is_again)
         # What changes the velocities changes little from step to step.
         self._start = Start(START, 1.0) if is_again else Start(
             CHANGE, 0.0 if is_further else length * self._last_rate)
@@ -176,14 +185,23 @@ class Solver:
             knows_tension=is_further or self._last_rate > 0.0)
         if self._contacts is not None:
             self._contacts.hold()
+        elif is_further and not is_again and not self._buffers.is_off():
+            return False
         damping = (self._damp,) if self._damps_bending and not is_further else ()
         for each in (*damping, self._assemble, *self._preconditioner.assembly):
             each.run()
-        self._buffers.clear_scalars(keep_scale=is_further or is_again)
         self._begin.set_int('start_field', self._start.field)
         self._begin.set_float('guess', self._start.share)
         self._reduce.set_int('sets_scale', int(not (is_further or is_again)))
-        self._reduce.set_float('least_scale', _least_scale(state, forcing, kick))
+        self._reduce.set_float('least_scale', least_scale(state, forcing, kick))
+        self._reduce.set_int('may_stay', int(is_again))
+        if not is_again:
+            self._may_stop_early = may_stop_early and self._law.has_limits
+        elif self._searches[is_further].last_share < _HALF:
+            self._may_stop_early = False
+        self._reduce.set_float('early_square', _EARLY**2 if self._may_stop_early else 0.0)
+        self._is_again = is_again
+        return True
 
     def set_right_side(self, values: np.ndarray) -> None:
         """Take (rows, cols, 3) ``values``, zero at pinned nodes, as b over the node mass [m/s]."""
@@ -210,30 +228,36 @@ class Solver:
         shader_dispatches_visible()
         yield from self._iterate()
         self._update.run()
-        self._tally.add()
 
     def find_tensions(self) -> None:
         """Find what edges pull with by the solution; later steps go by it."""
         self._buffers.bind()
+        self._tally.add(is_final=True)
         self._find.run()
         self._last_rate = 1.0 / self._law.length
 
     def move_start(self, state: State, *, is_last: bool = False) -> bool:
         """
-        Return whether limits have come into force, or out of it, on the way to the solution.
+        Return whether another solve is due, to ``prepare`` with ``is_again``.
 
-        Then ``prepare`` again starts from where that way goes down no more.
+        Limits have come into force then, or out of it, or the last solve was stopped early.
 
-        :param is_last: True to take that for the solution
+        :param is_last: True to take where it would start for the solution
         """
         if not self._law.has_limits:
             return False
+        found = self._buffers.scalars()
+        allowed = (_AIM * self._tolerance)**2 * found.scale
+        # Where it began is the solution, by the law as it is there.
+        if self._is_again and found.measure_start <= allowed:
+            return False
+        is_early = allowed < found.measure_after <= _EARLY**2 * found.measure_start
+        missing = max(self._tolerance, _LEAST_MISSING)**2 * found.scale
         self._buffers.bind()
         state.bind_in()
         return self._searches[self._is_further].move_start(
-            self._law, self._start, self._buffers,
-            max(self._tolerance, _LEAST_MISSING)**2 * self._buffers.scale(),
-            SOLUTION if is_last else START)
+            self._law, self._start, self._buffers, missing, SOLUTION if is_last else START,
+            is_early=is_early)
 
     def _iterate(self) -> Generator[None, bool | None, None]:
         # To ask whether the device goes on costs little where that is this processor, and a wait
@@ -314,8 +338,9 @@ class Solver:
 
     def report(self) -> SolveReport:
         """Return how the last solve ended."""
-        _, _, _, _, after, iterations, scale = (float(value) for value in self._buffers.scalars())
-        return report_of(scale, after, int(iterations), self._tolerance)
+        found = self._buffers.scalars()
+        return report_of(
+            found.scale, found.measure_after, int(found.iterations), self._tolerance)
 
     def had_nothing_to_do(self) -> bool:
         """Return whether the last solve began within the tolerance."""
@@ -323,8 +348,8 @@ class Solver:
 
     def measured_residual(self) -> float:
         """Return the residual as it was before the last iteration of the last solve."""
-        _, _, measure, _, _, _, scale = (float(value) for value in self._buffers.scalars())
-        return report_of(scale, measure, 0, self._tolerance).residual
+        found = self._buffers.scalars()
+        return report_of(found.scale, found.measure, 0, self._tolerance).residual
 
     def delete(self) -> None:
         """Give buffers and programs back."""
@@ -367,9 +392,3 @@ class Solver:
         self._buffers = SolverBuffers(levels, len(dispatches))
         reduce.set_int('sum_count', self._buffers.sum_count)
         reduce.set_float('tolerance_square', (_AIM * self._tolerance)**2)
-
-
-def _least_scale(state: State, forcing: Forcing, kick: float) -> float:
-    """Return the square of the least change of velocity to solve for [m2/s2]."""
-    change = _LEAST_CHANGE * kick * math.hypot(*forcing.everywhere)
-    return np.count_nonzero(~state.pinned) * change**2

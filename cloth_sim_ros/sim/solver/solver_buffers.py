@@ -4,6 +4,7 @@
 """What the solver keeps on the device, for the lattices of all its levels."""
 
 import math
+from typing import NamedTuple
 
 from cloth_sim_ros.gl.buffer import Buffer
 from cloth_sim_ros.gl.buffer import most_bytes
@@ -110,8 +111,23 @@ def _layout(state: Layout, rows: int, cols: int, has_much: bool) -> Layout:
 
 TENSION, BEND_TENSION = 5, 8
 RESIDUAL, PRODUCT, PRECONDITIONED, DIRECTION, IMAGE, SOLUTION, CHANGE, START = range(8)
-_SCALARS = 7
 _ENTRY_BYTES = 16
+
+
+class Scalars(NamedTuple):
+    """What solver/scalars.glsl lists."""
+
+    step_length: float
+    keep: float
+    measure: float
+    measure_start: float
+    measure_after: float
+    iterations: float
+    is_off: float
+    scale: float
+
+
+_SCALARS = len(Scalars._fields)
 
 
 class SolverBuffers:
@@ -158,11 +174,11 @@ class SolverBuffers:
         """Forget the last solve, but for its scale if that is to be kept."""
         self._scalars.write(np.zeros(_SCALARS - int(keep_scale), dtype=np.float32))
 
-    def scalars(self) -> np.ndarray:
-        """Return what solver/scalars.glsl lists."""
+    def scalars(self) -> Scalars:
+        """Return how the last solve went."""
         values = np.empty(_SCALARS, dtype=np.float32)
         self._scalars.read_into(values)
-        return values
+        return Scalars(*values.tolist())
 
     def sums(self) -> tuple[float, float, float]:
         """Return what a pass has stored by partial_sums.glsl, added up."""
@@ -171,9 +187,9 @@ class SolverBuffers:
         first, second, third, _ = values.sum(axis=0, dtype=np.float64)
         return float(first), float(second), float(third)
 
-    def scale(self) -> float:
-        """Return the square of the change of velocity that the last solve was judged beside."""
-        return float(self.scalars()[6])
+    def is_off(self) -> bool:
+        """Return whether lengths are off by more than rounding, before a further solve."""
+        return self.scalars().is_off != 0.0
 
     def is_going(self) -> bool:
         """Return whether the device wants another iteration."""
@@ -182,7 +198,7 @@ class SolverBuffers:
 
     def iterations(self) -> int:
         """Return how many iterations the last solve has made."""
-        return int(self.scalars()[5])
+        return int(self.scalars().iterations)
 
     def read(self, field: int) -> np.ndarray:
         """Return a vector of the cloth, (rows, cols, 3)."""

@@ -8,11 +8,22 @@ import math
 
 from cloth_sim_ros.gl.buffer import Buffer
 from cloth_sim_ros.sim import bindings
+from cloth_sim_ros.sim.forcing import Forcing
 from cloth_sim_ros.sim.solver.solver_programs import SolverPass
 from cloth_sim_ros.sim.solver.solver_programs import SolverPrograms
+from cloth_sim_ros.sim.state import State
 import numpy as np
 
+# Of the change that what is applied would make: to rest is to change by nothing, and a residual
+# small beside that is never reached.
+_LEAST_CHANGE = 0.001
 _FIGURES = 5
+
+
+def least_scale(state: State, forcing: Forcing, kick: float) -> float:
+    """Return the square of the least change of velocity to solve for [m2/s2]."""
+    change = _LEAST_CHANGE * kick * math.hypot(*forcing.everywhere)
+    return np.count_nonzero(~state.pinned) * change**2
 
 
 @dataclass(frozen=True)
@@ -52,8 +63,8 @@ class TallyReport:
     How the solves since the last clearing ended.
 
     :param most_iterations: of a solve
-    :param worst_residual: as in SolveReport, of the worst solve
-    :param unreached: solves that stopped before the residual asked for
+    :param worst_residual: as in SolveReport, of the worst solve that none went on from
+    :param unreached: those that stopped before the residual asked for
     :param solves: how many there were
     :param iterations: of all of them together
     """
@@ -75,9 +86,14 @@ class Tally:
         self._pass = SolverPass(program, (1, 1))
         self._buffer = Buffer(np.zeros(_FIGURES, dtype=np.float32))
 
-    def add(self) -> None:
-        """Count the solve whose scalars are bound."""
+    def add(self, *, is_final: bool) -> None:
+        """
+        Count the solve whose scalars are bound.
+
+        :param is_final: False where another one goes on from its solution
+        """
         self._buffer.bind_storage(bindings.SOLVER_TALLY)
+        self._pass.set_int('is_final', int(is_final))
         self._pass.run()
 
     def clear(self) -> None:

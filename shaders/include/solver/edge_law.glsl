@@ -11,14 +11,34 @@ uniform float edge_stiffness[5];   // [1/s2]
 uniform float edge_damping[5];     // [1/s]
 uniform float limit_stiffness[5];  // [1/s2]
 uniform float rest_length[5];      // [m]
+uniform float transition;          // [rest lengths] within which of a limit it comes into force
+
+// How much of a limit is in force where a length is d past it: from w before it to w past it that
+// grows from 0 to 1, so that Newton's method meets no kinks.
+float in_force(float d, float w) {
+    return clamp((d + w) * (0.5 / max(w, 1e-30)), 0.0, 1.0);
+}
+
+// What the limit pulls with then over its stiffness, the integral of that over d, and of this again.
+float pull_past(float d, float w) {
+    float part = in_force(d, w);
+    return w * part * part + max(d - w, 0.0);
+}
+
+float energy_past(float d, float w) {
+    float part = in_force(d, w);
+    float further = max(d - w, 0.0);
+    return w * w * part * part * part / 1.5 + further * (w + 0.5 * further);
+}
 
 // The energy of an edge of length l, without damping [m2/s2].
 float stored_energy(float l, int family, int rest) {
     float rest_l = rest_length[rest];
     float stretch = l - rest_l;
-    float beyond = l - clamp(l, shortest[family] * rest_l, longest[family] * rest_l);
-    return 0.5 * (edge_stiffness[rest] * stretch * stretch
-        + limit_stiffness[rest] * beyond * beyond);
+    float width = transition * rest_l;
+    return 0.5 * edge_stiffness[rest] * stretch * stretch
+        + limit_stiffness[rest] * (energy_past(l - longest[family] * rest_l, width)
+            + energy_past(shortest[family] * rest_l - l, width));
 }
 
 // The pull of an edge [m/s2], and how much more it is for each metre more of length [1/s2].
@@ -27,15 +47,21 @@ struct Pull {
     float slope;
 };
 
-// Of an edge of length l, with the limit in force that it has at the length judged: the law is
-// taken on from there as a straight line.
+// Of an edge of length l, by the straight line that touches the law at the length judged.
 Pull pull_at(float l, float judged, float rate, int family, int rest) {
     float rest_l = rest_length[rest];
-    float bound = clamp(judged, shortest[family] * rest_l, longest[family] * rest_l);
-    bool in_force = bound != judged || shortest[family] == longest[family];
-    float limit = in_force ? limit_stiffness[rest] : 0.0;
+    float width = transition * rest_l;
+    float above = judged - longest[family] * rest_l;
+    float below = shortest[family] * rest_l - judged;
+    float past = l - longest[family] * rest_l;
+    float slope = 1.0;
+    // A hard edge pulls and pushes at any length.
+    if (shortest[family] != longest[family]) {
+        slope = in_force(above, width) + in_force(below, width);
+        past = pull_past(above, width) - pull_past(below, width) + slope * (l - judged);
+    }
     return Pull(
         edge_stiffness[rest] * (l - rest_l) + edge_damping[rest] * rate
-            + limit * (l - bound),
-        edge_stiffness[rest] + limit);
+            + limit_stiffness[rest] * past,
+        edge_stiffness[rest] + limit_stiffness[rest] * slope);
 }

@@ -142,3 +142,20 @@ def test_gravity_and_pushes_move_a_free_cloth(simulate):
     weight = 0.2 * np.array([0.0, 0.0, -9.81])
     np.testing.assert_allclose(
         momentum, 0.2 * weight + 0.055 * np.array([0.5, 0.0, 1.0]), atol=1e-6)
+
+
+@pytest.mark.parametrize(('speed', 'solves'), [(0.0, 1), (3.0, 2)])
+def test_a_further_solve_mends_more_than_rounding(simulate, speed, solves):
+    """A cloth at rest would pay for solves of noise, or lengths of one that swings be off."""
+    simulation = simulate(**{
+        'areal_density': 0.15, 'air.density': 1.225, 'start.pose': 'hanging',
+        'pins': ['top_edge'], 'stiffness.bend': 0.0, 'damping.bend': 0.0})
+    simulation.advance(0.5)
+    positions = simulation.positions().astype(float)
+    depth = 1.0 - positions[..., 2:] / positions[..., 2].max()
+    simulation.set_state(positions, speed * depth * (0.0, 1.0, 0.0))
+    for _ in range(5):
+        simulation.step()
+        snapshot = simulation.snapshot()
+        assert snapshot.solves == solves * snapshot.substeps
+        assert snapshot.max_strain < 1e-3

@@ -76,22 +76,30 @@ def test_a_hard_edge_stores_what_it_takes_to_stretch_it(simulate, within, strain
            abs(simulation.measure().elastic_energy / (along + across) - 1.0), 2e-5)
 
 
-def test_an_edge_beyond_its_limit_stores_that_too(simulate, within):
+@pytest.mark.parametrize('gravity', [10.0, 1000.0])
+def test_an_edge_at_its_limit_stores_that_too(simulate, within, gravity):
     """A cloth that is caught at its limit would gain energy when it swings back."""
     simulation = simulate({
         'rows': 1, 'cols': 2, 'width': 0.5, 'mode': 'adaptive', 'adaptive.threshold': 0.05,
-        'areal_density': 4.0, 'gravity': [10.0, 0.0, 0.0], 'pins': ['top_left'], 'dt': 0.01,
+        'areal_density': 4.0, 'gravity': [gravity, 0.0, 0.0], 'pins': ['top_left'], 'dt': 0.01,
         'stiffness.structural': 1.0, 'damping.structural': 2.0})
     simulation.advance(3.0)
     seen = simulation.snapshot()
-    # At rest, spring and limit carry one node; the limit's edge is to be 0.1 of it beyond it.
+    # At rest, spring and limit carry one node. An edge that carries both is to be a strain of
+    # 0.003 beyond the limit; as far around it the pull grows from nothing to that of what is past.
     stretch = float(seen.positions[0, 1, 0] - seen.positions[0, 0, 0]) - 0.5
-    stiffness = simulation.scene.node_mass * 2 * 9.81 / 0.003 / 0.03 / 0.5
-    beyond = (simulation.scene.node_mass * 10.0 - 1.0 * stretch) / stiffness
+    mass, width = simulation.scene.node_mass, 0.003 * 0.5
+    stiffness = mass * 2 * 9.81 / 0.003 / 0.03 / 0.5
+    pulled = (mass * gravity - 1.0 * stretch) / stiffness
+    is_near = pulled < width
+    assert is_near == (gravity == 10.0)
+    beyond = 2.0 * np.sqrt(pulled * width) - width if is_near else pulled
+    stored = (beyond + width)**3 / (12.0 * width) if is_near else (
+        0.5 * beyond**2 + width**2 / 6.0)
     assert seen.active_constraints == 1
-    assert beyond > 0.0
+    assert stretch == pytest.approx(0.05 * 0.5 + beyond, abs=2e-7)
     within('elastic energy, relative to the formula', abs(
-        seen.elastic_energy / (0.5 * stretch**2 + 0.5 * stiffness * beyond**2) - 1.0), 1e-3)
+        seen.elastic_energy / (0.5 * stretch**2 + stiffness * stored) - 1.0), 1e-3)
 
 
 @pytest.mark.parametrize('jitter', [0.003, 0.1])

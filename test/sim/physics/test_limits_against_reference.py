@@ -106,18 +106,19 @@ def step_both(simulation: Simulation, oracle: ImplicitCloth, within, steps: int 
     within('velocities [m/s]', np.abs(snapshot.velocities - oracle.velocities).max(),
            20.0 * rounding / h)
     found = snapshot.tension[edge_places(oracle.law.edges, scene.cols)]
-    hardest = np.max(oracle.law.slope(np.ones(len(oracle.law.edges), int)))
+    hardest = np.max(oracle.law.slope(2.0 * oracle.law.edges.rest_length))
     within('tensions [N]', np.abs(found - oracle.tension).max(), 4.0 * rounding * hardest)
 
 
 def _sides(snapshot, oracle):
-    """Return which limits edges are beyond, and hold the count of the device to theirs."""
+    """Return which limits pull, and hold the count of the device to theirs."""
     lengths = oracle.law.edges.lengths(oracle.positions.reshape(-1, 3))
     limit = oracle.scene['adaptive.threshold']
+    onset = limit - min(0.1 * limit, 0.003)
     strains = np.abs(lengths / oracle.law.edges.rest_length - 1.0)
     limited = np.isfinite(oracle.law.longest)
-    # An edge this close to its limit may be on either side of it.
-    least, most = (np.count_nonzero(strains[limited] > limit + doubt) for doubt in (2e-5, -2e-5))
+    # An edge this close to where its limit sets in may be on either side of that.
+    least, most = (np.count_nonzero(strains[limited] > onset + doubt) for doubt in (2e-5, -2e-5))
     assert least <= snapshot.active_constraints <= most
     return oracle.law.side(lengths)
 
@@ -262,7 +263,7 @@ def _hold_to_reference(values, strain):
             if parted or snapshot.solves < solves * exact.report.substeps:
                 break
             steps += 1
-            held += np.count_nonzero(exact.law.beyond(
+            held += np.count_nonzero(exact.law.side(
                 exact.law.edges.lengths(exact.positions.reshape(-1, 3))))
             worst = max(worst, _miss(snapshot, exact, twins))
             assert worst <= 1.0
