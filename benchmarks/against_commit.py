@@ -28,8 +28,9 @@ import sys
 import time
 from typing import Any
 
+from cloth_sim_ros.node.node_fields import NODE_FIELDS
 from cloth_sim_ros.sim.given_values import load_parameters
-from cloth_sim_ros.sim.scene_fields import SCENE_FIELDS
+from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.verb.scene_arguments import parse_change
 import numpy as np
 
@@ -124,6 +125,15 @@ def largest_stretch(positions: np.ndarray, values: Mapping[str, Any]) -> float:
             (positions[:-1, 1:], positions[1:, :-1], diagonal)))
 
 
+def scene_values(path: Path, changes: Mapping[str, Any]) -> dict[str, Any]:
+    """Return what a file says of its scene, changed, with the size of the cloth in any case."""
+    of_node = {field.name for field in NODE_FIELDS}
+    values = {name: value for name, value in load_parameters(path).items() if name not in of_node}
+    values.update(changes)
+    scene = Scene(values)
+    return {**values, 'width': scene['width'], 'height': scene['height']}
+
+
 def read_arguments(arguments: Sequence[str] | None = None) -> Namespace:
     """Return what is measured."""
     parser = ArgumentParser(description=__doc__.strip().splitlines()[0])
@@ -141,10 +151,7 @@ def read_arguments(arguments: Sequence[str] | None = None) -> Namespace:
 def main() -> int:
     """Let both take turns, and print what they cost."""
     args = read_arguments()
-    known = {field.name for field in SCENE_FIELDS}
-    values = {**load_parameters(args.former / args.scene), **dict(map(parse_change, args.set))}
-    # A file has parameters of the node beside those of the scene.
-    values = {name: value for name, value in values.items() if name in known}
+    values = scene_values(args.former / args.scene, dict(map(parse_change, args.set)))
     former = Contestant('former', args.former.resolve(), values)
     contestants = [former, Contestant('now', _HERE, values), *(
         Contestant(f'now, {" ".join(changes)}', _HERE, {

@@ -8,6 +8,8 @@ from pathlib import Path
 
 from against_commit import Contestant
 from against_commit import largest_stretch
+from against_commit import scene_values
+from cloth_sim_ros.sim.scene import Scene
 import numpy as np
 import pytest
 
@@ -37,3 +39,15 @@ def test_the_same_code_twice_makes_the_same_motion():
     assert len(twins[0].stretches) == len(twins[0].substeps) == 2
     assert 0.0 < twins[0].stretches[-1] < 0.1
     assert min(twin.processor for twin in twins) > 0.0
+
+
+@pytest.mark.parametrize(('name', 'collider'), [
+    ('towel_over_bodies', 'colliders.ball.shape'), ('drape', None)])
+def test_a_scene_file_is_taken_as_it_is(name, collider):
+    """Parameters of colliders, which have their own names, would be lost, or the node's kept."""
+    values = scene_values(ROOT / 'config' / f'{name}.yaml', {'dt': 0.004})
+    assert values['dt'] == 0.004
+    assert not any(key.startswith('publish.') for key in values)
+    assert collider is None or collider in values
+    scene = Scene(values)
+    assert (values['width'], values['height']) == (scene['width'], scene['height'])
