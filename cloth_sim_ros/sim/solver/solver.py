@@ -343,8 +343,8 @@ class Solver:
             found.scale, found.measure_after, int(found.iterations), self._tolerance)
 
     def had_nothing_to_do(self) -> bool:
-        """Return whether the last solve began within the tolerance."""
-        return self._buffers.iterations() <= 1
+        """Return whether the last solve, the first of its pass, began within the tolerance."""
+        return not self._is_again and self._buffers.iterations() <= 1
 
     def measured_residual(self) -> float:
         """Return the residual as it was before the last iteration of the last solve."""

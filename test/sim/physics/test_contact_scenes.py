@@ -131,6 +131,11 @@ def test_random_scenes(simulate, within, any_mode, seed):
     check(simulate, within, any_mode, seed, 0.6)
 
 
+def test_bodies_that_crush_a_cloth_at_its_limit(simulate, within):
+    """Solves would end, and friction not be found, once the search for a limit has ended."""
+    check(simulate, within, 'adaptive', (20261123, 128), 2.0)
+
+
 @pytest.mark.long
 def test_200_random_scenes(simulate, within, request):
     """A body of a rarer kind would let cloth in, or throw it."""
