@@ -67,13 +67,23 @@ NO_PINS = ('none',)
 DEFAULT_FABRIC = MappingProxyType({'material.preset': 'trousers', 'air.density': 1.225})
 # They stretch, too, which would add to what a material says.
 _BEND_SPRINGS = ('stiffness.bend', 'damping.bend')
+_EDGES_OF_CONSTRAINT = ('constraint.hard', 'constraint.springs')
 
 
 def with_preset(given: Mapping[str, Any]) -> dict[str, Any]:
-    """Return ``given`` with the values of its preset for what it leaves out."""
+    """
+    Return ``given`` with the values of its preset for what it leaves out.
+
+    Where another mode is given than that of the preset, or mode constraint, its edges stay as they
+    are without one: a preset never makes springs of edges that were to be hard.
+    """
     name = given.get('preset')
     # What is no preset is left to the check of the field.
-    return {**(_values(name) if name in PRESETS else {}), **given}
+    values = dict(_values(name)) if name in PRESETS else {}
+    if 'mode' in given:
+        for edges in _EDGES_OF_CONSTRAINT:
+            values.pop(edges, None)
+    return {**values, **given}
 
 
 @cache

@@ -119,7 +119,7 @@ MODES = ('mass_spring', 'constraint', 'adaptive')
 FAMILIES = ('structural', 'shear', 'bend')
 FASTEST_WIND = 1000.0
 NO_PRESET = 'none'
-PRESETS = ('fast', 'balanced', 'accurate')
+PRESETS = ('fast', 'balanced', 'accurate', 'stiff')
 MATERIALS = (
     't_shirt', 'underwear', 'denim', 'tablecloth', 'trousers', 'blanket', 'ponte_roma',
     'polyester_jacket', 'sweater', 'swimsuit')

@@ -5,8 +5,8 @@ r"""
 Measure the accuracy-cost trade-off of modes and settings on a scene, and choose among them.
 
 The error is the RMS position error over times and nodes against a converged run, relative to the
-side of the cloth. Runs are distributed over processes; the wall time of promising settings is
-measured afterwards, one at a time. An interrupted study resumes where it stopped.
+side of the cloth. Runs are distributed over processes; promising settings and the cheapest one of
+each method are timed afterwards, in turn. An interrupted study resumes where it stopped.
 
 Writes to --out: results.jsonl (every run), table.csv, table.jsonl, tradeoff.png, tradeoff.md (a
 summary of the results) and, with a budget, a parameter file for the node.

@@ -20,7 +20,7 @@ BAD_PARAMETERS = {
     'out of range': ({'rows': 0}, 'give a value from 1 to 8192'),
     'not a number': ({'dt': float('nan')}, 'dt must be finite, got nan'),
     'too few components': ({'gravity': [0.0, -9.81]}, 'gravity needs 3 components, got 2'),
-    'unknown preset': ({'preset': 'quick'}, "none, fast, balanced, accurate, got 'quick'"),
+    'unknown preset': ({'preset': 'quick'}, "none, fast, balanced, accurate, stiff, got 'quick'"),
     'unknown mode': ({'mode': 'fluid'}, "one of mass_spring, constraint, adaptive, got 'fluid'"),
     'unstable': ({'dt': 0.5, 'auto_substeps': False}, 'or auto_substeps: true'),
     'too large for the device': ({'rows': 8192, 'cols': 8192}, 'use up to about'),

@@ -76,7 +76,9 @@ def test_it_sets_what_is_left_out(preset):
     values = values_of(preset)
     assert values and set(values) <= _STEPPING
     scene = Scene({'preset': preset, 'rows': 5})
-    assert {name: scene[name] for name in values} == values
+    assert {name: scene[name] for name in values} == {
+        name: tuple(value) if isinstance(value, list) else value
+        for name, value in values.items()}
     # All that stays cloth: hard edges would make another one of it.
     assert scene['mode'] == 'mass_spring' or scene['constraint.hard'] == ()
 
@@ -88,6 +90,15 @@ def test_what_is_given_wins(preset):
     scene = Scene(given)
     assert {name: scene[name] for name in given} == given
     assert Scene(scene.values).values == scene.values
+
+
+@pytest.mark.parametrize('preset', PRESETS)
+@pytest.mark.parametrize('mode', ['mass_spring', 'constraint', 'adaptive'])
+def test_a_mode_that_is_given_has_the_edges_it_has_without_a_preset(preset, mode):
+    """A preset of implicit springs would make springs of edges that were to be hard."""
+    scene, without = Scene({'preset': preset, 'mode': mode}), Scene({'mode': mode})
+    for name in ('mode', 'constraint.hard', 'constraint.springs'):
+        assert scene[name] == without[name]
 
 
 def test_none_is_the_default():

@@ -19,7 +19,7 @@ SOFT = {
     'stiffness.bend': 2.0}
 GRID = {
     'times': [0.1, 0.2], 'frame': 0.02, 'variants': [],
-    'reference': {'refine': [4, 8, 16], 'converged': 1e-3, 'variants_converged': 1e-3,
+    'reference': {'refine': [4, 8, 16], 'converged': 1e-3, 'loosely_converged': 1e-3,
                   'float64_node_steps': 1e7},
     'cost': {'rounds': 1, 'margin': 2.0},
     'methods': {'mass_spring': {

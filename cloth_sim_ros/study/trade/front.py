@@ -24,7 +24,8 @@ class Row:
     :param run: the result errors were measured on
     :param own: against the reference of its own model; None where there is none
     :param scene: against the reference of the scene as it was given
-    :param rounds: wall time in a simulated second of each round; empty where it was not timed
+    :param rounds: wall time in a simulated second of each round, or what it would be with nothing
+        beside; empty where it was not timed
     :param wall_share: wall time over processor time, of rows of the variant that were timed
     """
 
@@ -45,6 +46,13 @@ class Row:
     def cost(self) -> float:
         """Return the wall time, or what the processor time lets expect of it."""
         return self.wall_seconds or self.wall_share * self.run.values['processor_seconds']
+
+    def cost_over(self, other: 'Row') -> tuple[float, float, float] | None:
+        """Return median, least and most of the cost over that of ``other`` in the same round."""
+        if not self.rounds or not other.rounds:
+            return None
+        ratios = sorted(own / its for own, its in zip(self.rounds, other.rounds))
+        return ratios[len(ratios) // 2], ratios[0], ratios[-1]
 
     @property
     def peak_strain(self) -> float:
@@ -134,6 +142,16 @@ def near_front(rows: Iterable[Row], margin: float, *, of_scene: bool) -> list[Ro
             other.known_error(of_scene) <= row.known_error(of_scene)
             and margin * other.cost < row.cost
             for other in useful)]
+
+
+def cheapest_of_each(rows: Iterable[Row]) -> list[Row]:
+    """Return the cheapest row of each method, of those that show their model."""
+    cheapest: dict[str, Row] = {}
+    for row in rows:
+        best = cheapest.get(row.setting.method)
+        if row.shows_its_model and (best is None or row.cost < best.cost):
+            cheapest[row.setting.method] = row
+    return list(cheapest.values())
 
 
 def fastest_within(rows: Iterable[Row], error: float) -> Row:

@@ -127,8 +127,10 @@ class Grid:
     What is measured; the file that ships with the project tells what each part is.
 
     :param converged: what the reference may change by, over the side, where a time counts
-    :param variants_converged: the same for other variants than the scene itself
-    :param settings: of each method in turn; the last one of a method is its finest
+    :param loosely_converged: the same for variants of the scene, and for a scene whose reference
+        changes by more than ``converged`` at the first time
+    :param settings: of each method in turn; the last one of a method is its finest, and the first
+        one of all is what the cost of others is compared with
     """
 
     times: tuple[float, ...]
@@ -136,7 +138,7 @@ class Grid:
     variants: tuple[Variant, ...]
     reference_refine: tuple[int, ...]
     converged: float
-    variants_converged: float
+    loosely_converged: float
     float64_node_steps: float
     rounds: int
     margin: float
@@ -171,7 +173,7 @@ def grid_of(given: Any, name: str = 'the grid') -> Grid:
             variants=(Variant(), *(Variant(**variant) for variant in given['variants'])),
             reference_refine=tuple(map(int, reference['refine'])),
             converged=float(reference['converged']),
-            variants_converged=float(reference['variants_converged']),
+            loosely_converged=float(reference['loosely_converged']),
             float64_node_steps=float(reference['float64_node_steps']),
             rounds=int(cost['rounds']), margin=float(cost['margin']),
             settings=tuple(

@@ -26,6 +26,7 @@ from cloth_sim_ros.study.trade.accuracy import finest
 from cloth_sim_ros.study.trade.accuracy import path_of
 from cloth_sim_ros.study.trade.accuracy import Reference
 from cloth_sim_ros.study.trade.choice import read_choice
+from cloth_sim_ros.study.trade.front import cheapest_of_each
 from cloth_sim_ros.study.trade.front import near_front
 from cloth_sim_ros.study.trade.front import Row
 from cloth_sim_ros.study.trade.grid import Grid
@@ -33,6 +34,7 @@ from cloth_sim_ros.study.trade.grid import Plan
 from cloth_sim_ros.study.trade.grid import Setting
 from cloth_sim_ros.study.trade.grid import Variant
 from cloth_sim_ros.study.workers import Workers
+import numpy as np
 
 Key = tuple[Variant, str]
 Ran = tuple[Variant, Setting, Result]
@@ -45,12 +47,14 @@ class Measured:
 
     :param references: by variant and model
     :param times: how many of the grid's times count, by variant
+    :param allowed: what the reference may change by at these, over the side, by variant
     """
 
     scene: Scene
     grid: Grid
     references: dict[Key, Reference]
     times: dict[Variant, int]
+    allowed: dict[Variant, float]
     rows: list[Row]
 
     def rows_of(self, variant: Variant) -> list[Row]:
@@ -79,7 +83,7 @@ def compare(
     :raises ClothSimError: when there is no reference for the scene itself
     """
     side = max(scene['width'], scene['height'])
-    references, times = {}, {}
+    references, times, tolerances = {}, {}, {}
     for variant, results in rungs.items():
         if all(result.is_done for result in results):
             references[variant, 'springs'] = extrapolated(results, grid.reference_refine)
@@ -90,15 +94,14 @@ def compare(
         references.update({
             (variant, model): finest(results) for model, results in by_model.items()})
         springs = references.get((variant, 'springs'))
-        allowed = side * (grid.converged if variant.is_scene else grid.variants_converged)
-        times[variant] = springs.converged_times(allowed) if springs else 0
+        tolerances[variant], times[variant] = _converged(springs, variant, grid, side)
     truth = references.get((Variant(), own_model(scene)))
     if truth is None or not times[Variant()]:
         failed = next((result for result in rungs[Variant()] if not result.is_done), None)
         raise ClothSimError(
             'there is no reference for the scene: ' + (
                 failed.reason if failed else
-                f'it has not converged to {grid.converged:g} of the side at '
+                f'it has not converged to {grid.loosely_converged:g} of the side at '
                 f'{grid.times[0]:g} s: give earlier times, or more in reference.refine')
             + ' (--grid)')
     rows = []
@@ -118,7 +121,19 @@ def compare(
     if not any(row.scene for row in rows if row.variant.is_scene):
         reason = next((row.run.reason for row in rows if row.run.reason), 'there are none')
         raise ClothSimError(f'no setting of the grid could be compared on the scene: {reason}')
-    return Measured(scene, grid, references, times, rows)
+    return Measured(scene, grid, references, times, tolerances, rows)
+
+
+def _converged(
+        reference: Reference | None, variant: Variant, grid: Grid, side: float
+) -> tuple[float, int]:
+    """Return what the reference may change by, over the side, and how many times then count."""
+    if reference is None:
+        return grid.converged, 0
+    exactly = reference.converged_times(side * grid.converged)
+    if variant.is_scene and exactly:
+        return grid.converged, exactly
+    return grid.loosely_converged, reference.converged_times(side * grid.loosely_converged)
 
 
 def _counting(grid: Grid, times: int) -> tuple[int, int]:
@@ -155,19 +170,21 @@ def measure(
 def _timed(
         plan: Plan, measured: Measured, results: ResultsFolder,
         wanted: Callable[[Sequence[Row]], Sequence[Row]]) -> list[Row]:
-    """Return the rows with the wall time of those that may matter."""
+    """Return the rows with the time of those that may matter."""
     chosen = {}
     for variant in measured.grid.variants:
         rows = measured.rows_of(variant)
-        # What runs on a GPU is not seen in the processor's time.
-        known = all(is_software(row.run.device) for row in rows if row.run.is_done)
         of_scene = variant.is_scene
-        chosen[variant] = [row for row in rows if row.is_useful(of_scene)]
-        if known:
-            chosen[variant] = near_front(rows, measured.grid.margin, of_scene=of_scene)
-        if of_scene:
-            known_rows = {_name(row) for row in chosen[variant]}
-            chosen[variant] += [row for row in wanted(rows) if _name(row) not in known_rows]
+        if all(is_software(row.run.device) for row in rows if row.run.is_done):
+            near = near_front(rows, measured.grid.margin, of_scene=of_scene)
+        else:
+            # What runs on a GPU is not seen in the processor's time.
+            near = [row for row in rows if row.is_useful(of_scene)]
+        names = {_name(row) for row in (
+            *near, *cheapest_of_each(rows), *(wanted(rows) if of_scene else ()))}
+        chosen[variant] = [
+            row for row in rows
+            if _name(row) in names or row.setting == plan.grid.settings[0] and row.run.is_done]
     runs: dict[Variant, Run] = {
         variant: plan.cost(variant, [row.setting for row in rows])
         for variant, rows in chosen.items() if rows}
@@ -176,14 +193,27 @@ def _timed(
     shares: dict[Variant, float] = {}
     for variant, result in zip(runs, made):
         if result.is_done:
-            own = [tuple(wall) for wall in result.values['wall_seconds']]
+            own = costs_of(result)
             rounds.update(zip(map(_name, chosen[variant]), own))
             shares[variant] = statistics.median(
-                statistics.median(wall) / row.run.values['processor_seconds']
-                for wall, row in zip(own, chosen[variant]))
+                statistics.median(cost) / row.run.values['processor_seconds']
+                for cost, row in zip(own, chosen[variant]))
     return [
         replace(row, rounds=rounds.get(_name(row), ()), wall_share=shares.get(row.variant, 1.0))
         for row in measured.rows]
+
+
+def costs_of(result: Result) -> list[tuple[float, ...]]:
+    """
+    Return what each setting of a timed run costs in each round, in a simulated second [s].
+
+    On a GPU it is the wall time. On software it is the processor time, in which other load of the
+    machine shows least, times the least ratio of both clocks: the wall time with nothing beside.
+    """
+    wall, processor = (
+        np.array(result.values[f'{clock}_seconds']) for clock in ('wall', 'processor'))
+    costs = processor * (wall / processor).min() if is_software(result.device) else wall
+    return [tuple(own) for own in costs.tolist()]
 
 
 def _name(row: Row) -> tuple[Variant, str, str]:
@@ -235,4 +265,4 @@ def measure_again(
             raise ClothSimError(f'the choice cannot be measured: {result.reason}')
     ran = [(here, choice, run), *((here, *pair) for pair in zip(others, finest))]
     row = compare(scene, plan.grid, ran, {here: rungs}).rows[0]
-    return replace(row, rounds=tuple(clock.values['wall_seconds'][0]))
+    return replace(row, rounds=costs_of(clock)[0])

@@ -12,6 +12,7 @@ from cloth_sim_ros.study.trade.grid import Variant
 from cloth_sim_ros.study.trade.measured import Measured
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.ticker import LogLocator
 import numpy as np
 
 _COLOURS = ('#0072b2', '#d55e00', '#009e73', '#cc79a7', '#e69f00', '#56b4e9')
@@ -23,7 +24,7 @@ def write_plot(path: Path, measured: Measured) -> None:
     """Write the figure as PNG."""
     variants = [v for v in measured.grid.variants if _drawable(measured.rows_of(v), v)]
     lines = -(-len(variants) // _COLUMNS)
-    figure = Figure(figsize=(6.2 * _COLUMNS, 4.4 * lines), layout='constrained')
+    figure = Figure(figsize=(7.6 * _COLUMNS, 4.4 * lines), layout='constrained')
     panels = figure.subplots(lines, min(_COLUMNS, len(variants)), squeeze=False).flatten()
     for panel in panels[len(variants):]:
         panel.set_visible(False)
@@ -55,14 +56,24 @@ def _draw(
     panel.plot(
         [row.cost for row in best], _errors(best, variant),
         color='0.4', linewidth=1.0, label='Pareto front')
-    for row in best:
+    for number, row in enumerate(best, 1):
         panel.annotate(
-            row.setting.label, (row.cost, row.known_error(variant.is_scene)), fontsize=7,
-            xytext=(4, 4), textcoords='offset points')
+            str(number), (row.cost, row.known_error(variant.is_scene)), fontsize=8,
+            xytext=(3, 4), textcoords='offset points')
+    # Beside the panel: along the front there is no room for names of settings that are alike.
+    panel.text(
+        1.02, 1.0, '\n'.join(
+            f'{number}  {row.setting.method}, {row.setting.label}'
+            for number, row in enumerate(best, 1)),
+        transform=panel.transAxes, fontsize=7, verticalalignment='top')
     panel.scatter([], [], s=26, color='0.4', facecolors='none', label='not timed: an estimate')
     panel.axvline(1.0, color='0.7', linewidth=1.0, linestyle='--', label='real time')
-    panel.set(xscale='log', yscale='log', xlabel='wall time of a simulated second [s]')
+    panel.set(xscale='log', yscale='log', xlabel='time of a simulated second [s]')
     own = 'position error / side'
+    # Labels of all minor ticks run into one another.
+    panel.xaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
+    panel.xaxis.set_major_formatter('{x:g}')
+    panel.xaxis.set_minor_formatter('')
     panel.set_ylabel(own if variant.is_scene else f'{own}, against its own model')
     first = rows[0].run.scene
     panel.set_title(

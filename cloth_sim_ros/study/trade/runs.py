@@ -114,14 +114,14 @@ def spring_reference(
             'strains': np.array(strains), 'energies': np.array(energies)}
 
 
-# How long settings take by the clock, measured in turn with nothing beside them.
+# How long settings take, measured in turn with nothing of the study beside them.
 
 
 def cost(
         scene: dict[str, Any], *, settings: Sequence[Mapping[str, Any]], seconds: float,
         frame: float, rounds: int) -> dict[str, Any]:
     """
-    Return the wall time of each setting in each round, in a simulated second.
+    Return wall and processor time of each setting in each round, in a simulated second.
 
     :param settings: scene parameters of each; in a round each has its turn, from the start
     :param seconds: simulated in a turn
@@ -131,22 +131,25 @@ def cost(
     runs = [Simulation(Scene({**scene, **values}), context=context) for values in settings]
     for run in runs:
         # The first steps compile what the device puts off until then.
-        _wall_seconds(run, frame, 1)
-    wall = [
-        [_wall_seconds(run, frame, round(seconds / frame)) / seconds for run in runs]
-        for _ in range(rounds)]
-    result = {'device': context.device, 'wall_seconds': [list(own) for own in zip(*wall)]}
+        _timed(run, frame, 1)
+    frames = round(seconds / frame)
+    timed = np.array([[_timed(run, frame, frames) for run in runs] for _ in range(rounds)])
+    wall, processor = (timed[..., clock].T / seconds for clock in range(2))
+    result = {
+        'device': context.device, 'wall_seconds': wall.tolist(),
+        'processor_seconds': processor.tolist()}
     for run in runs:
         run.close()
     context.close()
     return result
 
 
-def _wall_seconds(run: Simulation, frame: float, frames: int) -> float:
+def _timed(run: Simulation, frame: float, frames: int) -> tuple[float, float]:
+    """Return wall and processor time of ``frames`` from the start."""
     run.reset()
     run.finish()
-    begin = time.perf_counter()
+    wall, processor = time.perf_counter(), time.process_time()
     for _ in range(frames):
         run.advance(frame)
         run.finish()
-    return time.perf_counter() - begin
+    return time.perf_counter() - wall, time.process_time() - processor

@@ -37,7 +37,7 @@ def exact():
 def test_it_is_that_of_an_independent_solver(exact, work, device):
     """Every error of a study would be measured against another motion."""
     grid = small_grid(times=TIMES, reference={
-        'refine': [4, 8, 16], 'converged': 1e-4, 'variants_converged': 1e-4,
+        'refine': [4, 8, 16], 'converged': 1e-4, 'loosely_converged': 1e-4,
         'float64_node_steps': work})
     plan = Plan(Scene(SOFT), grid)
     runs = plan.references(Variant())

@@ -8,6 +8,7 @@ from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.study.trade.grid import default_grid_path
 from cloth_sim_ros.study.trade.grid import load_grid
 from cloth_sim_ros.study.trade.grid import Variant
+from cloth_sim_ros.study.trade.measured import own_model
 from made_study import GRID
 from made_study import small_grid
 import pytest
@@ -57,7 +58,9 @@ def test_the_shipped_grid_can_be_run():
         'mass_spring', 'constraint', 'adaptive'}
     for setting in grid.settings:
         assert setting.label
-        Scene(setting.values)
+        scene = Scene(setting.values)
+        # Errors of hard edges against springs would count as those of a way to step them.
+        assert own_model(scene) == setting.model
     for moment in (*grid.times, grid.frame):
         for setting in grid.settings:
             steps = moment / setting.values['dt']
