@@ -30,6 +30,8 @@ from cloth_sim_ros.sim.simulation import Simulation
 
 RATE = 50.0
 _TARGET = 'cloth_sim_node_cost'
+# What the listener prints once every topic has had a message.
+READY = 'ready'
 _PATIENCE = 60.0
 # Discovery and the first messages are not measured [s].
 _SETTLE = 1.0
@@ -231,7 +233,8 @@ def _listening(
     try:
         os.set_blocking(listener.stdout.fileno(), False)
         end, line = time.monotonic() + _PATIENCE, ''
-        while not line:
+        # The middleware may print there, too.
+        while line.strip() != READY:
             if time.monotonic() > end or node.poll() is not None or listener.poll() is not None:
                 raise ClothSimError(
                     f'no message of {", ".join(keys)} came from the node within {_PATIENCE:g} s')
@@ -240,7 +243,7 @@ def _listening(
         os.set_blocking(listener.stdout.fileno(), True)
         yield found
         listener.stdin.close()
-        found.update(json.loads(listener.stdout.readline()))
+        found.update(json.loads(listener.stdout.read().splitlines()[-1]))
     finally:
         listener.terminate()
         listener.wait()

@@ -22,12 +22,12 @@ from cloth_sim_ros.messages.stamp import NANOSECONDS
 from cloth_sim_ros.messages.stamp import STAMP
 from cloth_sim_ros.messages.stamp import STAMP_AT
 from cloth_sim_ros.messages.topics import TOPICS
+from cloth_sim_ros.study.node_cost import READY
 import rclpy
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.qos import QoSProfile
 from std_srvs.srv import Trigger
 
-READY = 'ready'
 # Always the same: with another time, the executor begins anew.
 _TURN = 0.05
 _STAMPED = ('points', 'stats')
