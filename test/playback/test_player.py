@@ -162,7 +162,7 @@ def test_the_pace_is_that_of_the_recording_times_the_rate(bag, client, player, t
     assert begin == WALL
     assert (end - begin) * 1e-9 == pytest.approx(3.0)
     took = {}
-    for name, source, rate in [('simulated', bag, 4.0), ('wall', wall_bag, 2.0)]:
+    for name, source, rate in [('simulated', bag, 4.0), ('wall', wall_bag, 1.0)]:
         times = []
         subscription = client.node.create_subscription(
             ClothStats, '/cloth_sim/stats', lambda _, to=times: to.append(time.monotonic()), 1000)
@@ -172,9 +172,9 @@ def test_the_pace_is_that_of_the_recording_times_the_rate(bag, client, player, t
         assert len(times) == FRAMES
         took[name] = times[-1] - times[0]
         client.node.destroy_subscription(subscription)
-    # 0.25 and 1.5 s. A busy machine makes each longer, but none shorter than it should be by more
+    # 0.75 and 3 s. A busy machine makes each longer, but none shorter than it should be by more
     # than the first message came late.
-    assert took['wall'] > 1.2
+    assert took['wall'] > 2.7
     assert took['wall'] > 2.0 * took['simulated']
 
 

@@ -184,7 +184,8 @@ def test_a_signal_completes_the_recording(
     recording = Recording(bag)
     end = summarise(recording).end
     assert recording.problems == []
-    assert said == (
+    # A machine that is slow to compile says so first.
+    assert said.removeprefix('compiling shaders for mode mass_spring ...\n') == (
         f'cloth_sim run: interrupted; the recording {bag} is complete up to {end:.6g} s\n')
 
 
