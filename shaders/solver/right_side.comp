@@ -144,7 +144,7 @@ void main() {
     FOR_CLOTH_EDGES(add_edge)
 #if IS_FURTHER
     if (is_off_here) {
-        atomicOr(is_off, 1u);
+        atomicOr(is_off, floatBitsToUint(1.0));
     }
 #endif
 #if HAS_RIGIDITY && !IS_FURTHER

@@ -50,7 +50,7 @@ _COUNTING = {
     # The paper's solver, which only a benchmark runs, counts entries as the paper does.
     'paper_solver/spmm.comp': ['atomicAdd(row_count[i], 1u)'],
     # One flag, which any edge raises.
-    'solver/right_side.comp': ['atomicOr(is_off, 1u)'],
+    'solver/right_side.comp': ['atomicOr(is_off, floatBitsToUint(1.0))'],
     # A list of nodes, each of which is treated by itself.
     'near_colliders.comp': [
         'atomicAdd(near_count, 1u)', 'atomicMax(near_groups_x, place / NEAR_LOCAL + 1u)'],
