@@ -3,13 +3,12 @@
 
 #version 430 core
 // Let the colliders act on an explicit substep that has been made, before it is the present state,
-// at the nodes that near_colliders.comp lists.
+// at the nodes that near_nodes.comp lists.
 
 #include "lattice.glsl"
 #include "state_in.glsl"
 #include "contact.glsl"
-
-#include "near_nodes.glsl"
+#include "near_blocks.glsl"
 
 layout(local_size_x = NEAR_LOCAL) in;
 
@@ -18,24 +17,26 @@ layout(std430, binding = VELOCITY_OUT) buffer VelocityOut { vec4 velocity_out[];
 
 #include "contact_record.glsl"
 
-uniform float substep;  // [s]
+uniform float substep;    // [s]
+uniform int block_count;  // in all
 
 void main() {
-    if (gl_GlobalInvocationID.x >= near_count) {
+    if (gl_GlobalInvocationID.x >= near_node_count) {
         return;
     }
-    int index = int(near_nodes[gl_GlobalInvocationID.x]);
-    vec4 v = velocity_out[index];
-    vec4 x = load_position(index);
-    Contact contact = contact_at(x.xyz, v.xyz, v.xyz, substep);
+    Near node = near[block_count + gl_GlobalInvocationID.x];
+    int index = int(node.index);
+    vec3 v = velocity_out[index].xyz;
+    vec3 x = load_position(index).xyz;
+    Contact contact = contact_with(node.bodies, x, v, v, substep);
     if (touched_count == 0) {
         return;
     }
     vec3 to = position_out[index].xyz;
     if (contact.kind != FREE) {
-        to = x.xyz + substep * contact.velocity;
-        velocity_out[index] = vec4(contact.velocity, v.w);
+        to = x + substep * contact.velocity;
+        velocity_out[index].xyz = contact.velocity;
     }
-    position_out[index] = vec4(moved_out(to, substep), x.w);
+    position_out[index].xyz = moved_out(to, substep);
     record_contacts(index, contact.kind);
 }

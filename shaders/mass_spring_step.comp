@@ -27,6 +27,10 @@ uniform float bending[2];  // [N/m] along a row, along a column
 uniform float bending_damping;  // [s]
 #endif
 
+#if HAS_CONTACT
+#include "block_bound.glsl"
+#endif
+
 layout(local_size_x = LOCAL_X, local_size_y = LOCAL_Y) in;
 
 #define TILE (BLOCK + 2 * HALO)
@@ -115,6 +119,14 @@ void main() {
     ADD_BENDING_BRAKES(0, 1)
     ADD_BENDING_BRAKES(1, 0)
 #endif
+#if HAS_CONTACT
+    Bound bound = Bound(vec3(1e30), vec3(-1e30), 0.0);
+    for (int row = HALO; row < HALO + BLOCK; ++row) {
+        for (int col = HALO; col < HALO + BLOCK; ++col) {
+            add_place(bound, position[row][col]);
+        }
+    }
+#endif
     for (int row = HALO; row < HALO + BLOCK; ++row) {
         for (int col = HALO; col < HALO + BLOCK; ++col) {
             int index = node_index(first.y + row - HALO, first.x + col - HALO);
@@ -125,6 +137,12 @@ void main() {
 #if STRAIN_LIMIT == NO_LIMIT
             position_out[index].xyz = next_position(position[row][col].xyz, v.xyz);
 #endif
+#if HAS_CONTACT
+            add_speed(bound, v.xyz);
+#endif
         }
     }
+#if HAS_CONTACT
+    list_if_near(bound, first);
+#endif
 }

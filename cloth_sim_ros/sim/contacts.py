@@ -36,8 +36,10 @@ _ENTRY_BYTES = 16
 _MOST_SERIAL = 2**24
 # Of coordinates: what positions are rounded by counts as no way.
 _ROUNDING = 4e-6
-# Workgroups along x, y and z, and how many nodes they are for.
-_NO_NODES = np.array([0, 1, 1, 0], dtype=np.uint32)
+# Of the blocks and of the nodes that are near: workgroups along x, y and z, and how many they are.
+_NONE_NEAR = np.array([0, 1, 1, 0, 0, 1, 1, 0], dtype=np.uint32)
+_NODE_GROUPS = 16  # [bytes] where those of the nodes stand
+_NEAR_BYTES = 8
 
 
 @dataclass(frozen=True)
@@ -78,8 +80,10 @@ class Contacts:
         self.reach = np.array([_reach(collider) for collider in scene.colliders])
         self._serial = self._decision = 0
         self._program = SceneProgram('contact.comp', scene, layout)
-        self._near = SceneProgram('near_colliders.comp', scene, layout)
-        self._near_nodes = Buffer(_NO_NODES.nbytes + 4 * scene.node_count)
+        self._near_nodes = SceneProgram('near_nodes.comp', scene, layout)
+        self._near = Buffer(
+            _NONE_NEAR.nbytes + _NEAR_BYTES * (layout.block_count + scene.node_count))
+        self._clear_near = self._near.write_calls(_NONE_NEAR)
         self._foresight = SceneProgram('foresee_contact.comp', scene, layout)
         self._set: dict[Program, tuple[_Touch, float]] = {}
         self._joined: tuple[Forcing, _Touch, Forcing] | None = None
@@ -132,19 +136,28 @@ class Contacts:
         """Return until when no collider moves: ``now`` itself where one does, or infinite."""
         return self._paths.quiet_until(now)
 
-    def act(self, touch: '_Touch', length: float) -> None:
-        """Act on a substep of ``length`` [s] whose state, before and after, is bound."""
-        self._near_nodes.write(_NO_NODES)
-        self._near_nodes.bind_storage(bindings.NEAR_NODES)
-        for part in (self._near, self._program):
+    def begin_explicit(self, touch: '_Touch', step: Program, length: float) -> None:
+        """Have ``step``, which is in use, list what ``act`` acts on in substeps of ``length``."""
+        self.set_in(step, touch, length)
+        for part in (self._near_nodes, self._program):
             program = part.use()
             program.set_float('substep', length)
+            program.set_int('block_count', self._layout.block_count)
             self.set_in(program, touch, length)
-            if part is self._near:
-                program.dispatch(*self._layout.groups)
-                shader_dispatches_visible()
-        self._near_nodes.bind_dispatches()
-        program.dispatch_indirect(0)
+        self._near.bind_storage(bindings.NEAR_BLOCKS)
+        self._near.bind_dispatches()
+
+    def list_none(self) -> None:
+        """Empty the lists of an explicit substep that is about to be made."""
+        for call, arguments in self._clear_near:
+            call(*arguments)
+
+    def act(self) -> None:
+        """Act on an explicit substep that was made, both states of which are bound."""
+        shader_dispatches_visible()
+        self._near_nodes.use().dispatch_indirect(0)
+        shader_dispatches_visible()
+        self._program.use().dispatch_indirect(_NODE_GROUPS)
         shader_writes_visible()
 
     def foresee(
@@ -240,8 +253,8 @@ class Contacts:
     def delete(self) -> None:
         """Give pass and record back."""
         self._record.delete()
-        self._near_nodes.delete()
         self._near.delete()
+        self._near_nodes.delete()
         self._program.delete()
         self._foresight.delete()
 
@@ -338,8 +351,14 @@ class _Touch:
         self._contacts.set_in(program, self, length)
         self._contacts.set_marks_in(program)
 
-    def act(self, length: float) -> None:
-        self._contacts.act(self, length)
+    def begin_explicit(self, step: Program, length: float) -> None:
+        self._contacts.begin_explicit(self, step, length)
+
+    def list_none(self) -> None:
+        self._contacts.list_none()
+
+    def act(self) -> None:
+        self._contacts.act()
 
     def foresee(self, state: State, forcing: Forcing, ahead: float) -> None:
         self._contacts.foresee(self, state, forcing, ahead)

@@ -21,8 +21,14 @@ class Touch(Protocol):
     def set_in(self, program: Program, length: float) -> None:
         """Set contact.glsl in the program in use to a time of ``length`` [s]; bind its record."""
 
-    def act(self, length: float) -> None:
-        """Act on an explicit substep of ``length`` [s], both states of which are bound."""
+    def begin_explicit(self, step: Program, length: float) -> None:
+        """Have ``step``, which is in use, list what is near colliders in explicit substeps."""
+
+    def list_none(self) -> None:
+        """Empty that list: an explicit substep is about to be made."""
+
+    def act(self) -> None:
+        """Act on an explicit substep that was made, both states of which are bound."""
 
     def foresee(self, state: 'State', forcing: 'Forcing', ahead: float) -> None:
         """Write the velocities that nodes have on their way through ``ahead`` [s] from now."""

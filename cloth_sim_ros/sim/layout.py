@@ -77,6 +77,11 @@ class Layout:
         return self.pitch * (_round_up(self.rows, self.block) + 2 * HALO)
 
     @property
+    def block_count(self) -> int:
+        """Invocations with a node, one for each block."""
+        return -(-self.rows // self.block) * -(-self.cols // self.block)
+
+    @property
     def groups(self) -> tuple[int, int]:
         """Workgroups that cover the cloth, x and y."""
         return self._groups_of(self.block)

@@ -133,11 +133,8 @@ class Loads:
 
     def still_until(self, now: float) -> float:
         """Return until when gravity alone acts: ``now`` [s] itself where more does."""
-        return now if self.air is not None else self.same_until(now)
-
-    def same_until(self, now: float) -> float:
-        """Return until when ``forcing`` is that of ``now`` [s], and touches nothing."""
-        return now if self.contacts is not None else self.quiet_until(now)
+        is_alone = self.air is None and self.contacts is None
+        return self.quiet_until(now) if is_alone else now
 
     def speed_gained(self, begin: float, end: float) -> float:
         """Return by how much loads other than gravity make a node faster at most [m/s]."""

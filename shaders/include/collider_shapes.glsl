@@ -4,16 +4,9 @@
 // Signed distances of the colliders, with their gradients: exact outside, and inside up to the
 // nearest surface. Compiled for the shapes that the scene has.
 
-#define SHAPE_PLANE 0
-#define SHAPE_SPHERE 1
-#define SHAPE_CAPSULE 2
-#define SHAPE_BOX 3
-#define SHAPE_CYLINDER 4
+#include "collider_bounds.glsl"
 
-uniform float collider_shape[COLLIDERS];
-uniform vec3 collider_size[COLLIDERS];      // [m] radius and half the length, or half the sides
-uniform vec3 collider_axes[3 * COLLIDERS];  // x, y and z axis of each as the substep begins
-uniform vec3 collider_centre[COLLIDERS];    // [m] as the substep begins
+uniform vec3 collider_size[COLLIDERS];  // [m] radius and half the length, or half the sides
 
 // Gradient and signed distance of what has the distance of the point p from a core, less radius.
 vec4 distance_to_core(vec3 p, float radius) {

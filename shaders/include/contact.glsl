@@ -11,7 +11,7 @@
 // A node is held by so many at most: by those that it is nearest to.
 #define MOST_TOUCHED (COLLIDERS < 4 ? COLLIDERS : 4)
 #define MOST_ROUNDS 32
-#define MOST_ROUNDS_OUT (COLLIDERS > 1 ? 16 : 1)
+#define MOST_ROUNDS_OUT 16
 // Surfaces face each other where the cosine between their normals is below minus this, and are one
 // where it is above.
 #define FACING 0.9
@@ -25,8 +25,6 @@ uniform vec3 collider_velocity[COLLIDERS];    // [m/s] mean one of the centre in
 uniform vec3 collider_turn[3 * COLLIDERS];    // [1/s] rows of (R - 1) / h, R the rotation in it
 uniform float collider_friction[COLLIDERS];
 uniform float collider_thickness[COLLIDERS];  // [m] of a way through it, at least
-uniform float near_limit[COLLIDERS];          // [m] from the centre that a node at rest is near
-uniform float near_share[COLLIDERS];          // of that distance, with what it turns by
 uniform float clearance;                      // [m] half the thickness of the cloth
 uniform float compression;                    // [m/s2] what compression to nothing presses with
 
@@ -84,34 +82,16 @@ vec4 gap_at_end(int collider, vec3 x, float h) {
     return near - vec4(0.0, 0.0, 0.0, clearance);
 }
 
-// How far at least what is not farther than radius from x has to go to come near to a collider, by
-// a sphere around that.
-float least_way(int collider, vec3 x, float radius) {
-    vec3 arm = x - collider_centre[collider];
-    float l = length(arm);
-    float away = near_share[collider] * l;
-#if HAS_PLANE
-    away = int(collider_shape[collider]) == SHAPE_PLANE
-        ? dot(collider_axes[3 * collider + 2], arm) - (l - away) : away;
-#endif
-    return away - (2.0 - near_share[collider]) * radius - near_limit[collider];
+// The bodies that a node at x may come to in the time h at the velocity towards. Software asks each
+// node whatever others need, so most bodies are to be ruled out first.
+uint bodies_towards(vec3 x, vec3 towards, float h) {
+    return COLLIDERS > 1 ? near_bodies(x, 0.0, h * length(towards) + spare_way) : 1u;
 }
 
-// The colliders that it may come near to on such a way, one bit each; all if that is no number.
-uint near_bodies(vec3 x, float radius, float way) {
-    uint bodies = 0u;
-    for (int collider = 0; collider < COLLIDERS; ++collider) {
-        bodies |= least_way(collider, x, radius) > way ? 0u : 1u << uint(collider);
-    }
-    return bodies;
-}
-
-// Remember the surfaces that a node at x can come to in the time h at the velocity towards, and act
-// on the velocity v.
-void find_surfaces(vec3 x, vec3 towards, vec3 v, float h) {
+// Remember the surfaces of bodies that a node at x can come to in the time h at the velocity
+// towards, and act on the velocity v.
+void find_surfaces(uint bodies, vec3 x, vec3 towards, vec3 v, float h) {
     touched_count = 0;
-    // Software asks each node whatever others need, so most bodies are ruled out before.
-    uint bodies = COLLIDERS > 1 ? near_bodies(x, 0.0, h * length(towards) + spare_way) : 1u;
     for (; bodies != 0u; bodies &= bodies - 1u) {
         int collider = COLLIDERS > 1 ? findLSB(bodies) : 0;
         vec4 near = gap_at(collider, x);
@@ -301,38 +281,55 @@ void slip_out(vec3 x, vec3 v, float h, inout Contact found) {
     }
 }
 
-// The velocity of a node at x in the next h seconds, v without colliders. It comes as far as the
-// velocity towards takes it: what edges pull with, and a surface holds, takes it nowhere.
-Contact contact_at(vec3 x, vec3 towards, vec3 v, float h) {
-    find_surfaces(x, towards, v, h);
-    Contact found = Contact(v, vec3(0.0), FREE);
-    if (touched_count == 0) {
-        return found;
-    }
 #if COLLIDERS > 1
-    find_compression(h);
-#endif
-    float change = act_in_turn(x, h, found);
-#if COLLIDERS > 1
-    for (int round = 1; round < MOST_ROUNDS && touched_count > 1; ++round) {
-        if (change <= 1e-6 * length(v)) {
-            break;
-        }
+// What surfaces make of each other's work, where a node touches several.
+void act_together(vec3 x, vec3 v, float h, float change, inout Contact found) {
+    for (int round = 1; round < MOST_ROUNDS && change > 1e-6 * length(v); ++round) {
         change = act_in_turn(x, h, found);
     }
     slip_out(x, v, h, found);
     if (found.kind == SLIDES_ON_TWO) {
         slide_on_two(x, h, found);
     }
+}
+#endif
+
+// The velocity of a node at x in the next h seconds, v without these bodies. It comes as far as the
+// velocity towards takes it: what edges pull with, and a surface holds, takes it nowhere.
+Contact contact_with(uint bodies, vec3 x, vec3 towards, vec3 v, float h) {
+    find_surfaces(bodies, x, towards, v, h);
+    Contact found = Contact(v, vec3(0.0), FREE);
+    if (touched_count == 0) {
+        return found;
+    }
+#if COLLIDERS > 1
+    // Software runs the body of a branch for nodes that do not take it, but no loop that ends at
+    // once.
+    uint several = touched_count > 1 ? 1u : 0u;
+    for (uint asks = several; asks != 0u; asks &= asks - 1u) {
+        find_compression(h);
+    }
+#endif
+    float change = act_in_turn(x, h, found);
+#if COLLIDERS > 1
+    for (uint asks = several; asks != 0u; asks &= asks - 1u) {
+        act_together(x, v, h, change, found);
+    }
 #endif
     return found;
+}
+
+// The same with all bodies.
+Contact contact_at(vec3 x, vec3 towards, vec3 v, float h) {
+    return contact_with(bodies_towards(x, towards, h), x, towards, v, h);
 }
 
 // What the surface i, near as the substep ends, shares of the room that a node at x has too little.
 float room_lacking(int i, vec4 near, vec3 x, float h) {
     float lacking = 0.0;
 #if COLLIDERS > 1
-    for (int j = 0; j < touched_count; ++j) {
+    int others = touched_count > 1 ? touched_count : 0;
+    for (int j = 0; j < others; ++j) {
         vec4 other = gap_at_end(touched[j], x, h);
         if (j != i && dot(near.xyz, other.xyz) <= -FACING) {
             lacking = max(lacking, -0.5 * (near.w + other.w));
@@ -346,7 +343,8 @@ float room_lacking(int i, vec4 near, vec3 x, float h) {
 // be into another: they take turns, within a way that all of them share.
 vec3 moved_out(vec3 x, float h) {
     float way = h * way_out_speed;
-    for (int round = 0; round < MOST_ROUNDS_OUT; ++round) {
+    int rounds = touched_count > 1 ? MOST_ROUNDS_OUT : 1;
+    for (int round = 0; round < rounds; ++round) {
         float moved = 0.0;
         for (int i = 0; i < touched_count; ++i) {
             int collider = touched[i];

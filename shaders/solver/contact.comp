@@ -288,7 +288,8 @@ void decide(int at, int index, inout vec4 x, inout vec4 v) {
     contact_at(begin, v.xyz, v.xyz - reaction, substep);
     if (touched_count == 0 && reaction != vec3(0.0)) {
         // What passes by without its reaction may come inside with it.
-        find_surfaces(begin, v.xyz, v.xyz, substep);
+        find_surfaces(
+            bodies_towards(begin, v.xyz, substep), begin, v.xyz, v.xyz, substep);
     }
     if (touched_count == 0) {
         return;

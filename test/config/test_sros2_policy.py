@@ -51,6 +51,8 @@ def endpoints(tmp_path_factory):
         def names(ask):
             return {name for name, _ in ask('cloth_sim', '/')}
 
+        # A node answers before all others know of it.
+        client.spin_until(lambda: 'cloth_sim' in graph.get_node_names(), 'cloth_sim')
         # The clock waits until nobody else can have it.
         client.spin_until(
             lambda: '/clock' in names(graph.get_publisher_names_and_types_by_node), '/clock')

@@ -43,7 +43,7 @@ _SCENES = {
 }
 # Those that no other scene asks for.
 _OF_CONTACT = (
-    'contact.comp', 'foresee_contact.comp', 'near_colliders.comp', 'solver/contact.comp',
+    'contact.comp', 'foresee_contact.comp', 'near_nodes.comp', 'solver/contact.comp',
     'solver/hold.comp', 'solver/reaction.comp')
 # Where integers are counted by atomics, and no result depends on the order.
 _COUNTING = {
@@ -51,9 +51,13 @@ _COUNTING = {
     'paper_solver/spmm.comp': ['atomicAdd(row_count[i], 1u)'],
     # One flag, which any edge raises.
     'solver/right_side.comp': ['atomicOr(is_off, floatBitsToUint(1.0))'],
-    # A list of nodes, each of which is treated by itself.
-    'near_colliders.comp': [
-        'atomicAdd(near_count, 1u)', 'atomicMax(near_groups_x, place / NEAR_LOCAL + 1u)'],
+    # Lists of blocks and of their nodes, each of which is treated by itself.
+    'include/block_bound.glsl': [
+        'atomicAdd(near_block_count, 1u)',
+        'atomicAdd(block_groups_x, place % BLOCKS_AT_ONCE == 0u ? 1u : 0u)'],
+    'near_nodes.comp': [
+        'atomicAdd(near_node_count, 1u)',
+        'atomicAdd(node_groups_x, entry % NEAR_LOCAL == 0u ? 1u : 0u)'],
 }
 # What each shader is compiled with besides; a comma sets further forms of one apart.
 _FORMS = {

@@ -9,6 +9,7 @@ from typing import Any
 
 from cloth_sim_ros.gl.buffer import Buffer
 from cloth_sim_ros.gl.buffer import shader_writes_visible
+from cloth_sim_ros.gl.program import Program
 from cloth_sim_ros.sim import bindings
 from cloth_sim_ros.sim.forcing import Forcing
 from cloth_sim_ros.sim.layout import Layout
@@ -51,27 +52,37 @@ class OnePass:
         state.swap()
 
     def substeps(self, state: State, forcing: Forcing, length: float, count: int) -> None:
-        """Step ``state`` on ``count`` times by ``length`` [s], with nothing between to touch."""
-        step = self._step.use_for_step(forcing, length, length)
+        """Step ``state`` on ``count`` times by ``length`` [s], under the same forcing."""
+        step = self._begin(forcing, length, length)
         for _ in range(count):
-            state.bind_in()
-            state.bind_out()
-            step.dispatch(*self._groups)
-            shader_writes_visible()
+            self._make(state, step, forcing)
             state.swap()
 
     def run(
             self, state: State, forcing: Forcing, length: float,
             kick: float | None = None) -> None:
         """Write the state after ``length`` [s], without making it the present one."""
+        step = self._begin(forcing, length, length if kick is None else kick)
+        self._make(state, step, forcing)
+
+    def _begin(self, forcing: Forcing, length: float, kick: float) -> Program:
+        step = self._step.use_for_step(forcing, length, kick)
+        if forcing.touch is not None:
+            forcing.touch.begin_explicit(step, length)
+        return step
+
+    def _make(self, state: State, step: Program, forcing: Forcing) -> None:
         state.bind_in()
         state.bind_out()
-        step = self._step.use_for_step(forcing, length, length if kick is None else kick)
+        touch = forcing.touch
+        if touch is not None:
+            touch.list_none()
+            step.use()
         step.dispatch(*self._groups)
-        shader_writes_visible()
-        if forcing.touch is not None:
-            state.bind_expected()
-            forcing.touch.act(length)
+        if touch is None:
+            shader_writes_visible()
+        else:
+            touch.act()
 
     def delete(self) -> None:
         """Give the pass back."""
@@ -187,7 +198,7 @@ class MassSpring:
 
     def _alike(self, start: float, loads: Loads) -> int:
         """Return how many substeps from ``start`` [s] on are made at once, under equal loads."""
-        quiet = loads.same_until(start) - start
+        quiet = loads.quiet_until(start) - start
         return max(1, int(min(self._most_at_once, quiet / self._length + _ROUNDING)))
 
     def run_all_passes(self, state: State, loads: Loads) -> Pieces:

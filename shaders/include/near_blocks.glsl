@@ -1,0 +1,27 @@
+// SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
+// SPDX-License-Identifier: Apache-2.0
+
+// What may touch a collider in an explicit substep: blocks of nodes, which mass_spring_step.comp
+// lists, and of these the nodes, which near_nodes.comp lists for contact.comp; in no order. Each
+// list has the workgroups of the pass that reads it.
+
+#define NEAR_LOCAL 32u
+// Blocks that a workgroup of near_nodes.comp takes.
+#define BLOCKS_AT_ONCE (NEAR_LOCAL / uint(BLOCK * BLOCK))
+
+struct Near {
+    uint index;   // of a node, or of the first one of a block
+    uint bodies;  // that it may come near to, one bit each
+};
+
+layout(std430, binding = NEAR_BLOCKS) buffer NearBlocks {
+    uint block_groups_x;
+    uint block_groups_y;
+    uint block_groups_z;
+    uint near_block_count;
+    uint node_groups_x;
+    uint node_groups_y;
+    uint node_groups_z;
+    uint near_node_count;
+    Near near[];  // blocks, and nodes after them
+};

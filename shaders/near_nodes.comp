@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
+// SPDX-License-Identifier: Apache-2.0
+
+#version 430 core
+// List the nodes that may come to a collider in an explicit substep that has been made, of the
+// blocks that mass_spring_step.comp has listed: contact.comp does much with each of them.
+
+#include "lattice.glsl"
+#include "state_in.glsl"
+#include "collider_bounds.glsl"
+#include "near_blocks.glsl"
+
+layout(local_size_x = NEAR_LOCAL) in;
+
+layout(std430, binding = VELOCITY_OUT) readonly buffer VelocityOut { vec4 velocity_out[]; };
+
+uniform float substep;    // [s]
+uniform int block_count;  // in all
+
+void main() {
+    uint place = gl_GlobalInvocationID.x / uint(BLOCK * BLOCK);
+    if (place >= near_block_count) {
+        return;
+    }
+    Near block = near[place];
+    int inside = int(gl_GlobalInvocationID.x % uint(BLOCK * BLOCK));
+    int index = int(block.index) + inside / BLOCK * PITCH + inside % BLOCK;
+    vec4 v = velocity_out[index];
+    // Written so that what is no number goes far.
+    float square = dot(v.xyz, v.xyz);
+    float way = substep * sqrt(square < 1e30 ? square : 1e30);
+    uint bodies = v.w > 0.0 ? near_among(block.bodies, load_position(index).xyz, way) : 0u;
+    if (bodies != 0u) {
+        uint entry = atomicAdd(near_node_count, 1u);
+        near[block_count + entry] = Near(uint(index), bodies);
+        atomicAdd(node_groups_x, entry % NEAR_LOCAL == 0u ? 1u : 0u);
+    }
+}
