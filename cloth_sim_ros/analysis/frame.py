@@ -14,6 +14,7 @@ from cloth_sim_ros.messages.geometry import push_arrows
 from cloth_sim_ros.sim.colliders import Collider
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.push import Push
+from cloth_sim_ros.sim.snapshot import FLAG_GRASPED
 from cloth_sim_ros.sim.snapshot import FLAG_PINNED
 import numpy as np
 
@@ -84,6 +85,11 @@ class Frame:
     def pinned(self) -> np.ndarray:
         """Tell which nodes are held, (rows, cols) bool."""
         return (self.records['flags'] & FLAG_PINNED) != 0
+
+    @property
+    def grasped(self) -> np.ndarray:
+        """Tell which of them grasps hold, (rows, cols) bool."""
+        return (self.records['flags'] & FLAG_GRASPED) != 0
 
     @property
     def acting_pushes(self) -> tuple[Push, ...]:

@@ -25,6 +25,7 @@ BACKGROUND = (1.0, 1.0, 1.0)
 GRID_COLOR = (0.80, 0.80, 0.80)
 SHADOW_COLOR = (0.91, 0.91, 0.915)
 PIN_COLOR = (0.84, 0.10, 0.12)
+GRASP_COLOR = (0.56, 0.20, 0.72)
 PUSH_COLOR = (0.08, 0.38, 0.88)
 LIMIT_COLOR = (0.16, 0.86, 0.84)    # stands out from strained and from slack cloth
 UNKNOWN_COLOR = (0.72, 0.76, 0.82)  # of a cloth whose strain is not known

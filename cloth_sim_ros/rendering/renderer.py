@@ -19,6 +19,7 @@ from cloth_sim_ros.rendering.camera import View
 from cloth_sim_ros.rendering.cloth_drawing import ClothDrawing
 from cloth_sim_ros.rendering.cloth_drawing import PaletteBuffer
 from cloth_sim_ros.rendering.look import BACKGROUND
+from cloth_sim_ros.rendering.look import GRASP_COLOR
 from cloth_sim_ros.rendering.look import LIMIT_COLOR
 from cloth_sim_ros.rendering.look import PIN_COLOR
 from cloth_sim_ros.rendering.look import PUSH_COLOR
@@ -104,7 +105,8 @@ class Renderer:
             self._colliders.draw(frame.colliders, self.view)
         self._pushes.draw(self._survey.arrows(frame), self.view)
         self._draw_rings(frame)
-        self._balls.draw(frame.positions[frame.pinned], self.view, PIN_COLOR)
+        self._balls.draw(frame.positions[frame.pinned & ~frame.grasped], self.view, PIN_COLOR)
+        self._balls.draw(frame.positions[frame.grasped], self.view, GRASP_COLOR)
         return self._framebuffer.read()
 
     def close(self) -> None:

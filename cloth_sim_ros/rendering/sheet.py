@@ -10,6 +10,7 @@ from typing import Any
 from cloth_sim_ros.rendering.camera import Camera
 from cloth_sim_ros.rendering.camera import View
 from cloth_sim_ros.rendering.look import COLLIDER_COLOR
+from cloth_sim_ros.rendering.look import GRASP_COLOR
 from cloth_sim_ros.rendering.look import GRID_COLOR
 from cloth_sim_ros.rendering.look import LIMIT_COLOR
 from cloth_sim_ros.rendering.look import PIN_COLOR
@@ -162,6 +163,8 @@ def legend_handles(survey: Survey, grid: float, size: float) -> list[Line2D]:
         entries.append(('collider', {**_dot(COLLIDER_COLOR, size), 'marker': 's'}))
     if survey.shows_pins:
         entries.append(('pinned', _dot(PIN_COLOR, size)))
+    if survey.shows_grasps:
+        entries.append(('grasped', _dot(GRASP_COLOR, size)))
     if survey.shows_pushes:
         # An arrowhead at the end of its shaft.
         entries.append(('push', {

@@ -13,7 +13,6 @@ from cloth_sim_ros.sim.colliders import Collider
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.push import Push
 from cloth_sim_ros.sim.snapshot import FLAG_AT_LIMIT
-from cloth_sim_ros.sim.snapshot import FLAG_PINNED
 import numpy as np
 
 _DIRECTIONS = 256
@@ -106,14 +105,15 @@ class Survey:
     """
     Looks at all frames that will be shown, one after the other.
 
-    ``shows_pins``, ``shows_limits``, ``shows_pushes`` and ``shows_colliders`` tell what there is
-    to explain.
+    ``shows_pins``, ``shows_grasps``, ``shows_limits``, ``shows_pushes`` and ``shows_colliders``
+    tell what there is to explain.
     """
 
     def __init__(self) -> None:
         """Begin with no frame."""
         self.strains = StrainRange()
         self.shows_pins = False
+        self.shows_grasps = False
         self.shows_limits = False
         self.shows_colliders = False
         self.frames = 0
@@ -180,7 +180,8 @@ class Survey:
         self._cloth.add_nodes(frame.positions)
         self.strains.add(frame.strain)
         flags = frame.records['flags']
-        self.shows_pins = self.shows_pins or bool((flags & FLAG_PINNED).any())
+        self.shows_pins = self.shows_pins or bool((frame.pinned & ~frame.grasped).any())
+        self.shows_grasps = self.shows_grasps or bool(frame.grasped.any())
         self.shows_limits = self.shows_limits or bool((flags & FLAG_AT_LIMIT).any())
         self._add_colliders(frame.colliders)
         pushes = frame.acting_pushes

@@ -18,6 +18,7 @@ from cloth_sim_ros.sim.pin_motion import PinMotion
 from cloth_sim_ros.sim.pin_motion import PinRequests
 from cloth_sim_ros.sim.pins import check_node
 from cloth_sim_ros.sim.pose import Pose
+from cloth_sim_ros.sim.snapshot import FLAG_GRASPED
 from cloth_sim_ros.sim.state import State
 from cloth_sim_ros.sim.stepping import Stepping
 import numpy as np
@@ -84,6 +85,11 @@ class Grasps:
     def under_way(self, now: float) -> tuple[FramePath, ...]:
         """Return the paths of those that move."""
         return self._paths.under_way(now)
+
+    def mark(self, flags: np.ndarray) -> None:
+        """Set FLAG_GRASPED in the ``flags`` of nodes, (rows, cols), where they are held."""
+        for grasp in self._held.values():
+            flags[tuple(grasp.nodes.T)] |= FLAG_GRASPED
 
     def begin(self, grasp: Grasp) -> None:
         """Hold the nodes of ``grasp``, which are free, where they are."""

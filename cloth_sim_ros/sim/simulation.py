@@ -245,6 +245,7 @@ class Simulation(Handling, AbstractContextManager['Simulation']):
             snapshot = engine.snapshot(
                 self._state, self.loads.acting(self.time), time=self.time, steps=self.steps,
                 dt=self.dt, stalled_pins=self._pin_motion.stalled)
+        self._held.mark(snapshot.records['flags'])
         if self.loads.contacts is not None and not self.stepping.is_mid_step:
             snapshot = self.loads.contacts.with_contacts(snapshot)
         if tension or pin_forces:

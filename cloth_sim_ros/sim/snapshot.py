@@ -24,6 +24,7 @@ FLAG_PINNED = 1
 FLAG_AT_LIMIT = 2
 FLAG_PUSHED = 4
 FLAG_TOUCHING = 8
+FLAG_GRASPED = 16  # and pinned, as all nodes that are held
 
 
 @dataclass(frozen=True)
@@ -136,7 +137,7 @@ class Snapshot(Measures):
 
     @property
     def flags(self) -> np.ndarray:
-        """Return FLAG_PINNED, _AT_LIMIT, _PUSHED, _TOUCHING of each node, (rows, cols) uint32."""
+        """Return FLAG_PINNED, _AT_LIMIT, _PUSHED ... of each node, (rows, cols) uint32."""
         return self.records['flags']
 
     @property

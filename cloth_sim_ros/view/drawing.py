@@ -19,6 +19,7 @@ import numpy as np
 import viser
 
 _PIN_COLOR = (220, 40, 40)
+_GRASP_COLOR = (143, 51, 184)
 # Of the diagonal of the cloth.
 _PIN_SIZE = 0.012
 # Props of a mesh that shows nothing: viser takes no empty one.
@@ -62,8 +63,10 @@ class ClothDrawing:
             strain = self.surface.strain(frame) * (FULL_STRAIN / full_strain)
             colors = (255 * strain_colors(strain)[:, :3]).astype(np.uint8)
             self._add_dots('/cloth/nodes', self.surface.points(frame), colors)
-        pins = frame.positions[frame.pinned].astype(np.float32)
-        self._add_dots('/cloth/pins', pins, _PIN_COLOR)
+        for name, nodes, color in (
+                ('pins', frame.pinned & ~frame.grasped, _PIN_COLOR),
+                ('grasped', frame.grasped, _GRASP_COLOR)):
+            self._add_dots(f'/cloth/{name}', frame.positions[nodes].astype(np.float32), color)
 
     def _add_dots(
             self, name: str, points: np.ndarray,

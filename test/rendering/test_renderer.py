@@ -10,6 +10,7 @@ from cloth_sim_ros.analysis.recording import Recording
 from cloth_sim_ros.gl.program import RenderProgram
 from cloth_sim_ros.rendering import look
 from cloth_sim_ros.rendering.camera import Camera
+from cloth_sim_ros.rendering.look import GRASP_COLOR
 from cloth_sim_ros.rendering.look import LIMIT_COLOR
 from cloth_sim_ros.rendering.look import PIN_COLOR
 from cloth_sim_ros.rendering.look import PUSH_COLOR
@@ -24,6 +25,7 @@ from cloth_sim_ros.rendering.source import RecordingSource
 from cloth_sim_ros.rendering.source import StateSource
 from cloth_sim_ros.sim.push import Push
 from cloth_sim_ros.sim.snapshot import FLAG_AT_LIMIT
+from cloth_sim_ros.sim.snapshot import FLAG_GRASPED
 from cloth_sim_ros.sim.snapshot import FLAG_PINNED
 import numpy as np
 import pytest
@@ -161,16 +163,19 @@ def test_a_frame_after_a_larger_one_is_drawn_alike(flat, rendered):
     np.testing.assert_array_equal(renderer.draw(flat()), image)
 
 
-def test_pins_are_balls_at_their_nodes(flat, rendered):
-    """A reader would not see what holds the cloth, or see it elsewhere."""
+@pytest.mark.parametrize(('flags', 'color', 'other'), [
+    (FLAG_PINNED, PIN_COLOR, GRASP_COLOR), (FLAG_PINNED | FLAG_GRASPED, GRASP_COLOR, PIN_COLOR)])
+def test_pins_are_balls_at_their_nodes(flat, rendered, flags, color, other):
+    """A reader would not see what holds the cloth, or see it elsewhere, or take it for another."""
     frame = flat(strain=0.0)
-    frame.records['flags'][4, 6] = FLAG_PINNED
+    frame.records['flags'][4, 6] = flags
     image, renderer = rendered(frame, width=400, height=300)
-    reds = np.argwhere(is_like(image, PIN_COLOR))
+    balls = np.argwhere(is_like(image, color))
     across, down = renderer.view.project(frame.positions[4, 6])
-    np.testing.assert_allclose(reds.mean(axis=0) + 0.5, [down, across], atol=0.7)
+    np.testing.assert_allclose(balls.mean(axis=0) + 0.5, [down, across], atol=0.7)
     # It does not cover the cloth.
-    assert 20 < len(reds) < 80
+    assert 20 < len(balls) < 80
+    assert not np.any(is_like(image, other))
 
 
 def test_a_pin_behind_the_cloth_is_faint(flat, rendered):

@@ -12,6 +12,8 @@ from cloth_sim_ros.rendering.survey import Survey
 from cloth_sim_ros.sim.colliders import Collider
 from cloth_sim_ros.sim.push import Push
 from cloth_sim_ros.sim.snapshot import FLAG_AT_LIMIT
+from cloth_sim_ros.sim.snapshot import FLAG_GRASPED
+from cloth_sim_ros.sim.snapshot import FLAG_PINNED
 import numpy as np
 import pytest
 
@@ -84,6 +86,10 @@ def test_it_tells_what_has_to_be_explained(hanging):
     frame = hanging()
     survey = survey_of(frame)
     assert survey.shows_pins and not survey.shows_limits and not survey.shows_pushes
+    assert not survey.shows_grasps
+    frame.records['flags'] = FLAG_PINNED | FLAG_GRASPED
+    survey = survey_of(frame)
+    assert survey.shows_grasps and not survey.shows_pins
     frame.records['flags'] = FLAG_AT_LIMIT
     survey = survey_of(hanging(pushes=(push(0.0, 0.0, 1.0),)), frame)
     assert survey.shows_pins and survey.shows_limits and survey.shows_pushes

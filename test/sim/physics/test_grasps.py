@@ -7,6 +7,8 @@ import math
 
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.handling import InputListener
+from cloth_sim_ros.sim.snapshot import FLAG_GRASPED
+from cloth_sim_ros.sim.snapshot import FLAG_PINNED
 import numpy as np
 import pytest
 
@@ -50,6 +52,19 @@ def test_held_nodes_follow_the_frame(simulate, within, any_mode):
     within('off the frame at the end [m]', np.abs(
         simulation.positions()[rows, cols] - ((-0.1, 0.1, 0.1) + standing)).max(), 1e-6)
     np.testing.assert_allclose(simulation.grasps[0].pose.orientation, UPRIGHT)
+
+
+def test_held_nodes_say_that_they_are(simulate):
+    """Who watches could not tell a gripper from a peg, or would see one where none is any more."""
+    simulation = simulate({**CLOTH, 'pins': ['bottom_left']})
+    grasp = simulation.grasp('left', CORNER, radius=0.11)
+    held = np.zeros((9, 9), dtype=bool)
+    held[tuple(grasp.nodes.T)] = True
+    flags = simulation.snapshot().flags
+    np.testing.assert_array_equal(flags & FLAG_GRASPED != 0, held)
+    assert np.all(flags[held] & FLAG_PINNED) and np.sum(flags & FLAG_PINNED != 0) == 7
+    simulation.release_grasp('left')
+    assert not np.any(simulation.snapshot().flags & FLAG_GRASPED)
 
 
 def test_what_is_released_keeps_its_velocity(simulate, any_mode):
