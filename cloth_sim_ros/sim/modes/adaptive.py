@@ -52,6 +52,12 @@ def transition_of(scene: Scene) -> float:
     return _TRANSITION * strain_past_limit(scene)
 
 
+def onset_of(scene: Scene) -> float:
+    """Return the strain from which on the limit pulls."""
+    has_kink = scene['adaptive.scheme'] == 'paper'
+    return scene['adaptive.threshold'] - (0.0 if has_kink else transition_of(scene))
+
+
 class LimitedSprings(ImplicitStep):
     """
     Springs of ``families`` with the scene's ``adaptive.threshold``.
@@ -96,8 +102,7 @@ class LimitMarks:
     def __init__(self, scene: Scene, layout: Layout) -> None:
         """Allocate the marks; the pass is compiled when it is first needed."""
         self._layout = layout
-        self._onset = scene['adaptive.threshold'] - (
-            0.0 if scene['adaptive.scheme'] == 'paper' else transition_of(scene))
+        self._onset = onset_of(scene)
         self._program = SceneProgram('limit_mark.comp', scene, layout, {
             'LOCAL_X': _LOCAL[0], 'LOCAL_Y': _LOCAL[1]})
         self._groups = -(-layout.cols // _LOCAL[0]), -(-layout.rows // _LOCAL[1])
@@ -165,8 +170,9 @@ def _count_bits(values: np.ndarray) -> int:
 
 # Of dt: a rest that is no substep any more.
 _NOTHING = 1e-9
-# Of the limit: below it, edges that were held are left to their springs.
-_FAR = 0.8
+# Of the limit: an edge that is predicted to come so far, or to where the limit begins to pull, is
+# near it. Once the limit has held, edges are left to their springs below this share of that.
+_NEAR, _FAR = 0.9, 8.0 / 9.0
 
 
 class Adaptive:
@@ -190,7 +196,8 @@ class Adaptive:
         self._length = self._dt / self.substeps
         self._fewest_substeps = self.substeps
         self._springs = OnePass(scene, layout)
-        self._watch = StrainWatch(scene, layout)
+        self._near = min(_NEAR * scene['adaptive.threshold'], onset_of(scene))
+        self._watch = StrainWatch(scene, layout, self._near)
         self._limit: LimitedSprings | PaperLimit = (
             PaperLimit(scene, layout, self._length)
             if scene['adaptive.scheme'] == 'paper'
@@ -316,7 +323,7 @@ class Adaptive:
         """Return whether edges that were near their limit stay away from it for ``left`` [s]."""
         strains = self._watch.strains(state, loads.forcing(state, now, now + left), left)
         # Written so that what is no number is not far.
-        return max(strains) < _FAR * self._scene['adaptive.threshold']
+        return max(strains) < _FAR * self._near
 
     def _spring_substeps(
             self, state: State, now: float, length: float, count: int,

@@ -15,8 +15,6 @@ from cloth_sim_ros.sim.scene_program import Strips
 from cloth_sim_ros.sim.state import State
 import numpy as np
 
-# Of the limit: a predicted strain above this makes an edge near it.
-_NEAR = 0.9
 _FEWEST, _MOST = 4, 64
 
 
@@ -34,16 +32,18 @@ class StrainWatch:
     Says for how many substeps no edge will come near its limit.
 
     A look predicts every edge's length from velocities and applied accelerations. It holds for as
-    long as no edge passes 0.9 of the limit by that, also beyond the end of a step, while neither
-    the state is changed from outside nor a push acts. The next look is up to twice as far.
+    long as no edge comes near by that, also beyond the end of a step, while neither the state is
+    changed from outside nor a push acts. The next look is up to twice as far.
+
+    :param near: strain of an edge that is near its limit
     """
 
-    def __init__(self, scene: Scene, layout: Layout) -> None:
+    def __init__(self, scene: Scene, layout: Layout, near: float) -> None:
         """Compile the pass and allocate its result."""
         self._strips = Strips(layout, 2)
         self._program = SceneProgram('strain_watch.comp', scene, layout, Strips.defines())
         self._program.use()
-        self._near = _NEAR * scene['adaptive.threshold']
+        self._near = near
         self.forget()
 
     def forget(self) -> None:

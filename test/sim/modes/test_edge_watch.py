@@ -66,7 +66,7 @@ class _Parts:
         self.state = State(layout, positions, pinned)
         self.state.write(positions, velocities)
         self.loads = Loads(scene, layout, self.state)
-        self.watch = StrainWatch(scene, layout)
+        self.watch = StrainWatch(scene, layout, 0.9 * scene['adaptive.threshold'])
 
     def close(self):
         for part in (self.watch, self.loads, self.state):
