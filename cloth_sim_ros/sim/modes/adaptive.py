@@ -62,26 +62,38 @@ class LimitedSprings(ImplicitStep):
     """
     Springs of ``families`` with the scene's ``adaptive.threshold``.
 
-    A cloth that comes from beyond its limit is held to the strain it has, which closes in.
+    A cloth that comes with more strain than the limit leaves it under its weight is held to that,
+    which closes in. Nothing pulls at first, as its energy is that of springs.
     """
 
     def __init__(self, scene: Scene, layout: Layout, families: Collection[str]) -> None:
         """Compile the solver."""
         self._families = families
-        super().__init__(scene, layout, families)
+        super().__init__(
+            scene, layout, families,
+            notable=scene['adaptive.threshold'] + strain_past_limit(scene))
 
     @property
     def strain_bound(self) -> float:
         """Return the strain limit that holds now."""
-        return max(self.settling.limit, self._scene['adaptive.threshold'])
+        return self._limit(self.settling.limit)
 
     def law(self, length: float, settling: float) -> EdgeLaw:
         """Return the law of springs with their limit, or what is left of the strain they had."""
         return edge_law(
             self._scene, length, springs=self._families, limited=LIMITED,
-            limit=max(settling, self._scene['adaptive.threshold']),
+            limit=self._limit(settling),
             strain=strain_past_limit(self._scene), transition=transition_of(self._scene),
             geometric=BETA if self._solves > 1 else 0.0)
+
+    def pulls_in(self, state: State) -> bool:
+        """Return whether the limit pulls at some edge of a new ``state``."""
+        return self.largest_strain(state) > onset_of(self._scene)
+
+    def _limit(self, settling: float) -> float:
+        return max(
+            self._scene['adaptive.threshold'],
+            settling + transition_of(self._scene) if settling else 0.0)
 
 
 # Which edges are at their limit at the end of a step, and which were one step before.
@@ -219,8 +231,9 @@ class Adaptive:
         return scene.families
 
     def energy_law(self, state: State) -> EdgeLaw:
-        """Return that of the springs, and of their limit where it holds."""
-        if self._is_limited:
+        """Return that of the springs, and of their limit where it holds, or will at once."""
+        is_new = self._before == 0.0
+        if self._is_limited or (is_new and self._limit.pulls_in(state)):
             return self._limit.energy_law(state)
         return spring_law(self._scene, self._length)
 

@@ -29,7 +29,7 @@ import numpy as np
 # [s]: slowly beside the time in which a cloth of a metre falls.
 _TIME = 0.3
 # A smaller strain is held at once: what hard edges hold of it as energy is lost in a few steps.
-_NOTABLE = 0.01
+NOTABLE = 0.01
 
 
 class Settling:
@@ -40,12 +40,15 @@ class Settling:
 
     A cloth can come stretched from where nothing limited it. Its energy is that of springs: held
     at once, it would have that of hard edges from nothing, and be thrown together.
+
+    :param notable: strain up to which it is held at once
     """
 
     is_new: bool
 
-    def __init__(self) -> None:
+    def __init__(self, notable: float = NOTABLE) -> None:
         """Wait for a cloth."""
+        self._notable = notable
         self.forget()
 
     @property
@@ -57,8 +60,13 @@ class Settling:
     def begin(self, strain: float) -> None:
         """Take the largest ``strain`` of a cloth; only that of a new one counts."""
         if self.is_new:
-            self._first = first_limit(strain)
+            self._first = self.first(strain)
         self.is_new = False
+
+    def first(self, strain: float) -> float:
+        """Return the limit that a cloth of the largest ``strain`` begins with; 0 for none."""
+        # What is no number is held at once, and seen.
+        return strain if strain > self._notable else 0.0
 
     def spend(self, length: float) -> None:
         """Go on by ``length`` [s]."""
@@ -71,12 +79,6 @@ class Settling:
         """Wait for another cloth."""
         self._first = self._age = 0.0
         self.is_new = True
-
-
-def first_limit(strain: float) -> float:
-    """Return the limit that a cloth of the largest ``strain`` begins with; 0 for hard edges."""
-    # What is no number is held at once, and seen.
-    return strain if strain > _NOTABLE else 0.0
 
 
 _NO_FORCING = Forcing((0.0, 0.0, 0.0))
@@ -100,13 +102,16 @@ class ImplicitStep(ABC):
     none was, ``settling`` is the strain that a new cloth may have for a while.
 
     :param families: of edges that there are
+    :param notable: as of Settling
     """
 
     # An implicit step is stable whatever its length.
     stability_limit = math.inf
     last_length: float
 
-    def __init__(self, scene: Scene, layout: Layout, families: Collection[str]) -> None:
+    def __init__(
+            self, scene: Scene, layout: Layout, families: Collection[str],
+            notable: float = NOTABLE) -> None:
         """Compile the solver."""
         families = tuple(family for family in FAMILIES if family in families)
         self._scene = scene
@@ -118,7 +123,7 @@ class ImplicitStep(ABC):
             foresees_turn=self._solves > 1)
         self._watch = TurnWatch(scene, layout, families)
         self._free_motion = FreeMotion(scene, layout)
-        self.settling = Settling()
+        self.settling = Settling(notable)
         self.forget()
 
     @staticmethod
@@ -137,9 +142,13 @@ class ImplicitStep(ABC):
         """Return the law that holds now, or that the first step of a new ``state`` will have."""
         settling = self.settling.limit
         if self.settling.is_new:
-            settling = first_limit(self._watch.look(state, _NO_FORCING, self._dt)[1])
+            settling = self.settling.first(self.largest_strain(state))
         # The solver has no row for a pin: an edge between two of them is solved for by neither.
         return replace(self.law(self._dt, settling), acts_between_pins=False)
+
+    def largest_strain(self, state: State) -> float:
+        """Return the largest strain of structural and shear edges."""
+        return self._watch.look(state, _NO_FORCING, self._dt)[1]
 
     def step(self, state: State, begin: float, loads: Loads) -> Pieces:
         """Step ``state`` on by one dt."""

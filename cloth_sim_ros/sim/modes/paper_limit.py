@@ -132,6 +132,11 @@ class PaperLimit:
         """Return that of the springs: what holds an edge at its limit stores nothing."""
         return spring_law(self._scene, self._length)
 
+    @staticmethod
+    def pulls_in(state: State) -> bool:
+        """Return False: what holds an edge at its limit stores nothing."""
+        return False
+
     def advance(self, state: State, begin: float, seconds: float, loads: Loads) -> Pieces:
         """Step ``state`` on by ``seconds``."""
         self.substeps = math.ceil(seconds / self._length - _NOTHING)

@@ -10,6 +10,7 @@ from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.simulation import Simulation
 from cloth_sim_ros.sim.snapshot import FLAG_AT_LIMIT
+from cloth_sim_ros.study.energy_account import EnergyAccount
 from inactive_cost import inactive_costs
 from limits import limit_run
 from limits import spread
@@ -260,6 +261,24 @@ def test_a_run_with_switches_and_pushes_is_repeatable(context):
             hashes.append(simulation.snapshot().state_sha256)
             simulation.reset()
     assert hashes[0] == hashes[1]
+
+
+@pytest.mark.parametrize('dt', [1e-4, 0.01])
+@pytest.mark.parametrize('largest', [0.95, 1.05, 1.5, 5.0])
+def test_a_cloth_that_comes_strained_gains_nothing(context, largest, dt):
+    """The limit pulls at once at what has the energy of springs, and throws the cloth together."""
+    values = {
+        'mode': 'adaptive', 'rows': 8, 'cols': 8, 'pins': ['none'], 'gravity': [0.0, 0.0, 0.0],
+        'adaptive.threshold': 0.02, 'areal_density': 0.1, **LIMP, 'dt': dt}
+    with closing(Simulation(Scene(values), context=context)) as simulation:
+        rest = simulation.scene.rest_positions()
+        stretched = rest * (1.0 + 0.02 * largest * np.linspace(-1.0, 1.0, 8)[:, None])
+        simulation.set_state(stretched, np.zeros_like(rest))
+        account = EnergyAccount(simulation)
+        for _ in range(40):
+            account.step(1)
+        print(f'measured {account.gained:.2g} of 0.02 allowed: energy from nothing')
+        assert account.gained <= 0.02
 
 
 def test_fixed_substeps_above_the_limit_are_refused(context):
