@@ -90,12 +90,11 @@ class EnergyAccount:
     """
     Keeps the books of a run: its energy, and the work that loads, pins, grasps and colliders do.
 
-    Symplectic Euler has its velocities half a substep before its positions, so its energy swings
-    to and fro near the stability limit by as much as there is. What it keeps, exactly where forces
-    are linear, is H = E + h sum(m v . a) / 2: that is what is accounted for in the modes that step
-    so.
-
-    In an implicit mode it is the energy itself.
+    Every mode has its velocities half a substep before its positions, so the energy E swings to
+    and fro: near the stability limit of springs by as much as there is, in an implicit mode by
+    some percent at its longest substeps. What symplectic Euler keeps, exactly where forces are
+    linear, is H = E + h sum(m v . a) / 2. That is accounted for, with the tensions of the last
+    substep.
 
     The work of pins that move is that of the forces on them at the end of each step; that of a
     limit which closes in on a cloth that came stretched is found from the pulls at both ends of a
@@ -208,7 +207,7 @@ class EnergyAccount:
             applied.push.overlap(begin, end) > 0.0 for applied in self._run.pushes)
 
     def _look(self) -> Snapshot:
-        return self._run.snapshot(tension=self._is_symplectic, pin_forces=self._has_pin_moves)
+        return self._run.snapshot(tension=True, pin_forces=self._has_pin_moves)
 
     def _energy(self, seen: Snapshot) -> float:
         return self._moving(seen) + seen.gravitational_energy
@@ -217,7 +216,7 @@ class EnergyAccount:
         energy = seen.kinetic_energy + seen.elastic_energy
         if self._colliders:
             energy += compression_energy(self._run.scene, self._colliders, seen.positions)
-        return energy + self._half_a_step(seen) if self._is_symplectic else energy
+        return energy + self._half_a_step(seen)
 
     def _moving_edges(self) -> list[np.ndarray]:
         """Tell of each kind of edges which have an end that can move."""
@@ -227,8 +226,6 @@ class EnergyAccount:
 
     def _uncertain(self, seen: Snapshot) -> float:
         """Return the energy [J] that the state at the start may have besides what it tells."""
-        if not self._is_symplectic:
-            return 0.0
         # What is set as the velocity now is taken as that of half a substep ago.
         free, forces = self._forces(seen)
         kick = 0.5 * self._run.dt / self._run.substeps / self._run.scene.node_mass
