@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-"""A page shows the colliders where they are."""
+"""A page shows colliders, and nodes that grasps hold, where they are."""
 
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.view.drawing import COLOR
@@ -39,3 +39,17 @@ def test_the_page_shows_the_colliders_and_moves_them():
         np.testing.assert_allclose(
             page.nodes['/colliders/ball']['wxyz'],
             (np.cos(np.pi / 8), 0.0, 0.0, np.sin(np.pi / 8)), atol=1e-6)
+
+
+def test_the_page_tells_grasped_nodes_from_pins():
+    """Nobody could tell a gripper from a peg."""
+    scene = Scene({
+        'rows': 4, 'cols': 4, 'pins': ['top_left'], 'start.z': 3.0, 'grasps.start': [0.0],
+        'grasps.name': ['hand'], 'grasps.position': [0.5, 0.0, 3.0], 'grasps.count': [1]})
+    source = SceneSource(scene, 'small', frame_seconds=0.02, is_paused=True)
+    with served(source) as port, ViewPage(port) as page:
+        source.step(1)
+        page.wait_for(
+            lambda: '/cloth/grasped' in page.nodes and len(page.dots('/cloth/grasped')) == 1,
+            'a node that is held')
+        assert len(page.dots('/cloth/pins')) == 1
