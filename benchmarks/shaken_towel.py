@@ -10,10 +10,12 @@ to find which pull. The options change constants of the law, to see what decides
 For example:
   LP_NUM_THREADS=0 python benchmarks/shaken_towel.py
   LP_NUM_THREADS=0 python benchmarks/shaken_towel.py --transition 0
+  LP_NUM_THREADS=0 python benchmarks/shaken_towel.py --nodes 64 --density 0.2 --seconds 60
 """
 
 from argparse import ArgumentParser
 from dataclasses import dataclass
+import sys
 from time import process_time
 
 from cloth_sim_ros.sim.modes import adaptive
@@ -54,13 +56,20 @@ class Shaking:
     median: float
 
 
-def shake(seconds: float, **changes: object) -> Shaking:
-    """Shake the towel for ``seconds`` [s], with ``changes`` of its scene."""
+def shake(seconds: float, *, says_progress: bool = False, **changes: object) -> Shaking:
+    """
+    Shake the towel for ``seconds`` [s], with ``changes`` of its scene.
+
+    :param says_progress: print the largest strain of each second as soon as it is known
+    """
     simulation = Simulation(Scene({**TOWEL, **changes}))
     start = simulation.snapshot().positions.astype(float)
     pins = np.argwhere(simulation.pinned_nodes()).tolist()
     place, begin = np.zeros(3), 0.0
-    done = []
+    second = round(1.0 / simulation.dt)
+    substeps = solves = unreached = 0
+    iterations = 0.0
+    strains: list[float] = []
     for step in range(round(seconds / simulation.dt)):
         if step == _FIRST_STEPS:
             begin = process_time()
@@ -71,17 +80,22 @@ def shake(seconds: float, **changes: object) -> Shaking:
             simulation.move_pin(row, col, start[row, col] + goal, speed)
         place = goal
         simulation.step()
-        done.append(simulation.snapshot())
+        found = simulation.snapshot()
+        assert found.finite
+        substeps += found.substeps
+        solves += found.solves or 0
+        iterations += (found.solves or 0) * (found.mean_iterations or 0.0)
+        unreached += not found.solver_reached
+        strains.append(found.max_strain)
+        if says_progress and (step + 1) % second == 0:
+            print(f't = {found.time:.0f} s: largest strain {max(strains[-second:]):.2%}, '
+                  f'{process_time() - begin:.0f} s of a processor so far', file=sys.stderr)
     timed = process_time() - begin
-    substeps = sum(each.substeps for each in done)
-    solves = sum(each.solves or 0 for each in done)
-    iterations = sum((each.solves or 0) * (each.mean_iterations or 0.0) for each in done)
-    strains = [each.max_strain for each in done]
     dt = simulation.dt
     simulation.close()
     return Shaking(
-        timed / ((len(done) - _FIRST_STEPS) * dt), substeps / len(done), solves / substeps,
-        iterations / max(solves, 1), 1.0 - np.mean([bool(each.solver_reached) for each in done]),
+        timed / ((len(strains) - _FIRST_STEPS) * dt), substeps / len(strains), solves / substeps,
+        iterations / max(solves, 1), unreached / len(strains),
         max(strains), float(np.median(strains[len(strains) // 3:])))
 
 
@@ -91,6 +105,8 @@ def main() -> None:
     parser.add_argument('--mode', default='adaptive')
     parser.add_argument('--nodes', type=int, default=24, help='a side')
     parser.add_argument('--seconds', type=float, default=0.4)
+    parser.add_argument(
+        '--density', type=float, default=TOWEL['areal_density'], help='[kg/m2]')
     parser.add_argument('--tolerance', type=float, default=0.01)
     parser.add_argument(
         '--beyond', type=float, default=adaptive._SHARE,
@@ -101,8 +117,9 @@ def main() -> None:
     args = parser.parse_args()
     adaptive._SHARE = args.beyond
     adaptive._TRANSITION = args.transition
-    found = shake(args.seconds, mode=args.mode, rows=args.nodes, cols=args.nodes,
-                  **{'solver.tolerance': args.tolerance})
+    found = shake(
+        args.seconds, says_progress=True, mode=args.mode, rows=args.nodes, cols=args.nodes,
+        areal_density=args.density, **{'solver.tolerance': args.tolerance})
     print(f'{found.seconds:.1f} s of a processor a simulated second; {found.substeps:.1f} '
           f'substeps a dt, {found.solves:.1f} solves a substep, {found.iterations:.1f} iterations '
           f'a solve; limits not found in {found.unreached:.0%} of the steps; largest strain '
