@@ -9,6 +9,7 @@ import random
 from forked_verbs import ForkedVerbs
 from graph_fixtures import client  # noqa: F401
 from graph_fixtures import discovery  # noqa: F401
+from graph_fixtures import passing  # noqa: F401
 import pytest
 
 _USUAL = 20261122

@@ -16,6 +16,7 @@ from cloth_under_test import SCENE
 from graph_client import GraphClient
 from graph_fixtures import client  # noqa: F401
 from graph_fixtures import discovery  # noqa: F401
+from graph_fixtures import passing  # noqa: F401
 from node_process import NodeProcess
 import pytest
 

@@ -4,6 +4,8 @@
 """The test's own place in the ROS graph: calls a node and listens to it."""
 
 from collections.abc import Callable
+from collections.abc import Iterator
+from contextlib import contextmanager
 import time
 from typing import Any
 
@@ -13,6 +15,7 @@ from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy
 from rclpy.qos import QoSProfile
+from rclpy.subscription import Subscription
 
 # A machine that is busy besides compiles shaders for a minute.
 PATIENCE = 120.0
@@ -46,6 +49,7 @@ class GraphClient:
         self._executor = SingleThreadedExecutor(context=self._context)
         self._executor.add_node(self.node)
         self._clients: dict[str, Any] = {}
+        self._subscriptions: list[Subscription] = []
         self._received = 0
 
     def __enter__(self) -> 'GraphClient':
@@ -57,6 +61,24 @@ class GraphClient:
         self._executor.shutdown()
         self.node.destroy_node()
         rclpy.try_shutdown(context=self._context)
+
+    @contextmanager
+    def passing(self) -> Iterator[None]:
+        """
+        Give up at the end of the block what it has asked for, services and topics.
+
+        Each turn asks all that there are, so that what is left of the tests before would make it
+        ever slower.
+        """
+        clients, subscriptions = set(self._clients), len(self._subscriptions)
+        try:
+            yield
+        finally:
+            for name in self._clients.keys() - clients:
+                self.node.destroy_client(self._clients.pop(name))
+            for subscription in self._subscriptions[subscriptions:]:
+                self.node.destroy_subscription(subscription)
+            del self._subscriptions[subscriptions:]
 
     def spin_until(self, condition: Callable[[], Any], what: str) -> Any:
         """Return what ``condition`` returns as soon as that is true; fail after a long while."""
@@ -103,6 +125,7 @@ class GraphClient:
 
         subscription = self.node.create_subscription(
             kind, topic, keep, QoSProfile(depth=depth, durability=durability))
+        self._subscriptions.append(subscription)
         self.spin_until(
             lambda: self.node.count_publishers(subscription.topic_name), f'{topic} is published')
         return watch
