@@ -130,23 +130,34 @@ class Scalars(NamedTuple):
 _SCALARS = len(Scalars._fields)
 
 
+class _Large(NamedTuple):
+    vectors: Buffer
+    system: Buffer
+    sums: Buffer
+
+
 class SolverBuffers:
-    """Vectors and system of all levels, partial sums, scalars and workgroup counts."""
+    """
+    Vectors and system of all levels, partial sums, scalars and workgroup counts.
+
+    What grows with the cloth is allocated when it is first bound, as zero; ghosts stay so. A cloth
+    in mode adaptive that never comes to its limit does without.
+    """
 
     def __init__(self, levels: Levels, dispatch_count: int) -> None:
         """
-        Allocate everything; ghosts are zero and stay so.
+        Allocate what is small.
 
-        :raises DeviceError: when the device has no buffers that large
+        :raises DeviceError: when the device has no buffers as large as will be needed
         """
         refuse_too_large(levels, most_bytes())
         self._cloth = levels.cloth
         self.sum_count = math.prod(self._cloth.groups)
         if self._cloth.texture_loads:
             self.sum_count *= math.prod(self._cloth.local)
-        self._vectors = _zeros(levels.vector_bytes)
-        self._system = _zeros(levels.system_bytes)
-        self._sums = _zeros(self.sum_count * _ENTRY_BYTES)
+        self._sizes = (
+            levels.vector_bytes, levels.system_bytes, self.sum_count * _ENTRY_BYTES)
+        self._large: _Large | None = None
         self._scalars = Buffer(np.zeros(_SCALARS, dtype=np.float32))
         self._dispatches = Buffer(np.zeros((dispatch_count, 3), dtype=np.uint32))
         # Workgroups of the first dispatch, along x.
@@ -154,21 +165,23 @@ class SolverBuffers:
 
     def bind(self) -> None:
         """Let the passes of the solver reach everything."""
-        self._vectors.bind_storage(bindings.SOLVER_VECTORS)
-        self._system.bind_storage(bindings.SOLVER_SYSTEM)
-        self._sums.bind_storage(bindings.SOLVER_SUMS)
+        large = self._allocated()
+        large.vectors.bind_storage(bindings.SOLVER_VECTORS)
+        large.system.bind_storage(bindings.SOLVER_SYSTEM)
+        large.sums.bind_storage(bindings.SOLVER_SUMS)
         self._scalars.bind_storage(bindings.SOLVER_SCALARS)
         self._dispatches.bind_storage(bindings.SOLVER_DISPATCHES)
         self._dispatches.bind_dispatches()
         if self._cloth.texture_loads:
-            self._vectors.bind_texture(bindings.SOLVER_VECTORS)
-            self._system.bind_texture(bindings.SOLVER_SYSTEM)
-            self._sums.bind_texture(bindings.SOLVER_SUMS)
+            large.vectors.bind_texture(bindings.SOLVER_VECTORS)
+            large.system.bind_texture(bindings.SOLVER_SYSTEM)
+            large.sums.bind_texture(bindings.SOLVER_SUMS)
 
     def clear(self) -> None:
         """Make all zero, as at the start: what is no number would stay where it is multiplied."""
-        for buffer in (self._vectors, self._system, self._sums, self._scalars, self._dispatches):
-            buffer.write(np.zeros(buffer.bytes // 4, dtype=np.uint32))
+        self._release()
+        for buffer in (self._scalars, self._dispatches):
+            buffer.clear()
 
     def clear_scalars(self, *, keep_scale: bool) -> None:
         """Forget the last solve, but for its scale if that is to be kept."""
@@ -183,7 +196,7 @@ class SolverBuffers:
     def sums(self) -> tuple[float, float, float]:
         """Return what a pass has stored by partial_sums.glsl, added up."""
         values = np.empty((self.sum_count, 4), dtype=np.float32)
-        self._sums.read_into(values)
+        self._allocated().sums.read_into(values)
         first, second, third, _ = values.sum(axis=0, dtype=np.float64)
         return float(first), float(second), float(third)
 
@@ -203,7 +216,7 @@ class SolverBuffers:
     def read(self, field: int) -> np.ndarray:
         """Return a vector of the cloth, (rows, cols, 3)."""
         values = np.empty((self._cloth.stored, 4), dtype=np.float32)
-        self._vectors.read_into(values, field * values.nbytes)
+        self._allocated().vectors.read_into(values, field * values.nbytes)
         lattice = values.reshape(-1, self._cloth.pitch, 4)
         return lattice[HALO:HALO + self._cloth.rows, HALO:HALO + self._cloth.cols, :3]
 
@@ -211,19 +224,31 @@ class SolverBuffers:
         """Replace a vector of the cloth by (rows, cols, 3) ``values``."""
         padded = np.pad(np.asarray(values, dtype=np.float32), ((0, 0), (0, 0), (0, 1)))
         stored = self._cloth.store(padded)
-        self._vectors.write(stored, field * stored.nbytes)
+        self._allocated().vectors.write(stored, field * stored.nbytes)
 
     def read_system(self, field: int) -> np.ndarray:
         """Return a field of the system of the cloth, (rows, cols, 4)."""
         values = np.empty((self._cloth.stored, 4), dtype=np.float32)
-        self._system.read_into(values, field * values.nbytes)
+        self._allocated().system.read_into(values, field * values.nbytes)
         return self._cloth.load(values)
 
     def delete(self) -> None:
         """Give everything back."""
-        for buffer in (
-                self._vectors, self._system, self._sums, self._scalars, self._dispatches):
+        self._release()
+        for buffer in (self._scalars, self._dispatches):
             buffer.delete()
+
+    def _allocated(self) -> _Large:
+        if self._large is None:
+            self._large = _Large(*(Buffer(size) for size in self._sizes))
+            for buffer in self._large:
+                buffer.clear()
+        return self._large
+
+    def _release(self) -> None:
+        for buffer in self._large or ():
+            buffer.delete()
+        self._large = None
 
 
 def refuse_too_large(levels: Levels, limit: int) -> None:
@@ -236,7 +261,3 @@ def refuse_too_large(levels: Levels, limit: int) -> None:
             f'the implicit solver needs a buffer of {needed} bytes for rows {cloth.rows} x cols '
             f'{cloth.cols}, this device allows {limit}: use up to about {side} x {side}, or '
             'mode mass_spring')
-
-
-def _zeros(size: int) -> Buffer:
-    return Buffer(np.zeros(size // 4, dtype=np.float32))

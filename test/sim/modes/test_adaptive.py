@@ -5,6 +5,7 @@
 
 from contextlib import closing
 
+from cloth_sim_ros.gl.inventory import take_inventory
 from cloth_sim_ros.sim.edge_kinds import EDGE_KINDS
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.scene import Scene
@@ -285,3 +286,24 @@ def test_fixed_substeps_above_the_limit_are_refused(context):
     """A run would blow up without a word."""
     with pytest.raises(ClothSimError, match='in mode adaptive'):
         Simulation(Scene(paper_scene(5.0, 0.05, auto_substeps=False)), context=context)
+
+
+def test_a_calm_cloth_has_no_solver_in_memory(context):
+    """A cloth that never comes to its limit would pay for the solver of one that does."""
+    values = {**LIMP, 'rows': 24, 'cols': 24, 'areal_density': 0.2, 'adaptive.threshold': 0.3}
+    taken = {}
+    for mode in ('mass_spring', 'adaptive'):
+        with take_inventory() as inventory, \
+                closing(Simulation(
+                    Scene({**values, 'mode': mode}), context=context)) as simulation:
+            simulation.step(3)
+            taken[mode] = inventory.buffer_bytes
+            if mode == 'adaptive':
+                simulation.push((0.0, 0.0, 20.0), duration=1.0)
+                simulation.step(40)
+                assert simulation.snapshot().solves, 'it comes to its limit'
+                assert inventory.buffer_bytes > 2 * taken[mode]
+                simulation.reset()
+                simulation.step(3)
+                assert inventory.buffer_bytes < 2 * taken[mode]
+    assert taken['adaptive'] < 1.2 * taken['mass_spring']
