@@ -290,6 +290,8 @@ class Scene:
 
     def _nodes_at_points(self) -> list[tuple[int, int]]:
         flat = self['pin_points.positions']
+        if not flat:
+            return []  # a cloth of millions of nodes is not laid out for nothing
         if len(flat) % 3:
             raise ClothSimError(
                 f'pin_points.positions needs 3 numbers per point, got {len(flat)} in all: give '
