@@ -37,7 +37,7 @@ def test_what_is_asked_within_steps_is_made_again_to_the_bit(
     with NodeProcess(tmp_path, values, '-r', f'__ns:=/slow_{mode}'):
         cloth = ClothUnderTest(client, values, f'/slow_{mode}/cloth_sim')
         cloth.wait_for('stats', lambda stats: stats.steps >= 3)
-        for number in range(4):
+        for number in range(2):
             push = cloth.call(
                 ApplyPush, 'apply_push', force=Vector3(y=0.2, z=0.1), duration=0.05,
                 region='sphere', center=Point(z=0.9), radius=0.6)

@@ -40,7 +40,6 @@ def recorded(tune, tmp_path):
     with Director(tmp_path, VALUES) as director:
         assert director.simulation.layout.choice == FIRST
         director.step(5)
-        director.set_mode('adaptive')
         director.step(5)
     tune(SECOND)
     return director.path
