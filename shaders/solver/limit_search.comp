@@ -33,6 +33,20 @@ uniform int start_field;  // where the solve began, of which
 uniform float guess;      // this share
 uniform float share;      // of the way to its solution
 
+// A loop for each direction: both in one take llvmpipe seconds to compile.
+#define ADD_BENT(DROW, DCOL) \
+    FOR_BLOCK { \
+        vec3 bent = BENT(way, node, row, col, DROW, DCOL); \
+        sums.x += bending_weight[DROW] * dot(bent, bent); \
+    }
+#define ADD_BENT_SPEED(DROW, DCOL) \
+    FOR_BLOCK { \
+        float speed = bent_speed( \
+            load_system(cloth_entry(BENT_LINES + DROW, tile_index(first, row, col))), \
+            way[row - DROW][col - DCOL], way[row][col], way[row + DROW][col + DCOL]); \
+        sums.x += speed * speed; \
+    }
+
 vec3 velocity[TILE][TILE];
 vec3 start[TILE][TILE];
 vec3 way[TILE][TILE];
@@ -80,24 +94,15 @@ void main() {
         FOR_CLOTH_EDGES(look)
         FOR_BLOCK {
             sums.x += dot(way[row][col], way[row][col]);
+        }
 #if HAS_RIGIDITY
-            vec3 along_row = BENT(way, node, row, col, 0, 1);
-            vec3 along_column = BENT(way, node, row, col, 1, 0);
-            sums.x += bending_weight[0] * dot(along_row, along_row)
-                + bending_weight[1] * dot(along_column, along_column);
+        ADD_BENT(0, 1)
+        ADD_BENT(1, 0)
 #endif
 #if HAS_BENDING_DAMPING
-            int index = tile_index(first, row, col);
-            vec2 speeds = vec2(
-                bent_speed(
-                    load_system(cloth_entry(BENT_LINES, index)),
-                    way[row][col - 1], way[row][col], way[row][col + 1]),
-                bent_speed(
-                    load_system(cloth_entry(BENT_LINES + 1, index)),
-                    way[row - 1][col], way[row][col], way[row + 1][col]));
-            sums.x += dot(speeds, speeds);
+        ADD_BENT_SPEED(0, 1)
+        ADD_BENT_SPEED(1, 0)
 #endif
-        }
     }
     store_sums(sums);
 }

@@ -36,7 +36,8 @@ class Memory:
 
     def __init__(self, passes):
         """Find the nodes of cloth and next level among what is stored."""
-        self._buffers = passes.buffers._vectors, passes.buffers._system
+        large = passes.buffers._allocated()
+        self._buffers = large.vectors, large.system
         self._state = passes.state
         self._layouts = passes.levels.layouts[:2]
 
