@@ -86,7 +86,7 @@ class Engine:
         state = State(layout, scene.start_positions(), scene.pinned_nodes())
         loads = Loads(scene, layout, state)
         try:
-            still = Forcing(scene['gravity'])
+            still = loads.still
             self.observer.measure(state, still, None)
             yield
             self.observer.record(state, still, None)

@@ -57,6 +57,8 @@ class Forcing:
         there; None where there are none
     :param parts: what it is made of, equal where nothing else acts
     :param reads_texture: whether shaders read ``regions`` as they read the state, by textures
+    :param stand_in: a buffer of the same size, bound where there are no ``regions`` and textures
+        would be read: llvmpipe compiles a shader anew when a texture comes that was not there
     :param touch: the colliders in the step; None where there are none
     """
 
@@ -65,6 +67,7 @@ class Forcing:
     regions: Buffer | None = None
     parts: tuple[object, ...] = ()
     reads_texture: bool = False
+    stand_in: Buffer | None = None
     touch: 'Touch | None' = None
 
     @property
@@ -78,12 +81,13 @@ class Forcing:
         program.set_int('has_region_pushes', int(self.has_regions))
 
     def bind(self) -> None:
-        """Bind the regions for the next dispatch, if there are any."""
-        if self.regions is not None:
+        """Bind the regions for the next dispatch, or what stands in for them, if anything."""
+        buffer = self.stand_in if self.regions is None else self.regions
+        if buffer is not None:
             if self.reads_texture:
-                self.regions.bind_texture(bindings.REGION_PUSHES)
+                buffer.bind_texture(bindings.REGION_PUSHES)
             else:
-                self.regions.bind_storage(bindings.REGION_PUSHES)
+                buffer.bind_storage(bindings.REGION_PUSHES)
 
 
 def touch_of(forcing: Forcing) -> Touch:

@@ -36,7 +36,7 @@ class Loads:
         """Begin with gravity and air alone."""
         self._make_pushes = partial(
             PushField, layout, scene.node_mass, scene['gravity'], state.read_positions,
-            state.pinned)
+            state.pinned, state.buffer)
         self._node_mass = scene.node_mass
         self._state = state
         self.pushes = self._make_pushes()

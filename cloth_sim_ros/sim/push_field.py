@@ -65,11 +65,13 @@ class PushField:
     :param gravity: acceleration on every node [m/s2]
     :param read_positions: returns the present positions [m], (rows, cols, 3)
     :param pinned: the nodes that don't move now, (rows, cols) bool, kept up to date by its owner
+    :param stand_in: as of Forcing
     """
 
     def __init__(
             self, layout: Layout, node_mass: float, gravity: tuple[float, float, float],
-            read_positions: Callable[[], np.ndarray], pinned: np.ndarray) -> None:
+            read_positions: Callable[[], np.ndarray], pinned: np.ndarray,
+            stand_in: Buffer | None = None) -> None:
         """Start without a push."""
         self._layout = layout
         self._node_mass = node_mass
@@ -78,7 +80,9 @@ class PushField:
         self._entries: list[_Entry] = []
         self._buffer: Buffer | None = None
         self._in_buffer: tuple[tuple[_Entry, float], ...] = ()
-        self.still = Forcing(gravity)
+        self.still = Forcing(
+            gravity, reads_texture=layout.texture_loads,
+            stand_in=stand_in if layout.texture_loads else None)
         self._latest: tuple[object, Forcing] = ((), self.still)
 
     @property
@@ -223,8 +227,8 @@ class PushField:
             self._upload(in_regions)
         forcing = Forcing(
             tuple(everywhere), len(in_regions) < len(active),
-            self._buffer if in_regions else None, active,
-            self._layout.texture_loads) if active else self.still
+            self._buffer if in_regions else None, active, self._layout.texture_loads,
+            self.still.stand_in) if active else self.still
         self._latest = (active, forcing)
         return forcing
 

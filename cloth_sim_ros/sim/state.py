@@ -67,6 +67,11 @@ class State:
         """Nodes that are not pinned."""
         return int(self.pinned.size - np.count_nonzero(self.pinned))
 
+    @property
+    def buffer(self) -> Buffer:
+        """Return a buffer of as many bytes as any that has four floats for each node."""
+        return self._positions[0]
+
     def check(self, positions: np.ndarray, velocities: np.ndarray) -> None:
         """Raise ClothSimError unless both are (rows, cols, 3) numbers that can be stepped."""
         shape = (*self.pinned.shape, 3)

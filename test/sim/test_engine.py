@@ -4,6 +4,10 @@
 """What advances and observes a state by one mode, and the engines of a cloth."""
 
 from collections.abc import Iterator
+import os
+from pathlib import Path
+import subprocess
+import sys
 import threading
 
 from cloth_sim_ros.gl.context import Context
@@ -172,3 +176,44 @@ def test_a_simulation_leaves_its_programs_to_the_next_and_no_buffers(scheme):
 def _programs() -> int:
     """Return how many programs the device has."""
     return sum(bool(GL.glIsProgram(name)) for name in _NAMES)
+
+
+_IN_A_PROCESS = """
+import sys
+from cloth_sim_ros.sim.scene import Scene
+from cloth_sim_ros.sim.simulation import Simulation
+
+with Simulation(Scene({'rows': 12, 'cols': 12, 'mode': sys.argv[1], **eval(sys.argv[2])})) as run:
+    run.warm_up()
+    if sys.argv[3] == 'runs':
+        for push in ('none', 'all', 'sphere'):
+            if push != 'none':
+                run.push((0.0, 0.0, 0.1), duration=0.02, region=push, radius=5.0)
+            run.step(3)
+            run.snapshot(tension=True, pin_forces=True)
+"""
+
+
+@pytest.mark.parametrize(('mode', 'values'), [
+    ('mass_spring', {}), ('mass_spring', {'material.preset': 'none'}), ('constraint', {})])
+def test_the_driver_has_nothing_left_to_compile(context, tmp_path, mode, values):
+    """The first step, or the first push on a region, would stand still for seconds."""
+    if not context.is_software or 'Mesa' not in context.version:
+        pytest.skip('Mesa alone shows what it compiles, by what its cache gets')
+    kept = []
+    for part in ('is prepared', 'runs'):
+        environment = {
+            **os.environ, 'MESA_SHADER_CACHE_DIR': str(tmp_path), 'LP_NUM_THREADS': '0',
+            # What is run for a moment need not be optimised.
+            'GALLIVM_PERF': 'nopt'}
+        environment.pop('MESA_SHADER_CACHE_DISABLE', None)
+        subprocess.run(
+            [sys.executable, '-c', _IN_A_PROCESS, mode, repr(values), part], check=True,
+            env=environment)
+        kept.append({file: file.stat().st_size for file in _files(tmp_path)})
+    assert kept[0], 'the driver keeps what it has compiled'
+    assert kept[1] == kept[0]
+
+
+def _files(folder: Path) -> list[Path]:
+    return [path for path in folder.rglob('*') if path.is_file()]
