@@ -36,8 +36,10 @@ layout(local_size_x = LOCAL_X, local_size_y = LOCAL_Y) in;
 uniform float kick;          // [s] that what is applied acts for
 uniform int start_field;     // a change of velocity, of which
 uniform float guess;         // this share is expected now
-uniform bool knows_tension;  // false where no step before this one has found any
 uniform float geometric;     // beta of the geometric mass term
+#if !IS_FURTHER
+uniform bool knows_tension;  // false where no step before this one has found any
+#endif
 
 vec3 velocity[TILE][TILE];
 vec3 expected[TILE][TILE];   // change of velocity
@@ -100,13 +102,14 @@ void add_edge(int row, int col, int drow, int dcol, int edge, int family, int re
         ahead + substep * dot(n, expected[row][col] - expected[row + drow][col + dcol]);
     Pull pull = pull_at(ahead, judged, dot(n, u), family, rest);
     float tension_here = moves * pull.tension;
-    float found = knows_tension
-        ? found_tension(row, col, edge) : pull_at(l, l, 0.0, family, rest).tension;
 #if IS_FURTHER
+    float found = found_tension(row, col, edge);
     float missing = tension_here - found;
     is_off_here = is_off_here || is_in_block(row, col)
         && abs(missing) > moves * pull.slope * rounding_of_length(from.xyz, to.xyz);
 #else
+    float found = knows_tension
+        ? found_tension(row, col, edge) : pull_at(l, l, 0.0, family, rest).tension;
     float missing = tension_here;
 #endif
     float sideways =
