@@ -191,26 +191,37 @@ with Simulation(Scene({'rows': 12, 'cols': 12, 'mode': sys.argv[1], **eval(sys.a
                 run.push((0.0, 0.0, 0.1), duration=0.02, region=push, radius=5.0)
             run.step(3)
             run.snapshot(tension=True, pin_forces=True)
+        # Beyond what a limit allows, and hard edges.
+        run.set_state(1.2 * run.positions(), 0.0 * run.velocities())
+        run.step(3)
+        run.snapshot(tension=True, pin_forces=True)
 """
 
 
+@pytest.fixture(scope='module')
+def shader_cache(tmp_path_factory) -> Path:
+    """Return a folder for what a driver has compiled."""
+    return tmp_path_factory.mktemp('shader_cache')
+
+
 @pytest.mark.parametrize(('mode', 'values'), [
-    ('mass_spring', {}), ('mass_spring', {'material.preset': 'none'}), ('constraint', {})])
-def test_the_driver_has_nothing_left_to_compile(context, tmp_path, mode, values):
-    """The first step, or the first push on a region, would stand still for seconds."""
+    ('mass_spring', {}), ('mass_spring', {'material.preset': 'none'}), ('constraint', {}),
+    ('adaptive', {})])
+def test_the_driver_has_nothing_left_to_compile(context, shader_cache, mode, values):
+    """A first step, push on a region or limit in force would keep a node busy for seconds."""
     if not context.is_software or 'Mesa' not in context.version:
         pytest.skip('Mesa alone shows what it compiles, by what its cache gets')
     kept = []
     for part in ('is prepared', 'runs'):
         environment = {
-            **os.environ, 'MESA_SHADER_CACHE_DIR': str(tmp_path), 'LP_NUM_THREADS': '0',
+            **os.environ, 'MESA_SHADER_CACHE_DIR': str(shader_cache), 'LP_NUM_THREADS': '0',
             # What is run for a moment need not be optimised.
             'GALLIVM_PERF': 'nopt'}
         environment.pop('MESA_SHADER_CACHE_DISABLE', None)
         subprocess.run(
             [sys.executable, '-c', _IN_A_PROCESS, mode, repr(values), part], check=True,
             env=environment)
-        kept.append({file: file.stat().st_size for file in _files(tmp_path)})
+        kept.append({file: file.stat().st_size for file in _files(shader_cache)})
     assert kept[0], 'the driver keeps what it has compiled'
     assert kept[1] == kept[0]
 

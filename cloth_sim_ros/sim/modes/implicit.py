@@ -199,14 +199,15 @@ class ImplicitStep(ABC):
         self._watch.look(state, still, self._dt)
         yield
         self._solver.set_law(self.law(self._dt, self.settling.limit))
-        self._solver.compile_searches()
-        yield
         if still.touch is not None:
             self._solver.meet_colliders(state, still, self._dt)
             yield
         self._free_motion.aim_at(state, still, still, self._dt)
         yield
         yield from self._substep(state, lambda: still, self._dt)
+        # Hard edges of a cloth that comes stretched have limits for a while, too.
+        self._solver.run_searches(state)
+        yield
         self._free_motion.restore(state, still, self._dt)
         self.forget()
 

@@ -141,10 +141,12 @@ class LimitSearch:
         self._law_in: EdgeLaw | None = None
         self.last_share = 1.0
 
-    def prepare(self) -> None:
-        """Compile both passes."""
-        self._look_at.use()
-        self._move.use()
+    def run_all_passes(
+            self, law: EdgeLaw, start: Start, buffers: SolverBuffers, into: int) -> None:
+        """Run both passes once, so that the driver compiles them; as ``move_start``."""
+        self._set(law, start)
+        self._look(1.0, buffers)
+        self._start_between(1.0, start, into)
 
     def delete(self) -> None:
         """Give both programs back."""

@@ -313,10 +313,12 @@ class Solver:
             found[..., 4:] = self._buffers.read_system(BEND_TENSION)[..., :2]
         return np.float32(self._node_mass) * found
 
-    def compile_searches(self) -> None:
-        """Compile what ``move_start`` needs."""
+    def run_searches(self, state: State) -> None:
+        """Run what ``move_start`` may need, after a solve, so that the driver compiles it."""
+        self._buffers.bind()
+        state.bind_in()
         for search in self._searches.values():
-            search.prepare()
+            search.run_all_passes(self._law, self._start, self._buffers, START)
 
     def expect_nothing(self) -> None:
         """Take no tension and no change of velocity over from earlier steps."""
