@@ -13,6 +13,7 @@ import subprocess
 from matplotlib.image import imread
 import pytest
 from rosbags.highlevel import AnyReader
+from session_processes import kill_all_of
 from session_processes import processes_of
 
 DEMO = Path(__file__).resolve().parents[1] / 'scripts' / 'demo.sh'
@@ -37,8 +38,7 @@ def demo(folder, *arguments, **environment):
     try:
         yield process
     finally:
-        for pid in processes_of(process.pid):
-            os.kill(pid, signal.SIGKILL)
+        kill_all_of(process.pid)
         process.wait()
         process.stdout.close()
 

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
-# Say what is being done, show how far a long step is, and end it with the set-up.
+
 # Two set-ups of one checkout at a time would mix their files: the second one waits. The lock is on
 # the folder, open as file 9, and belongs to the set-up and to all that it has started. The set-up
 # alone is a bash that has the folder open as file 8, too.

@@ -1,10 +1,12 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
-# Say what is being done, show how far a long step is, and end it with the set-up.
 
 """The processes of a session, which tell whether anything was left behind."""
 
+from contextlib import suppress
+import os
 from pathlib import Path
+import signal
 
 
 def processes_of(session: int) -> list[int]:
@@ -18,3 +20,10 @@ def processes_of(session: int) -> list[int]:
         if int(its_session) == session and state != 'Z':
             found.append(int(stat.parent.name))
     return found
+
+
+def kill_all_of(session: int) -> None:
+    """Kill the processes of a session; one that ends by the end of another is no matter."""
+    for pid in processes_of(session):
+        with suppress(ProcessLookupError):
+            os.kill(pid, signal.SIGKILL)

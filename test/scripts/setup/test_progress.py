@@ -1,6 +1,5 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
-# Say what is being done, show how far a long step is, and end it with the set-up.
 
 """A long step shows that it is alive, fails with what it printed, and ends with the set-up."""
 

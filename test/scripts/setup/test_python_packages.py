@@ -1,21 +1,18 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
-# Say what is being done, show how far a long step is, and end it with the set-up.
 
 """What pip installs is what the lock files hold, down to the bytes."""
 
 import ast
 import hashlib
 from importlib.metadata import packages_distributions
-import os
 from pathlib import Path
 import re
-import signal
 import sys
 import zipfile
 
 import pytest
-from session_processes import processes_of
+from session_processes import kill_all_of
 from setup_parts import run_bash
 from setup_parts import start_bash
 
@@ -141,8 +138,7 @@ def test_a_set_up_that_is_killed_while_it_starts_anew_can_be_run_again(tmp_path)
     process = start_bash(*make, **places)
     while (venv / 'a' / '0').exists():
         assert process.poll() is None
-    for pid in processes_of(process.pid):
-        os.kill(pid, signal.SIGKILL)
+    kill_all_of(process.pid)
     process.communicate(timeout=60.0)
     code, output = run_bash(*make, **places)
     assert code == 0, output
