@@ -3,6 +3,7 @@
 
 """A scene is what its parameters say, or is refused whole."""
 
+from cloth_sim_ros.sim import grid
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.scene import Scene
 import numpy as np
@@ -193,3 +194,15 @@ def test_timed_moves_are_read_one_by_one():
         (0, 6), (4.0, 5.0, 6.0), 0.25, 0.5)
     fast = Scene({**scene.values, 'pin_moves.speed': [1.0, 2.0]})
     assert [move.speed for move in fast.timed_pin_moves()] == [1.0, 2.0]
+
+
+def test_a_large_scene_is_read_without_laying_it_out(monkeypatch):
+    """A refusal of too many nodes would take seconds, and gigabytes."""
+    def refuse(*_: object) -> None:
+        raise AssertionError('nodes are laid out')
+
+    monkeypatch.setattr(grid, 'rest_positions', refuse)
+    scene = Scene({'rows': 8192, 'cols': 8192})
+    assert scene.pinned_nodes().sum() > 0
+    with pytest.raises(AssertionError, match='laid out'):
+        Scene({'rows': 8, 'cols': 8, 'pin_points.positions': [0.0, 0.0, 1.0]}).pinned_nodes()

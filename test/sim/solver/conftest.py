@@ -79,7 +79,10 @@ class SolverCase:
         self.layout = choose_layout(self.scene, context)
         self.state = State(self.layout, self.positions, self.scene.pinned_nodes())
         self.state.write(self.positions, self.velocities)
-        self.forcing = Forcing(GRAVITY)
+        # As in a run: else shaders are compiled once more.
+        textures = self.layout.texture_loads
+        self.forcing = Forcing(
+            GRAVITY, reads_texture=textures, stand_in=self.state.buffer if textures else None)
         self._kick = kick
         self._foresees_turn = foresees_turn
         self.solver = Solver(
