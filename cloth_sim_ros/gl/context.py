@@ -6,9 +6,12 @@
 from collections.abc import Callable
 from collections.abc import Iterator
 from contextlib import contextmanager
+from ctypes import c_void_p
+from ctypes import cast
 from functools import cache
 import os
 
+from cloth_sim_ros.gl import quick_calls
 from cloth_sim_ros.gl.device import DeviceReport
 from cloth_sim_ros.gl.device import extensions_of_current_context
 from cloth_sim_ros.gl.device import headless_displays
@@ -115,6 +118,7 @@ class Context:
             if self._context is None:
                 raise DeviceError(f'{beside.device} has no second GL context: set the mode before '
                                   'the run begins')
+        self._addresses = (_address(self._display), 0, 0, _address(self._context))
         self.make_current()
         _tell_extensions()
         self.device = GL.glGetString(GL.GL_RENDERER).decode()
@@ -128,8 +132,7 @@ class Context:
         """Direct the GL calls of this thread to this context; DeviceError once it is closed."""
         if self._context is None:
             raise DeviceError('the GL context is closed: create a new Simulation')
-        if not EGL.eglMakeCurrent(
-                self._display, EGL.EGL_NO_SURFACE, EGL.EGL_NO_SURFACE, self._context):
+        if not quick_calls.make_current(*self._addresses):
             raise DeviceError('the GL context cannot be used on this thread: use it on the thread '
                               'that created it')
         set_current_pool(self._programs)
@@ -154,6 +157,10 @@ class Context:
             EGL.eglDestroyContext(self._display, self._context)
             self._context = None
             set_current_pool(None)
+
+
+def _address(pointer: EGL.EGLDisplay | EGL.EGLContext) -> int:
+    return cast(pointer, c_void_p).value or 0
 
 
 def _best_context() -> tuple[EGL.EGLDisplay, EGL.EGLContext, tuple[int, ...]]:

@@ -20,6 +20,8 @@ import numpy as np
 # Mesa: "0:12(3): error", NVIDIA: "0(12) : error", others: "ERROR: 0:12:".
 _LINE = re.compile(r'\b0[:(](\d+)[):(]')
 
+_INT_VECTORS = {2: quick_calls.set_uniform_ivec2s, 4: quick_calls.set_uniform_ivec4s}
+
 
 class LinkedProgram:
     """
@@ -75,7 +77,7 @@ class LinkedProgram:
         """Set the first floats of an array uniform of the program in use."""
         flat = np.ascontiguousarray(values, dtype=np.float32)
         if self._is_news(name, flat):
-            GL.glUniform1fv(self._location(name), len(flat), flat)
+            quick_calls.set_uniform_floats(self._location(name), len(flat), flat.ctypes.data)
 
     def set_pair(self, name: str, values: Sequence[float]) -> None:
         """Set a vec2 uniform of the program in use."""
@@ -87,13 +89,13 @@ class LinkedProgram:
         """Set a vec3 uniform, or the first of an array of them, of the program in use."""
         flat = np.ascontiguousarray(vectors, dtype=np.float32).reshape(-1, 3)
         if self._is_news(name, flat):
-            GL.glUniform3fv(self._location(name), len(flat), flat)
+            quick_calls.set_uniform_vec3s(self._location(name), len(flat), flat.ctypes.data)
 
     def set_int_vectors(self, name: str, vectors: np.ndarray) -> None:
         """Set the first of an array of ivec2 or ivec4 uniforms of the program in use."""
         flat = np.ascontiguousarray(vectors, dtype=np.int32)
-        setter = {2: GL.glUniform2iv, 4: GL.glUniform4iv}[flat.shape[1]]
-        setter(self._location(name), len(flat), flat)
+        setter = _INT_VECTORS[flat.shape[1]]
+        setter(self._location(name), len(flat), flat.ctypes.data)
 
     def set_matrix(self, name: str, matrix: np.ndarray) -> None:
         """Set a mat4 uniform, which acts on columns, of the program in use."""

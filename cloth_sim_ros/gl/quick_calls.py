@@ -1,16 +1,17 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-
 """
-The GL calls that make up a step, without PyOpenGL's look for errors after each.
+The calls that make up a step, without PyOpenGL's look for errors after each.
 
 That look costs as much as the call. What goes wrong in these calls is a fault of the program, and
-shows in the next call that is looked at.
+shows in the next call that is looked at. All arguments are numbers, an address too: PyOpenGL
+converts others in Python, and an interrupt that comes meanwhile is lost in an ArgumentError.
 """
 
 from collections.abc import Callable
 from ctypes import c_size_t
+from ctypes import c_uint
 from functools import cache
 from typing import NamedTuple
 
@@ -26,9 +27,21 @@ def _quick(name: str, *types: type) -> Callable[..., None]:
     return PLATFORM.constructFunction(name, PLATFORM.GL, None, types)
 
 
+def _quick_vectors(name: str) -> Callable[..., None]:
+    return _quick(name, gl_type.GLint, gl_type.GLsizei, c_size_t)
+
+
+# Display, two surfaces and context; returns 0 when it fails.
+make_current: Callable[..., int] = PLATFORM.constructFunction(
+    'eglMakeCurrent', PLATFORM.EGL, c_uint, 4 * (c_size_t,))
 use_program = _quick('glUseProgram', gl_type.GLuint)
 set_uniform_int = _quick('glUniform1i', gl_type.GLint, gl_type.GLint)
 set_uniform_float = _quick('glUniform1f', gl_type.GLint, gl_type.GLfloat)
+# A place, how many vectors, and the address of their components.
+set_uniform_floats = _quick_vectors('glUniform1fv')
+set_uniform_vec3s = _quick_vectors('glUniform3fv')
+set_uniform_ivec2s = _quick_vectors('glUniform2iv')
+set_uniform_ivec4s = _quick_vectors('glUniform4iv')
 dispatch = _quick('glDispatchCompute', *3 * (gl_type.GLuint,))
 dispatch_indirect = _quick('glDispatchComputeIndirect', gl_type.GLintptr)
 memory_barrier = _quick('glMemoryBarrier', gl_type.GLbitfield)

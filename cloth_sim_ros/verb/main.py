@@ -25,7 +25,7 @@ from cloth_sim_ros.files.errors import shown
 from cloth_sim_ros.gl.errors import DeviceError
 from cloth_sim_ros.node.missing_module import way_out
 from cloth_sim_ros.sim.errors import ClothSimError
-from cloth_sim_ros.verb.termination import raise_on_sigterm
+from cloth_sim_ros.verb.termination import interruptible
 from cloth_sim_ros.verb.termination import Terminated
 
 VERBS = {
@@ -82,7 +82,7 @@ def main(argv: Sequence[str] | None = None) -> int:
             prog=f'cloth_sim {name}', description=verb.__doc__,
             formatter_class=RawDescriptionHelpFormatter)
         verb.add_arguments(parser)
-        with raise_on_sigterm(), _warnings_in_a_line(name):
+        with interruptible(), _warnings_in_a_line(name):
             return verb.main(parser.parse_args(rest))
     except ClothSimError as error:
         # It may repeat what a file holds: no line breaks, and nothing that a terminal acts upon.

@@ -8,6 +8,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 import signal
 import sys
+import threading
 from types import FrameType
 from typing import Any
 from typing import NoReturn
@@ -18,30 +19,63 @@ def sayer(verb: str) -> Callable[[str], None]:
     return lambda sentence: print(f'cloth_sim {verb}: {sentence}', file=sys.stderr)
 
 
+_SIGNALS = (signal.SIGINT, signal.SIGTERM)
+_Handler = Callable[[int, FrameType | None], Any]
+
+
 class Terminated(KeyboardInterrupt):
     """SIGTERM came: whoever cleans up after Ctrl-C cleans up after this as well."""
 
 
+# What is raised in these does not come out of them.
+_CLOSED = ('from_param', '__del__')
+# How long to wait for their end [s].
+_SOON = 0.001
+
+
 @contextmanager
-def raise_on_sigterm() -> Iterator[None]:
-    """Raise Terminated in the main thread when SIGTERM comes; further ones change nothing."""
-    before = signal.getsignal(signal.SIGTERM)
-    signal.signal(signal.SIGTERM, _raise)
+def interruptible() -> Iterator[None]:
+    """
+    Raise Terminated in the main thread when SIGTERM comes; further ones change nothing.
+
+    That, and what Python does at SIGINT, waits while ctypes converts an argument, which makes an
+    ArgumentError of whatever is raised, and while an object is deleted, where it is dropped.
+    """
+    before = {number: signal.getsignal(number) for number in _SIGNALS}
+    signal.signal(signal.SIGTERM, _where_it_comes_out(_raise_terminated))
+    if before[signal.SIGINT] is signal.default_int_handler:
+        signal.signal(signal.SIGINT, _where_it_comes_out(signal.default_int_handler))
     try:
         yield
     finally:
-        signal.signal(signal.SIGTERM, before)
+        for number, handler in before.items():
+            signal.signal(number, handler)
 
 
-def _raise(_number: int, _frame: FrameType | None) -> NoReturn:
+def _where_it_comes_out(handler: _Handler) -> _Handler:
+    def handle(number: int, frame: FrameType | None) -> None:
+        if _is_closed(frame):
+            # To the main thread, which may be asleep.
+            main = threading.main_thread().ident
+            threading.Timer(_SOON, signal.pthread_kill, (main, number)).start()
+        else:
+            handler(number, frame)
+
+    return handle
+
+
+def _is_closed(frame: FrameType | None) -> bool:
+    while frame is not None:
+        if frame.f_code.co_name in _CLOSED:
+            return True
+        frame = frame.f_back
+    return False
+
+
+def _raise_terminated(_number: int, _frame: FrameType | None) -> NoReturn:
     # What is cleaned up must not be broken off.
     signal.signal(signal.SIGTERM, signal.SIG_IGN)
     raise Terminated
-
-
-# SIGINT and SIGTERM as a wish to stop.
-
-_SIGNALS = (signal.SIGINT, signal.SIGTERM)
 
 
 class StopSignals:

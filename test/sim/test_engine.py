@@ -9,6 +9,7 @@ from pathlib import Path
 import subprocess
 import sys
 import threading
+from types import FrameType
 
 from cloth_sim_ros.gl.context import Context
 from cloth_sim_ros.gl.inventory import take_inventory
@@ -92,6 +93,28 @@ def test_nothing_is_left_to_compile(mode: str):
     assert simulation.is_ready and simulation.steps == 28
     assert [program.name for program in inventory.programs] == []
     simulation.close()
+
+
+@pytest.mark.parametrize('scheme', ('mass_spring', 'constraint', 'adaptive', 'paper'))
+def test_a_frame_converts_no_argument_in_python(scheme: str):
+    """Ctrl-C would now and then be an ArgumentError of ctypes, which no program expects."""
+    values = {'adaptive.scheme': 'paper', 'mode': 'adaptive'} if scheme == 'paper' else {
+        'mode': scheme, 'adaptive.threshold': 0.005}
+    converted = []
+
+    def note(frame: FrameType, event: str, _argument: object) -> None:
+        if event == 'call' and frame.f_code.co_name == 'from_param':
+            converted.append(frame.f_back.f_code.co_name)
+
+    with Simulation(Scene({**_SCENE, **values})) as simulation:
+        for profile in (None, note):
+            sys.setprofile(profile)
+            try:
+                simulation.step(2)
+                simulation.snapshot(tension=True)
+            finally:
+                sys.setprofile(None)
+    assert converted == []
 
 
 def test_a_mode_can_be_taken_back_and_forth(simulation: Simulation):
