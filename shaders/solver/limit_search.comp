@@ -32,6 +32,7 @@ layout(local_size_x = LOCAL_X, local_size_y = LOCAL_Y) in;
 uniform int start_field;  // where the solve began, of which
 uniform float guess;      // this share
 uniform float share;      // of the way to its solution
+uniform float to_come;    // of what the velocities move nodes by: 0 in a further solve
 
 // A loop for each direction: both in one take llvmpipe seconds to compile.
 #define ADD_BENT(DROW, DCOL) \
@@ -86,7 +87,7 @@ void main() {
         FOR_TILE {
             ivec2 at = first + ivec2(col, row) - REACH;
             int entry = tile_index(first, row, col);
-            velocity[row][col] = load_velocity(state_index(at.y, at.x)).xyz;
+            velocity[row][col] = to_come * load_velocity(state_index(at.y, at.x)).xyz;
             float moves = is_free(node[row][col]) ? 1.0 : 0.0;
             start[row][col] = moves * guess * load_vector(cloth_entry(start_field, entry));
             way[row][col] = load_vector(cloth_entry(SOLUTION, entry)) - start[row][col];

@@ -206,7 +206,7 @@ class ImplicitStep(ABC):
         yield
         yield from self._substep(state, lambda: still, self._dt)
         # Hard edges of a cloth that comes stretched have limits for a while, too.
-        self._solver.run_searches(state)
+        self._solver.run_search(state)
         yield
         self._free_motion.restore(state, still, self._dt)
         self.forget()

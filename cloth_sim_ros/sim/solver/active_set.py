@@ -123,16 +123,15 @@ class LimitSearch:
 
     ``last_share`` is that of the way of the last solve after which the next one starts.
 
-    :param is_further: as of RightSide
     :param foresees_turn: as of RightSide
     """
 
     def __init__(
             self, scene: Scene, state: Layout, programs: SolverPrograms, levels: Levels, *,
-            is_further: bool, foresees_turn: bool) -> None:
+            foresees_turn: bool) -> None:
         """Prepare."""
-        defines = {**programs.defines, 'FORESEES_TURN': int(foresees_turn),
-                   'IS_FURTHER': int(is_further)}
+        # Of a further solve it makes no difference, with velocities of 0.
+        defines = {**programs.defines, 'FORESEES_TURN': int(foresees_turn), 'IS_FURTHER': 0}
         self._look_at = SceneProgram('solver/limit_search.comp', scene, state, defines)
         self._move = SceneProgram('solver/start_between.comp', scene, state, defines)
         self._programs = programs
@@ -144,7 +143,7 @@ class LimitSearch:
     def run_all_passes(
             self, law: EdgeLaw, start: Start, buffers: SolverBuffers, into: int) -> None:
         """Run both passes once, so that the driver compiles them; as ``move_start``."""
-        self._set(law, start)
+        self._set(law, start, is_further=False)
         self._look(1.0, buffers)
         self._start_between(1.0, start, into)
 
@@ -155,16 +154,17 @@ class LimitSearch:
 
     def move_start(
             self, law: EdgeLaw, start: Start, buffers: SolverBuffers, missing: float,
-            into: int, *, is_early: bool = False) -> bool:
+            into: int, *, is_further: bool, is_early: bool = False) -> bool:
         """
         Leave in a field where the next solve starts; return False where none is needed.
 
         :param start: of the last solve
         :param missing: of the square of what tensions lack, that may be left
         :param into: the field, of SolverBuffers
+        :param is_further: as of RightSide
         :param is_early: whether another solve is due in any case
         """
-        self._set(law, start)
+        self._set(law, start, is_further=is_further)
         share = 1.0
         look = self._look(share, buffers)
         # Written so that what is no number is not looked at again. Where nothing moves and nothing
@@ -188,13 +188,14 @@ class LimitSearch:
         self._start_between(share, start, into)
         return True
 
-    def _set(self, law: EdgeLaw, start: Start) -> None:
+    def _set(self, law: EdgeLaw, start: Start, *, is_further: bool) -> None:
         program = self._look_at.use()
         if self._law_in != law:
             self._programs.set_sizes(program)
             program.set_float('substep', law.length)
             set_law(program, law)
             self._law_in = law
+        program.set_float('to_come', float(not is_further))
         start.set_in(program)
 
     def _look(self, share: float, buffers: SolverBuffers) -> _Look:

@@ -97,8 +97,7 @@ class Solver:
         parts = scene, state, self._programs, levels
         self._right_sides = {further: RightSide(
             *parts, is_further=further, foresees_turn=foresees_turn) for further in (False, True)}
-        self._searches = {further: LimitSearch(
-            *parts, is_further=further, foresees_turn=foresees_turn) for further in (False, True)}
+        self._search = LimitSearch(*parts, foresees_turn=foresees_turn)
         self._tally = Tally(self._programs, tolerance)
         self._contacts = SolverContacts(
             scene, state, self._programs, levels.cloth.node_groups,
@@ -197,7 +196,7 @@ class Solver:
         self._reduce.set_int('may_stay', int(is_again))
         if not is_again:
             self._may_stop_early = may_stop_early and self._law.has_limits
-        elif self._searches[is_further].last_share < _HALF:
+        elif self._search.last_share < _HALF:
             self._may_stop_early = False
         self._reduce.set_float('early_square', _EARLY**2 if self._may_stop_early else 0.0)
         self._is_again = is_again
@@ -255,9 +254,9 @@ class Solver:
         missing = max(self._tolerance, _LEAST_MISSING)**2 * found.scale
         self._buffers.bind()
         state.bind_in()
-        return self._searches[self._is_further].move_start(
+        return self._search.move_start(
             self._law, self._start, self._buffers, missing, SOLUTION if is_last else START,
-            is_early=is_early)
+            is_further=self._is_further, is_early=is_early)
 
     def _iterate(self) -> Generator[None, bool | None, None]:
         # To ask whether the device goes on costs little where that is this processor, and a wait
@@ -313,12 +312,11 @@ class Solver:
             found[..., 4:] = self._buffers.read_system(BEND_TENSION)[..., :2]
         return np.float32(self._node_mass) * found
 
-    def run_searches(self, state: State) -> None:
+    def run_search(self, state: State) -> None:
         """Run what ``move_start`` may need, after a solve, so that the driver compiles it."""
         self._buffers.bind()
         state.bind_in()
-        for search in self._searches.values():
-            search.run_all_passes(self._law, self._start, self._buffers, START)
+        self._search.run_all_passes(self._law, self._start, self._buffers, START)
 
     def expect_nothing(self) -> None:
         """Take no tension and no change of velocity over from earlier steps."""
@@ -360,8 +358,7 @@ class Solver:
         self._programs.delete()
         for right_side in self._right_sides.values():
             right_side.delete()
-        for search in self._searches.values():
-            search.delete()
+        self._search.delete()
         if self._contacts is not None:
             self._contacts.delete()
 

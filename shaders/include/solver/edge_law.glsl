@@ -13,20 +13,10 @@ uniform float limit_stiffness[5];  // [1/s2]
 uniform float rest_length[5];      // [m]
 uniform float transition;          // [rest lengths] within which of a limit it comes into force
 
-// How much of a limit is in force where a length is d past it: from w before it to w past it that
-// grows from 0 to 1, so that Newton's method meets no kinks.
-float in_force(float d, float w) {
-    return clamp((d + w) * (0.5 / max(w, 1e-30)), 0.0, 1.0);
-}
-
-// What the limit pulls with then over its stiffness, the integral of that over d, and of this again.
-float pull_past(float d, float w) {
-    float part = in_force(d, w);
-    return w * part * part + max(d - w, 0.0);
-}
-
+// The energy of a limit over its stiffness where a length is d past it. It comes into force from w
+// before it to w past it, so that Newton's method meets no kinks.
 float energy_past(float d, float w) {
-    float part = in_force(d, w);
+    float part = clamp((d + w) * (0.5 / max(w, 1e-30)), 0.0, 1.0);
     float further = max(d - w, 0.0);
     return w * w * part * part * part / 1.5 + further * (w + 0.5 * further);
 }
@@ -47,19 +37,21 @@ struct Pull {
     float slope;
 };
 
-// Of an edge of length l, by the straight line that touches the law at the length judged.
+// Of an edge of length l, by the straight line that touches the law at the length judged. No more
+// than one limit is in force there: they are further apart than their transitions are wide.
 Pull pull_at(float l, float judged, float rate, int family, int rest) {
     float rest_l = rest_length[rest];
-    float width = transition * rest_l;
-    float above = judged - longest[family] * rest_l;
-    float below = shortest[family] * rest_l - judged;
-    float past = l - longest[family] * rest_l;
-    float slope = 1.0;
-    // A hard edge pulls and pushes at any length.
-    if (shortest[family] != longest[family]) {
-        slope = in_force(above, width) + in_force(below, width);
-        past = pull_past(above, width) - pull_past(below, width) + slope * (l - judged);
-    }
+    float least = shortest[family] * rest_l;
+    float most = longest[family] * rest_l;
+    // A hard edge pulls and pushes at any length: all of its limit is always in force.
+    bool is_hard = shortest[family] == longest[family];
+    float width = is_hard ? 0.0 : transition * rest_l;
+    float rise = is_hard ? 0.0 : 0.5 / max(width, 1e-30);
+    float at_limit = is_hard ? 1.0 : 0.5;
+    float side = judged > 0.5 * (least + most) ? 1.0 : -1.0;
+    float beyond = side > 0.0 ? judged - most : least - judged;
+    float slope = clamp(beyond * rise + at_limit, 0.0, 1.0);
+    float past = side * (width * slope * slope + max(beyond - width, 0.0)) + slope * (l - judged);
     return Pull(
         edge_stiffness[rest] * (l - rest_l) + edge_damping[rest] * rate
             + limit_stiffness[rest] * past,
