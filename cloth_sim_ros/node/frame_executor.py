@@ -83,6 +83,9 @@ class FrameExecutor(SingleThreadedExecutor):
             self._serve()
         if self._alarm.left == 0.0:
             self._alarm.ring()
+            # It may have brought what a task waits for, and be cancelled.
+            if self._tasks:
+                self._guard.trigger()
 
     def _wait(self, seconds: float | None) -> bool:
         """Return whether there is something to serve within ``seconds``."""

@@ -3,6 +3,7 @@
 
 """The executor serves what rclpy's own does, and rings its alarm in between."""
 
+from threading import Thread
 from threading import Timer
 import time
 
@@ -123,3 +124,31 @@ def test_coroutines_are_finished(node):
     waited.set_result(None)
     assert spin_until(executor, future.done)
     assert future.result().success
+
+
+def test_what_the_alarm_brings_is_answered_at_once(node):
+    """An answer to ~/step would wait for the next timer, up to a second, if its steps take long."""
+    brought = rclpy.task.Future()
+    rings = []
+
+    def ring():
+        rings.append(1)
+        if len(rings) == 3:
+            brought.set_result(None)
+            alarm.cancel()
+
+    async def wait():
+        await brought
+
+    alarm = Alarm(ring)
+    executor = FrameExecutor(node, alarm)
+    task = executor.create_task(wait)
+    alarm.ring_in(0.0)
+    for _ in range(3):
+        executor.spin_once(0.0)
+    assert brought.done() and not task.done()
+    # Nothing else comes, so that it may sleep for ever; the end of the context wakes it then.
+    turn = Thread(target=executor.spin_once, daemon=True)
+    turn.start()
+    turn.join(PATIENCE)
+    assert task.done()
