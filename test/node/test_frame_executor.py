@@ -127,7 +127,7 @@ def test_coroutines_are_finished(node):
 
 
 def test_what_the_alarm_brings_is_answered_at_once(node):
-    """An answer to ~/step would wait for the next timer, up to a second, if its steps take long."""
+    """An answer to ~/step would wait for the next timer, up to a second, where steps take long."""
     brought = rclpy.task.Future()
     rings = []
 
