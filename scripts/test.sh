@@ -19,7 +19,8 @@ esac
 # Else each of the many processes that tests start would compile the package anew.
 unset PYTHONDONTWRITEBYTECODE
 # Files stay together: their tests share nodes and simulations. Some wait for a node, and leave their
-# processor to another process.
+# processor to another process. Their order is that of test/conftest.py.
 processors=$(nproc)
-[ $# -gt 0 ] || set -- --numprocesses=$((processors < 4 ? processors + 1 : 5)) --dist=loadfile
+[ $# -gt 0 ] || set -- --numprocesses=$((processors < 4 ? processors + 1 : 5)) --dist=loadfile \
+  --no-loadscope-reorder
 exec python -m pytest "$@"

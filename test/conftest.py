@@ -43,6 +43,13 @@ def claim_domain() -> tuple[int, socket.socket]:
         'wait for one of them to end')
 
 
+# Files that take long for the number of their tests: begun last, they would keep one process busy
+# while the others have nothing left to do.
+BEGUN_FIRST = {
+    'test_demo.py', 'test_types.py', 'test_node_cost.py', 'test_kills.py', 'test_player.py',
+    'test_guarded_node.py', 'test_mode_switch.py', 'test_paper_speeds.py', 'test_pinch.py',
+    'test_shared_memory.py', 'test_contact_scenes.py', 'test_stability_runs.py', 'test_bench.py'}
+
 CLAIM = pytest.StashKey[socket.socket]()
 
 
@@ -81,7 +88,8 @@ def pytest_unconfigure(config: pytest.Config) -> None:
 
 
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
-    """Leave the long tests out unless --long asks for them."""
+    """Begin with files that take long; leave the long tests out unless --long asks for them."""
+    items.sort(key=lambda item: item.path.name not in BEGUN_FIRST)
     if config.getoption('--long'):
         return
     long_items = [item for item in items if item.get_closest_marker('long')]

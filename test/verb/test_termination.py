@@ -4,6 +4,7 @@
 """A signal ends a verb wherever it comes."""
 
 from collections.abc import Callable
+from collections.abc import Iterator
 import ctypes
 import signal
 import time
@@ -13,6 +14,14 @@ from cloth_sim_ros.verb.termination import Terminated
 import pytest
 
 ENDS = [(signal.SIGINT, KeyboardInterrupt), (signal.SIGTERM, Terminated)]
+
+
+@pytest.fixture(autouse=True)
+def heeded_interrupt() -> Iterator[None]:
+    """Have Python heed SIGINT, which a shell has its background processes ignore."""
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, before)
 
 
 def in_plain_code(raise_it: Callable[[], None]) -> None:
