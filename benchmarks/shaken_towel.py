@@ -19,6 +19,7 @@ import sys
 from time import process_time
 
 from cloth_sim_ros.sim.modes import adaptive
+from cloth_sim_ros.sim.modes import implicit
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.simulation import Simulation
 import numpy as np
@@ -114,9 +115,12 @@ def main() -> None:
     parser.add_argument(
         '--transition', type=float, default=adaptive._TRANSITION,
         help='of that: from there before the limit on it comes into force')
+    parser.add_argument(
+        '--most-solves', type=int, default=implicit._MOST_SOLVES, help='in a pass of a substep')
     args = parser.parse_args()
     adaptive._SHARE = args.beyond
     adaptive._TRANSITION = args.transition
+    implicit._MOST_SOLVES = args.most_solves
     found = shake(
         args.seconds, says_progress=True, mode=args.mode, rows=args.nodes, cols=args.nodes,
         areal_density=args.density, **{'solver.tolerance': args.tolerance})

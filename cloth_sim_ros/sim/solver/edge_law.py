@@ -51,7 +51,8 @@ class EdgeLaw:
     :param geometric: beta of the geometric mass term; 0 leaves it out
     :param bending: what bending along a row and along a column resists [1/s2]
     :param bending_damping: its damping time [s]
-    :param transition: w, the same for all limits [rest lengths]; 0 for a kink
+    :param transition: w, the same for all limits [rest lengths], of which no two of an edge are
+        nearer than 2 w; 0 for a kink
     :param acts_between_pins: whether an edge pulls, and stores energy, where both ends are pinned
     """
 
