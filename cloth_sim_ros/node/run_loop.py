@@ -51,6 +51,9 @@ class Pacing:
 
     def delay(self, now: float, simulated: float) -> float:
         """Return the wall seconds to wait after a frame of ``simulated`` seconds."""
+        if self.factor and len(self._frames) == 1:
+            # The first frame is made at once, and yet stands for as long as every other.
+            self._frames[0] = (min(self._frames[0][0], now - simulated / self.factor), 0.0)
         self._simulated += simulated
         self._frames.append((now, self._simulated))
         while len(self._frames) > 2 and now - self._frames[1][0] >= _WINDOW:

@@ -83,6 +83,19 @@ def test_measures_the_factor_achieved():
     assert pacing.achieved == pytest.approx(0.5)
 
 
+@pytest.mark.parametrize('factor', [0.5, 1.0, 2.0])
+def test_a_run_that_keeps_up_has_its_factor_from_the_first_frame(factor):
+    """Plots would begin at ten times real time, since the first frame waits for nothing."""
+    pacing = Pacing(factor)
+    pacing.restart(10.0)
+    now = 10.0
+    for _ in range(100):
+        now += 0.001
+        wait = pacing.delay(now, _FRAME)
+        assert pacing.achieved == pytest.approx(factor, rel=0.03)
+        now += wait
+
+
 @pytest.mark.parametrize('frame_time, too_slow', [(0.04, True), (0.02, False)])
 def test_tells_when_it_is_too_slow(frame_time, too_slow):
     """A slow machine would not be told of, or a fast enough one would."""
