@@ -120,17 +120,17 @@ class SolverPasses:
         self._programs = programs
         self._law = law or spring_law(scene, _STEP)
         self._forcing = Forcing(scene['gravity'])
-        self._right_side = RightSide(
-            scene, layout, programs, self.levels, is_further=False, foresees_turn=False)
+        self._right_side = RightSide(scene, layout, programs, self.levels, foresees_turn=False)
         cloth, coarse = self.levels.layouts[:2]
         points = (-(-cloth.stored // (POINTS * POINT_LOCAL)), 1)
         self.passes: dict[str, Callable[[], None]] = {
             'right side': self._make_right_side,
             'assembly': SolverPass(programs.make('assemble.comp'), cloth.node_groups).run,
             'coarsening': SolverPass(
-                programs.make('coarsen_cloth.comp'), coarse.node_groups, 1).run,
+                programs.make('coarsen_cloth.comp'), coarse.node_groups, level=1).run,
             'smoothing': SolverPass(
-                programs.make('cloth_smooth.comp'), cloth.groups, 0, False).run,
+                programs.make('cloth_smooth.comp'), cloth.groups, goes_up=False,
+                finds_defect=False).run,
             'product': SolverPass(programs.make('product.comp'), cloth.groups).run,
             'reduction': self._reduction(programs),
             'update': SolverPass(programs.make('update.comp'), points).run}
@@ -154,7 +154,7 @@ class SolverPasses:
 
     def _make_right_side(self) -> None:
         self._right_side.run(
-            self._law, self._forcing, _STEP, Start(CHANGE, 1.0), knows_tension=True)
+            self._law, self._forcing, _STEP, Start(CHANGE, 1.0), is_further=False)
 
     def _reduction(self, programs: SolverPrograms) -> Callable[[], None]:
         reduce = programs.make('reduce.comp', MOST_GROUPS_COUNTS=1)

@@ -3,11 +3,11 @@
 
 """Put a shader together: its file, what it includes, and the choices made at compile time."""
 
-from collections.abc import Iterator
 from collections.abc import Mapping
 from functools import cache
 from pathlib import Path
 import re
+from typing import NamedTuple
 
 from cloth_sim_ros.gl.errors import ShaderError
 from cloth_sim_ros.gl.shared_directory import shader_directory
@@ -33,12 +33,12 @@ class ShaderSource:
         self._origins: list[str] = ['version']
         body = _expanded(shader_directory(), name)
         # Without those it does not use, one program serves scenes that differ in them.
-        used = _used(self.defines, set(_words(shader_directory(), name)))
+        used = _used(self.defines, set(body.words))
         for key, value in self.defines.items():
             if key in used:
                 self._append(f'#define {key} {value}', 'define')
-        self._lines += (line for line, _ in body)
-        self._origins += (origin for _, origin in body)
+        self._lines += (line for line, _ in body.lines)
+        self._origins += (origin for _, origin in body.lines)
 
     @property
     def text(self) -> str:
@@ -48,7 +48,7 @@ class ShaderSource:
     @property
     def used_defines(self) -> dict[str, object]:
         """Return those of the choices that the shader reads, names and values."""
-        words = _words(shader_directory(), self.name)
+        words = _expanded(shader_directory(), self.name).words
         return {key: value for key, value in self.defines.items() if _name(key) in words}
 
     def origin(self, line: int) -> str:
@@ -76,33 +76,72 @@ def _name(key: str) -> str:
     return key.partition('(')[0]
 
 
-@cache
-def _words(root: Path, name: str) -> frozenset[str]:
-    """Return the words of a file and of all that it includes."""
-    return frozenset(
-        word for line, _ in _expanded(root, name) for word in _WORD.findall(line))
+class _Text(NamedTuple):
+    """
+    A shader with all that it includes.
+
+    :param lines: of them all, and where each is from
+    :param words: in these
+    """
+
+    lines: list[tuple[str, str]]
+    words: frozenset[str]
 
 
 @cache
-def _expanded(root: Path, name: str) -> tuple[tuple[str, str], ...]:
-    """Return the lines of a file and of all that it includes, and where each is from."""
-    return tuple(_lines(root, name, set()))
+def _expanded(root: Path, name: str) -> _Text:
+    lines: list[tuple[str, str]] = []
+    seen: dict[str, frozenset[str]] = {}
+    _expand(root, name, seen, lines)
+    return _Text(lines, frozenset().union(*seen.values()))
 
 
-def _lines(root: Path, name: str, seen: set[str]) -> Iterator[tuple[str, str]]:
-    seen.add(name)
-    text = _locate(root, name).read_text(encoding='utf-8')
-    for number, line in enumerate(text.splitlines(), 1):
+def _expand(
+        root: Path, name: str, seen: dict[str, frozenset[str]],
+        lines: list[tuple[str, str]]) -> None:
+    file = _file(root, name)
+    seen[name] = file.words
+    begin = 0
+    for end, included in file.includes:
+        lines += file.lines[begin:end]
+        begin = end
+        if included not in seen:
+            _expand(root, included, seen, lines)
+    lines += file.lines[begin:]
+
+
+class _File(NamedTuple):
+    """
+    A file of the shader folder.
+
+    :param lines: but for includes, and where each is from
+    :param includes: before which of these each stands, and its name
+    :param words: of the lines
+    """
+
+    lines: list[tuple[str, str]]
+    includes: list[tuple[int, str]]
+    words: frozenset[str]
+
+
+# Most files are included by many others.
+@cache
+def _file(root: Path, name: str) -> _File:
+    lines: list[tuple[str, str]] = []
+    includes: list[tuple[int, str]] = []
+    for number, line in enumerate(_text(root, name).splitlines(), 1):
         include = _INCLUDE.match(line)
-        if include and include[1] not in seen:
-            yield from _lines(root, include[1], seen)
+        if include:
+            includes.append((len(lines), include[1]))
         # The version stands once, on top; a file keeps its own for tools that read it alone.
-        elif not include and not line.startswith('#version'):
-            yield line, f'{name}:{number}'
+        elif not line.startswith('#version'):
+            lines.append((line, f'{name}:{number}'))
+    words = _WORD.findall('\n'.join(line for line, _ in lines))
+    return _File(lines, includes, frozenset(words))
 
 
-def _locate(root: Path, name: str) -> Path:
+def _text(root: Path, name: str) -> str:
     for path in (root / name, root / 'include' / name):
         if path.is_file():
-            return path
+            return path.read_text(encoding='utf-8')
     raise ShaderError(f'there is no shader {name} in {root}')

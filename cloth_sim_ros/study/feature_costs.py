@@ -85,7 +85,7 @@ def _without_family(values: Mapping[str, Any], family: str) -> dict[str, Any]:
 
 # Choices that say what is modelled; the others say how the work is laid out.
 _MODELLED = (
-    'HAS_', 'STRAIN_LIMIT', 'MULTIGRID', 'FORESEES_TURN', 'IS_FURTHER', 'RECORDS_WANTED')
+    'HAS_', 'STRAIN_LIMIT', 'MULTIGRID', 'FORESEES_TURN', 'RECORDS_WANTED')
 
 
 def pass_list(

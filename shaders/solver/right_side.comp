@@ -6,10 +6,10 @@
 // each edge resists along its direction and across it. Directions are frozen at where nodes are.
 // An edge pulls as its law does at the length that the velocities lead to, with the limit in force
 // that it has at the length expected of the solution.
-// IS_FURTHER 0: the first solve, from the velocities before, FORESEES_TURN with what moving across
-// its direction adds to the length of an edge.
-// IS_FURTHER 1: nodes have moved, and the solve finds what the tensions lack of the law there. It is
-// not worth a solve where they lack no more than the lengths of edges are rounded by.
+// The first solve is from the velocities before, FORESEES_TURN with what moving across its direction
+// adds to the length of an edge. In a further one nodes have moved, and it finds what the tensions
+// lack of the law there: not worth a solve where they lack no more than lengths are rounded by. One
+// program makes both, since each takes llvmpipe a second to compile.
 
 #include "solver/levels.glsl"
 #include "solver/vectors.glsl"
@@ -19,16 +19,13 @@
 #include "solver/cloth_tile.glsl"
 #include "solver/edge_law.glsl"
 #include "solver/foreseen_length.glsl"
-#if IS_FURTHER
 #define SCALARS_ACCESS
 #include "solver/scalars.glsl"
-#else
 #include "applied_acceleration.glsl"
 #if HAS_RIGIDITY
 #include "block_bending.glsl"
 
 uniform float bending_rate[2];  // [1/s2] c along a row and along a column, over the node mass
-#endif
 #endif
 
 layout(local_size_x = LOCAL_X, local_size_y = LOCAL_Y) in;
@@ -37,16 +34,13 @@ uniform float kick;          // [s] that what is applied acts for
 uniform int start_field;     // a change of velocity, of which
 uniform float guess;         // this share is expected now
 uniform float geometric;     // beta of the geometric mass term
-#if !IS_FURTHER
-uniform bool knows_tension;  // false where no step before this one has found any
-#endif
+uniform float to_come;       // of what is applied, and velocities move nodes by: 0 in a further solve
 
 vec3 velocity[TILE][TILE];
 vec3 expected[TILE][TILE];   // change of velocity
 vec3 change[TILE][TILE];
 vec4 tension[TILE][TILE];    // found last
 vec4 begun[TILE][TILE];
-#if IS_FURTHER
 bool is_off_here = false;
 
 // A coordinate is rounded by 2^-24 of it at most; of those of both ends some three times that comes
@@ -57,7 +51,7 @@ float rounding_of_length(vec3 from, vec3 to) {
     vec3 far = max(abs(from), abs(to));
     return ROUNDED * max(max(far.x, far.y), far.z);
 }
-#endif
+
 #if HAS_BEND
 vec4 bend_tension[TILE][TILE];
 vec4 bend_weight[TILE][TILE];
@@ -96,22 +90,16 @@ void add_edge(int row, int col, int drow, int dcol, int edge, int family, int re
     float l = square * inverse_length;
     vec3 n = inverse_length * d;
     vec3 u = velocity[row][col] - velocity[row + drow][col + dcol];
-    float ahead = foreseen_length(l, n, u);
+    float ahead = foreseen_length(l, n, to_come * u);
     // Edges come to their limits in the step, and leave them.
     float judged =
         ahead + substep * dot(n, expected[row][col] - expected[row + drow][col + dcol]);
     Pull pull = pull_at(ahead, judged, dot(n, u), family, rest);
     float tension_here = moves * pull.tension;
-#if IS_FURTHER
     float found = found_tension(row, col, edge);
-    float missing = tension_here - found;
+    float missing = tension_here - (1.0 - to_come) * found;
     is_off_here = is_off_here || is_in_block(row, col)
         && abs(missing) > moves * pull.slope * rounding_of_length(from.xyz, to.xyz);
-#else
-    float found = knows_tension
-        ? found_tension(row, col, edge) : pull_at(l, l, 0.0, family, rest).tension;
-    float missing = tension_here;
-#endif
     float sideways =
         moves * geometric * substep * substep * max(found, 0.0) * inverse_length;
     float weight = moves * substep * (substep * pull.slope + edge_damping[rest]);
@@ -145,12 +133,10 @@ void main() {
 #endif
     }
     FOR_CLOTH_EDGES(add_edge)
-#if IS_FURTHER
     if (is_off_here) {
         atomicOr(is_off, floatBitsToUint(1.0));
     }
-#endif
-#if HAS_RIGIDITY && !IS_FURTHER
+#if HAS_RIGIDITY
     vec3 resisted[TILE][TILE];
     FIND_BENDING(resisted, node, node, bending_rate)
 #endif
@@ -159,14 +145,12 @@ void main() {
         int entry = tile_index(first, row, col);
         vec3 total = vec3(0.0);
         if (is_free(node[row][col])) {
-            total = change[row][col];
-#if !IS_FURTHER
-            total += kick * applied_acceleration(state_index(at.y, at.x));
+            vec3 applied = applied_acceleration(state_index(at.y, at.x));
 #if HAS_RIGIDITY
             // As where the step begins; the matrix makes it the mean of before and after.
-            total -= kick * resisted[row][col];
+            applied -= resisted[row][col];
 #endif
-#endif
+            total = change[row][col] + to_come * kick * applied;
         }
         store_vector(cloth_entry(RESIDUAL, entry), total);
         system_data[cloth_entry(NODE, entry)] = node[row][col];

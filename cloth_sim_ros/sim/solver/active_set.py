@@ -43,31 +43,30 @@ class Start:
 
 class RightSide:
     """
-    Runs right_side.comp, for the first solve of a step or for a further one.
+    Runs right_side.comp, for the first solve of a step and for further ones.
 
     :param foresees_turn: allow for how much longer edges get by turning
     """
 
     def __init__(
             self, scene: Scene, state: Layout, programs: SolverPrograms, levels: Levels, *,
-            is_further: bool, foresees_turn: bool) -> None:
+            foresees_turn: bool) -> None:
         """Prepare; nothing is compiled yet."""
         self._program = SceneProgram('solver/right_side.comp', scene, state, {
-            **programs.defines, 'FORESEES_TURN': int(foresees_turn),
-            'IS_FURTHER': int(is_further)})
+            **programs.defines, 'FORESEES_TURN': int(foresees_turn)})
         self._programs = programs
         self._groups = levels.cloth.groups
         self._law_in: EdgeLaw | None = None
 
     def run(
             self, law: EdgeLaw, forcing: Forcing, kick: float, start: Start, *,
-            knows_tension: bool) -> None:
+            is_further: bool) -> None:
         """
         Make the right side of the state that is bound.
 
         :param kick: that what is applied acts for [s]
         :param start: change of velocity to expect
-        :param knows_tension: False where no step before has found the tensions
+        :param is_further: True where the nodes have moved, and tensions have been found
         """
         program = self._program.use_for_step(forcing, law.length, kick)
         if self._law_in != law:
@@ -76,7 +75,7 @@ class RightSide:
             program.set_float('geometric', law.geometric)
             self._law_in = law
         start.set_in(program)
-        program.set_int('knows_tension', int(knows_tension))
+        program.set_float('to_come', float(not is_further))
         program.dispatch(*self._groups)
         shader_writes_visible()
 
@@ -131,7 +130,7 @@ class LimitSearch:
             foresees_turn: bool) -> None:
         """Prepare."""
         # Of a further solve it makes no difference, with velocities of 0.
-        defines = {**programs.defines, 'FORESEES_TURN': int(foresees_turn), 'IS_FURTHER': 0}
+        defines = {**programs.defines, 'FORESEES_TURN': int(foresees_turn)}
         self._look_at = SceneProgram('solver/limit_search.comp', scene, state, defines)
         self._move = SceneProgram('solver/start_between.comp', scene, state, defines)
         self._programs = programs

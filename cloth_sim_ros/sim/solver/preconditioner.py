@@ -86,20 +86,21 @@ class Multigrid:
         passes = []
         for level, layout in list(enumerate(self._levels.layouts))[1:]:
             program = coarsen_cloth if level == 1 else coarsen
-            passes.append(SolverPass(program, layout.node_groups, level))
-            passes.append(SolverPass(invert, layout.node_groups, level))
+            passes.append(SolverPass(program, layout.node_groups, level=level))
+            passes.append(SolverPass(invert, layout.node_groups, level=level))
         return passes
 
     def _cycle(self, programs: SolverPrograms) -> list[SolverPass]:
         layouts, last = self._levels.layouts, self._levels.coarsest
         restrict = programs.make('restrict.comp')
         of_cloth, of_level = _Smoothing(programs, 'cloth_'), _Smoothing(programs, '')
-        passes = [SolverPass(self._coarsest, (1, 1), last)]
+        passes = [SolverPass(self._coarsest, (1, 1), level=last)]
         for level in reversed(range(last)):
             smoothing = of_level if level else of_cloth
             passes = [
                 *smoothing.down(level, layouts[level].groups),
-                SolverPass(restrict, _restrict_groups(layouts[level + 1]), level + 1), *passes,
+                SolverPass(restrict, _restrict_groups(layouts[level + 1]), level=level + 1),
+                *passes,
                 *smoothing.up(level, layouts[level].groups)]
         return passes
 
@@ -115,13 +116,14 @@ class _Smoothing:
 
     def __init__(self, programs: SolverPrograms, prefix: str) -> None:
         self._smooth = programs.make(f'{prefix}smooth.comp')
-        self._defect = programs.make(f'{prefix}defect.comp')
         self._correct = programs.make(f'{prefix}correct.comp')
 
     def down(self, level: int, groups: tuple[int, int]) -> list[SolverPass]:
-        return [SolverPass(self._smooth, groups, level, False),
-                SolverPass(self._defect, groups, level)]
+        smooth, find_defect = (SolverPass(
+            self._smooth, groups, level=level, goes_up=False, finds_defect=finds_defect)
+            for finds_defect in (False, True))
+        return [smooth, find_defect]
 
     def up(self, level: int, groups: tuple[int, int]) -> list[SolverPass]:
-        return [SolverPass(self._correct, groups, level),
-                SolverPass(self._smooth, groups, level, True)]
+        return [SolverPass(self._correct, groups, level=level), SolverPass(
+            self._smooth, groups, level=level, goes_up=True, finds_defect=False)]

@@ -4,6 +4,7 @@
 """Preconditioned conjugate gradients on the device, which decides itself when to stop."""
 
 from collections.abc import Generator
+from dataclasses import replace
 
 from cloth_sim_ros.gl.buffer import DISPATCHES_VISIBLE
 from cloth_sim_ros.gl.buffer import shader_dispatches_visible
@@ -95,8 +96,7 @@ class Solver:
             has_contact=scene.has_contact)
         self._damps_bending = scene.has_bending_damping
         parts = scene, state, self._programs, levels
-        self._right_sides = {further: RightSide(
-            *parts, is_further=further, foresees_turn=foresees_turn) for further in (False, True)}
+        self._right_side = RightSide(*parts, foresees_turn=foresees_turn)
         self._search = LimitSearch(*parts, foresees_turn=foresees_turn)
         self._tally = Tally(self._programs, tolerance)
         self._contacts = SolverContacts(
@@ -179,9 +179,10 @@ class Solver:
         # What changes the velocities changes little from step to step.
         self._start = Start(START, 1.0) if is_again else Start(
             CHANGE, 0.0 if is_further else length * self._last_rate)
-        self._right_sides[is_further].run(
-            self._law, forcing, kick, self._start,
-            knows_tension=is_further or self._last_rate > 0.0)
+        # Nothing is expected then, and so the start is 0.
+        if self._last_rate == 0.0 and not (is_further or is_again):
+            self._find_first_tensions(forcing, kick)
+        self._right_side.run(self._law, forcing, kick, self._start, is_further=is_further)
         if self._contacts is not None:
             self._contacts.hold()
         elif is_further and not is_again and not self._buffers.is_off():
@@ -356,11 +357,17 @@ class Solver:
         self._buffers.delete()
         self._tally.delete()
         self._programs.delete()
-        for right_side in self._right_sides.values():
-            right_side.delete()
+        self._right_side.delete()
         self._search.delete()
         if self._contacts is not None:
             self._contacts.delete()
+
+    def _find_first_tensions(self, forcing: Forcing, kick: float) -> None:
+        """Let tensions be what edges pull with as they are, before a step has found any."""
+        self._buffers.write(SOLUTION, np.zeros((self._cloth.rows, self._cloth.cols, 3)))
+        undamped = replace(self._law, damping=(0.0,) * len(self._law.damping))
+        self._right_side.run(undamped, forcing, kick, self._start, is_further=True)
+        self._find.run()
 
     def _compile(self, levels: Levels) -> None:
         cloth = levels.cloth

@@ -141,19 +141,15 @@ class SolverPass:
     """
     A program with the workgroups it always runs on.
 
-    :param level: what the program's uniform ``level`` is set to; None leaves it alone
-    :param goes_up: what the program's uniform ``goes_up`` is set to; None leaves it alone
+    :param uniforms: of the program, an int or a bool each, that it has in this pass
     """
 
     def __init__(
-            self, program: Program, groups: tuple[int, int], level: int | None = None,
-            goes_up: bool | None = None) -> None:
+            self, program: Program, groups: tuple[int, int], **uniforms: int) -> None:
         """Remember how to run ``program``."""
         self.groups = groups
         self._program = program
-        uniforms = {'level': level, 'goes_up': goes_up}
-        self._uniforms = {
-            name: int(value) for name, value in uniforms.items() if value is not None}
+        self._uniforms = uniforms
         self._offset = 0
 
     def set_int(self, name: str, value: int) -> None:

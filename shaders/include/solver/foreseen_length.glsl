@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 
 // How long an edge will be at the end of the step without a change of its velocity u, along the
-// direction n that it has now. A further solve begins where the nodes are at the end of the step.
+// direction n that it has now. A further solve begins where the nodes are at the end of the step:
+// its u is 0.
 
 uniform float substep;  // [s]
 
@@ -14,9 +15,7 @@ float growth_by_turning(float l, vec3 n, vec3 u) {
 }
 
 float foreseen_length(float l, vec3 n, vec3 u) {
-#if IS_FURTHER
-    return l;
-#elif FORESEES_TURN
+#if FORESEES_TURN
     return l + substep * dot(n, u) + growth_by_turning(l, n, u);
 #else
     return l + substep * dot(n, u);
