@@ -16,6 +16,7 @@ from cloth_sim_ros.gl.quick_calls import bind_buffer
 from cloth_sim_ros.gl.quick_calls import bind_buffer_base
 from cloth_sim_ros.gl.quick_calls import bind_texture
 from cloth_sim_ros.gl.quick_calls import Call
+from cloth_sim_ros.gl.quick_calls import copy_buffer
 from cloth_sim_ros.gl.quick_calls import memory_barrier
 from cloth_sim_ros.gl.quick_calls import multi_bind
 from cloth_sim_ros.gl.quick_calls import read_buffer
@@ -103,6 +104,13 @@ class Buffer:
             GL.glClearBufferData(
                 GL.GL_SHADER_STORAGE_BUFFER, GL.GL_R32UI, GL.GL_RED_INTEGER, GL.GL_UNSIGNED_INT,
                 None)
+
+    def copy(self, begin: int, into: int, size: int) -> None:
+        """Copy ``size`` bytes from ``begin`` to ``into``; the two parts have to lie apart."""
+        memory_barrier(_READS)
+        bind_buffer(_STORAGE, self.name)
+        copy_buffer(_STORAGE, _STORAGE, begin, into, size)
+        refuse_lost_context()
 
     def read_into(self, target: np.ndarray, offset: int = 0) -> None:
         """Fill ``target`` (contiguous) with the bytes from ``offset`` on."""

@@ -52,6 +52,10 @@ read_buffer = _quick(
     'glGetBufferSubData', gl_type.GLenum, gl_type.GLintptr, gl_type.GLsizeiptr, c_size_t)
 write_buffer = _quick(
     'glBufferSubData', gl_type.GLenum, gl_type.GLintptr, gl_type.GLsizeiptr, c_size_t)
+# From a target and to another, from one offset and to another, how many bytes.
+copy_buffer = _quick(
+    'glCopyBufferSubData', gl_type.GLenum, gl_type.GLenum, gl_type.GLintptr, gl_type.GLintptr,
+    gl_type.GLsizeiptr)
 activate_texture = _quick('glActiveTexture', gl_type.GLenum)
 bind_texture = _quick('glBindTexture', gl_type.GLenum, gl_type.GLuint)
 

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 
 #version 430 core
-// Before the first iteration: where the solution starts, what that leaves of the residual, and
-// its first smoothing.
+// Before the first iteration: where the solution starts, what that leaves of the right side and of what
+// the pass before has left, and its first smoothing.
 
 #include "solver/levels.glsl"
 #include "solver/vectors.glsl"
@@ -15,6 +15,7 @@ layout(local_size_x = LOCAL_X, local_size_y = LOCAL_Y) in;
 
 uniform int start_field;  // where the solution starts, of which
 uniform float guess;      // this share
+uniform float left_share; // of what the pass before has left: 1, or 0 where there was none
 
 void main() {
     ivec2 first = first_of_block();
@@ -30,6 +31,9 @@ void main() {
     FOR_BLOCK {
         int index = tile_index(first, row, col);
         vec3 residual = load_vector(cloth_entry(RESIDUAL, index)) - product[row][col];
+        vec3 left = is_free(node[row][col])
+            ? left_share * load_vector(cloth_entry(LEFT, index)) : vec3(0.0);
+        residual += in_free_directions(index, left);
         store_vector(cloth_entry(SOLUTION, index), value[row][col]);
         store_vector(cloth_entry(RESIDUAL, index), residual);
         store_vector(

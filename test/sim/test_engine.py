@@ -235,7 +235,8 @@ def test_the_driver_has_nothing_left_to_compile(context, shader_cache, mode, val
     if not context.is_software or 'Mesa' not in context.version:
         pytest.skip('Mesa alone shows what it compiles, by what its cache gets')
     kept = []
-    for part in ('is prepared', 'runs'):
+    # The driver writes its cache in the background, and now and then ends before all is written.
+    for part in ('is prepared', 'is prepared', 'runs'):
         environment = {
             **os.environ, 'MESA_SHADER_CACHE_DIR': str(shader_cache), 'LP_NUM_THREADS': '0',
             # What is run for a moment need not be optimised.
@@ -245,8 +246,8 @@ def test_the_driver_has_nothing_left_to_compile(context, shader_cache, mode, val
             [sys.executable, '-c', _IN_A_PROCESS, mode, repr(values), part], check=True,
             env=environment)
         kept.append({file: file.stat().st_size for file in _files(shader_cache)})
-    assert kept[0], 'the driver keeps what it has compiled'
-    assert kept[1] == kept[0]
+    assert kept[1], 'the driver keeps what it has compiled'
+    assert kept[2] == kept[1]
 
 
 def _files(folder: Path) -> list[Path]:

@@ -1,13 +1,11 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-"""Preconditioned conjugate gradients on the device, which decides itself when to stop."""
+"""The solves of an implicit step, by preconditioned conjugate gradients on the device."""
 
 from collections.abc import Generator
 from dataclasses import replace
 
-from cloth_sim_ros.gl.buffer import DISPATCHES_VISIBLE
-from cloth_sim_ros.gl.buffer import shader_dispatches_visible
 from cloth_sim_ros.sim.edge_kinds import EDGE_KINDS
 from cloth_sim_ros.sim.forcing import Forcing
 from cloth_sim_ros.sim.layout import Layout
@@ -18,22 +16,20 @@ from cloth_sim_ros.sim.solver.active_set import RightSide
 from cloth_sim_ros.sim.solver.active_set import SolverContacts
 from cloth_sim_ros.sim.solver.active_set import Start
 from cloth_sim_ros.sim.solver.edge_law import EdgeLaw
+from cloth_sim_ros.sim.solver.iterations import Iterations
 from cloth_sim_ros.sim.solver.preconditioner import BlockJacobi
 from cloth_sim_ros.sim.solver.preconditioner import Multigrid
 from cloth_sim_ros.sim.solver.preconditioner import Preconditioner
 from cloth_sim_ros.sim.solver.solver_buffers import BEND_TENSION
 from cloth_sim_ros.sim.solver.solver_buffers import CHANGE
+from cloth_sim_ros.sim.solver.solver_buffers import LEFT
 from cloth_sim_ros.sim.solver.solver_buffers import Levels
-from cloth_sim_ros.sim.solver.solver_buffers import MOST_LEVELS
 from cloth_sim_ros.sim.solver.solver_buffers import PRECONDITIONED
 from cloth_sim_ros.sim.solver.solver_buffers import PRODUCT
 from cloth_sim_ros.sim.solver.solver_buffers import RESIDUAL
 from cloth_sim_ros.sim.solver.solver_buffers import SOLUTION
-from cloth_sim_ros.sim.solver.solver_buffers import SolverBuffers
 from cloth_sim_ros.sim.solver.solver_buffers import START
 from cloth_sim_ros.sim.solver.solver_buffers import TENSION
-from cloth_sim_ros.sim.solver.solver_programs import POINT_LOCAL
-from cloth_sim_ros.sim.solver.solver_programs import POINTS
 from cloth_sim_ros.sim.solver.solver_programs import SolverPass
 from cloth_sim_ros.sim.solver.solver_programs import SolverPrograms
 from cloth_sim_ros.sim.solver.tally import least_scale
@@ -49,6 +45,9 @@ PRECONDITIONERS: dict[str, type[Preconditioner]] = {
 
 # Of the tolerance. What the last iteration leaves is foretold, not measured.
 _AIM = 0.8
+# Of the tolerance, that of solves where edges come to limits: which do is found by the lengths
+# that they lead to.
+_LIMITS_SHARE = 1.0 / 3.0
 # Of what is missing at its start, what a solve may leave that another one goes on from, with other
 # limits in force.
 _EARLY = 0.3
@@ -57,17 +56,14 @@ _EARLY = 0.3
 _HALF = 0.5
 # Of the change of velocity: less than this is missing of tensions by the rounding of lengths.
 _LEAST_MISSING = 5e-6
-# Iterations that are submitted together where asking in between is a wait.
-_BATCH = 4
-# Passes of one size can be switched off together: some for each level.
-_MOST_GROUPS_COUNTS = 3 * MOST_LEVELS
 
 
 class Solver:
     """
     Solves (M + J^T a J + beta h^2 (K_geo + K_bend)) dv = b for the free nodes of a cloth.
 
-    Tensions stay from solve to solve: K_geo has those found last.
+    Tensions stay from solve to solve: K_geo has those found last. So does the residual: it is
+    momentum that the solution lacks, and the next solve finds it with its own.
 
     :param state: how the state is stored
     :param families: of the edges in the system; None takes those the scene models
@@ -98,21 +94,25 @@ class Solver:
         parts = scene, state, self._programs, levels
         self._right_side = RightSide(*parts, foresees_turn=foresees_turn)
         self._search = LimitSearch(*parts, foresees_turn=foresees_turn)
-        self._tally = Tally(self._programs, tolerance)
+        self._tally = Tally(self._programs)
         self._contacts = SolverContacts(
             scene, state, self._programs, levels.cloth.node_groups,
             levels.cloth.groups) if scene.has_contact else None
         self._preconditioner = kind(self._programs, levels)
-        self._iterations = max_iterations
+        self._iterations = Iterations(
+            state, levels, self._programs, self._preconditioner, max_iterations)
+        self._buffers = self._iterations.buffers
         self._tolerance = tolerance
         self._last_law: EdgeLaw | None = None
-        self._batch = 1 if state.texture_loads else _BATCH
-        self._first_batch = self._batch
         self._has_bend = 'bend' in families
         # One over the length of the step whose change the next one begins with; 0 for none.
         self._last_rate = 0.0
         self._start = Start(CHANGE, 0.0)
         self._is_further = self._is_again = self._may_stop_early = False
+        self._is_cut_short = False
+        # Where the residual of the last solve is; None where there is none to take over.
+        self._left_in: int | None = None
+        self._left_share = 0.0
         self._compile(levels)
 
     def set_law(self, law: EdgeLaw) -> None:
@@ -121,6 +121,10 @@ class Solver:
             self._last_law = law
             self._programs.set_law(law)
             self._preconditioner.set_law(law)
+
+    @property
+    def _tolerated(self) -> float:
+        return self._tolerance * (_LIMITS_SHARE if self._law.has_limits else 1.0)
 
     @property
     def _law(self) -> EdgeLaw:
@@ -174,7 +178,9 @@ class Solver:
         state.bind_in()
         self._is_further = is_further
         if is_again:
-            self._tally.add(is_final=False)
+            self._tally.add(self._tolerated, is_final=False)
+        else:
+            self._take_over()
         self._buffers.clear_scalars(keep_scale=is_further or is_again)
         # What changes the velocities changes little from step to step.
         self._start = Start(START, 1.0) if is_again else Start(
@@ -186,26 +192,31 @@ class Solver:
         if self._contacts is not None:
             self._contacts.hold()
         elif is_further and not is_again and not self._buffers.is_off():
+            self._left_in = LEFT if self._left_share else None
             return False
         damping = (self._damp,) if self._damps_bending and not is_further else ()
         for each in (*damping, self._assemble, *self._preconditioner.assembly):
             each.run()
-        self._begin.set_int('start_field', self._start.field)
-        self._begin.set_float('guess', self._start.share)
-        self._reduce.set_int('sets_scale', int(not (is_further or is_again)))
-        self._reduce.set_float('least_scale', least_scale(state, forcing, kick))
-        self._reduce.set_int('may_stay', int(is_again))
         if not is_again:
             self._may_stop_early = may_stop_early and self._law.has_limits
         elif self._search.last_share < _HALF:
             self._may_stop_early = False
-        self._reduce.set_float('early_square', _EARLY**2 if self._may_stop_early else 0.0)
+        self._iterations.start_from(self._start, self._left_share)
+        self._iterations.stop_at(
+            _AIM * self._tolerated, may_stay=is_again,
+            least_scale=None if is_further or is_again else least_scale(state, forcing, kick),
+            early=_EARLY if self._may_stop_early else 0.0)
         self._is_again = is_again
         return True
 
     def set_right_side(self, values: np.ndarray) -> None:
-        """Take (rows, cols, 3) ``values``, zero at pinned nodes, as b over the node mass [m/s]."""
+        """
+        Take (rows, cols, 3) ``values`` as b over the node mass [m/s], and nothing that was left.
+
+        :param values: zero at pinned nodes
+        """
         self._buffers.write(RESIDUAL, values)
+        self._iterations.start_from(self._start, 0.0)
 
     def right_side(self) -> np.ndarray:
         """Return b over the node mass [m/s], (rows, cols, 3); ``solve`` uses it up."""
@@ -219,21 +230,14 @@ class Solver:
 
     def solve_in_pieces(self) -> Generator[None, bool | None, None]:
         """Find the solution, and yield where the device may do something else; as Mode.step."""
-        self._buffers.bind()
-        self._begin.run()
-        for each in self._iteration:
-            each.run()
-            if (yield):
-                self._buffers.bind()
-        shader_dispatches_visible()
-        yield from self._iterate()
-        self._update.run()
+        yield from self._iterations.solve()
 
     def find_tensions(self) -> None:
         """Find what edges pull with by the solution; later steps go by it."""
         self._buffers.bind()
-        self._tally.add(is_final=True)
+        self._tally.add(self._tolerated, is_final=True)
         self._find.run()
+        self._left_in = None if self._is_cut_short else RESIDUAL
         self._last_rate = 1.0 / self._law.length
 
     def move_start(self, state: State, *, is_last: bool = False) -> bool:
@@ -247,35 +251,19 @@ class Solver:
         if not self._law.has_limits:
             return False
         found = self._buffers.scalars()
-        allowed = (_AIM * self._tolerance)**2 * found.scale
+        allowed = (_AIM * self._tolerated)**2 * found.scale
         # Where it began is the solution, by the law as it is there.
         if self._is_again and found.measure_start <= allowed:
             return False
         is_early = allowed < found.measure_after <= _EARLY**2 * found.measure_start
-        missing = max(self._tolerance, _LEAST_MISSING)**2 * found.scale
+        missing = max(self._tolerated, _LEAST_MISSING)**2 * found.scale
         self._buffers.bind()
         state.bind_in()
-        return self._search.move_start(
+        is_due = self._search.move_start(
             self._law, self._start, self._buffers, missing, SOLUTION if is_last else START,
             is_further=self._is_further, is_early=is_early)
-
-    def _iterate(self) -> Generator[None, bool | None, None]:
-        # To ask whether the device goes on costs little where that is this processor, and a wait
-        # elsewhere: there, as many are submitted at once as the last solve took.
-        made, batch = 1, self._first_batch
-        while made < self._iterations and self._buffers.is_going():
-            batch = min(batch, self._iterations - made)
-            for _ in range(batch):
-                for call, arguments in self._further_calls:
-                    call(*arguments)
-                if (yield):
-                    self._buffers.bind()
-            made += batch
-            batch = self._batch
-        if self._batch > 1:
-            self._first_batch = max(self._buffers.iterations() - 1, 1)
-        for each in self._further:
-            each.submitted(made - 1)
+        self._is_cut_short = is_due and is_last
+        return is_due
 
     def apply(
             self, state: State, *, further: bool = False,
@@ -298,7 +286,7 @@ class Solver:
         """Return the matrix over the node mass times ``values``, both (rows, cols, 3)."""
         self._buffers.bind()
         self._buffers.write(PRECONDITIONED, values)
-        self._multiply.run()
+        self._iterations.multiply.run()
         return self._buffers.read(PRODUCT)
 
     def solution(self) -> np.ndarray:
@@ -320,8 +308,9 @@ class Solver:
         self._search.run_all_passes(self._law, self._start, self._buffers, START)
 
     def expect_nothing(self) -> None:
-        """Take no tension and no change of velocity over from earlier steps."""
+        """Take no tension, change of velocity or residual over from earlier steps."""
         self._last_rate = 0.0
+        self._left_in = None
 
     def forget(self) -> None:
         """Drop what earlier solves have left, also where they came to no numbers."""
@@ -362,6 +351,13 @@ class Solver:
         if self._contacts is not None:
             self._contacts.delete()
 
+    def _take_over(self) -> None:
+        """Let the pass that begins find what the one before has left, too."""
+        self._is_cut_short = False
+        self._left_share = float(self._left_in is not None)
+        if self._left_in == RESIDUAL:
+            self._buffers.copy(RESIDUAL, LEFT)
+
     def _find_first_tensions(self, forcing: Forcing, kick: float) -> None:
         """Let tensions be what edges pull with as they are, before a step has found any."""
         self._buffers.write(SOLUTION, np.zeros((self._cloth.rows, self._cloth.cols, 3)))
@@ -370,31 +366,10 @@ class Solver:
         self._find.run()
 
     def _compile(self, levels: Levels) -> None:
-        cloth = levels.cloth
-        points = (-(-cloth.stored // (POINTS * POINT_LOCAL)), 1)
+        cloth, programs = levels.cloth, self._programs
         nodes = cloth.node_groups
-        programs = self._programs
         self._assemble = SolverPass(programs.make('assemble.comp'), nodes)
         if self._damps_bending:
             self._damp = SolverPass(programs.make('damp_bending.comp'), nodes)
-        self._begin = SolverPass(programs.make('begin.comp'), cloth.groups)
-        self._multiply = SolverPass(programs.make('product.comp'), cloth.groups)
-        self._update = SolverPass(programs.make('update.comp'), points)
         self._find = SolverPass(programs.make('find_tension.comp'), cloth.groups)
         self._apply = SolverPass(programs.make('apply.comp'), nodes)
-        dispatches = [(1, 1)]
-        self._iteration = [*self._preconditioner.cycle, self._multiply]
-        for each in (*self._iteration, self._update):
-            each.switch(dispatches)
-        reduce = programs.make('reduce.comp', MOST_GROUPS_COUNTS=_MOST_GROUPS_COUNTS)
-        reduce.set_int('groups_count', len(dispatches))
-        reduce.set_int_vectors('groups_of_each', np.array(dispatches))
-        self._reduce = SolverPass(reduce, (1, 1))
-        self._iteration.append(self._reduce)
-        self._further = [self._update, *self._iteration]
-        self._further_calls = [
-            call for each in self._further for call in each.calls_if_going()]
-        self._further_calls.append(DISPATCHES_VISIBLE)
-        self._buffers = SolverBuffers(levels, len(dispatches))
-        reduce.set_int('sum_count', self._buffers.sum_count)
-        reduce.set_float('tolerance_square', (_AIM * self._tolerance)**2)

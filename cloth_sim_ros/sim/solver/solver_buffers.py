@@ -19,7 +19,7 @@ import numpy as np
 COARSEST_SIDE = 8
 # As in solver/levels.glsl: enough for any cloth that buffers can hold.
 MOST_LEVELS = 16
-_CLOTH_VECTORS = 8
+_CLOTH_VECTORS = 9
 # With bend edges, and with damped bending, two fields more for each.
 _CLOTH_SYSTEM, _MORE_SYSTEM = 7, 2
 _CONTACT_VECTORS, _CONTACT_SYSTEM = 5, 2
@@ -110,7 +110,7 @@ def _layout(state: Layout, rows: int, cols: int, has_much: bool) -> Layout:
 # What the solver keeps on the device.
 
 TENSION, BEND_TENSION = 5, 8
-RESIDUAL, PRODUCT, PRECONDITIONED, DIRECTION, IMAGE, SOLUTION, CHANGE, START = range(8)
+RESIDUAL, PRODUCT, PRECONDITIONED, DIRECTION, IMAGE, SOLUTION, CHANGE, START, LEFT = range(9)
 _ENTRY_BYTES = 16
 
 
@@ -212,6 +212,11 @@ class SolverBuffers:
     def iterations(self) -> int:
         """Return how many iterations the last solve has made."""
         return int(self.scalars().iterations)
+
+    def copy(self, field: int, into: int) -> None:
+        """Copy a vector of the cloth into another one."""
+        size = self._cloth.stored * _ENTRY_BYTES
+        self._allocated().vectors.copy(field * size, into * size, size)
 
     def read(self, field: int) -> np.ndarray:
         """Return a vector of the cloth, (rows, cols, 3)."""

@@ -79,20 +79,20 @@ class TallyReport:
 class Tally:
     """Runs tally.comp after each solve, so that none has to be waited for."""
 
-    def __init__(self, programs: SolverPrograms, tolerance: float) -> None:
+    def __init__(self, programs: SolverPrograms) -> None:
         """Compile the pass and allocate the figures."""
-        program = programs.make('tally.comp')
-        program.set_float('tolerance_square', tolerance**2)
-        self._pass = SolverPass(program, (1, 1))
+        self._pass = SolverPass(programs.make('tally.comp'), (1, 1))
         self._buffer = Buffer(np.zeros(_FIGURES, dtype=np.float32))
 
-    def add(self, *, is_final: bool) -> None:
+    def add(self, tolerance: float, *, is_final: bool) -> None:
         """
         Count the solve whose scalars are bound.
 
+        :param tolerance: that it was to stop at
         :param is_final: False where another one goes on from its solution
         """
         self._buffer.bind_storage(bindings.SOLVER_TALLY)
+        self._pass.set_float('tolerance_square', tolerance**2)
         self._pass.set_int('is_final', int(is_final))
         self._pass.run()
 

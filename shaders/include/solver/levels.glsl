@@ -26,11 +26,12 @@ uniform int level;
 #define SOLUTION 5
 #define CHANGE 6          // of the velocity in the whole step
 #define START 7           // of a solve that goes on from another
-#define BEGIN_POSITION 8  // with contact, as those that follow: where the substep began
-#define BEGIN_VELOCITY 9  // and with which velocity
-#define REACTION 10       // change of velocity that colliders have made in the substep
-#define GIVEN 11          // impulse of colliders that the next solve has to add, over the node mass
-#define RIGHT 12          // the right side, also where a node can't follow it
+#define LEFT 8            // of RESIDUAL, by the pass before
+#define BEGIN_POSITION 9  // with contact, as those that follow: where the substep began
+#define BEGIN_VELOCITY 10 // and with which velocity
+#define REACTION 11       // change of velocity that colliders have made in the substep
+#define GIVEN 12          // impulse of colliders that the next solve has to add, over the node mass
+#define RIGHT 13          // the right side, also where a node can't follow it
 
 // The system.
 #define INVERSE 0  // two fields: inverse of the node's diagonal block, zero where it can't move

@@ -37,7 +37,7 @@ def test_solves_are_told(simulate):
     simulation.step(5)
     snapshot = simulation.snapshot()
     assert 0 < snapshot.solver_iterations < 60
-    assert 0.0 < snapshot.solver_residual <= 1e-2
+    assert 0.0 < snapshot.solver_residual <= simulation.scene['solver.tolerance']
     assert snapshot.solver_reached
     assert snapshot.solves == 2 * snapshot.substeps
     assert 0.0 < snapshot.mean_iterations <= snapshot.solver_iterations

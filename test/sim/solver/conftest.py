@@ -59,6 +59,8 @@ class SolverCase:
 
     Where the law has the geometric mass term, a solve has been made before, for its tensions.
 
+    ``left`` is what the solve before has left of its right side (rows, cols, 3) [m/s].
+
     :param kick: that gravity acts for [s]; None takes the length of the step
     :param is_new: leave that solve out
     """
@@ -97,6 +99,8 @@ class SolverCase:
     def prepare(self, *, is_further: bool = False) -> None:
         """Prepare a solve of the state that is on the device, and the system that it is of."""
         found = None if self._is_new else self.solver.tensions()
+        self.left = np.zeros(self.positions.shape) if self._is_new else (
+            self.system.right_side + self.left - self.system.times(self.solver.solution()))
         self.solver.prepare(
             self.state, self.forcing, kick=self._kick, is_further=is_further)
         self.system = ImplicitSystem(
@@ -104,6 +108,10 @@ class SolverCase:
                 self._kick, self._foresees_turn, found,
                 self.law.length * self._accelerations, is_further))
         self._is_new = False
+
+    def exact(self) -> np.ndarray:
+        """Return the exact solution of the system, of what was left as well."""
+        return self.system.solve(self.system.right_side + self.left)
 
     def apply(self, *, further: bool = False) -> None:
         """Apply the solution."""

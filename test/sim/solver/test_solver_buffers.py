@@ -53,7 +53,7 @@ def fields_bytes(levels: Levels, of_cloth: int, of_coarse: int) -> int:
 def test_buffers_hold_all_fields_and_no_more(shape, has_bend, of_cloth):
     """A field would lie beyond its buffer, or the largest cloth be smaller than it need be."""
     levels = levels_of(*shape, has_bend=has_bend)
-    assert levels.vector_bytes == fields_bytes(levels, 8, 3)
+    assert levels.vector_bytes == fields_bytes(levels, 9, 3)
     assert levels.system_bytes == fields_bytes(levels, of_cloth, 10)
 
 

@@ -1,0 +1,119 @@
+# SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
+# SPDX-License-Identifier: Apache-2.0
+
+"""The iterations of conjugate gradients, of which the device decides when to stop."""
+
+from collections.abc import Generator
+
+from cloth_sim_ros.gl.buffer import DISPATCHES_VISIBLE
+from cloth_sim_ros.gl.buffer import shader_dispatches_visible
+from cloth_sim_ros.sim.layout import Layout
+from cloth_sim_ros.sim.solver.active_set import Start
+from cloth_sim_ros.sim.solver.preconditioner import Preconditioner
+from cloth_sim_ros.sim.solver.solver_buffers import Levels
+from cloth_sim_ros.sim.solver.solver_buffers import MOST_LEVELS
+from cloth_sim_ros.sim.solver.solver_buffers import SolverBuffers
+from cloth_sim_ros.sim.solver.solver_programs import POINT_LOCAL
+from cloth_sim_ros.sim.solver.solver_programs import POINTS
+from cloth_sim_ros.sim.solver.solver_programs import SolverPass
+from cloth_sim_ros.sim.solver.solver_programs import SolverPrograms
+import numpy as np
+
+# Iterations that are submitted together where asking in between is a wait.
+_BATCH = 4
+# Passes of one size can be switched off together: some for each level.
+_MOST_GROUPS_COUNTS = 3 * MOST_LEVELS
+
+
+class Iterations:
+    """
+    Finds the solution of the system and right side that stand in ``buffers``.
+
+    :param state: how the state is stored
+    :param most: iterations of a solve
+    """
+
+    def __init__(
+            self, state: Layout, levels: Levels, programs: SolverPrograms,
+            preconditioner: Preconditioner, most: int) -> None:
+        """Compile the passes, and allocate what is small of the buffers."""
+        cloth = levels.cloth
+        self._begin = SolverPass(programs.make('begin.comp'), cloth.groups)
+        self._update = SolverPass(
+            programs.make('update.comp'), (-(-cloth.stored // (POINTS * POINT_LOCAL)), 1))
+        self.multiply = SolverPass(programs.make('product.comp'), cloth.groups)
+        dispatches = [(1, 1)]
+        self._first = [*preconditioner.cycle, self.multiply]
+        for each in (*self._first, self._update):
+            each.switch(dispatches)
+        self.buffers = SolverBuffers(levels, len(dispatches))
+        reduce = programs.make('reduce.comp', MOST_GROUPS_COUNTS=_MOST_GROUPS_COUNTS)
+        reduce.set_int('groups_count', len(dispatches))
+        reduce.set_int_vectors('groups_of_each', np.array(dispatches))
+        reduce.set_int('sum_count', self.buffers.sum_count)
+        self._reduce = SolverPass(reduce, (1, 1))
+        self._first.append(self._reduce)
+        self._further = [self._update, *self._first]
+        self._further_calls = [
+            call for each in self._further for call in each.calls_if_going()]
+        self._further_calls.append(DISPATCHES_VISIBLE)
+        self._most = most
+        self._batch = 1 if state.texture_loads else _BATCH
+        self._first_batch = self._batch
+
+    def start_from(self, start: Start, left_share: float) -> None:
+        """
+        Choose where the next solve starts.
+
+        :param left_share: of what the pass before has left, that this one is to find as well
+        """
+        self._begin.set_int('start_field', start.field)
+        self._begin.set_float('guess', start.share)
+        self._begin.set_float('left_share', left_share)
+
+    def stop_at(
+            self, tolerance: float, *, least_scale: float | None, may_stay: bool,
+            early: float) -> None:
+        """
+        Choose where the next solve stops.
+
+        :param tolerance: over the scale, the change of velocity in the step
+        :param least_scale: the square of the least change; None to keep the scale there is
+        :param may_stay: True where the solve begins may be the solution
+        :param early: of the residual at the start, what may be left in any case
+        """
+        self._reduce.set_float('tolerance_square', tolerance**2)
+        self._reduce.set_int('sets_scale', int(least_scale is not None))
+        self._reduce.set_float('least_scale', least_scale or 0.0)
+        self._reduce.set_int('may_stay', int(may_stay))
+        self._reduce.set_float('early_square', early**2)
+
+    def solve(self) -> Generator[None, bool | None, None]:
+        """Find the solution, and yield where the device may do something else; as Mode.step."""
+        self.buffers.bind()
+        self._begin.run()
+        for each in self._first:
+            each.run()
+            if (yield):
+                self.buffers.bind()
+        shader_dispatches_visible()
+        yield from self._go_on()
+        self._update.run()
+
+    def _go_on(self) -> Generator[None, bool | None, None]:
+        # To ask whether the device goes on costs little where that is this processor, and a wait
+        # elsewhere: there, as many are submitted at once as the last solve took.
+        made, batch = 1, self._first_batch
+        while made < self._most and self.buffers.is_going():
+            batch = min(batch, self._most - made)
+            for _ in range(batch):
+                for call, arguments in self._further_calls:
+                    call(*arguments)
+                if (yield):
+                    self.buffers.bind()
+            made += batch
+            batch = self._batch
+        if self._batch > 1:
+            self._first_batch = max(self.buffers.iterations() - 1, 1)
+        for each in self._further:
+            each.submitted(made - 1)
