@@ -80,10 +80,10 @@ CONTENDERS = {contender.name: contender for contender in (
     # A step of a frame: substeps follow from how fast edges turn.
     Contender('constraint', {
         'mode': 'constraint', 'constraint.hard': ('structural', 'shear'),
-        'constraint.strain': 0.006, 'dt': 0.02, 'solver.tolerance': 0.05}),
+        'constraint.strain': 0.006, 'dt': 0.02, 'solver.tolerance': 0.02}),
     Contender('adaptive', {
         'mode': 'adaptive', 'adaptive.threshold': _STRAIN_LIMIT, 'dt': 0.02,
-        'solver.tolerance': 0.06,
+        'solver.tolerance': 0.04,
         'stiffness.structural': 1e3, 'stiffness.shear': 1e3},
         # A limit holds springs where it finds them, which may be somewhat beyond it.
         StretchBound(peak=2.0 * _STRAIN_LIMIT, percentile=1.2 * _STRAIN_LIMIT)),

@@ -47,7 +47,7 @@ PRECONDITIONERS: dict[str, type[Preconditioner]] = {
 _AIM = 0.8
 # Of the tolerance, that of solves where edges come to limits: which do is found by the lengths
 # that they lead to.
-_LIMITS_SHARE = 1.0 / 3.0
+_LIMITS_SHARE = 0.5
 # Of what is missing at its start, what a solve may leave that another one goes on from, with other
 # limits in force.
 _EARLY = 0.3

@@ -9,7 +9,7 @@ import numpy as np
 def test_errors_of_solves_do_not_add_up(simulate, within):
     """Each solve would leave momentum that no later one finds, and a run drift away."""
     ways = []
-    for tolerance in (1e-5, 0.03):
+    for tolerance in (1e-5, 0.02):
         simulation = simulate({
             'mode': 'constraint', 'rows': 32, 'cols': 32, 'areal_density': 0.15, 'dt': 0.005,
             'auto_substeps': False, 'substeps': 2, 'solver.tolerance': tolerance,
