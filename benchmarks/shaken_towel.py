@@ -108,7 +108,8 @@ def main() -> None:
     parser.add_argument('--seconds', type=float, default=0.4)
     parser.add_argument(
         '--density', type=float, default=TOWEL['areal_density'], help='[kg/m2]')
-    parser.add_argument('--tolerance', type=float, default=0.01)
+    parser.add_argument(
+        '--tolerance', type=float, default=0.02, help='twice that of solves with limits')
     parser.add_argument(
         '--beyond', type=float, default=adaptive._SHARE,
         help='of the limit: what an edge that carries the cloth is beyond it')

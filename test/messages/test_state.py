@@ -8,6 +8,7 @@ from cloth_sim_interfaces.msg import ClothState
 from cloth_sim_ros.messages.state import diagnostics_message
 from cloth_sim_ros.messages.state import slow_pace
 from cloth_sim_ros.messages.state import state_message
+from cloth_sim_ros.sim.scene import Scene
 from diagnostic_msgs.msg import DiagnosticArray
 from diagnostic_msgs.msg import DiagnosticStatus
 from made_snapshot import make_snapshot
@@ -81,7 +82,10 @@ def test_a_healthy_run_is_ok_in_all_parts():
     ('real-time factor', OK, 'paused', {}, {'real_time_factor': 0.0, 'paused': True}),
     ('real-time factor', OK, 'as fast as possible', {}, {'wanted_factor': 0.0}),
     ('solver', OK, 'in 7 iterations', {'solver_iterations': 7, 'solver_residual': 1e-4}, {}),
-    ('solver', WARN, 'shorter dt', {'solver_iterations': 7, 'solver_residual': 0.5}, {}),
+    ('solver', OK, 'in 2 iterations', {
+        'solver_iterations': 2, 'solver_residual': Scene()['solver.tolerance']}, {}),
+    ('solver', WARN, 'lower solver.tolerance', {
+        'solver_iterations': 7, 'solver_residual': 0.5}, {}),
     ('solver', WARN, 'shorter dt',
      {'solver_iterations': 7, 'solver_residual': float('nan')}, {}),
     ('solver', WARN, 'raise solver.max_iterations',
