@@ -51,6 +51,7 @@ uniform float to_come;    // of what the velocities move nodes by: 0 in a furthe
 vec3 velocity[TILE][TILE];
 vec3 start[TILE][TILE];
 vec3 way[TILE][TILE];
+vec4 tension[TILE][TILE];  // found last
 vec3 sums;
 
 void look(int row, int col, int drow, int dcol, int edge, int family, int rest) {
@@ -65,18 +66,25 @@ void look(int row, int col, int drow, int dcol, int edge, int family, int rest) 
     vec3 n = inverse_length * d;
     vec3 u = velocity[row][col] - velocity[row + drow][col + dcol];
     vec3 w = way[row][col] - way[row + drow][col + dcol];
-    float judged = foreseen_length(square * inverse_length, n, u)
+    float begun = foreseen_length(square * inverse_length, n, to_come * u)
         + substep * dot(n, start[row][col] - start[row + drow][col + dcol]);
     float opened = dot(n, w);
-    float l = judged + substep * share * opened;
-    Pull straight = pull_at(l, judged, 0.0, family, rest);
-    Pull bent = pull_at(l, l, 0.0, family, rest);
-    float missing = substep * (bent.tension - straight.tension);
+    float missing = 0.0;
+    float slope = 0.0;
+    // Bend edges come to no limits.
+    if (family != BEND) {
+        float judged = judged_length(begun, tension[row][col][edge], dot(n, u), family, rest);
+        float l = begun + substep * share * opened;
+        Past straight = past_limits(l, judged, family, rest);
+        Past bent = past_limits(l, l, family, rest);
+        missing = substep * limit_stiffness[rest] * (bent.amount - straight.amount);
+        slope = edge_stiffness[rest] + limit_stiffness[rest] * bent.slope;
+    }
     float weight = weight_along(row, col, edge) * square;
     sums += vec3(
         weight * opened * opened + weight_across(row, col, edge) * dot(w, w),
         missing * opened,
-        missing * missing / (1.0 + substep * substep * bent.slope));
+        missing * missing / (1.0 + substep * substep * slope));
 }
 
 void main() {
@@ -87,7 +95,8 @@ void main() {
         FOR_TILE {
             ivec2 at = first + ivec2(col, row) - REACH;
             int entry = tile_index(first, row, col);
-            velocity[row][col] = to_come * load_velocity(state_index(at.y, at.x)).xyz;
+            velocity[row][col] = load_velocity(state_index(at.y, at.x)).xyz;
+            tension[row][col] = load_system(cloth_entry(TENSION, entry));
             float moves = is_free(node[row][col]) ? 1.0 : 0.0;
             start[row][col] = moves * guess * load_vector(cloth_entry(start_field, entry));
             way[row][col] = load_vector(cloth_entry(SOLUTION, entry)) - start[row][col];

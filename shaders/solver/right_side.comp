@@ -91,12 +91,14 @@ void add_edge(int row, int col, int drow, int dcol, int edge, int family, int re
     vec3 n = inverse_length * d;
     vec3 u = velocity[row][col] - velocity[row + drow][col + dcol];
     float ahead = foreseen_length(l, n, to_come * u);
-    // Edges come to their limits in the step, and leave them.
-    float judged =
-        ahead + substep * dot(n, expected[row][col] - expected[row + drow][col + dcol]);
-    Pull pull = pull_at(ahead, judged, dot(n, u), family, rest);
-    float tension_here = moves * pull.tension;
+    float rate = dot(n, u);
     float found = found_tension(row, col, edge);
+    // Edges come to their limits in the step, and leave them.
+    float judged = judged_length(
+        ahead + substep * dot(n, expected[row][col] - expected[row + drow][col + dcol]),
+        found, rate, family, rest);
+    Pull pull = pull_at(ahead, judged, rate, family, rest);
+    float tension_here = moves * pull.tension;
     float missing = tension_here - (1.0 - to_come) * found;
     is_off_here = is_off_here || is_in_block(row, col)
         && abs(missing) > moves * pull.slope * rounding_of_length(from.xyz, to.xyz);

@@ -32,8 +32,10 @@ class Solve:
     :param found: tensions of the solve before [N], (rows, cols, 6) as in Snapshot; None where
         there was none, which takes those of the present lengths
     :param expected: change of velocity that tells which limits come into force (rows, cols, 3)
-        [m/s]; None for none
+        [m/s], where none had pulled; None for none
     :param is_further: the nodes have moved, and the solve finds what ``found`` lacks of the law
+    :param is_next: ``found`` was solved for: where a limit pulled, it tells how far past the limit
+        an edge is
     """
 
     kick: float | None = None
@@ -41,6 +43,7 @@ class Solve:
     found: np.ndarray | None = None
     expected: np.ndarray | None = None
     is_further: bool = False
+    is_next: bool = False
 
 
 @dataclass(frozen=True)
@@ -169,16 +172,40 @@ class ImplicitSystem:
                 sideways = h * (rates - rate[:, None] * direction)
                 at = at + np.sqrt(length**2 + np.sum(sideways**2, axis=1)) - length
             judged = at + h * _along(direction, expected)
-        tension, slope = self._pull(at, judged, rate, *kind)
         if solve.found is None:
             before, _ = self._pull(length, length, 0.0 * rate, *kind)
         else:
             before = solve.found.reshape(len(x), -1)[first, place] / self._node_mass
+        if solve.is_next:
+            judged = self._length_of(before, rate, judged, *kind)
+        tension, slope = self._pull(at, judged, rate, *kind)
         return _Edges(
             place, first, second, length, direction, tension,
             tension - before if solve.is_further else tension,
             h * slope + self._law.damping[kind[1]],
             self._law.geometric * h**2 * np.maximum(before, 0.0) / length)
+
+    def _length_of(
+            self, tension: np.ndarray, rate: np.ndarray, otherwise: np.ndarray, family: int,
+            rest: int, rest_length: float) -> np.ndarray:
+        """
+        Return how long edges of ``tension`` [m/s2] are beyond a limit [m], ``otherwise`` if not.
+
+        The spring counts as long as where the limit begins to pull.
+        """
+        law = self._law
+        width = law.transition * rest_length
+        judged = otherwise.copy()
+        for sign, limit in ((1.0, law.longest[family]), (-1.0, law.shortest[family])):
+            begin = limit * rest_length - sign * width
+            past = sign * (
+                tension - law.damping[rest] * rate
+                - law.stiffness[rest] * (begin - rest_length)) / law.limit_stiffness[rest]
+            pulls = (past > 0.0) & (0.0 < limit < 1e20)
+            into = np.minimum(np.sqrt(np.maximum(past, 0.0) / width), 1.0) if width else 1.0
+            beyond = into * 2.0 * width + np.maximum(past - width, 0.0)
+            judged[pulls] = (begin + sign * beyond)[pulls]
+        return judged
 
     def _pull(
             self, length: np.ndarray, judged: np.ndarray, rate: np.ndarray, family: int,

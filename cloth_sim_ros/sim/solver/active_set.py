@@ -26,19 +26,23 @@ from cloth_sim_ros.sim.state import State
 @dataclass(frozen=True)
 class Start:
     """
-    Where a solve starts.
+    Where a solve starts, and where it takes the law of each edge for a straight line.
 
     :param field: of SolverBuffers, a change of velocity
     :param share: of it
+    :param judges_by_tension: at the length that the tension found last belongs to, where a limit
+        pulled; else at the length that the start leads to
     """
 
     field: int
     share: float
+    judges_by_tension: bool = False
 
     def set_in(self, program: Program) -> None:
         """Set it in the program in use."""
         program.set_int('start_field', self.field)
         program.set_float('guess', self.share)
+        program.set_int('judges_by_tension', int(self.judges_by_tension))
 
 
 class RightSide:
@@ -93,7 +97,7 @@ class RightSide:
 
 # Looks along the way, by false position, not nearer than a tenth to the ends of what is left.
 _LOOKS = 6
-# Of the slope at the start: what the slope at the end of the way may be.
+# Of the slope at the start: what the slope where the next solve starts may be.
 _FLAT = 0.05
 
 
@@ -171,7 +175,7 @@ class LimitSearch:
         if not ((is_early or look.missing > missing) and look.curvature > 0.0):
             return False
         low, high = 0.0, 1.0
-        low_slope, high_slope = -1.0, look.slope(1.0)
+        low_slope, high_slope = -1.0, min(look.slope(1.0), 1.0)
         if high_slope > _FLAT:
             for _ in range(_LOOKS):
                 share = low - low_slope * (high - low) / (high_slope - low_slope)
@@ -183,6 +187,9 @@ class LimitSearch:
                     low, low_slope = share, slope
                 else:
                     high, high_slope = share, slope
+                # Limits that come into force near its end make the slope there many times as
+                # steep: false position would look near the start alone.
+                high_slope = min(high_slope, -low_slope)
         self.last_share = share
         self._start_between(share, start, into)
         return True

@@ -182,9 +182,10 @@ class Solver:
         else:
             self._take_over()
         self._buffers.clear_scalars(keep_scale=is_further or is_again)
-        # What changes the velocities changes little from step to step.
+        # What changes the velocities changes little from step to step, and so do tensions.
         self._start = Start(START, 1.0) if is_again else Start(
-            CHANGE, 0.0 if is_further else length * self._last_rate)
+            CHANGE, 0.0 if is_further else length * self._last_rate,
+            judges_by_tension=self._law.has_limits and self._last_rate > 0.0)
         # Nothing is expected then, and so the start is 0.
         if self._last_rate == 0.0 and not (is_further or is_again):
             self._find_first_tensions(forcing, kick)

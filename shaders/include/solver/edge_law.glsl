@@ -12,6 +12,10 @@ uniform float edge_damping[5];     // [1/s]
 uniform float limit_stiffness[5];  // [1/s2]
 uniform float rest_length[5];      // [m]
 uniform float transition;          // [rest lengths] within which of a limit it comes into force
+uniform bool judges_by_tension;
+
+// In rest lengths, no limit at all.
+#define NO_LIMIT 1e29
 
 // The energy of a limit over its stiffness where a length is d past it. It comes into force from w
 // before it to w past it, so that Newton's method meets no kinks.
@@ -31,15 +35,16 @@ float stored_energy(float l, int family, int rest) {
             + energy_past(shortest[family] * rest_l - l, width));
 }
 
-// The pull of an edge [m/s2], and how much more it is for each metre more of length [1/s2].
-struct Pull {
-    float tension;
+// How far past its limits an edge counts [m], above 0 if too long, and how much more so for each
+// metre more of length: times limit_stiffness that is what they pull with.
+struct Past {
+    float amount;
     float slope;
 };
 
 // Of an edge of length l, by the straight line that touches the law at the length judged. No more
 // than one limit is in force there: they are further apart than their transitions are wide.
-Pull pull_at(float l, float judged, float rate, int family, int rest) {
+Past past_limits(float l, float judged, int family, int rest) {
     float rest_l = rest_length[rest];
     float least = shortest[family] * rest_l;
     float most = longest[family] * rest_l;
@@ -51,9 +56,40 @@ Pull pull_at(float l, float judged, float rate, int family, int rest) {
     float side = judged > 0.5 * (least + most) ? 1.0 : -1.0;
     float beyond = side > 0.0 ? judged - most : least - judged;
     float slope = clamp(beyond * rise + at_limit, 0.0, 1.0);
-    float past = side * (width * slope * slope + max(beyond - width, 0.0)) + slope * (l - judged);
+    return Past(
+        side * (width * slope * slope + max(beyond - width, 0.0)) + slope * (l - judged), slope);
+}
+
+// The pull of an edge [m/s2], and how much more it is for each metre more of length [1/s2].
+struct Pull {
+    float tension;
+    float slope;
+};
+
+// As past_limits; rate is that of the length [m/s].
+Pull pull_at(float l, float judged, float rate, int family, int rest) {
+    Past past = past_limits(l, judged, family, rest);
     return Pull(
-        edge_stiffness[rest] * (l - rest_l) + edge_damping[rest] * rate
-            + limit_stiffness[rest] * past,
-        edge_stiffness[rest] + limit_stiffness[rest] * slope);
+        edge_stiffness[rest] * (l - rest_length[rest]) + edge_damping[rest] * rate
+            + limit_stiffness[rest] * past.amount,
+        edge_stiffness[rest] + limit_stiffness[rest] * past.slope);
+}
+
+// Where to take the law for a straight line in the first solve of a pass: an edge that a limit
+// pulls at is taken to be as long as its tension says. That changes little from pass to pass, and
+// its length by as much as takes it in and out of the limit. Others are as long as expected.
+// rate is that at which the tension was found.
+float judged_length(float expected, float found, float rate, int family, int rest) {
+    float rest_l = rest_length[rest];
+    float width = transition * rest_l;
+    float pull = found - edge_damping[rest] * rate;
+    // A lower limit pushes.
+    float side = pull > 0.0 ? 1.0 : -1.0;
+    float limit = pull > 0.0 ? longest[family] : shortest[family];
+    float reach = side * (limit - 1.0) * rest_l;
+    float past = (abs(pull) - edge_stiffness[rest] * (reach - width)) / limit_stiffness[rest];
+    float beyond = past < width ? 2.0 * sqrt(past * width) - width : past;
+    // Bend edges may bend as far as they like.
+    bool pulls = judges_by_tension && family != BEND && past > 0.0 && abs(limit) < NO_LIMIT;
+    return pulls ? rest_l + side * (reach + beyond) : expected;
 }

@@ -101,12 +101,13 @@ class SolverCase:
         found = None if self._is_new else self.solver.tensions()
         self.left = np.zeros(self.positions.shape) if self._is_new else (
             self.system.right_side + self.left - self.system.times(self.solver.solution()))
+        is_next = self.solver.tally().solves > 0
         self.solver.prepare(
             self.state, self.forcing, kick=self._kick, is_further=is_further)
         self.system = ImplicitSystem(
             self.scene, self.law, *self.read_state(), GRAVITY, Solve(
                 self._kick, self._foresees_turn, found,
-                self.law.length * self._accelerations, is_further))
+                self.law.length * self._accelerations, is_further, is_next))
         self._is_new = False
 
     def exact(self) -> np.ndarray:
