@@ -8,38 +8,31 @@ import re
 import subprocess
 import sys
 
-import pytest
-
 ROOT = Path(__file__).resolve().parents[1]
 PACKAGE = ROOT / 'cloth_sim_ros'
-
-
-@pytest.fixture(scope='module')
-def cache(tmp_path_factory):
-    """Return a folder that mypy keeps what it has read in, from one test to the next."""
-    return tmp_path_factory.mktemp('types')
+# What mypy has read, from one run to the next: it reads anew what has changed since.
+CACHE = ROOT / '.mypy_cache'
 
 
 def check_types(*arguments, **options):
     """Return what mypy says of ``arguments``, with the settings of setup.cfg."""
     done = subprocess.run(
-        [sys.executable, '-m', 'mypy', '--config-file', str(ROOT / 'setup.cfg'), *arguments],
+        [sys.executable, '-m', 'mypy', '--config-file', str(ROOT / 'setup.cfg'),
+         '--cache-dir', str(CACHE), *arguments],
         capture_output=True, text=True, timeout=300, **options)
     return done.stdout + done.stderr
 
 
-def test_the_whole_package_is_typed(cache):
+def test_the_whole_package_is_typed():
     """An editor or a type checker would tell users what is not so, and us too little."""
-    said = check_types(
-        '--cache-dir', str(cache), str(PACKAGE), *map(str, sorted(ROOT.glob('examples/*.py'))),
-        cwd=ROOT)
+    said = check_types(str(PACKAGE), *map(str, sorted(ROOT.glob('examples/*.py'))), cwd=ROOT)
     found = re.match(r'Success: no issues found in (\d+) source files', said)
     assert found, said
     # Neither a folder nor a file is left out by the settings.
     assert int(found[1]) >= len([*PACKAGE.rglob('*.py')])
 
 
-def test_a_mistake_in_a_program_is_found(tmp_path, cache):
+def test_a_mistake_in_a_program_is_found(tmp_path):
     """The types would be there, and say nothing."""
     program = tmp_path / 'program.py'
     program.write_text(
@@ -49,6 +42,6 @@ def test_a_mistake_in_a_program_is_found(tmp_path, cache):
         '    cloth.positions().no_such_attribute\n'
         '    cloth.snapshot(forces=True)\n'
         'Recording("bag").arrays("points")["time"].shape\n', encoding='utf-8')
-    said = check_types('--cache-dir', str(cache), str(program), cwd=ROOT)
+    said = check_types(str(program), cwd=ROOT)
     assert [line.split(':')[1] for line in said.splitlines() if ': error:' in line] == [
         '3', '4', '5'], said
