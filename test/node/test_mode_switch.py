@@ -136,20 +136,19 @@ def test_an_interrupt_while_compiling_closes_the_recording(
     assert BagReader(tmp_path / 'bags' / 'cut').topics
 
 
-def test_a_long_run_of_steps_leaves_the_node_free(cold: ClothUnderTest):
+def test_a_long_run_of_steps_leaves_the_node_free(cloth: ClothUnderTest):
     """~/step with many steps would make the node mute for as long."""
-    assert cold.call(SetBool, 'pause', data=True).success
-    service = cold.client.service(Step, f'{cold.name}/step')
+    service = cloth.client.service(Step, f'{cloth.name}/step')
     answer = service.call_async(Step.Request(steps=30000))
-    assert cold.call(GetParameters, 'get_parameters', names=['dt']).values
-    refused = cold.call(Step, 'step', steps=1)
+    assert cloth.call(GetParameters, 'get_parameters', names=['dt']).values
+    refused = cloth.call(Step, 'step', steps=1)
     assert not refused.success and 'another caller' in refused.message
     assert not answer.done()
-    assert cold.call(Trigger, 'reset').success
-    cold.client.spin_until(answer.done, 'the steps end')
+    assert cloth.call(Trigger, 'reset').success
+    cloth.client.spin_until(answer.done, 'the steps end')
     assert not answer.result().success and 'the cloth was reset' in answer.result().message
-    assert cold.call(Step, 'step', steps=2).sim_time == pytest.approx(2 * cold.dt)
-    assert cold.call(SetBool, 'pause', data=False).success
+    assert cloth.call(Step, 'step', steps=2).sim_time == pytest.approx(2 * cloth.dt)
+    assert cloth.call(SetBool, 'pause', data=False).success
 
 
 def mode_parameter(cloth):

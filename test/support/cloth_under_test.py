@@ -124,8 +124,15 @@ class ClothUnderTest:
     def wait_for(self, key: str, condition: Any = None) -> Any:
         """Return the first message of ``key`` since the last clear that ``condition`` likes."""
         likes = condition or (lambda message: True)
-        return self.client.spin_until(
-            lambda: next(filter(likes, self[key]), None), f'a message on {key}')
+        seen = 0
+
+        def liked() -> Any:
+            nonlocal seen
+            fresh = self[key][seen:]
+            seen += len(fresh)
+            return next(filter(likes, fresh), None)
+
+        return self.client.spin_until(liked, f'a message on {key}')
 
     def frame(self, steps: int) -> np.ndarray:
         """Return the points after ``steps`` steps as an array of POINT_DTYPE."""

@@ -15,6 +15,7 @@ from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy
 from rclpy.qos import QoSProfile
+from rclpy.serialization import deserialize_message
 from rclpy.subscription import Subscription
 
 # A machine that is busy besides compiles shaders for a minute.
@@ -27,15 +28,33 @@ QUIET = 3 * TURN
 
 
 class Watch:
-    """The messages of one topic since the last clear."""
+    """
+    The messages of one topic since the last clear.
 
-    def __init__(self) -> None:
+    Those that nobody looks at are not taken apart: markers have hundreds of points and colours.
+    """
+
+    def __init__(self, kind: type) -> None:
         """Start empty."""
-        self.messages: list[Any] = []
+        self._kind = kind
+        self._raw: list[bytes] = []
+        self._messages: list[Any] = []
+
+    def take(self, raw: bytes) -> None:
+        """Take in a message as it came."""
+        self._raw.append(raw)
+
+    @property
+    def messages(self) -> list[Any]:
+        """Get the messages, in the order in which they came."""
+        self._messages += [deserialize_message(raw, self._kind) for raw in self._raw]
+        self._raw.clear()
+        return self._messages
 
     def clear(self) -> None:
         """Forget the messages."""
-        self.messages.clear()
+        self._raw.clear()
+        self._messages.clear()
 
 
 class GraphClient:
@@ -116,15 +135,15 @@ class GraphClient:
 
     def watch(self, kind: type, topic: str, *, depth: int = 1000, kept: bool = False) -> Watch:
         """Listen to ``topic``; ``kept`` asks for what was published before as well."""
-        watch = Watch()
+        watch = Watch(kind)
         durability = DurabilityPolicy.TRANSIENT_LOCAL if kept else DurabilityPolicy.VOLATILE
 
-        def keep(message: Any) -> None:
+        def keep(raw: bytes) -> None:
             self._received += 1
-            watch.messages.append(message)
+            watch.take(raw)
 
         subscription = self.node.create_subscription(
-            kind, topic, keep, QoSProfile(depth=depth, durability=durability))
+            kind, topic, keep, QoSProfile(depth=depth, durability=durability), raw=True)
         self._subscriptions.append(subscription)
         self.spin_until(
             lambda: self.node.count_publishers(subscription.topic_name), f'{topic} is published')
