@@ -37,6 +37,14 @@ FORCE_SCENES = {
 
 LAYOUTS = ('fused', 'paper')
 
+# What mode adaptive does below its limit, and takes longer for than the modes beside it.
+AS_SPRINGS = frozenset((
+    'test_ratio_of_tensions_at_the_onset_of_slip', 'test_slip_angle',
+    'test_a_cloth_larger_than_one_look', 'test_pins_hold_wind_and_weight',
+    'test_a_shaken_towel_is_held_up_to_the_limit', 'test_rest_shape_is_an_equilibrium',
+    'test_energy_stays_and_its_error_follows_dt', 'test_hanging_strip', 'test_dispersion',
+    'test_the_account_of_energy_closes'))
+
 
 @pytest.hookimpl(tryfirst=True)
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
@@ -45,14 +53,17 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
 
     Layout paper is that of the passes over springs, which mode constraint has not: it only reads
     storage then, one node per invocation, as in test_constraint_against_reference.py. Cloths in
-    air of 64 x 64 nodes run in mode mass_spring, and those of 16 x 16 in the others too.
+    air of 64 x 64 nodes run in mode mass_spring, and those of 16 x 16 in the others too. Below its
+    limit mode adaptive makes the steps of mass_spring to the bit, which test_adaptive.py holds it
+    to: AS_SPRINGS are dear tests that make no solve in it, and cheaper ones of the same stay.
     """
     for item in items:
         values = item.callspec.params if hasattr(item, 'callspec') else {}
-        mode = values.get('any_mode')
+        mode = values.get('any_mode', values.get('mode'))
         is_paper = (mode, values.get('layout')) == ('constraint', 'paper')
+        is_calm = mode == 'adaptive' and item.originalname in AS_SPRINGS
         is_fine = mode in ('adaptive', 'constraint') and values.get('side') == 64
-        if is_paper or is_fine:
+        if is_paper or is_fine or is_calm:
             item.add_marker(pytest.mark.long)
 
 
