@@ -59,18 +59,31 @@ def _hashes_of_a_process(*runs, **environment):
 
 
 @pytest.fixture(scope='module')
-def hashes_of_two(any_mode):
+def hashes_of_all():
     """Make runs in one process, and in the opposite order in another; return their hashes."""
-    runs = {
-        'plain': ({**SCENE, 'mode': any_mode}, ()),
-        'paper': ({**SCENE, 'mode': any_mode, 'layout': 'paper'}, ()),
-        'switches': ({**LIMITED, 'mode': any_mode}, (
-            (0.12, any_mode), *((0.08, other) for other in (*modes.AVAILABLE, any_mode)))),
-    }
+    runs = {}
+    for mode in modes.AVAILABLE:
+        runs['plain', mode] = ({**SCENE, 'mode': mode}, ())
+        runs['paper', mode] = ({**SCENE, 'mode': mode, 'layout': 'paper'}, ())
+        runs['switches', mode] = ({**LIMITED, 'mode': mode}, (
+            (0.12, mode), *((0.08, other) for other in (*modes.AVAILABLE, mode))))
     # A cloth of this size has no worker threads by itself; see test_threads_do_not_show.
     first = _hashes_of_a_process(*runs.values(), LP_NUM_THREADS='0')
     second = _hashes_of_a_process(*reversed(runs.values()))
     return dict(zip(runs, zip(first, reversed(second))))
+
+
+@pytest.fixture
+def hashes_of_two(hashes_of_all, any_mode):
+    """Return the hashes of the runs that begin in one mode."""
+    return {name: hashes for (name, mode), hashes in hashes_of_all.items() if mode == any_mode}
+
+
+@pytest.fixture(scope='module')
+def hashes_with_threads():
+    """Make the plain run of each mode with two worker threads; return their hashes."""
+    return dict(zip(modes.AVAILABLE, _hashes_of_a_process(
+        *(({**SCENE, 'mode': mode}, ()) for mode in modes.AVAILABLE), LP_NUM_THREADS='2')))
 
 
 def test_two_processes_give_one_state(hashes_of_two):
@@ -124,12 +137,10 @@ def test_the_times_of_switches_count(any_mode):
     assert first != second
 
 
-def test_threads_do_not_show(any_mode, hashes_of_two):
+def test_threads_do_not_show(any_mode, hashes_of_two, hashes_with_threads):
     """The number of the driver's threads changes the result."""
-    run = ({**SCENE, 'mode': any_mode}, ())
-    with_two, = _hashes_of_a_process(run, LP_NUM_THREADS='2')
     without, _ = hashes_of_two['plain']
-    assert with_two == without
+    assert hashes_with_threads[any_mode] == without
 
 
 def test_reset_starts_the_same_run(simulate, any_mode, layout):
