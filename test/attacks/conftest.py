@@ -15,7 +15,7 @@ import pytest
 _USUAL = 20261122
 
 
-@pytest.fixture(scope='module')
+@pytest.fixture(scope='session')
 def verbs() -> Iterator[ForkedVerbs]:
     """Return what runs verbs."""
     with ForkedVerbs() as running:
