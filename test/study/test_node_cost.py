@@ -21,7 +21,7 @@ def bench(*arguments):
     """Call the bench in a process of its own."""
     return subprocess.run(
         [sys.executable, '-m', 'cloth_sim_ros.verb', 'bench', '--node', '--rounds', '1',
-         '--seconds', '0.6', '--sizes', '8', *arguments], capture_output=True, text=True)
+         '--seconds', '0.3', '--sizes', '8', *arguments], capture_output=True, text=True)
 
 
 def test_each_part_has_its_cost_and_its_clouds():

@@ -61,7 +61,10 @@ def written(command: list[str], *, on_terminal: bool, **options: object) -> str:
     return text.decode()
 
 
-@pytest.mark.parametrize('arguments', _COMMANDS.values(), ids=_COMMANDS)
+# That every bar is made as that of `run` is, test_every_bar_is_for_terminals_alone shows.
+@pytest.mark.parametrize('arguments', [
+    pytest.param(arguments, id=verb, marks=() if verb == 'run' else pytest.mark.long)
+    for verb, arguments in _COMMANDS.items()])
 def test_a_pipe_gets_no_bar(arguments: tuple, tmp_path: Path):
     """A log would be filled with a line a frame."""
     assert shown(arguments, tmp_path, on_terminal=False) == ''
