@@ -180,6 +180,7 @@ def test_a_floor_carries_the_weight(simulate, within, any_mode):
     assert force.sticking + force.sliding == simulation.scene.node_count
 
 
+# Where a body is, one function tells all modes: each shape in one of them, and a box in all.
 @pytest.mark.parametrize('body', [
     {'shape': 'sphere', 'size': [0.15]}, {'shape': 'capsule', 'size': [0.1, 0.3]},
     {'shape': 'box', 'size': [0.2, 0.3, 0.1]}, {'shape': 'cylinder', 'size': [0.2, 0.1]}],

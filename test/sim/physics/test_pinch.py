@@ -78,7 +78,7 @@ def test_a_shaken_towel_is_held_up_to_the_limit(
 def test_pads_feel_the_cloth_that_they_compress(simulate, within, any_mode):
     """A force sensor in a finger would show nothing, or another force than friction goes by."""
     simulation = simulate(pinched(any_mode, 0.02))
-    simulation.advance(2.0)
+    simulation.advance(1.5)
     left, right = simulation.contact_forces()
     within('force on the left pad over that of the law, less 1',
            abs(left.force[1] / (-0.02 * HELD_NODES) - 1.0), 1e-3)
