@@ -3,6 +3,7 @@
 
 """Give each pytest process a ROS graph of its own, and run long tests only when asked to."""
 
+import gc
 import os
 import random
 import socket
@@ -80,6 +81,14 @@ def pytest_configure(config: pytest.Config) -> None:
     os.environ['ROS_AUTOMATIC_DISCOVERY_RANGE'] = 'LOCALHOST'
     # What somebody measured on this machine is no part of the tests.
     os.environ[VARIABLE] = OFF
+    # Modules and tests are there to stay: to look through them again and again takes a second.
+    gc.disable()
+
+
+def pytest_collection_finish() -> None:
+    """Let garbage be found again, but not looked for in what was collected."""
+    gc.freeze()
+    gc.enable()
 
 
 def pytest_unconfigure(config: pytest.Config) -> None:
