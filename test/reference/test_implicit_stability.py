@@ -84,7 +84,7 @@ def test_blow_up_of_a_hanging_chain(links, beta):
     assert above >= 1e4
 
 
-@pytest.mark.parametrize('times', [1.05, 3.0, 10.0])
+@pytest.mark.parametrize('times', [1.05, pytest.param(3.0, marks=pytest.mark.long), 10.0])
 @pytest.mark.parametrize('links', [10, pytest.param(20, marks=pytest.mark.long)])
 def test_a_hanging_chain_stands_steps_of_any_length(links, times):
     """
