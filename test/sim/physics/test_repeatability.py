@@ -58,9 +58,13 @@ def _hashes_of_a_process(*runs, **environment):
     return hashes
 
 
-@pytest.fixture(scope='module')
+@pytest.fixture(scope='session')
 def hashes_of_all():
-    """Make runs in one process, and in the opposite order in another; return their hashes."""
+    """
+    Make runs in one process, and in the opposite order in another; return their hashes.
+
+    Once a session: tests come by their mode, those of other modules in between.
+    """
     runs = {}
     for mode in modes.AVAILABLE:
         runs['plain', mode] = ({**SCENE, 'mode': mode}, ())
@@ -79,7 +83,7 @@ def hashes_of_two(hashes_of_all, any_mode):
     return {name: hashes for (name, mode), hashes in hashes_of_all.items() if mode == any_mode}
 
 
-@pytest.fixture(scope='module')
+@pytest.fixture(scope='session')
 def hashes_with_threads():
     """Make the plain run of each mode with two worker threads; return their hashes."""
     return dict(zip(modes.AVAILABLE, _hashes_of_a_process(
