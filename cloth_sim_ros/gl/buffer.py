@@ -27,6 +27,7 @@ import numpy as np
 _STORAGE = int(GL.GL_SHADER_STORAGE_BUFFER)
 _DISPATCHES = int(GL.GL_DISPATCH_INDIRECT_BUFFER)
 _TEXTURE_BUFFER = int(GL.GL_TEXTURE_BUFFER)
+_COPIED, _COPY = int(GL.GL_COPY_READ_BUFFER), int(GL.GL_COPY_WRITE_BUFFER)
 _FIRST_UNIT = int(GL.GL_TEXTURE0)
 _READS = int(GL.GL_BUFFER_UPDATE_BARRIER_BIT)
 _WRITES = GL.GL_SHADER_STORAGE_BARRIER_BIT | GL.GL_TEXTURE_FETCH_BARRIER_BIT
@@ -46,9 +47,10 @@ class Buffer:
     Reading and writing raise DeviceError when the context was lost.
 
     :param data: what it holds at first, or the number of bytes
+    :param is_staging: True for memory that the host reads and only ``copy_to`` writes
     """
 
-    def __init__(self, data: np.ndarray | int) -> None:
+    def __init__(self, data: np.ndarray | int, *, is_staging: bool = False) -> None:
         """Allocate the memory and fill it."""
         self.bytes = data if isinstance(data, int) else data.nbytes
         content = None if isinstance(data, int) else np.ascontiguousarray(data)
@@ -56,7 +58,8 @@ class Buffer:
         self._texture: int | None = None
         GL.glBindBuffer(GL.GL_SHADER_STORAGE_BUFFER, self.name)
         GL.glBufferData(
-            GL.GL_SHADER_STORAGE_BUFFER, _allocated(self.bytes), None, GL.GL_DYNAMIC_COPY)
+            GL.GL_SHADER_STORAGE_BUFFER, _allocated(self.bytes), None,
+            GL.GL_STREAM_READ if is_staging else GL.GL_DYNAMIC_COPY)
         if content is not None:
             GL.glBufferSubData(GL.GL_SHADER_STORAGE_BUFFER, 0, self.bytes, content)
         note_buffer(self)
@@ -110,6 +113,14 @@ class Buffer:
         memory_barrier(_READS)
         bind_buffer(_STORAGE, self.name)
         copy_buffer(_STORAGE, _STORAGE, begin, into, size)
+        refuse_lost_context()
+
+    def copy_to(self, other: 'Buffer', into: int, size: int) -> None:
+        """Copy the first ``size`` bytes into ``other``, from its byte ``into`` on."""
+        memory_barrier(_READS)
+        bind_buffer(_COPIED, self.name)
+        bind_buffer(_COPY, other.name)
+        copy_buffer(_COPIED, _COPY, 0, into, size)
         refuse_lost_context()
 
     def read_into(self, target: np.ndarray, offset: int = 0) -> None:

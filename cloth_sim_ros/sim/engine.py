@@ -61,15 +61,25 @@ class Engine:
 
     def snapshot(
             self, state: State, forcing: Forcing, *, time: float, steps: int, dt: float,
-            stalled_pins: int) -> Snapshot:
-        """Return what there is to know of ``state``, which is that at ``time`` [s]."""
+            stalled_pins: int, later: bool) -> Callable[[], Snapshot]:
+        """
+        Look at ``state``, which is that at ``time`` [s]; return what makes a Snapshot of it.
+
+        :param later: True leaves it to that to wait for the device; the state may change before
+        """
         mode = self.mode
-        measures, records = self.observer.record(
-            state, forcing, mode.energy_law(state), mode.limit_marks())
-        return Snapshot(
-            **vars(measures), **mode.report(), records=records, mode=mode.name, time=time,
-            steps=steps, dt=dt, substeps=mode.substeps, stability_margin=mode.substep_margin,
-            strain_bound=mode.strain_bound, stalled_pins=stalled_pins)
+        law, marks = mode.energy_law(state), mode.limit_marks()
+        known = {
+            **mode.report(), 'mode': mode.name, 'time': time, 'steps': steps, 'dt': dt,
+            'substeps': mode.substeps, 'stability_margin': mode.substep_margin,
+            'strain_bound': mode.strain_bound, 'stalled_pins': stalled_pins}
+        find = self.observer.begin_record(state, forcing, law, marks, later=later)
+
+        def make() -> Snapshot:
+            measures, records = find()
+            return Snapshot(**vars(measures), **known, records=records)
+
+        return make
 
     def delete(self) -> None:
         """Give back what it allocated; its context, or one beside it, has to be current."""

@@ -40,6 +40,7 @@ class Layout:
     :param block: nodes along each side of an invocation
     :param local: invocations of a workgroup, x and y
     :param cloth_rows: of each cloth, where several are stacked; 0 for one cloth
+    :param is_asynchronous: True when the device computes while the host goes on
     """
 
     rows: int
@@ -49,6 +50,7 @@ class Layout:
     block: int
     local: tuple[int, int]
     cloth_rows: int = 0
+    is_asynchronous: bool = False
 
     @property
     def period(self) -> int:
@@ -151,7 +153,8 @@ def choose_layout(scene: Scene, context: Context, *, tuned: bool = True) -> Layo
             raise ClothSimError(
                 f'layout paper reads storage, one node per invocation, got loads {given.loads} '
                 f'and block {given.block}: set loads: storage and block: 1, or layout: fused')
-        layout = Layout(scene.rows, scene.cols, 'paper', False, 1, (16, 16))
+        layout = Layout(scene.rows, scene.cols, 'paper', False, 1, (16, 16),
+                        is_asynchronous=not context.is_software)
         _refuse_too_large(layout, context)
         return layout
     if tuned and given == BUILT_IN:
@@ -175,7 +178,8 @@ def _fused(scene: Scene, context: Context, choice: Choice) -> Layout:
         scene.rows, scene.cols, 'fused',
         choice.loads == 'texture' or (choice.loads == 'auto' and has_textures),
         choice.block or _best_block(scene, context),
-        _SOFTWARE_LOCAL if context.is_software else _GPU_LOCAL)
+        _SOFTWARE_LOCAL if context.is_software else _GPU_LOCAL,
+        is_asynchronous=not context.is_software)
 
 
 def _best_block(scene: Scene, context: Context) -> int:

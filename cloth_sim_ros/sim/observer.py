@@ -3,10 +3,13 @@
 
 """Look at the state: records of all nodes, or only the energies and the largest strain."""
 
+from collections.abc import Callable
 from collections.abc import Set
 
 from cloth_sim_ros.gl.buffer import Buffer
 from cloth_sim_ros.gl.buffer import shader_writes_visible
+from cloth_sim_ros.gl.program import Program
+from cloth_sim_ros.gl.read_back import ReadBack
 from cloth_sim_ros.sim import bindings
 from cloth_sim_ros.sim.edge_kinds import edge_defines
 from cloth_sim_ros.sim.forcing import Forcing
@@ -50,6 +53,7 @@ class Observer:
         self._partial_sums = np.empty((strips * scene.cols, _SUMS), dtype=np.float32)
         self._sums_buffer = Buffer(self._partial_sums.nbytes)
         self._records_buffer: Buffer | None = None
+        self._read_back = ReadBack()
         self._law: EdgeLaw | None = None
         self._law_in_newtons: EdgeLaw
 
@@ -70,11 +74,35 @@ class Observer:
         :param law: as in ``measure``; does not matter to the records
         :param limit_marks: which edges are at their limit, as limit_mark.comp leaves them
         """
-        if self._records_buffer is None:
-            self._records_buffer = Buffer(
-                self._slab_rows * self._scene.cols * POINT_DTYPE.itemsize)
         records = np.empty((self._scene.rows, self._scene.cols), dtype=POINT_DTYPE)
         return self._observe(state, forcing, law, records, limit_marks), records
+
+    def begin_record(
+            self, state: State, forcing: Forcing, law: EdgeLaw | None,
+            limit_marks: Buffer | None = None, *,
+            later: bool = True) -> Callable[[], tuple[Measures, np.ndarray]]:
+        """
+        Begin to look as ``record`` does; return what waits for the device and returns the same.
+
+        The state may change meanwhile. A cloth of several slabs is recorded at once.
+
+        :param later: False records at once, in no memory besides
+        """
+        if not later or self._slab_rows < self._scene.rows:
+            found = self.record(state, forcing, law, limit_marks)
+            return lambda: found
+        records = np.empty((self._scene.rows, self._scene.cols), dtype=POINT_DTYPE)
+        sums = np.empty_like(self._partial_sums)
+        program = self._bind(state, forcing, law, limit_marks, has_records=True)
+        self._dispatch(program, 0, self._scene.rows)
+        wait = self._read_back.begin(
+            [(self._sums_buffer, sums), (self._records(), records)])
+
+        def finish() -> tuple[Measures, np.ndarray]:
+            wait()
+            return self._measures(_added(np.zeros(_SUMS), sums)), records
+
+        return finish
 
     def _in_newtons(self, law: EdgeLaw) -> EdgeLaw:
         # Over the mass of a node that weighs nothing, energies would leave float32.
@@ -86,6 +114,7 @@ class Observer:
         """Give passes and buffers back."""
         for program in self._programs.values():
             program.delete()
+        self._read_back.delete()
         self._sums_buffer.delete()
         if self._records_buffer is not None:
             self._records_buffer.delete()
@@ -93,7 +122,29 @@ class Observer:
     def _observe(
             self, state: State, forcing: Forcing, law: EdgeLaw | None,
             records: np.ndarray | None, limit_marks: Buffer | None = None) -> Measures:
-        program = self._programs[records is not None].use()
+        program = self._bind(
+            state, forcing, law, limit_marks, has_records=records is not None)
+        totals = np.zeros(_SUMS)
+        for first in range(0, self._scene.rows, self._slab_rows):
+            rows = min(self._slab_rows, self._scene.rows - first)
+            strips = self._dispatch(program, first, rows)
+            sums = self._partial_sums[:strips * self._scene.cols]
+            self._sums_buffer.read_into(sums)
+            totals = _added(totals, sums)
+            if records is not None:
+                self._records().read_into(records[first:first + rows])
+        return self._measures(totals)
+
+    def _records(self) -> Buffer:
+        if self._records_buffer is None:
+            self._records_buffer = Buffer(
+                self._slab_rows * self._scene.cols * POINT_DTYPE.itemsize)
+        return self._records_buffer
+
+    def _bind(
+            self, state: State, forcing: Forcing, law: EdgeLaw | None,
+            limit_marks: Buffer | None, *, has_records: bool) -> Program:
+        program = self._programs[has_records].use()
         forcing.apply(program)
         forcing.bind()
         program.set_int('pushed_everywhere', int(forcing.pushed_everywhere))
@@ -102,29 +153,33 @@ class Observer:
             program.set_int('acts_between_pins', int(law.acts_between_pins))
         state.bind_in()
         self._sums_buffer.bind_storage(bindings.PARTIAL_SUMS)
-        if records is not None:
-            assert self._records_buffer is not None  # made by record
-            self._records_buffer.bind_storage(bindings.RECORDS)
+        if has_records:
+            records = self._records()
+            records.bind_storage(bindings.RECORDS)
             # Without marks the shader reads none, but a driver may want something to be bound.
-            (limit_marks or self._records_buffer).bind_storage(bindings.AT_LIMIT)
+            (limit_marks or records).bind_storage(bindings.AT_LIMIT)
             program.set_int('has_limit_marks', int(limit_marks is not None))
-        totals = np.zeros(_SUMS)
-        for first in range(0, self._scene.rows, self._slab_rows):
-            rows = min(self._slab_rows, self._scene.rows - first)
-            program.set_int('first_row', first)
-            program.set_int('slab_rows', rows)
-            strips = -(-rows // _STRIP)
-            program.dispatch(-(-self._scene.cols // _LOCAL[0]), -(-strips // _LOCAL[1]))
-            shader_writes_visible()
-            sums = self._partial_sums[:strips * self._scene.cols]
-            self._sums_buffer.read_into(sums)
-            largest = max(totals[3], float(sums[:, 3].max()))
-            totals += sums.sum(axis=0, dtype=np.float64)
-            totals[3] = largest
-            if records is not None and self._records_buffer is not None:
-                self._records_buffer.read_into(records[first:first + rows])
+        return program
+
+    def _dispatch(self, program: Program, first: int, rows: int) -> int:
+        """Look at a slab; return how many strips it has."""
+        program.set_int('first_row', first)
+        program.set_int('slab_rows', rows)
+        strips = -(-rows // _STRIP)
+        program.dispatch(-(-self._scene.cols // _LOCAL[0]), -(-strips // _LOCAL[1]))
+        shader_writes_visible()
+        return strips
+
+    def _measures(self, totals: np.ndarray) -> Measures:
         mass = self._scene.node_mass
         return Measures(
             kinetic_energy=float(mass * totals[0]), elastic_energy=float(totals[1]),
             gravitational_energy=float(mass * totals[2]), max_strain=float(totals[3]),
             finite=bool(totals[4] == 0))
+
+
+def _added(totals: np.ndarray, sums: np.ndarray) -> np.ndarray:
+    """Return ``totals`` with those of a slab: what is a largest value is not added."""
+    added = totals + sums.sum(axis=0, dtype=np.float64)
+    added[3] = max(totals[3], float(sums[:, 3].max()))
+    return added

@@ -240,20 +240,37 @@ class Simulation(Handling, AbstractContextManager['Simulation']):
         :param tension: True to have the tension of every edge in it, and the forces at the pins
         :param pin_forces: True to have these forces alone, which costs less on a large cloth
         """
-        engine = self.engines.in_use
-        with self._settled_state():
-            snapshot = engine.snapshot(
-                self._state, self.loads.acting(self.time), time=self.time, steps=self.steps,
-                dt=self.dt, stalled_pins=self._pin_motion.stalled)
+        snapshot = self._look(later=False)()
         self._held.mark(snapshot.records['flags'])
         if self.loads.contacts is not None and not self.stepping.is_mid_step:
             snapshot = self.loads.contacts.with_contacts(snapshot)
         if tension or pin_forces:
             self.stepping.refuse_mid_step('forces')
             return with_forces(
-                snapshot, self.scene, engine.mode, self._pin_motion, self.loads,
+                snapshot, self.scene, self.engines.in_use.mode, self._pin_motion, self.loads,
                 every_edge=tension)
         return snapshot
+
+    def begin_snapshot(self) -> Callable[[], Snapshot]:
+        """
+        Have the device make a snapshot, and return what waits for it and returns it.
+
+        Whatever is done to the cloth in between, it is that of now, to the bit. It saves time
+        where ``layout.is_asynchronous``, if there is something to submit in between; with
+        colliders, or while a grasp holds nodes, it is made at once.
+        """
+        if self._held.present(self.time) or self.loads.contacts is not None:
+            snapshot = self.snapshot()
+            return lambda: snapshot
+        make = self._look(later=True)
+
+        def finish() -> Snapshot:
+            # Closed, the cloth has read what was pending.
+            if not self._is_closed:
+                self.engines.context.make_current()
+            return make()
+
+        return finish
 
     def pin_forces(self) -> PinForces:
         """Return the present reaction force at each pinned node."""
@@ -364,6 +381,12 @@ class Simulation(Handling, AbstractContextManager['Simulation']):
         # Changes at their times end the work before the aim is reached.
         while self.stepping.is_behind:
             modes.finish(self.work(lambda: False))
+
+    def _look(self, *, later: bool) -> Callable[[], Snapshot]:
+        with self._settled_state():
+            return self.engines.in_use.snapshot(
+                self._state, self.loads.acting(self.time), time=self.time, steps=self.steps,
+                dt=self.dt, stalled_pins=self._pin_motion.stalled, later=later)
 
     @contextmanager
     def _settled_state(self) -> Iterator[None]:
