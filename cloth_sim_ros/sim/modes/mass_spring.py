@@ -135,6 +135,8 @@ class TwoPass:
 
 # Substeps that can't be interrupted, by their nodes: a few milliseconds on one core.
 _NODES_AT_ONCE = 2**18
+# Where to submit them takes no longer, whatever their nodes: as many as lie between two checks.
+_SUBMITTED_AT_ONCE = 64
 # Of a substep: what is short of it by less is a whole one.
 _ROUNDING = 1e-6
 
@@ -155,7 +157,9 @@ class MassSpring:
         self._length: float = scene['dt'] / self.substeps
         self.substep_margin = self._length / self.stability_limit
         self._passes = OnePass(scene, layout) if layout.kind == 'fused' else TwoPass(scene, layout)
-        self._most_at_once = max(1, _NODES_AT_ONCE // scene.node_count)
+        self._most_at_once = (
+            _SUBMITTED_AT_ONCE if layout.is_asynchronous
+            else max(1, _NODES_AT_ONCE // scene.node_count))
 
     @staticmethod
     def edge_model(scene: Scene) -> str:
