@@ -83,11 +83,13 @@ class ClothSimNode(GuardedNode):
     Parameters: those of sim/scene_fields.py and node/node_fields.py.
 
     :param memory: what Fast DDS has to send clouds with
+    :param overlaps: whether a late node begins the next frame before it waits for the data of the
+        last one; by default where the device computes meanwhile
     :raises ClothSimError: when the parameters ask for what can't be
     :raises DeviceError: when there is no GL device for it
     """
 
-    def __init__(self, memory: SharedMemory) -> None:
+    def __init__(self, memory: SharedMemory, *, overlaps: bool | None = None) -> None:
         """Declare the parameters and make the parts; nothing moves yet."""
         super().__init__('cloth_sim')
         self._memory = memory
@@ -122,7 +124,8 @@ class ClothSimNode(GuardedNode):
             self.alarm, self._simulation, frame_seconds=1.0 / values['publish.rate'],
             pacing=self._pacing, paused=values['start_paused'],
             on_frame=self.guarded(self._on_frame, 'a frame'), on_stop=self._on_stop,
-            note=self.faults.note)
+            note=self.faults.note,
+            overlaps=self._simulation.layout.is_asynchronous if overlaps is None else overlaps)
         self._switch = ModeSwitch(
             self, self._simulation, switched=self._on_switched, failed=self._on_mode_failed,
             changed=self._send_state)
@@ -212,14 +215,16 @@ class ClothSimNode(GuardedNode):
         self._state.send()
         self._send_diagnostics()
 
-    def _on_frame(self, worked: float, steps: int) -> None:
+    def _on_frame(
+            self, worked: float, steps: int, later: bool = False) -> Callable[[], None] | None:
         self._input_frames.take_waiting()
         too_slow = self._run_loop.running and self._pacing.too_slow
-        self._frames.send(
+        send = self._frames.send(
             worked=worked, steps=steps, real_time_factor=self._run_loop.real_time_factor,
-            too_slow=too_slow)
+            too_slow=too_slow, later=later)
         if self._run_loop.running:
             self._pace_report.look(time.monotonic())
+        return self.guarded(send, 'a frame') if send is not None else None
 
     def _show(self) -> None:
         """Send the present moment as a frame, as soon as there is a mode to look at it with."""

@@ -70,10 +70,13 @@ class PinTopics:
         return wanted if pins > 0 and not reason else frozenset()
 
     def send(
-            self, snapshot: Snapshot, wanted: Collection[str], *,
+            self, snapshot: Snapshot, held: np.ndarray, wanted: Collection[str], *,
             to_recording: bool = True) -> None:
-        """Send what is ``wanted`` of ``snapshot``, the frames before what is given in them."""
-        held = self._simulation.grasped_nodes()
+        """
+        Send what is ``wanted`` of ``snapshot``, the frames before what is given in them.
+
+        :param held: which nodes grasps hold, (rows, cols) bool
+        """
         if PIN_FRAMES in wanted:
             self._outlet.send(
                 PIN_FRAMES, lambda: self._frames.serialise(snapshot, held), snapshot.time,
@@ -161,7 +164,8 @@ class Frames:
 
     def send(
             self, *, worked: float = 0.0, steps: int = 0, real_time_factor: float = 0.0,
-            too_slow: bool = False, to_recording: bool = True) -> None:
+            too_slow: bool = False, to_recording: bool = True,
+            later: bool = False) -> Callable[[], None] | None:
         """
         Send what is wanted of the moment.
 
@@ -170,40 +174,57 @@ class Frames:
         :param real_time_factor: simulated time per wall time, achieved
         :param too_slow: True when that falls short of what is asked for
         :param to_recording: False to show the same moment once more
+        :param later: True only has the device make the snapshot, and returns what waits for it
+            and sends; a frame with forces, or with grasps or colliders, is sent at once
         """
         simulation = self._simulation
-        now = simulation.time
-        self._outlet.send(
-            'clock', lambda: serialise_clock(now), now, to_recording=to_recording)
+        now, held = simulation.time, simulation.grasped_nodes()
         made = [
             part for part in _PARTS if self._values[f'publish.{part}']
             and self._outlet.wanted(part, by_recording=to_recording)]
         of_pins = self._pins.wanted(by_recording=to_recording)
         of_bodies = wanted_of_bodies(
             simulation, self._values, self._outlet, by_recording=to_recording)
-        if not (made or of_pins or of_bodies):
-            return
+        drawn = (
+            [applied.push for applied in simulation.pushes], simulation.colliders,
+            simulation.grasps) if 'markers' in made else ()
+        has_forces = WRENCHES in of_pins or GRASPS in of_bodies
+        is_pending = later and bool(made or of_pins) and not (has_forces or of_bodies)
         begin = time.monotonic()
-        snapshot = simulation.snapshot(pin_forces=WRENCHES in of_pins or GRASPS in of_bodies)
-        # The device may still be at work when the steps return: the read-back waits for it.
-        worked += time.monotonic() - begin
-        makers = {
-            'points': lambda: self._points.serialise(snapshot),
-            'markers': lambda: self._markers.serialise(
-                snapshot, [applied.push for applied in simulation.pushes],
-                simulation.colliders, simulation.grasps),
-            'stats': lambda: self._stats.serialise(
-                snapshot, step_wall_time=worked / max(steps, 1),
-                real_time_factor=real_time_factor,
-                wanted_factor=self._values['real_time_factor'], too_slow=too_slow),
-        }
-        for part in made:
-            self._outlet.send(part, makers[part], now, to_recording=to_recording)
-        if of_pins:
-            self._own.note_pins(snapshot)
-        if of_bodies:
-            self._own.note_bodies()
-        self._pins.send(snapshot, of_pins, to_recording=to_recording)
-        for key, message in body_messages(
-                simulation, snapshot, of_bodies, self._node_name, self._frame_id):
-            self._outlet.send_message(key, message, now, to_recording=to_recording)
+        take = (
+            simulation.begin_snapshot() if is_pending
+            else partial(simulation.snapshot, pin_forces=has_forces))
+        began = time.monotonic() - begin
+
+        def send() -> None:
+            self._outlet.send(
+                'clock', lambda: serialise_clock(now), now, to_recording=to_recording)
+            if not (made or of_pins or of_bodies):
+                return
+            begin = time.monotonic()
+            snapshot = take()
+            # The device may still be at work when the steps return: the read-back waits for it.
+            spent = worked + began + time.monotonic() - begin
+            makers = {
+                'points': lambda: self._points.serialise(snapshot),
+                'markers': lambda: self._markers.serialise(snapshot, *drawn),
+                'stats': lambda: self._stats.serialise(
+                    snapshot, step_wall_time=spent / max(steps, 1),
+                    real_time_factor=real_time_factor,
+                    wanted_factor=self._values['real_time_factor'], too_slow=too_slow),
+            }
+            for part in made:
+                self._outlet.send(part, makers[part], now, to_recording=to_recording)
+            if of_pins:
+                self._own.note_pins(snapshot)
+            if of_bodies:
+                self._own.note_bodies()
+            self._pins.send(snapshot, held, of_pins, to_recording=to_recording)
+            for key, message in body_messages(
+                    simulation, snapshot, of_bodies, self._node_name, self._frame_id):
+                self._outlet.send_message(key, message, now, to_recording=to_recording)
+
+        if is_pending:
+            return send
+        send()
+        return None

@@ -22,12 +22,15 @@ from rclpy.logging import LoggingSeverity
 from rclpy.logging import set_logger_level
 
 
-def run_node(args: Sequence[str], memory: SharedMemory, reclaimed: Reclaimed) -> None:
+def run_node(
+        args: Sequence[str], memory: SharedMemory, reclaimed: Reclaimed, *,
+        overlaps: bool | None = None) -> None:
     """
     Run the node with the command line ``args`` until it is asked to stop.
 
     :param memory: what Fast DDS has
     :param reclaimed: what killed processes had left of it
+    :param overlaps: as in ClothSimNode
     """
     check_interfaces()
     # rclpy stops the executor on SIGINT by itself. Python's KeyboardInterrupt on top would come
@@ -38,7 +41,7 @@ def run_node(args: Sequence[str], memory: SharedMemory, reclaimed: Reclaimed) ->
     try:
         # One that came before rclpy listened is only in the list.
         if not interrupts:
-            _spin(memory, reclaimed)
+            _spin(memory, reclaimed, overlaps)
     except (RuntimeError, NotInitializedException):
         # A signal cuts off ROS in the middle of anything, and what is under way then fails.
         if rclpy.ok():
@@ -47,9 +50,9 @@ def run_node(args: Sequence[str], memory: SharedMemory, reclaimed: Reclaimed) ->
         rclpy.try_shutdown()
 
 
-def _spin(memory: SharedMemory, reclaimed: Reclaimed) -> None:
+def _spin(memory: SharedMemory, reclaimed: Reclaimed, overlaps: bool | None) -> None:
     try:
-        node = ClothSimNode(memory)
+        node = ClothSimNode(memory, overlaps=overlaps)
     except RCLError as error:
         # A signal may have shut ROS down meanwhile.
         if not rclpy.ok():

@@ -64,6 +64,10 @@ class Pacing:
         self._due = max(self._due + simulated / self.factor, now - _CATCH_UP)
         return max(self._due - now, 0.0)
 
+    def is_next_due(self, now: float, simulated: float) -> bool:
+        """Tell whether ``delay`` would return 0 for the frame that has ended."""
+        return self.factor == 0.0 or self._due + simulated / self.factor <= now
+
     @property
     def achieved(self) -> float:
         """Get the simulated time per wall time over the last second; 0 before a frame."""
@@ -138,17 +142,20 @@ class RunLoop:
     :param alarm: rings for the next slice of work
     :param frame_seconds: simulated time of a frame [s]
     :param pacing: when the next frame is due
-    :param on_frame: called after the state has changed, with the wall time that took [s] and the
-        steps of dt made
+    :param on_frame: called after the state has changed, with the wall time that took [s], the
+        steps of dt made, and whether it is to return what sends the frame, or None, in place of
+        waiting for the device
     :param on_stop: called when a step was not finite and the run has stopped before it, or when
         it has failed unexpectedly
     :param note: counts an unexpected exception, and returns it in one line
+    :param overlaps: True begins the next frame, where it is due, before the last one is sent
     """
 
     def __init__(
             self, alarm: Alarm, simulation: Simulation, *, frame_seconds: float, pacing: Pacing,
-            paused: bool, on_frame: Callable[[float, int], None],
-            on_stop: Callable[[], None], note: Callable[[Exception, str], str]) -> None:
+            paused: bool, on_frame: Callable[[float, int, bool], Callable[[], None] | None],
+            on_stop: Callable[[], None], note: Callable[[Exception, str], str],
+            overlaps: bool = False) -> None:
         """Prepare; nothing moves before start."""
         self._simulation = simulation
         self._frame_seconds = frame_seconds
@@ -156,6 +163,7 @@ class RunLoop:
         self._on_frame = on_frame
         self._on_stop = on_stop
         self._note = note
+        self._overlaps = overlaps
         self._paused = paused
         self._problem = ''
         # Pieces of the step under way, and when the slice ends.
@@ -264,8 +272,21 @@ class RunLoop:
         if not (self.running or self._answer is not None or self._work is not None):
             self._alarm.cancel()
             return
+        if self._work_on(_SLICE):
+            self._end_frame()
+        elif not self._problem:
+            self._alarm.ring_in(0.0)
+
+    def _work_on(self, seconds: float, then: Callable[[], None] | None = None) -> bool:
+        """
+        Work on the frame for some wall time; return whether it, or all steps, are made.
+
+        :param then: called after that, and before the run stops at what went wrong in it
+        """
         begin = time.monotonic()
-        self._deadline = begin + _SLICE
+        self._deadline = begin + seconds
+        problem: ClothSimError | DeviceError | None = None
+        is_made = False
         try:
             if not self._is_frame_open and self._work is None:
                 self._begin_frame()
@@ -273,21 +294,18 @@ class RunLoop:
                 self._simulation.stepping.aim(self._frame_seconds)
             is_made = self._go_on()
         except (ClothSimError, DeviceError) as error:
-            self._worked += time.monotonic() - begin
-            self._stop(error)
-            return
+            problem = error
         except Exception as error:
             # A fault in a step comes again with the next: it ends the run, and not the node.
-            self._worked += time.monotonic() - begin
-            self._stop(ClothSimError(
+            problem = ClothSimError(
                 f'the run failed unexpectedly, {self._note(error, "a step")}: report it with the '
-                'trace from the log'))
-            return
+                'trace from the log')
         self._worked += time.monotonic() - begin
-        if is_made:
-            self._end_frame()
-        else:
-            self._alarm.ring_in(0.0)
+        if then is not None:
+            then()
+        if problem is not None:
+            self._stop(problem)
+        return is_made
 
     def _go_on(self) -> bool:
         """Work until the slice is over; return whether the frame, or all steps, are made."""
@@ -310,8 +328,14 @@ class RunLoop:
         # With a frame shorter than dt, some frames have nothing new to show.
         steps, worked = self._simulation.steps - self._first, self._worked
         self._begin_frame()
-        if steps > 0:
-            self._on_frame(worked, steps)
+        if steps > 0 and self._overlaps and self._answer is None and self.running and (
+                self._pacing.is_next_due(time.monotonic(), self._frame_seconds)):
+            send = self._on_frame(worked, steps, True)
+            # One piece, for the device to work on while the host waits, and sends. Nothing else
+            # is served before that: no request meets a frame that has not been sent.
+            self._work_on(0.0, then=send)
+        elif steps > 0:
+            self._on_frame(worked, steps, False)
         if self._answer is not None:
             self._end_steps(None)
             self._pacing.restart(time.monotonic())
@@ -338,6 +362,6 @@ class RunLoop:
         steps, worked = self._simulation.steps - self._first, self._worked
         self._begin_frame()
         if steps > 0:
-            self._on_frame(worked, steps)
+            self._on_frame(worked, steps, False)
         self._end_steps(error)
         self._on_stop()
