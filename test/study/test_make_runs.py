@@ -6,6 +6,7 @@
 import json
 import os
 from pathlib import Path
+import shutil
 import signal
 import subprocess
 import sys
@@ -25,6 +26,7 @@ import pytest
 SMALL = {'rows': 10, 'cols': 10}
 LARGE = {'rows': 20, 'cols': 20}
 SCENE = {'rows': 6, 'cols': 5}
+ONE = Workers(jobs=1)
 TWO = Workers(jobs=2)
 
 
@@ -82,10 +84,10 @@ def lines_of(folder):
     return [json.loads(line) for line in (folder / LINES).read_text().splitlines()]
 
 
-def make(runs, folder, **options):
-    """Make runs with two processes."""
+def make(runs, folder, workers=TWO, **options):
+    """Make runs with two processes, or as many as given."""
     with ResultsFolder(folder) as results:
-        return make_runs(runs, results, TWO, title='test', **options)
+        return make_runs(runs, results, workers, title='test', **options)
 
 
 def test_results_come_in_the_order_of_the_runs(tmp_path):
@@ -110,32 +112,40 @@ def test_a_run_is_made_once(tmp_path):
     """A continued study would make again what it has."""
     calls = tmp_path / 'calls'
     calls.mkdir()
-    make(squares(range(3), folder=str(calls)), tmp_path / 'study')
-    results = make(squares(range(5), folder=str(calls)), tmp_path / 'study')
+    make(squares(range(3), folder=str(calls)), tmp_path / 'study', ONE)
+    results = make(squares(range(5), folder=str(calls)), tmp_path / 'study', ONE)
     assert [result.values['square'] for result in results] == [0, 1, 4, 9, 16]
     assert len(list(calls.iterdir())) == 5
 
 
-def test_a_line_tells_what_it_is_of(tmp_path):
+@pytest.fixture(scope='module')
+def dropped(tmp_path_factory):
+    """Let a cloth drop; return the folder, the run and its result."""
+    folder = tmp_path_factory.mktemp('dropped')
+    run = Run('study_runs:drop', SCENE, {'seconds': 0.01})
+    result, = make([run], folder)
+    return folder, run, result
+
+
+def test_a_line_tells_what_it_is_of(dropped):
     """A result could not be made again, or be compared with another machine's."""
-    make([Run('study_runs:drop', SCENE, {'seconds': 0.01})], tmp_path)
-    line, = lines_of(tmp_path)
+    line, = lines_of(dropped[0])
     assert line['scene'] == SCENE and line['settings'] == {'seconds': 0.01}
     assert line['outcome'] == 'done' and line['device'] and line['version']
     assert line['scene_sha256'] == Run('f', {**SCENE, 'cols': 5, 'dt': 0.005}).scene_sha256
     assert line['scene_sha256'] != Run('f', {**SCENE, 'dt': 0.004}).scene_sha256
 
 
-def test_arrays_are_kept(tmp_path):
+def test_arrays_are_kept(dropped, tmp_path):
     """A continued study would have lost the positions it compares."""
-    runs = [Run('study_runs:drop', SCENE, {'seconds': 0.01})]
-    first, = make(runs, tmp_path)
-    again, = make(runs, tmp_path)
+    folder, run, first = dropped
+    shutil.copytree(folder, tmp_path, dirs_exist_ok=True)
+    again, = make([run], tmp_path)
     assert first.arrays['positions'].shape == (6, 5, 3)
     assert (again.arrays['positions'] == first.arrays['positions']).all()
     for path in (tmp_path / 'arrays').iterdir():
         path.write_bytes(b'half')
-    mended, = make(runs, tmp_path)
+    mended, = make([run], tmp_path)
     assert (mended.arrays['positions'] == first.arrays['positions']).all()
 
 

@@ -58,14 +58,14 @@ def test_a_strain_budget_names_the_cheapest_setting_that_keeps_to_it(folder, cap
             'set': {'mode': 'constraint', 'auto_substeps': True}}
     (folder / 'modes.yaml').write_text(yaml.safe_dump(
         {**GRID, 'methods': {**GRID['methods'], 'hard': hard}}))
-    arguments = ['--grid', str(folder / 'modes.yaml'), '--out', str(folder / 'strain')]
+    arguments = ['--grid', str(folder / 'modes.yaml')]
     assert study(folder, *arguments, '--budget-strain', '0.05') == 0
     assert 'the cheapest setting with a largest strain of 0.05 or less: hard, dt 0.0' in (
         capsys.readouterr().out)
-    chosen = folder / 'strain' / 'params.yaml'
+    chosen = folder / 'out' / 'params.yaml'
     assert load_parameters(chosen)['mode'] == 'constraint'
     # The springs of this soft cloth stretch by far more than the budget.
-    rows = map(json.loads, (folder / 'strain' / 'table.jsonl').read_text().splitlines())
+    rows = map(json.loads, (folder / 'out' / 'table.jsonl').read_text().splitlines())
     rows = {row['setting']: row for row in rows}
     assert rows['refine 4']['peak_strain'] > 0.05
     timed = [row for row in rows.values() if row['method'] == 'hard' and row['wall_seconds']]

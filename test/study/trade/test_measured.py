@@ -126,10 +126,10 @@ def test_a_cost_is_told_over_that_of_the_same_round(study):
     assert '| 1.00 (1.00-1.00) |' in line
 
 
-def test_a_scene_that_buckles_at_once_is_compared_as_far_as_its_reference_goes(tmp_path):
+def test_a_scene_that_buckles_at_once_is_compared_as_far_as_its_reference_goes(study):
     """There would be no study of stiff light cloth, or one of errors its reference can't tell."""
     reference = {**GRID['reference'], 'converged': 1e-12, 'loosely_converged': 1e-3}
-    measured = small_study(tmp_path, reference=reference)
+    measured = small_study(study[1], reference=reference)
     assert measured.allowed[Variant()] == 1e-3 and measured.times[Variant()] == 2
     changes = measured.references[measured.truth].changes
     text = page(measured, 'soft.yaml')
@@ -158,15 +158,15 @@ def test_nothing_is_made_twice(study):
     assert again.rows[0].scene == measured.rows[0].scene
 
 
-def test_a_grid_without_a_setting_that_runs_is_told(tmp_path):
+def test_a_grid_without_a_setting_that_runs_is_told(study):
     """A study of nothing but refused settings would end in a traceback."""
     with pytest.raises(ClothSimError, match='could be compared on the scene: .*stability limit'):
-        small_study(tmp_path, methods={'unstable': UNSTABLE})
+        small_study(study[1], methods={'unstable': UNSTABLE})
 
 
-def test_a_scene_without_a_reference_is_told(tmp_path):
+def test_a_scene_without_a_reference_is_told(study):
     """Errors against a motion that has not converged would be taken for errors of settings."""
     with pytest.raises(ClothSimError, match='has not converged to 1e-12'):
-        small_study(tmp_path, reference={
-            'refine': [1, 2, 4], 'converged': 1e-12, 'loosely_converged': 1e-12,
+        small_study(study[1], reference={
+            'refine': [4, 8, 16], 'converged': 1e-12, 'loosely_converged': 1e-12,
             'float64_node_steps': 1e7})
