@@ -41,7 +41,7 @@ def test_all_methods_are_in_one_document(capsys):
 def test_a_figure_is_drawn(tmp_path, capsys):
     """The picture would be missing, or of another method."""
     path = tmp_path / 'figure.png'
-    assert main(['paper', 'fig7', '--sizes', '6', '9', '--plot', str(path), *SHORT]) == 0
+    assert main(['paper', 'fig7', '--sizes', '6', '--plot', str(path), *SHORT]) == 0
     out = capsys.readouterr().out
     assert out.splitlines()[-1] == str(path)
     assert 'mass_spring, on ' in out and 'constraint, on ' not in out

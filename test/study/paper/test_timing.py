@@ -4,6 +4,7 @@
 """Contenders are timed in turn, and what cannot be run says why."""
 
 from dataclasses import replace
+from functools import cache
 import json
 import statistics
 
@@ -40,10 +41,16 @@ def made(nodes, rates, method='constraint', families=('structural', 'shear', 'be
         for name, fps in rates.items()))
 
 
+@cache
+def timed_square(method):
+    """Return what the contenders take on a cloth of 9 x 9 nodes."""
+    return time_cloth(square(method, 9), **SHORT)
+
+
 @pytest.mark.parametrize('method', CONTENDERS)
 def test_all_are_timed_with_their_ratios(method):
     """A program would be left out, or compared with another round than its own."""
-    timed = time_cloth(square(method, 9), **SHORT)
+    timed = timed_square(method)
     assert timed.device and timed.nodes == 81
     names = [each.name for each in CONTENDERS[method]]
     assert [speed.contender for speed in timed.speeds] == names
@@ -65,7 +72,7 @@ def test_all_are_timed_with_their_ratios(method):
 
 def test_the_details_say_what_was_solved():
     """A rate would stand for an unknown number of constraints and iterations."""
-    paper, plain, shaders, *_ = time_cloth(square('constraint', 9), **SHORT).speeds
+    paper, plain, shaders, *_ = timed_square('constraint').speeds
     for speed in (paper, plain):
         assert f'{PaperCloth("constraint", 9, 9).springs} constraints' in speed.detail
     for speed in (paper, plain, shaders):
