@@ -4,6 +4,7 @@
 """What advances and observes a state by one mode, and the engines of a cloth."""
 
 from collections.abc import Iterator
+import json
 import os
 from pathlib import Path
 import subprocess
@@ -201,23 +202,41 @@ def _programs() -> int:
     return sum(bool(GL.glIsProgram(name)) for name in _NAMES)
 
 
-_IN_A_PROCESS = """
+# Each part in a process of its own, forked before there is a device: it need not import again.
+# What the folder of the cache has after each is printed.
+_IN_PROCESSES = """
+import json
+import os
+from pathlib import Path
 import sys
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.simulation import Simulation
 
-with Simulation(Scene({'rows': 12, 'cols': 12, 'mode': sys.argv[1], **eval(sys.argv[2])})) as run:
-    run.warm_up()
-    if sys.argv[3] == 'runs':
-        for push in ('none', 'all', 'sphere'):
-            if push != 'none':
-                run.push((0.0, 0.0, 0.1), duration=0.02, region=push, radius=5.0)
+def use(mode, values, part):
+    with Simulation(Scene({'rows': 12, 'cols': 12, 'mode': mode, **values})) as run:
+        run.warm_up()
+        if part == 'runs':
+            for push in ('none', 'all', 'sphere'):
+                if push != 'none':
+                    run.push((0.0, 0.0, 0.1), duration=0.02, region=push, radius=5.0)
+                run.step(3)
+                run.snapshot(tension=True, pin_forces=True)
+            # Beyond what a limit allows, and hard edges.
+            run.set_state(1.2 * run.positions(), 0.0 * run.velocities())
             run.step(3)
             run.snapshot(tension=True, pin_forces=True)
-        # Beyond what a limit allows, and hard edges.
-        run.set_state(1.2 * run.positions(), 0.0 * run.velocities())
-        run.step(3)
-        run.snapshot(tension=True, pin_forces=True)
+
+kept = []
+for part in sys.argv[3:]:
+    child = os.fork()
+    if not child:
+        use(sys.argv[1], json.loads(sys.argv[2]), part)
+        sys.exit()
+    assert os.waitpid(child, 0)[1] == 0, part
+    kept.append({str(path): path.stat().st_size
+                 for path in Path(os.environ['MESA_SHADER_CACHE_DIR']).rglob('*')
+                 if path.is_file()})
+print(json.dumps(kept))
 """
 
 
@@ -234,21 +253,16 @@ def test_the_driver_has_nothing_left_to_compile(context, shader_cache, mode, val
     """A first step, push on a region or limit in force would keep a node busy for seconds."""
     if not context.is_software or 'Mesa' not in context.version:
         pytest.skip('Mesa alone shows what it compiles, by what its cache gets')
-    kept = []
+    environment = {
+        **os.environ, 'MESA_SHADER_CACHE_DIR': str(shader_cache), 'LP_NUM_THREADS': '0',
+        # What is run for a moment need not be optimised.
+        'GALLIVM_PERF': 'nopt'}
+    environment.pop('MESA_SHADER_CACHE_DISABLE', None)
     # The driver writes its cache in the background, and now and then ends before all is written.
-    for part in ('is prepared', 'is prepared', 'runs'):
-        environment = {
-            **os.environ, 'MESA_SHADER_CACHE_DIR': str(shader_cache), 'LP_NUM_THREADS': '0',
-            # What is run for a moment need not be optimised.
-            'GALLIVM_PERF': 'nopt'}
-        environment.pop('MESA_SHADER_CACHE_DISABLE', None)
-        subprocess.run(
-            [sys.executable, '-c', _IN_A_PROCESS, mode, repr(values), part], check=True,
-            env=environment)
-        kept.append({file: file.stat().st_size for file in _files(shader_cache)})
+    done = subprocess.run(
+        [sys.executable, '-c', _IN_PROCESSES, mode, json.dumps(values),
+         'is prepared', 'is prepared', 'runs'],
+        check=True, env=environment, stdout=subprocess.PIPE)
+    kept = json.loads(done.stdout)
     assert kept[1], 'the driver keeps what it has compiled'
     assert kept[2] == kept[1]
-
-
-def _files(folder: Path) -> list[Path]:
-    return [path for path in folder.rglob('*') if path.is_file()]

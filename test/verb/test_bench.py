@@ -27,57 +27,48 @@ def test_the_figures_name_layout_and_device():
         [a / b for a, b in zip(fused['rounds'], paper['rounds'])])
 
 
-def test_variants_are_scene_parameters():
+def bench(capsys, *arguments):
+    """Return the lines of a bench in this process: it takes a second to start another one."""
+    capsys.readouterr()
+    assert main(['bench', *arguments]) == 0
+    return capsys.readouterr().out.splitlines()
+
+
+def test_variants_are_scene_parameters(capsys):
     """Only the shipped comparison could be measured."""
-    done = subprocess.run(
-        [sys.executable, '-m', 'cloth_sim_ros.verb', 'bench', '--json', '--rounds', '1',
-         '--round-seconds', '0.01', '--sizes', '16', '--variants', 'block=2,loads=storage',
-         'stiffness.bend=0.0,damping.bend=0.0'],
-        capture_output=True, text=True)
-    assert done.returncode == 0, done.stderr
-    first, second = json.loads(done.stdout)['speeds']
+    told, = bench(
+        capsys, '--json', '--rounds', '1', '--round-seconds', '0.01', '--sizes', '16',
+        '--variants', 'block=2,loads=storage', 'stiffness.bend=0.0,damping.bend=0.0')
+    first, second = json.loads(told)['speeds']
     assert (first['block'], first['loads']) == (2, 'storage')
     assert second['ratio'] == 1.0
 
 
-def test_the_solver_is_measured_with_its_error():
+def test_the_solver_is_measured_with_its_error(capsys):
     """The speed of a solve would be told without what it is worth."""
-    done = subprocess.run(
-        [sys.executable, '-m', 'cloth_sim_ros.verb', 'bench', '--solver', '--rounds', '1',
-         '--round-seconds', '0.001', '--sizes', '10'],
-        capture_output=True, text=True)
-    assert done.returncode == 0, done.stderr
-    device, *lines = done.stdout.splitlines()
+    device, *lines = bench(
+        capsys, '--solver', '--rounds', '1', '--round-seconds', '0.001', '--sizes', '10')
     assert device.startswith('10 x 10 on ')
     assert len(lines) == 12
     assert all('solves/s' in line and 'dv off by' in line for line in lines)
 
 
-def test_the_paper_solver_is_a_named_baseline():
+def test_the_paper_solver_is_a_named_baseline(capsys):
     """The ratio to the paper could not be measured again."""
-    done = subprocess.run(
-        [sys.executable, '-m', 'cloth_sim_ros.verb', 'bench', '--solver', '--baseline', 'paper',
-         '--json', '--rounds', '1', '--round-seconds', '0.001', '--sizes', '10'],
-        capture_output=True, text=True)
-    assert done.returncode == 0, done.stderr
-    comparison = json.loads(done.stdout)
+    told, = bench(
+        capsys, '--solver', '--baseline', 'paper', '--json', '--rounds', '1', '--round-seconds',
+        '0.001', '--sizes', '10')
+    comparison = json.loads(told)
     assert {speed['solver'] for speed in comparison['speeds']} == {'multigrid', 'paper'}
     assert len(comparison['ratios']) == 6
 
 
-def bench_modes(*arguments):
-    """Return how a short comparison of modes has ended."""
-    return subprocess.run(
-        [sys.executable, '-m', 'cloth_sim_ros.verb', 'bench', '--modes', '--seconds', '0.06',
-         '--rounds', '2', *arguments],
-        capture_output=True, text=True)
+SHORT_MODES = ('--modes', '--seconds', '0.06', '--rounds', '2')
 
 
-def test_modes_are_compared_in_one_document():
+def test_modes_are_compared_in_one_document(capsys):
     """Programs could not read the comparison, or not on what it was made."""
-    done = bench_modes('--grids', '6,10', '--json')
-    assert done.returncode == 0, done.stderr
-    found = json.loads(done.stdout)
+    found = json.loads(''.join(bench(capsys, *SHORT_MODES, '--grids', '6,10', '--json')))
     assert [(row['grid'], row['contender']) for row in found['speeds']] == [
         (grid, name) for grid in (6, 10) for name in (
             'mass_spring', 'stiffer_springs', 'constraint', 'adaptive')]
@@ -89,13 +80,13 @@ def test_modes_are_compared_in_one_document():
     assert (found['seconds'], found['rounds']) == (pytest.approx(0.06), 2)
 
 
-def test_some_modes_can_be_compared_alone():
+def test_some_modes_can_be_compared_alone(capsys):
     """A change of one mode would be measured with all others beside it."""
-    done = bench_modes('--grids', '6', '--only', 'adaptive', 'mass_spring')
-    assert done.returncode == 0, done.stderr
-    rows = [line.split('|') for line in done.stdout.splitlines() if line.startswith('| 6 ')]
+    lines = bench(
+        capsys, *SHORT_MODES, '--grids', '6', '--only', 'adaptive', 'mass_spring')
+    rows = [line.split('|') for line in lines if line.startswith('| 6 ')]
     assert [row[2].strip() for row in rows] == ['adaptive', 'mass_spring']
-    assert 'Wall time grows' not in done.stdout
+    assert not any('Wall time grows' in line for line in lines)
 
 
 @pytest.mark.parametrize(('arguments', 'reason'), [
@@ -105,7 +96,7 @@ def test_some_modes_can_be_compared_alone():
 def test_a_comparison_that_makes_no_sense_is_refused(arguments, reason, capsys):
     """A slip of the keyboard would end in a traceback."""
     try:
-        code = main(['bench', '--modes', '--seconds', '0.06', '--rounds', '2', *arguments])
+        code = main(['bench', *SHORT_MODES, *arguments])
     except SystemExit as end:
         code = end.code
     told = capsys.readouterr().err
@@ -113,13 +104,10 @@ def test_a_comparison_that_makes_no_sense_is_refused(arguments, reason, capsys):
     assert 'Traceback' not in told
 
 
-def test_colliders_are_compared_with_none():
+def test_colliders_are_compared_with_none(capsys):
     """What contact costs would be told of other work, or not at all."""
-    done = subprocess.run(
-        [sys.executable, '-m', 'cloth_sim_ros.verb', 'bench', '--contact', '--sizes', '6',
-         '--seconds', '0.04', '--rounds', '1', '--json'], capture_output=True, text=True)
-    assert done.returncode == 0, done.stderr
-    found = [json.loads(line) for line in done.stdout.splitlines()]
+    found = [json.loads(line) for line in bench(
+        capsys, '--contact', '--sizes', '6', '--seconds', '0.04', '--rounds', '1', '--json')]
     assert [each['mode'] for each in found] == ['mass_spring', 'constraint']
     for each in found:
         names = ['no collider', 'a sphere', '20 spheres', 'hung, no collider']
