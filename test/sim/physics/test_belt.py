@@ -52,12 +52,12 @@ def test_ratio_of_tensions_at_the_onset_of_slip(simulate, within, any_mode, fric
     simulation.push(
         tuple(LOAD * slack), duration=100.0, region='sphere',
         center=tuple(positions[0].mean(axis=0)), radius=0.03)
-    simulation.advance(0.1)
+    simulation.advance(0.05)
     for col in range(2):
         simulation.move_pin(ROWS - 1, col, tuple(positions[-1, col] + 0.003 * pulled), 0.005)
-    simulation.advance(0.25)
+    simulation.advance(0.2)
     tensions = []
-    for _ in range(50):
+    for _ in range(25):
         simulation.step()
         tensions.append(abs(float((simulation.pin_forces().forces @ pulled).sum())))
     # A polygon turns by as much at each node.

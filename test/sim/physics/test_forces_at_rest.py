@@ -13,7 +13,6 @@ HANGING = {
     'start.pose': 'hanging', 'start.z': -0.25, 'height': 0.5, 'width': 0.3, 'node_mass': MASS,
     'stiffness.structural': 100.0, 'stiffness.shear': 100.0, 'stiffness.bend': 10.0,
     'damping.structural': 1.0, 'damping.shear': 1.0, 'damping.bend': 0.1, 'dt': 0.0025}
-SECONDS = 2.5
 
 
 @pytest.mark.parametrize('cols', [pytest.param(1, marks=pytest.mark.long), 3])
@@ -22,7 +21,7 @@ def test_edges_carry_the_weight_below_them(simulate, within, force_scene, cols):
     rows = 8
     simulation = simulate(
         {**HANGING, 'rows': rows, 'cols': cols, 'pins': ['top_edge'], **force_scene})
-    simulation.advance(SECONDS)
+    simulation.advance(2.5)
     snapshot = simulation.snapshot(tension=True)
     down = -snapshot.positions[..., 2].astype(float)
     carried = np.zeros(rows - 1)
@@ -44,7 +43,7 @@ def test_edges_carry_the_weight_below_them(simulate, within, force_scene, cols):
 def test_pins_carry_the_weight(simulate, within, force_scene, pins):
     """The pins do not hold the cloth's weight, their own nodes' with it."""
     simulation = simulate({**HANGING, 'rows': 6, 'cols': 5, 'pins': pins, **force_scene})
-    simulation.advance(SECONDS)
+    simulation.advance(1.8)
     held = simulation.snapshot(pin_forces=True).pin_forces
     assert np.array_equal(held.nodes, np.argwhere(simulation.pinned_nodes()))
     weight = 30 * MASS * GRAVITY
