@@ -39,6 +39,12 @@ def render(run, tmp_path, capsys):
     return draw
 
 
+@pytest.fixture(scope='module')
+def kept():
+    """Keep a picture by what was asked for, from one test to the next."""
+    return {}
+
+
 def test_draws_the_times_asked_for(render):
     """The picture would have other panels than asked for."""
     one, two, six = render('--at', '0.1'), render('--at', '0.1,0.2'), render()
@@ -50,9 +56,11 @@ def test_draws_the_times_asked_for(render):
 @pytest.mark.parametrize('arguments', [
     ('--azimuth', '40'), ('--elevation', '70'), ('--fov', '0'), ('--zoom', '2'),
     ('--target', '0.5', '0.5', '1'), ('--strain-max', '0.001'), ('--title', 'mine')])
-def test_the_look_can_be_chosen(render, arguments):
+def test_the_look_can_be_chosen(render, kept, arguments):
     """An option would do nothing."""
-    plain, changed = render('--at', '0.2'), render('--at', '0.2', *arguments)
+    if 'plain' not in kept:
+        kept['plain'] = render('--at', '0.2')
+    plain, changed = kept['plain'], render('--at', '0.2', *arguments)
     assert plain.shape == changed.shape
     assert np.abs(plain - changed).max() > 0.3
 
