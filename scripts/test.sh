@@ -4,7 +4,7 @@
 
 # Set up and run the tests; arguments go to pytest.
 #
-#   scripts/test.sh                  the ordinary tests, on all processors (at most 4) and one more
+#   scripts/test.sh                  the ordinary tests, in two processes more than there are processors (at most 4)
 #   scripts/test.sh --long           the long ones as well
 #   scripts/test.sh test/sim -k pin  some of them
 
@@ -21,6 +21,6 @@ unset PYTHONDONTWRITEBYTECODE
 # Files stay together: their tests share nodes and simulations. Some wait for a node, and leave their
 # processor to another process. Their order is that of test/conftest.py.
 processors=$(nproc)
-[ $# -gt 0 ] || set -- --numprocesses=$((processors < 4 ? processors + 1 : 5)) --dist=loadfile \
+[ $# -gt 0 ] || set -- --numprocesses=$((processors < 4 ? processors + 2 : 6)) --dist=loadfile \
   --no-loadscope-reorder
 exec python -m pytest "$@"

@@ -61,12 +61,15 @@ class Pacing:
         if self.factor == 0.0:
             self._due = now
             return 0.0
-        self._due = max(self._due + simulated / self.factor, now - _CATCH_UP)
+        self._due = max(self._due_after(simulated), now - _CATCH_UP)
         return max(self._due - now, 0.0)
 
     def is_next_due(self, now: float, simulated: float) -> bool:
         """Tell whether ``delay`` would return 0 for the frame that has ended."""
-        return self.factor == 0.0 or self._due + simulated / self.factor <= now
+        return self.factor == 0.0 or self._due_after(simulated) <= now
+
+    def _due_after(self, simulated: float) -> float:
+        return self._due + simulated / self.factor
 
     @property
     def achieved(self) -> float:
