@@ -193,7 +193,8 @@ def scene_values(draw):
     """Draw cloths of all shapes with limits of all kinds."""
     rows, cols = draw(strategies.tuples(strategies.integers(1, 12), strategies.integers(2, 12)))
     values = {
-        'mode': 'adaptive', 'rows': rows, 'cols': cols, 'width': draw(_numbers(0.3, 3.0)),
+        'mode': 'adaptive', 'material.preset': 'none', 'rows': rows, 'cols': cols,
+        'width': draw(_numbers(0.3, 3.0)),
         'height': draw(_numbers(0.3, 3.0)), 'areal_density': draw(_numbers(0.05, 1.0)),
         'start.seed': draw(strategies.integers(0, 1000)), 'dt': draw(_numbers(0.002, 0.02)),
         'start.pose': draw(strategies.sampled_from(('hanging', 'horizontal'))),
