@@ -4,7 +4,7 @@
 
 # Set up and run the tests; arguments go to pytest.
 #
-#   scripts/test.sh                  the ordinary tests, in two processes more than there are processors (at most 4)
+#   scripts/test.sh                  the ordinary tests, in two processes more than processors
 #   scripts/test.sh --long           the long ones as well
 #   scripts/test.sh test/sim -k pin  some of them
 

@@ -93,7 +93,8 @@ class RightSide:
 # A solve takes the law of each edge for a straight line. Where edges come to limits or leave them,
 # its solution may be worse than its start. What the step minimises is convex, so its slope along
 # the way from start to solution changes sign once: there the next solve starts, which so comes
-# nearer in any case (Newton's method with a line search; docs/explanation/implicit_step.md).
+# nearer (Newton's method with a line search; docs/explanation/adaptive.md). That is sure from the
+# second solve of a pass on: the first takes its lines where tensions say, not where it starts.
 
 # Looks along the way, by false position, not nearer than a tenth to the ends of what is left.
 _LOOKS = 6

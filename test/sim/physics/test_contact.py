@@ -16,7 +16,7 @@ LYING = {'rows': 8, 'cols': 6, 'width': 0.5, 'height': 0.7, 'pins': ['none'], 'd
          'contact.thickness': 0.0, 'start.z': 0.0}
 ANGLE = 0.4
 # A node of hard edges slides where the force along a slope is above friction by this share of its
-# weight: what positions are rounded by pulls at its edges with as much.
+# weight, or less (docs/explanation/contact.md, Measured).
 LEAST_FORCE = 3e-4
 
 
