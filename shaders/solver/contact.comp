@@ -111,11 +111,6 @@ float slowest(vec3 x) { return rounding(x, touched[0]) / substep; }
 // Whether what slides goes farther than a node may without another solve.
 bool is_fast(float speed) { return substep * speed > most_unsolved; }
 
-// What positions are rounded by is as much force in hard edges: it lets nothing slide that sticks.
-bool is_slow(Hold hold, Contact contact, vec3 x) {
-    return length(sliding(hold, contact.velocity)) < slowest(x);
-}
-
 // Have friction resist in the solve, by most at this speed; done is what it has given before.
 void hold_fast(inout Hold hold, float most, float speed, vec3 slid, vec3 done) {
     hold.grip = most / speed;
@@ -151,6 +146,9 @@ bool may_touch(int at, int index, vec4 x, vec4 v) {
     store_vector(cloth_entry(BEGIN_VELOCITY, index), v.xyz);
     bool is_near = is_near_body(x.xyz, towards(at, index, v.xyz));
     if (v.w > 0.0 && !is_near) {
+        if (guess == 0.0) {
+            store_vector(cloth_entry(CHANGE, index), vec3(0.0));
+        }
         keep(index, Hold(FREE, vec3(0.0), vec3(0.0), 0.0, vec3(0.0), vec3(0.0)), vec3(0.0));
         vectors[cloth_entry(REACTION, index)].w = 0.0;
     }
@@ -164,18 +162,17 @@ void decide(int at, int index, inout vec4 x, inout vec4 v) {
         : kick * applied_acceleration(at);
     vec3 without = v.xyz + expected;
     bool touched_before = guess > 0.0 && system_data[cloth_entry(CONTACT, index)].w > 0.0;
-    float end = touched_before ? vectors[cloth_entry(REACTION, index)].w : 0.0;
+    bool stuck = vectors[cloth_entry(REACTION, index)].w == STUCK;
     vectors[cloth_entry(REACTION, index)].w = 0.0;
     Contact contact = contact_at(x.xyz, towards(at, index, v.xyz), without, substep);
     Hold hold = hold_of(contact, v.xyz);
-    bool sticks = contact.kind == STICKS || end == STUCK && is_slow(hold, contact, x.xyz);
-    if (touched_before && end != STUCK && slides_on(hold, index, v.xyz + hold.change)) {
+    if (touched_before && !stuck && slides_on(hold, index, v.xyz + hold.change)) {
         v.xyz += hold.change;
         keep(index, hold, hold.change);
         store_vector(cloth_entry(CHANGE, index), along_surface(hold, last));
         return;
     }
-    if (sticks) {
+    if (contact.kind == STICKS) {
         hold.change -= sliding(hold, v.xyz + hold.change);
         hold.kind = STICKS;
     }
@@ -188,10 +185,12 @@ void decide(int at, int index, inout vec4 x, inout vec4 v) {
         hold.impulse = friction * min(most / max(length(friction), 1e-30), 1.0);
     }
     keep(index, hold, hold.change);
-    if (hold.kind != FREE) {
-        // What the solve starts with is nothing where the node can't go.
-        store_vector(cloth_entry(CHANGE, index), along_surface(hold, last));
-    }
+    // What the solve starts with: nothing where the node can't go, and where no change is known,
+    // what the law makes of it without its neighbours.
+    vec3 start = guess > 0.0 ? last
+        : hold.kind == FREE ? vec3(0.0) : contact.velocity - v.xyz;
+    store_vector(
+        cloth_entry(CHANGE, index), hold.kind == FREE ? start : along_surface(hold, start));
 }
 #elif STAGE == AGAIN
 // Let friction hold a node or have it slide, by its velocity v after a solve.
@@ -211,7 +210,7 @@ void rub(inout Hold hold, Contact contact, vec3 v, vec3 x, vec3 reaction, int wa
         hold.line = is_near ? slid / speed : vec3(0.0);
         return;
     }
-    if (contact.kind == STICKS || was == STICKS && is_slow(hold, contact, x)) {
+    if (contact.kind == STICKS) {
         hold.change -= slid;
         hold.kind = STICKS;
         return;

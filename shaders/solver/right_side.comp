@@ -22,6 +22,7 @@
 #define SCALARS_ACCESS
 #include "solver/scalars.glsl"
 #include "applied_acceleration.glsl"
+#include "solver/free_directions.glsl"
 #if HAS_RIGIDITY
 #include "block_bending.glsl"
 
@@ -51,6 +52,13 @@ float rounding_of_length(vec3 from, vec3 to) {
     vec3 far = max(abs(from), abs(to));
     return ROUNDED * max(max(far.x, far.y), far.z);
 }
+
+#if HAS_CONTACT
+// Where both ends of an edge touch a surface, its tension stays as it was found last, within what its
+// length is rounded by: a hard edge would pull by that as weak friction does, and have nodes stick
+// or slide as it comes.
+float touches[TILE][TILE];  // 1 where a node does, else 0
+#endif
 
 #if HAS_BEND
 vec4 bend_tension[TILE][TILE];
@@ -98,6 +106,11 @@ void add_edge(int row, int col, int drow, int dcol, int edge, int family, int re
         ahead + substep * dot(n, expected[row][col] - expected[row + drow][col + dcol]),
         found, rate, family, rest);
     Pull pull = pull_at(ahead, judged, rate, family, rest);
+#if HAS_CONTACT
+    float rounded = touches[row][col] * touches[row + drow][col + dcol]
+        * pull.slope * rounding_of_length(from.xyz, to.xyz);
+    pull.tension += clamp(found + pull.slope * (ahead - l) - pull.tension, -rounded, rounded);
+#endif
     float tension_here = moves * pull.tension;
     float missing = tension_here - (1.0 - to_come) * found;
     is_off_here = is_off_here || is_in_block(row, col)
@@ -129,6 +142,9 @@ void main() {
         expected[row][col] = guess * load_vector(cloth_entry(start_field, entry));
         change[row][col] = vec3(0.0);
         along[row][col] = across[row][col] = begun[row][col] = vec4(0.0);
+#if HAS_CONTACT
+        touches[row][col] = min(load_contact(entry).w, 1.0);
+#endif
         tension[row][col] = load_system(cloth_entry(TENSION, entry));
 #if HAS_BEND
         bend_tension[row][col] = load_system(cloth_entry(BEND_TENSION, entry));

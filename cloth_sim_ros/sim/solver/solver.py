@@ -127,6 +127,13 @@ class Solver:
         return self._tolerance * (_LIMITS_SHARE if self._law.has_limits else 1.0)
 
     @property
+    def _share_of_change(self) -> float:
+        """Return the share of CHANGE that the first pass of a step starts with."""
+        # Where nothing is known, meet_colliders leaves there what nodes that touch begin with.
+        knows_change = self._contacts is None or self._last_rate > 0.0
+        return self._law.length * self._last_rate if knows_change else 1.0
+
+    @property
     def _law(self) -> EdgeLaw:
         assert self._last_law is not None  # set_law comes first
         return self._last_law
@@ -184,9 +191,8 @@ class Solver:
         self._buffers.clear_scalars(keep_scale=is_further or is_again)
         # What changes the velocities changes little from step to step, and so do tensions.
         self._start = Start(START, 1.0) if is_again else Start(
-            CHANGE, 0.0 if is_further else length * self._last_rate,
+            CHANGE, 0.0 if is_further else self._share_of_change,
             judges_by_tension=self._law.has_limits and self._last_rate > 0.0)
-        # Nothing is expected then, and so the start is 0.
         if self._last_rate == 0.0 and not (is_further or is_again):
             self._find_first_tensions(forcing, kick)
         self._right_side.run(self._law, forcing, kick, self._start, is_further=is_further)
@@ -363,7 +369,7 @@ class Solver:
         """Let tensions be what edges pull with as they are, before a step has found any."""
         self._buffers.write(SOLUTION, np.zeros((self._cloth.rows, self._cloth.cols, 3)))
         undamped = replace(self._law, damping=(0.0,) * len(self._law.damping))
-        self._right_side.run(undamped, forcing, kick, self._start, is_further=True)
+        self._right_side.run(undamped, forcing, kick, Start(CHANGE, 0.0), is_further=True)
         self._find.run()
 
     def _compile(self, levels: Levels) -> None:
