@@ -83,6 +83,20 @@ class Buffer:
             bind_texture(_TEXTURE_BUFFER, self._texture)
         return self._texture
 
+    def storage_call(self, binding: int) -> Call:
+        """Return the call that ``bind_storage`` makes."""
+        return bind_buffer_base, (_STORAGE, binding, self.name)
+
+    def texture_calls(self, unit: int) -> list[Call]:
+        """Return the calls that ``bind_texture`` makes."""
+        texture = self.bind_texture(unit)
+        return [
+            (activate_texture, (_FIRST_UNIT + unit,)), (bind_texture, (_TEXTURE_BUFFER, texture))]
+
+    def dispatches_call(self) -> Call:
+        """Return the call that ``bind_dispatches`` makes."""
+        return bind_buffer, (_DISPATCHES, self.name)
+
     def bind_dispatches(self) -> None:
         """Let indirect dispatches take their workgroups from it."""
         bind_buffer(_DISPATCHES, self.name)

@@ -180,10 +180,7 @@ class Program(LinkedProgram):
 
     def dispatch(self, groups_x: int, groups_y: int = 1) -> None:
         """Run the program in use on ``groups_x`` x ``groups_y`` workgroups."""
-        if groups_x > _MOST_GROUPS or groups_y > _MOST_GROUPS:
-            raise ShaderError(
-                f'{self.name} needs {groups_x} x {groups_y} workgroups, at most {_MOST_GROUPS} '
-                'are allowed per side: use fewer nodes')
+        self._check_groups(groups_x, groups_y)
         self.dispatches += 1
         quick_calls.dispatch(groups_x, groups_y, 1)
 
@@ -192,23 +189,36 @@ class Program(LinkedProgram):
         self.dispatches += 1
         quick_calls.dispatch_indirect(offset)
 
-    def indirect_calls(self, offset: int, **uniforms: int) -> list[Call]:
+    def calls(self, groups_x: int, groups_y: int, **uniforms: int) -> list[Call]:
         """
-        Return the calls that run the program on the workgroups that stand at ``offset`` [bytes].
+        Return the calls that run the program on ``groups_x`` x ``groups_y`` workgroups.
 
         Whoever makes them tells ``submitted``.
 
         :param uniforms: int uniforms to set before
         """
+        self._check_groups(groups_x, groups_y)
+        return [*self._calls_before(uniforms), (quick_calls.dispatch, (groups_x, groups_y, 1))]
+
+    def indirect_calls(self, offset: int, **uniforms: int) -> list[Call]:
+        """Return the same for the workgroups that stand at ``offset`` [bytes]."""
+        return [*self._calls_before(uniforms), (quick_calls.dispatch_indirect, (offset,))]
+
+    def submitted(self, count: int) -> None:
+        """Count ``count`` times that ``calls`` or ``indirect_calls`` were made."""
+        self.dispatches += count
+
+    def _calls_before(self, uniforms: Mapping[str, int]) -> list[Call]:
         return [
             (quick_calls.use_program, (self._program,)),
             *((quick_calls.set_uniform_int, (self._location(name), value))
-              for name, value in uniforms.items()),
-            (quick_calls.dispatch_indirect, (offset,))]
+              for name, value in uniforms.items())]
 
-    def submitted(self, count: int) -> None:
-        """Count ``count`` times that the ``indirect_calls`` were made."""
-        self.dispatches += count
+    def _check_groups(self, groups_x: int, groups_y: int) -> None:
+        if groups_x > _MOST_GROUPS or groups_y > _MOST_GROUPS:
+            raise ShaderError(
+                f'{self.name} needs {groups_x} x {groups_y} workgroups, at most {_MOST_GROUPS} '
+                'are allowed per side: use fewer nodes')
 
 
 class RenderProgram(LinkedProgram):

@@ -44,8 +44,7 @@ class PooledProgram:
         GL.glUseProgram(self.name)
         if self._clearing is None:
             self._clearing = list(_clearing_calls(self.name))
-        for call, arguments in self._clearing:
-            call(*arguments)
+        quick_calls.make(self._clearing)
 
 
 class ProgramPool:

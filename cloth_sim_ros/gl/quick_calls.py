@@ -10,6 +10,7 @@ converts others in Python, and an interrupt that comes meanwhile is lost in an A
 """
 
 from collections.abc import Callable
+from collections.abc import Iterable
 from ctypes import c_size_t
 from ctypes import c_uint
 from functools import cache
@@ -21,6 +22,12 @@ from OpenGL.raw.GL import _types as gl_type
 
 # A call to be made over and over, and its arguments.
 Call = tuple[Callable[..., None], tuple[int, ...]]
+
+
+def make(calls: Iterable[Call]) -> None:
+    """Make calls one after another."""
+    for call, arguments in calls:
+        call(*arguments)
 
 
 def _quick(name: str, *types: type) -> Callable[..., None]:

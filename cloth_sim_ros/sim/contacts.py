@@ -11,6 +11,7 @@ from cloth_sim_ros.gl.buffer import Buffer
 from cloth_sim_ros.gl.buffer import shader_dispatches_visible
 from cloth_sim_ros.gl.buffer import shader_writes_visible
 from cloth_sim_ros.gl.program import Program
+from cloth_sim_ros.gl.quick_calls import make
 from cloth_sim_ros.sim import bindings
 from cloth_sim_ros.sim.colliders import Collider
 from cloth_sim_ros.sim.colliders import SHAPES
@@ -149,8 +150,7 @@ class Contacts:
 
     def list_none(self) -> None:
         """Empty the lists of an explicit substep that is about to be made."""
-        for call, arguments in self._clear_near:
-            call(*arguments)
+        make(self._clear_near)
 
     def act(self) -> None:
         """Act on an explicit substep that was made, both states of which are bound."""

@@ -84,6 +84,8 @@ class PushField:
             gravity, reads_texture=layout.texture_loads,
             stand_in=stand_in if layout.texture_loads else None)
         self._latest: tuple[object, Forcing] = ((), self.still)
+        # What the latest was asked for: a substep asks several times.
+        self._asked: object = None
 
     @property
     def applied(self) -> tuple[AppliedPush, ...]:
@@ -152,9 +154,11 @@ class PushField:
         """
         if not self._entries:
             return self.still
-        scale = 1.0 if kick is None else (end - begin) / kick
-        return self._compose(
-            (entry, scale * share) for entry, share in self._shares(begin, end))
+        if (begin, end, kick, tuple(self._entries)) != self._asked:
+            scale = 1.0 if kick is None else (end - begin) / kick
+            self._compose((entry, scale * share) for entry, share in self._shares(begin, end))
+            self._asked = begin, end, kick, tuple(self._entries)
+        return self._latest[1]
 
     def acting(self, now: float) -> Forcing:
         """Return what acts at the moment ``now`` [s], for looking only: nothing begins by it."""
@@ -181,7 +185,7 @@ class PushField:
             if is_to_come:
                 entry.inside, entry.nodes = None, 0
         # They may hold nodes and accelerations of pushes that begin anew.
-        self._in_buffer, self._latest = (), ((), self.still)
+        self._in_buffer, self._latest, self._asked = (), ((), self.still), None
 
     def speed_gained(self, begin: float, end: float) -> float:
         """
@@ -214,6 +218,7 @@ class PushField:
         return shares
 
     def _compose(self, shares: Iterable[tuple[_Entry, float]]) -> Forcing:
+        self._asked = None
         active = tuple((entry, share) for entry, share in shares if share > 0.0 and entry.nodes)
         known, forcing = self._latest
         if active == known:
@@ -236,6 +241,7 @@ class PushField:
         self._settle(entry, self._pinned)
 
     def _settle(self, entry: _Entry, pinned: np.ndarray) -> None:
+        self._asked = None
         push = entry.push
         entry.inside = ~pinned
         if push.region != 'all':

@@ -112,6 +112,20 @@ def test_the_same_substep_has_the_same_air(make):
     np.testing.assert_array_equal(loads.at_nodes(nodes), air)
 
 
+def test_a_substep_that_is_asked_for_again_has_the_pushes_there_are(make):
+    """A push that was dropped since would act, or one that was looked at in between."""
+    loads, state = make(SMALL)
+    push = Push.checked(force=(0.0, 0.0, 7.2), start=0.0, duration=1.0)
+    loads.pushes.add(push, 0.0)
+    pushed = loads.forcing(state, 0.0, 0.004)
+    assert loads.forcing(state, 0.0, 0.004) is pushed
+    assert pushed.everywhere[2] > loads.still.everywhere[2] + 1.0
+    loads.pushes.acting(2.0)
+    assert loads.forcing(state, 0.0, 0.004).everywhere == pushed.everywhere
+    loads.pushes.drop([push])
+    assert loads.forcing(state, 0.0, 0.004).everywhere == loads.still.everywhere
+
+
 def test_looking_on_does_not_change_a_run(simulate):
     """What a viewer asks for would decide where the cloth goes."""
     values = {**AIR, 'pushes.start': [0.01], 'pushes.duration': [0.03],

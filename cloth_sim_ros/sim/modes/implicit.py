@@ -124,6 +124,8 @@ class ImplicitStep(ABC):
         self._watch = TurnWatch(scene, layout, families)
         self._free_motion = FreeMotion(scene, layout)
         self.settling = Settling(notable)
+        # The law of the last substep, and what it was asked for.
+        self._law: tuple[tuple[float, float], EdgeLaw] | None = None
         self.forget()
 
     @staticmethod
@@ -161,7 +163,7 @@ class ImplicitStep(ABC):
         length = seconds / self.substeps
         is_held = bool(state.pinned.any())
         for substep in range(self.substeps):
-            self._solver.set_law(self.law(length, self.settling.limit))
+            self._solver.set_law(self._present_law(length))
             start = begin + substep * length
             # A velocity belongs to the middle of its substep, so forces act from there to the
             # next.
@@ -198,7 +200,7 @@ class ImplicitStep(ABC):
         still = loads.still
         self._watch.look(state, still, self._dt)
         yield
-        self._solver.set_law(self.law(self._dt, self.settling.limit))
+        self._solver.set_law(self._present_law(self._dt))
         if still.touch is not None:
             self._solver.meet_colliders(state, still, self._dt)
             yield
@@ -255,6 +257,13 @@ class ImplicitStep(ABC):
         self._solver.delete()
         self._watch.delete()
         self._free_motion.delete()
+
+    def _present_law(self, length: float) -> EdgeLaw:
+        """Return the law of a substep of ``length`` [s]; most are like the one before."""
+        asked = length, self.settling.limit
+        if self._law is None or self._law[0] != asked:
+            self._law = asked, self.law(*asked)
+        return self._law[1]
 
     def _choose_substeps(self, state: State, forcing: Forcing, seconds: float) -> None:
         longest, strain = self._watch.look(state, forcing, seconds)

@@ -7,6 +7,8 @@ from collections.abc import Generator
 
 from cloth_sim_ros.gl.buffer import DISPATCHES_VISIBLE
 from cloth_sim_ros.gl.buffer import shader_dispatches_visible
+from cloth_sim_ros.gl.quick_calls import Call
+from cloth_sim_ros.gl.quick_calls import make
 from cloth_sim_ros.sim.layout import Layout
 from cloth_sim_ros.sim.solver.active_set import Start
 from cloth_sim_ros.sim.solver.preconditioner import Preconditioner
@@ -57,6 +59,8 @@ class Iterations:
         self._further_calls = [
             call for each in self._further for call in each.calls_if_going()]
         self._further_calls.append(DISPATCHES_VISIBLE)
+        # None until all passes have run: the driver compiles each as it first does.
+        self._first_calls: list[Call] | None = None
         self._most = most
         self._batch = 1 if state.texture_loads else _BATCH
         self._first_batch = self._batch
@@ -91,12 +95,21 @@ class Iterations:
     def solve(self) -> Generator[None, bool | None, None]:
         """Find the solution, and yield where the device may do something else; as Mode.step."""
         self.buffers.bind()
-        self._begin.run()
-        for each in self._first:
-            each.run()
+        first = self._begin, *self._first
+        if self._first_calls is None:
+            for each in first:
+                each.run()
+                if (yield):
+                    self.buffers.bind()
+            shader_dispatches_visible()
+            self._first_calls = [
+                *(call for each in first for call in each.calls()), DISPATCHES_VISIBLE]
+        else:
+            make(self._first_calls)
+            for each in first:
+                each.submitted(1)
             if (yield):
                 self.buffers.bind()
-        shader_dispatches_visible()
         yield from self._go_on()
         self._update.run()
 
@@ -107,8 +120,7 @@ class Iterations:
         while made < self._most and self.buffers.is_going():
             batch = min(batch, self._most - made)
             for _ in range(batch):
-                for call, arguments in self._further_calls:
-                    call(*arguments)
+                make(self._further_calls)
                 if (yield):
                     self.buffers.bind()
             made += batch

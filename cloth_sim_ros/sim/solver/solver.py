@@ -30,6 +30,7 @@ from cloth_sim_ros.sim.solver.solver_buffers import RESIDUAL
 from cloth_sim_ros.sim.solver.solver_buffers import SOLUTION
 from cloth_sim_ros.sim.solver.solver_buffers import START
 from cloth_sim_ros.sim.solver.solver_buffers import TENSION
+from cloth_sim_ros.sim.solver.solver_programs import PassList
 from cloth_sim_ros.sim.solver.solver_programs import SolverPass
 from cloth_sim_ros.sim.solver.solver_programs import SolverPrograms
 from cloth_sim_ros.sim.solver.tally import least_scale
@@ -201,9 +202,9 @@ class Solver:
         elif is_further and not is_again and not self._buffers.is_off():
             self._left_in = LEFT if self._left_share else None
             return False
-        damping = (self._damp,) if self._damps_bending and not is_further else ()
-        for each in (*damping, self._assemble, *self._preconditioner.assembly):
-            each.run()
+        if self._damps_bending and not is_further:
+            self._damp.run()
+        self._assembly.run()
         if not is_again:
             self._may_stop_early = may_stop_early and self._law.has_limits
         elif self._search.last_share < _HALF:
@@ -375,7 +376,8 @@ class Solver:
     def _compile(self, levels: Levels) -> None:
         cloth, programs = levels.cloth, self._programs
         nodes = cloth.node_groups
-        self._assemble = SolverPass(programs.make('assemble.comp'), nodes)
+        self._assembly = PassList((
+            SolverPass(programs.make('assemble.comp'), nodes), *self._preconditioner.assembly))
         if self._damps_bending:
             self._damp = SolverPass(programs.make('damp_bending.comp'), nodes)
         self._find = SolverPass(programs.make('find_tension.comp'), cloth.groups)

@@ -10,6 +10,8 @@ from cloth_sim_ros.gl.buffer import Buffer
 from cloth_sim_ros.gl.buffer import most_bytes
 from cloth_sim_ros.gl.errors import DeviceError
 from cloth_sim_ros.gl.program import Program
+from cloth_sim_ros.gl.quick_calls import Call
+from cloth_sim_ros.gl.quick_calls import make
 from cloth_sim_ros.sim import bindings
 from cloth_sim_ros.sim.layout import HALO
 from cloth_sim_ros.sim.layout import Layout
@@ -158,6 +160,7 @@ class SolverBuffers:
         self._sizes = (
             levels.vector_bytes, levels.system_bytes, self.sum_count * _ENTRY_BYTES)
         self._large: _Large | None = None
+        self._bind_calls: list[Call] | None = None
         self._scalars = Buffer(np.zeros(_SCALARS, dtype=np.float32))
         self._dispatches = Buffer(np.zeros((dispatch_count, 3), dtype=np.uint32))
         # Workgroups of the first dispatch, along x.
@@ -165,17 +168,9 @@ class SolverBuffers:
 
     def bind(self) -> None:
         """Let the passes of the solver reach everything."""
-        large = self._allocated()
-        large.vectors.bind_storage(bindings.SOLVER_VECTORS)
-        large.system.bind_storage(bindings.SOLVER_SYSTEM)
-        large.sums.bind_storage(bindings.SOLVER_SUMS)
-        self._scalars.bind_storage(bindings.SOLVER_SCALARS)
-        self._dispatches.bind_storage(bindings.SOLVER_DISPATCHES)
-        self._dispatches.bind_dispatches()
-        if self._cloth.texture_loads:
-            large.vectors.bind_texture(bindings.SOLVER_VECTORS)
-            large.system.bind_texture(bindings.SOLVER_SYSTEM)
-            large.sums.bind_texture(bindings.SOLVER_SUMS)
+        if self._bind_calls is None:
+            self._bind_calls = self._calls_of_bind(self._allocated())
+        make(self._bind_calls)
 
     def clear(self) -> None:
         """Make all zero, as at the start: what is no number would stay where it is multiplied."""
@@ -254,6 +249,20 @@ class SolverBuffers:
         for buffer in self._large or ():
             buffer.delete()
         self._large = None
+        self._bind_calls = None
+
+    def _calls_of_bind(self, large: _Large) -> list[Call]:
+        places = (
+            (large.vectors, bindings.SOLVER_VECTORS), (large.system, bindings.SOLVER_SYSTEM),
+            (large.sums, bindings.SOLVER_SUMS))
+        calls = [buffer.storage_call(place) for buffer, place in (
+            *places, (self._scalars, bindings.SOLVER_SCALARS),
+            (self._dispatches, bindings.SOLVER_DISPATCHES))]
+        calls.append(self._dispatches.dispatches_call())
+        if self._cloth.texture_loads:
+            for buffer, place in places:
+                calls += buffer.texture_calls(place)
+        return calls
 
 
 def refuse_too_large(levels: Levels, limit: int) -> None:

@@ -4,12 +4,14 @@
 """The programs of the solver: for the edges it takes, on its levels, run as its passes."""
 
 from collections.abc import Collection
+from collections.abc import Iterable
 from collections.abc import Sequence
 
 from cloth_sim_ros.gl.buffer import shader_writes_visible
 from cloth_sim_ros.gl.buffer import WRITES_VISIBLE
 from cloth_sim_ros.gl.program import Program
 from cloth_sim_ros.gl.quick_calls import Call
+from cloth_sim_ros.gl.quick_calls import make
 from cloth_sim_ros.gl.shader_source import ShaderSource
 from cloth_sim_ros.sim.edge_kinds import edge_defines
 from cloth_sim_ros.sim.layout import Layout
@@ -179,15 +181,34 @@ class SolverPass:
         self._program.dispatch(*self.groups)
         shader_writes_visible()
 
+    def calls(self) -> list[Call]:
+        """Return what runs the pass."""
+        return [*self._program.calls(*self.groups, **self._uniforms), WRITES_VISIBLE]
+
     def calls_if_going(self) -> list[Call]:
         """Return what runs the pass unless the device has decided to stop."""
         return [*self._program.indirect_calls(self._offset, **self._uniforms), WRITES_VISIBLE]
 
     def submitted(self, count: int) -> None:
-        """Count ``count`` times that ``calls_if_going`` were made."""
+        """Count ``count`` times that ``calls`` or ``calls_if_going`` were made."""
         self._program.submitted(count)
 
     def _use(self) -> None:
         self._program.use()
         for name, value in self._uniforms.items():
             self._program.set_int(name, value)
+
+
+class PassList:
+    """Passes that always follow one another, with nothing in between."""
+
+    def __init__(self, passes: Iterable[SolverPass]) -> None:
+        """Prepare their calls."""
+        self._passes = tuple(passes)
+        self._calls = [call for each in self._passes for call in each.calls()]
+
+    def run(self) -> None:
+        """Run all of them."""
+        make(self._calls)
+        for each in self._passes:
+            each.submitted(1)
