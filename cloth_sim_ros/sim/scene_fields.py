@@ -208,8 +208,7 @@ SCENE_FIELDS = (
     Field('constraint.max_substeps', int, 32, 'largest number of implicit substeps per time step '
           'that auto_substeps chooses', low=1, high=MOST_SUBSTEPS),
     Field('solver.tolerance', float, 0.02, 'relative error of the change in velocity at which '
-          'the linear solver stops, half of it where edges come to strain limits; the next solve '
-          'makes up for it', low=1e-6, high=0.5),
+          'the linear solver stops; the next solve makes up for it', low=1e-6, high=0.5),
     Field('solver.max_iterations', int, 60, 'maximum number of iterations of the linear '
           'solver', low=1, high=10000),
     Field('solver.preconditioner', str, 'multigrid', 'preconditioner of the linear solver; '

@@ -63,8 +63,10 @@ def grown(growth: float, substeps: int, detail: str = '') -> ProbeOutcome:
 
 # Small, so that springs answer in proportion; large beside what float32 rounds of a position.
 JITTER = 1e-3
-_REST_STEPS = 600
-_REST_LOOKS = 12
+# Each of the first steps is looked at: in mode adaptive, what grows fast soon comes to the strain
+# limit and is held there. The others are looked at after so many.
+_FIRST_LOOKS = 50
+_LATER_LOOKS, _STEPS_A_LOOK = 11, 50
 
 
 def rest_scene(values: Mapping[str, Any]) -> dict[str, Any]:
@@ -93,8 +95,8 @@ def rest_probe(
             scene, context=context, check_stability=False, stop_at_non_finite=False)) as run:
         begin = _energy(run)
         growth = 1.0
-        for _ in range(_REST_LOOKS):
-            run.step(_REST_STEPS // _REST_LOOKS)
+        for steps in (*_FIRST_LOOKS * [1], *_LATER_LOOKS * [_STEPS_A_LOOK]):
+            run.step(steps)
             growth = max(growth, math.sqrt(_energy(run) / begin)) if begin else 0.0
             if not growth < GROWN:
                 break

@@ -46,9 +46,6 @@ PRECONDITIONERS: dict[str, type[Preconditioner]] = {
 
 # Of the tolerance. What the last iteration leaves is foretold, not measured.
 _AIM = 0.8
-# Of the tolerance, that of solves where edges come to limits: which do is found by the lengths
-# that they lead to.
-_LIMITS_SHARE = 0.5
 # Of what is missing at its start, what a solve may leave that another one goes on from, with other
 # limits in force.
 _EARLY = 0.3
@@ -124,10 +121,6 @@ class Solver:
             self._preconditioner.set_law(law)
 
     @property
-    def _tolerated(self) -> float:
-        return self._tolerance * (_LIMITS_SHARE if self._law.has_limits else 1.0)
-
-    @property
     def _share_of_change(self) -> float:
         """Return the share of CHANGE that the first pass of a step starts with."""
         # Where nothing is known, meet_colliders leaves there what nodes that touch begin with.
@@ -186,7 +179,7 @@ class Solver:
         state.bind_in()
         self._is_further = is_further
         if is_again:
-            self._tally.add(self._tolerated, is_final=False)
+            self._tally.add(self._tolerance, is_final=False)
         else:
             self._take_over()
         self._buffers.clear_scalars(keep_scale=is_further or is_again)
@@ -211,7 +204,7 @@ class Solver:
             self._may_stop_early = False
         self._iterations.start_from(self._start, self._left_share)
         self._iterations.stop_at(
-            _AIM * self._tolerated, may_stay=is_again,
+            _AIM * self._tolerance, may_stay=is_again,
             least_scale=None if is_further or is_again else least_scale(state, forcing, kick),
             early=_EARLY if self._may_stop_early else 0.0)
         self._is_again = is_again
@@ -243,7 +236,7 @@ class Solver:
     def find_tensions(self) -> None:
         """Find what edges pull with by the solution; later steps go by it."""
         self._buffers.bind()
-        self._tally.add(self._tolerated, is_final=True)
+        self._tally.add(self._tolerance, is_final=True)
         self._find.run()
         self._left_in = None if self._is_cut_short else RESIDUAL
         self._last_rate = 1.0 / self._law.length
@@ -259,12 +252,12 @@ class Solver:
         if not self._law.has_limits:
             return False
         found = self._buffers.scalars()
-        allowed = (_AIM * self._tolerated)**2 * found.scale
+        allowed = (_AIM * self._tolerance)**2 * found.scale
         # Where it began is the solution, by the law as it is there.
         if self._is_again and found.measure_start <= allowed:
             return False
         is_early = allowed < found.measure_after <= _EARLY**2 * found.measure_start
-        missing = max(self._tolerated, _LEAST_MISSING)**2 * found.scale
+        missing = max(self._tolerance, _LEAST_MISSING)**2 * found.scale
         self._buffers.bind()
         state.bind_in()
         is_due = self._search.move_start(
