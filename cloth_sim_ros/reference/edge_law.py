@@ -33,7 +33,7 @@ LIMITED = ('structural', 'shear')
 # What an edge that carries the whole cloth is beyond its limit: of the limit, and as a strain. As
 # long before it, it comes into force.
 BEYOND_LIMIT = 0.1
-MOST_BEYOND = 0.003
+MOST_BEYOND = 0.002
 
 
 @dataclass(frozen=True)

@@ -31,7 +31,7 @@ def _tension(law: EdgeLaw, length: float, rate: float = 0.0) -> float:
 # 20 weights of 1 kg stretch 1 m by 1 mm.
 # A chain of 1 kg: strain 0.008 for its weight if 0.03 of its one line were 1.
 HARDNESS = 9.81 / (0.008 * 0.03)
-LIMIT_HARDNESS = 9.81 / (0.003 * 0.03)
+LIMIT_HARDNESS = 9.81 / (0.002 * 0.03)
 
 
 @pytest.mark.parametrize(('law', 'length', 'rate', 'tension'), [
@@ -43,9 +43,9 @@ LIMIT_HARDNESS = 9.81 / (0.003 * 0.03)
     ('limited', 1.05, 2.0, 40.0 * 0.05 + 0.3 * 2.0),
     ('limited', 1.104, 0.0, 40.0 * 0.104 + LIMIT_HARDNESS * 0.004),
     ('limited', 0.896, 0.0, -40.0 * 0.104 - LIMIT_HARDNESS * 0.004),
-    # From 0.003 before the limit on it comes into force, which is half of that at the limit.
-    ('limited', 1.1, 0.0, 40.0 * 0.1 + LIMIT_HARDNESS * 0.003 / 4.0),
-    ('limited', 1.0969, 0.0, 40.0 * 0.0969)])
+    # From 0.002 before the limit on it comes into force, which is half of that at the limit.
+    ('limited', 1.1, 0.0, 40.0 * 0.1 + LIMIT_HARDNESS * 0.002 / 4.0),
+    ('limited', 1.0979, 0.0, 40.0 * 0.0979)])
 def test_tension(law, length, rate, tension):
     """An edge does not pull with k (l - L0) + k_d dl/dt, and what its limits add."""
     assert _tension(LAWS[law](_two_nodes()), length, rate) == pytest.approx(tension, rel=1e-9)

@@ -36,7 +36,7 @@ LIMITED = ('structural', 'shear')
 # What an edge that carries the weight of the cloth is beyond its limit: a share of the limit, and
 # no more than a strain at which a push of many times the weight is held as well.
 _SHARE = 0.1
-_MOST = 0.003
+_MOST = 0.002
 # Of that: from there before the limit on it comes into force. With a kink, Newton's method would
 # search for the edges that are past it, most of them in vain.
 _TRANSITION = 1.0

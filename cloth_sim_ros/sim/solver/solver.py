@@ -46,6 +46,8 @@ PRECONDITIONERS: dict[str, type[Preconditioner]] = {
 
 # Of the tolerance. What the last iteration leaves is foretold, not measured.
 _AIM = 0.8
+# Of the tolerance: what tensions may lack of the law. It is lost, unlike what a solve leaves.
+_LACKING = 0.5
 # Of what is missing at its start, what a solve may leave that another one goes on from, with other
 # limits in force.
 _EARLY = 0.3
@@ -257,7 +259,7 @@ class Solver:
         if self._is_again and found.measure_start <= allowed:
             return False
         is_early = allowed < found.measure_after <= _EARLY**2 * found.measure_start
-        missing = max(self._tolerance, _LEAST_MISSING)**2 * found.scale
+        missing = max(_LACKING * self._tolerance, _LEAST_MISSING)**2 * found.scale
         self._buffers.bind()
         state.bind_in()
         is_due = self._search.move_start(

@@ -30,8 +30,8 @@ LIMP = {'stiffness.structural': 5.0, 'stiffness.shear': 5.0, 'stiffness.bend': 0
 
 # Of a limit: what float32 can't tell apart.
 NEARLY = 3e-5
-# Of the limit of 0.1: a strain of 0.003 before it, it comes into force.
-ONSET = 0.97
+# Of the limit of 0.1: a strain of 0.002 before it, it comes into force.
+ONSET = 0.98
 
 
 def scene_of(kind, nodes, push, dt, **changes):

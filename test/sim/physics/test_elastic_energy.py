@@ -86,10 +86,10 @@ def test_an_edge_at_its_limit_stores_that_too(simulate, within, gravity):
     simulation.advance(3.0)
     seen = simulation.snapshot()
     # At rest, spring and limit carry one node. An edge that carries both is to be a strain of
-    # 0.003 beyond the limit; as far around it the pull grows from nothing to that of what is past.
+    # 0.002 beyond the limit; as far around it the pull grows from nothing to that of what is past.
     stretch = float(seen.positions[0, 1, 0] - seen.positions[0, 0, 0]) - 0.5
-    mass, width = simulation.scene.node_mass, 0.003 * 0.5
-    stiffness = mass * 2 * 9.81 / 0.003 / 0.03 / 0.5
+    mass, width = simulation.scene.node_mass, 0.002 * 0.5
+    stiffness = mass * 2 * 9.81 / 0.002 / 0.03 / 0.5
     pulled = (mass * gravity - 1.0 * stretch) / stiffness
     is_near = pulled < width
     assert is_near == (gravity == 10.0)

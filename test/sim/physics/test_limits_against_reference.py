@@ -114,7 +114,7 @@ def _sides(snapshot, oracle):
     """Return which limits pull, and hold the count of the device to theirs."""
     lengths = oracle.law.edges.lengths(oracle.positions.reshape(-1, 3))
     limit = oracle.scene['adaptive.threshold']
-    onset = limit - min(0.1 * limit, 0.003)
+    onset = limit - min(0.1 * limit, 0.002)
     strains = np.abs(lengths / oracle.law.edges.rest_length - 1.0)
     limited = np.isfinite(oracle.law.longest)
     # An edge this close to where its limit sets in may be on either side of that.
