@@ -7,7 +7,6 @@ from collections.abc import Generator
 
 from cloth_sim_ros.gl.buffer import DISPATCHES_VISIBLE
 from cloth_sim_ros.gl.buffer import shader_dispatches_visible
-from cloth_sim_ros.gl.quick_calls import Call
 from cloth_sim_ros.gl.quick_calls import make
 from cloth_sim_ros.sim.layout import Layout
 from cloth_sim_ros.sim.solver.active_set import Start
@@ -15,6 +14,7 @@ from cloth_sim_ros.sim.solver.preconditioner import Preconditioner
 from cloth_sim_ros.sim.solver.solver_buffers import Levels
 from cloth_sim_ros.sim.solver.solver_buffers import MOST_LEVELS
 from cloth_sim_ros.sim.solver.solver_buffers import SolverBuffers
+from cloth_sim_ros.sim.solver.solver_programs import PassList
 from cloth_sim_ros.sim.solver.solver_programs import POINT_LOCAL
 from cloth_sim_ros.sim.solver.solver_programs import POINTS
 from cloth_sim_ros.sim.solver.solver_programs import SolverPass
@@ -60,7 +60,7 @@ class Iterations:
             call for each in self._further for call in each.calls_if_going()]
         self._further_calls.append(DISPATCHES_VISIBLE)
         # None until all passes have run: the driver compiles each as it first does.
-        self._first_calls: list[Call] | None = None
+        self._first_go: PassList | None = None
         self._most = most
         self._batch = 1 if state.texture_loads else _BATCH
         self._first_batch = self._batch
@@ -96,20 +96,17 @@ class Iterations:
         """Find the solution, and yield where the device may do something else; as Mode.step."""
         self.buffers.bind()
         first = self._begin, *self._first
-        if self._first_calls is None:
+        if self._first_go is None:
             for each in first:
                 each.run()
                 if (yield):
                     self.buffers.bind()
-            shader_dispatches_visible()
-            self._first_calls = [
-                *(call for each in first for call in each.calls()), DISPATCHES_VISIBLE]
+            self._first_go = PassList(first)
         else:
-            make(self._first_calls)
-            for each in first:
-                each.submitted(1)
+            self._first_go.run()
             if (yield):
                 self.buffers.bind()
+        shader_dispatches_visible()
         yield from self._go_on()
         self._update.run()
 
