@@ -22,6 +22,7 @@ from cloth_sim_ros.gl.quick_calls import multi_bind
 from cloth_sim_ros.gl.quick_calls import read_buffer
 from cloth_sim_ros.gl.quick_calls import write_buffer
 import numpy as np
+from OpenGL.GL.ARB.buffer_storage import glBufferStorage
 
 # As plain numbers: PyOpenGL's constants are slower to hand on.
 _STORAGE = int(GL.GL_SHADER_STORAGE_BUFFER)
@@ -48,18 +49,30 @@ class Buffer:
 
     :param data: what it holds at first, or the number of bytes
     :param is_staging: True for memory that the host reads and only ``copy_to`` writes
+    :param is_polled: True for a few numbers that shaders write and the host reads within a step:
+        they stay in the host's memory. NVIDIA's driver moves other buffers there for each such
+        read, and back for the next pass
     """
 
-    def __init__(self, data: np.ndarray | int, *, is_staging: bool = False) -> None:
+    def __init__(
+            self, data: np.ndarray | int, *, is_staging: bool = False,
+            is_polled: bool = False) -> None:
         """Allocate the memory and fill it."""
         self.bytes = data if isinstance(data, int) else data.nbytes
         content = None if isinstance(data, int) else np.ascontiguousarray(data)
         self.name = int(GL.glGenBuffers(1))
         self._texture: int | None = None
+        # True after a fill or a copy into it, until a later write from the host.
+        self._is_filled = False
         GL.glBindBuffer(GL.GL_SHADER_STORAGE_BUFFER, self.name)
-        GL.glBufferData(
-            GL.GL_SHADER_STORAGE_BUFFER, _allocated(self.bytes), None,
-            GL.GL_STREAM_READ if is_staging else GL.GL_DYNAMIC_COPY)
+        if is_polled and glBufferStorage:
+            glBufferStorage(
+                GL.GL_SHADER_STORAGE_BUFFER, _allocated(self.bytes), None,
+                GL.GL_DYNAMIC_STORAGE_BIT | GL.GL_CLIENT_STORAGE_BIT)
+        else:
+            GL.glBufferData(
+                GL.GL_SHADER_STORAGE_BUFFER, _allocated(self.bytes), None,
+                GL.GL_STREAM_READ if is_staging else GL.GL_DYNAMIC_COPY)
         if content is not None:
             GL.glBufferSubData(GL.GL_SHADER_STORAGE_BUFFER, 0, self.bytes, content)
         note_buffer(self)
@@ -104,6 +117,8 @@ class Buffer:
     def write(self, data: np.ndarray, offset: int = 0) -> None:
         """Overwrite the bytes from ``offset`` on with ``data``."""
         content = np.ascontiguousarray(data)
+        self._finish_fill()
+        memory_barrier(_READS)
         bind_buffer(_STORAGE, self.name)
         write_buffer(_STORAGE, offset, content.nbytes, content.ctypes.data)
         refuse_lost_context()
@@ -111,7 +126,7 @@ class Buffer:
     def write_calls(self, data: np.ndarray) -> list[Call]:
         """Return the calls that overwrite its first bytes with ``data``, which has to be kept."""
         return [
-            (bind_buffer, (_STORAGE, self.name)),
+            (memory_barrier, (_READS,)), (bind_buffer, (_STORAGE, self.name)),
             (write_buffer, (_STORAGE, 0, data.nbytes, data.ctypes.data))]
 
     def clear(self) -> None:
@@ -121,20 +136,23 @@ class Buffer:
             GL.glClearBufferData(
                 GL.GL_SHADER_STORAGE_BUFFER, GL.GL_R32UI, GL.GL_RED_INTEGER, GL.GL_UNSIGNED_INT,
                 None)
+        self._is_filled = True
 
     def copy(self, begin: int, into: int, size: int) -> None:
         """Copy ``size`` bytes from ``begin`` to ``into``; the two parts have to lie apart."""
         memory_barrier(_READS)
         bind_buffer(_STORAGE, self.name)
         copy_buffer(_STORAGE, _STORAGE, begin, into, size)
+        self._is_filled = True
         refuse_lost_context()
 
-    def copy_to(self, other: 'Buffer', into: int, size: int) -> None:
-        """Copy the first ``size`` bytes into ``other``, from its byte ``into`` on."""
+    def copy_to(self, other: 'Buffer', into: int, size: int, begin: int = 0) -> None:
+        """Copy ``size`` bytes from ``begin`` on into ``other``, from its byte ``into`` on."""
         memory_barrier(_READS)
         bind_buffer(_COPIED, self.name)
         bind_buffer(_COPY, other.name)
-        copy_buffer(_COPIED, _COPY, 0, into, size)
+        copy_buffer(_COPIED, _COPY, begin, into, size)
+        other._is_filled = True
         refuse_lost_context()
 
     def read_into(self, target: np.ndarray, offset: int = 0) -> None:
@@ -150,6 +168,17 @@ class Buffer:
             GL.glDeleteTextures(1, [self._texture])
         GL.glDeleteBuffers(1, [self.name])
         drop_buffer(self)
+
+    def _finish_fill(self) -> None:
+        """
+        Finish a fill of it or a copy into it, if there was one, ahead of a write from the host.
+
+        NVIDIA's driver (580.159) does not keep their order: a fill or a copy overwrites what was
+        written after it, in some runs after a flush, too. Dispatches keep theirs.
+        """
+        if self._is_filled:
+            GL.glFinish()
+            self._is_filled = False
 
 
 def _allocated(size: int) -> int:
