@@ -32,11 +32,12 @@ void find(int row, int col, int drow, int dcol, int edge, int family, int rest) 
         * inversesqrt(square) / substep;
 #if HAS_BEND
     if (edge >= EDGE_TWO_ROW) {
-        bend_tension[row][col][edge - EDGE_TWO_ROW] = bend_tension[row][col][edge - EDGE_TWO_ROW + 2] + added;
+        int slot = LONG_SLOT(edge);
+        bend_tension[row][col][slot] = bend_tension[row][col][slot + 2] + added;
         return;
     }
 #endif
-    tension[row][col][edge] += added;
+    tension[row][col][SHORT_SLOT(edge)] += added;
 }
 
 void main() {

@@ -73,7 +73,8 @@ void look(int row, int col, int drow, int dcol, int edge, int family, int rest) 
     float slope = 0.0;
     // Bend edges come to no limits.
     if (family != BEND) {
-        float judged = judged_length(begun, tension[row][col][edge], dot(n, u), family, rest);
+        float pull = tension[row][col][SHORT_SLOT(edge)];
+        float judged = judged_length(begun, pull, dot(n, u), family, rest);
         float l = begun + substep * share * opened;
         Past straight = past_limits(l, judged, family, rest);
         Past bent = past_limits(l, l, family, rest);

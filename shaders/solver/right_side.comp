@@ -18,6 +18,7 @@
 #include "solver/state_index.glsl"
 #include "solver/cloth_tile.glsl"
 #include "solver/edge_law.glsl"
+#include "solver/edge_slots.glsl"
 #include "solver/foreseen_length.glsl"
 #define SCALARS_ACCESS
 #include "solver/scalars.glsl"
@@ -68,24 +69,24 @@ vec4 bend_weight[TILE][TILE];
 float found_tension(int row, int col, int edge) {
 #if HAS_BEND
     if (edge >= EDGE_TWO_ROW) {
-        return bend_tension[row][col][edge - EDGE_TWO_ROW];
+        return bend_tension[row][col][LONG_SLOT(edge)];
     }
 #endif
-    return tension[row][col][edge];
+    return tension[row][col][SHORT_SLOT(edge)];
 }
 
 void store_edge(int row, int col, int edge, float begun_here, float along_here, float across_here) {
 #if HAS_BEND
     if (edge >= EDGE_TWO_ROW) {
-        bend_tension[row][col][edge - EDGE_TWO_ROW + 2] = begun_here;
-        bend_weight[row][col][edge - EDGE_TWO_ROW] = along_here;
-        bend_weight[row][col][edge - EDGE_TWO_ROW + 2] = across_here;
+        bend_tension[row][col][LONG_SLOT(edge) + 2] = begun_here;
+        bend_weight[row][col][LONG_SLOT(edge)] = along_here;
+        bend_weight[row][col][LONG_SLOT(edge) + 2] = across_here;
         return;
     }
 #endif
-    begun[row][col][edge] = begun_here;
-    along[row][col][edge] = along_here;
-    across[row][col][edge] = across_here;
+    begun[row][col][SHORT_SLOT(edge)] = begun_here;
+    along[row][col][SHORT_SLOT(edge)] = along_here;
+    across[row][col][SHORT_SLOT(edge)] = across_here;
 }
 
 void add_edge(int row, int col, int drow, int dcol, int edge, int family, int rest) {
@@ -151,7 +152,8 @@ void main() {
 #endif
     }
     FOR_CLOTH_EDGES(add_edge)
-    if (is_off_here) {
+    // Asked first: on a GPU, atomics of all invocations on one word wait for each other.
+    if (is_off_here && is_off == 0u) {
         atomicOr(is_off, floatBitsToUint(1.0));
     }
 #if HAS_RIGIDITY

@@ -3,6 +3,8 @@
 
 // What an edge of the cloth resists, as a tensor, from where right_side.comp has left it.
 
+#include "solver/edge_slots.glsl"
+
 vec4 load_node(ivec2 at) { return load_system(cloth_entry(NODE, node_index(at.x, at.y))); }
 
 // Of the edge from the node at (row, column) to the one by away.
@@ -12,11 +14,13 @@ Symmetric edge_block(ivec2 at, ivec2 by, int edge) {
 #if HAS_BEND
     if (edge >= EDGE_TWO_ROW) {
         vec4 weight = load_system(cloth_entry(BEND_WEIGHT, index));
-        return weight[edge - EDGE_TWO_ROW] * outer_square(d) + scaled_identity(weight[edge - EDGE_TWO_ROW + 2]);
+        int line = LONG_SLOT(edge);
+        return weight[line] * outer_square(d) + scaled_identity(weight[line + 2]);
     }
 #endif
-    return load_system(cloth_entry(ALONG, index))[edge] * outer_square(d)
-        + scaled_identity(load_system(cloth_entry(ACROSS, index))[edge]);
+    int line = SHORT_SLOT(edge);
+    return load_system(cloth_entry(ALONG, index))[line] * outer_square(d)
+        + scaled_identity(load_system(cloth_entry(ACROSS, index))[line]);
 }
 
 // The two edges that lie along by at a node: the one that begins there and the one that ends.

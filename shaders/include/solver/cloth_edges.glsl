@@ -3,6 +3,8 @@
 
 // How much the edges of a tile resist, as right_side.comp has left it.
 
+#include "solver/edge_slots.glsl"
+
 #if HAS_BEND
 vec4 bend_weight[TILE][TILE];
 #endif
@@ -22,17 +24,17 @@ void load_edges(ivec2 first) {
 float weight_along(int row, int col, int edge) {
 #if HAS_BEND
     if (edge >= EDGE_TWO_ROW) {
-        return bend_weight[row][col][edge - EDGE_TWO_ROW];
+        return bend_weight[row][col][LONG_SLOT(edge)];
     }
 #endif
-    return along[row][col][edge];
+    return along[row][col][SHORT_SLOT(edge)];
 }
 
 float weight_across(int row, int col, int edge) {
 #if HAS_BEND
     if (edge >= EDGE_TWO_ROW) {
-        return bend_weight[row][col][edge - EDGE_TWO_ROW + 2];
+        return bend_weight[row][col][LONG_SLOT(edge) + 2];
     }
 #endif
-    return across[row][col][edge];
+    return across[row][col][SHORT_SLOT(edge)];
 }
