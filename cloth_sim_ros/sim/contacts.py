@@ -77,6 +77,8 @@ class Contacts:
         self._layout = layout
         # Of each collider and node; and the substep in which any of them was touched last.
         self._record = Buffer((len(scene.colliders) * layout.stored + 1) * _ENTRY_BYTES)
+        # A read from the record itself would have it moved to the host's memory.
+        self._polled = Buffer(_ENTRY_BYTES, is_polled=True) if layout.is_asynchronous else None
         self.clearance = 0.5 * scene['contact.thickness']
         self.reach = np.array([_reach(collider) for collider in scene.colliders])
         self._serial = self._decision = 0
@@ -195,9 +197,7 @@ class Contacts:
 
     def is_touched(self) -> bool:
         """Return whether a node has touched a collider in the substep, of an implicit step."""
-        last = np.empty(1, dtype=np.float32)
-        self._record.read_into(last, self._record.bytes - _ENTRY_BYTES)
-        return bool(last[0] == self._serial)
+        return bool(self._marks()[0] == self._serial)
 
     def begin_decision(self) -> None:
         """Begin to ask anew whether another solve is due."""
@@ -210,9 +210,7 @@ class Contacts:
         :param is_exact: True where the solve before it had nothing to do: then another one is due
             only if a node sticks, slides or is let go that did not
         """
-        marks = np.empty(3, dtype=np.float32)
-        self._record.read_into(marks, self._record.bytes - _ENTRY_BYTES)
-        due, turned = marks[1:] == self._decision
+        due, turned = self._marks()[1:3] == self._decision
         return bool(due and (turned or not is_exact))
 
     def forces(self, positions: np.ndarray, time: float) -> tuple[ContactForce, ...]:
@@ -253,10 +251,23 @@ class Contacts:
     def delete(self) -> None:
         """Give pass and record back."""
         self._record.delete()
+        if self._polled is not None:
+            self._polled.delete()
         self._near.delete()
         self._near_nodes.delete()
         self._program.delete()
         self._foresight.delete()
+
+    def _marks(self) -> np.ndarray:
+        """Return the last entry of the record, (4,): what decides about substeps and solves."""
+        marks = np.empty(4, dtype=np.float32)
+        begin = self._record.bytes - _ENTRY_BYTES
+        if self._polled is None:
+            self._record.read_into(marks, begin)
+        else:
+            self._record.copy_to(self._polled, 0, _ENTRY_BYTES, begin)
+            self._polled.read_into(marks)
+        return marks
 
     def _read_record(self) -> np.ndarray:
         """Return change of velocity and kind of contact, (colliders, rows, cols, 4)."""

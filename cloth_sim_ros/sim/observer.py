@@ -51,7 +51,7 @@ class Observer:
             for wanted in (False, True)}
         strips = -(-self._slab_rows // _STRIP)
         self._partial_sums = np.empty((strips * scene.cols, _SUMS), dtype=np.float32)
-        self._sums_buffer = Buffer(self._partial_sums.nbytes)
+        self._sums_buffer = Buffer(self._partial_sums.nbytes, is_polled=True)
         self._records_buffer: Buffer | None = None
         self._read_back = ReadBack()
         self._law: EdgeLaw | None = None

@@ -121,7 +121,7 @@ class Strips:
         strips = -(-layout.rows // _STRIP)
         self._groups = -(-layout.cols // _LOCAL[0]), -(-strips // _LOCAL[1])
         self._figures = np.empty((strips * layout.cols, figures), dtype=np.float32)
-        self._buffer = Buffer(self._figures.nbytes)
+        self._buffer = Buffer(self._figures.nbytes, is_polled=True)
 
     @staticmethod
     def defines() -> dict[str, object]:

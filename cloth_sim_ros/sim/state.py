@@ -50,11 +50,9 @@ class State:
         self._layout = layout
         self._present = np.ones(pinned.shape, dtype=bool) if present is None else present
         self.pinned = pinned.copy()
-        size = layout.stored * 4 * np.dtype(np.float32).itemsize
-        self._positions = [Buffer(size) for _ in range(_PAIRS)]
-        self._velocities = [Buffer(size) for _ in range(_PAIRS)]
-        for buffer in (*self._positions, *self._velocities):
-            buffer.clear()
+        nothing = np.zeros((layout.stored, 4), dtype=np.float32)
+        self._positions = [Buffer(nothing) for _ in range(_PAIRS)]
+        self._velocities = [Buffer(nothing) for _ in range(_PAIRS)]
         self._pairs = [BufferRow(pair) for pair in zip(self._positions, self._velocities)]
         self._now = 0
         self._kept = 0

@@ -161,8 +161,9 @@ class SolverBuffers:
             levels.vector_bytes, levels.system_bytes, self.sum_count * _ENTRY_BYTES)
         self._large: _Large | None = None
         self._bind_calls: list[Call] | None = None
-        self._scalars = Buffer(np.zeros(_SCALARS, dtype=np.float32))
-        self._dispatches = Buffer(np.zeros((dispatch_count, 3), dtype=np.uint32))
+        self._scalars = Buffer(np.zeros(_SCALARS, dtype=np.float32), is_polled=True)
+        self._dispatches = Buffer(
+            np.zeros((dispatch_count, 3), dtype=np.uint32), is_polled=True)
         # Workgroups of the first dispatch, along x.
         self._going = np.zeros(1, dtype=np.uint32)
 

@@ -82,7 +82,7 @@ class Tally:
     def __init__(self, programs: SolverPrograms) -> None:
         """Compile the pass and allocate the figures."""
         self._pass = SolverPass(programs.make('tally.comp'), (1, 1))
-        self._buffer = Buffer(np.zeros(_FIGURES, dtype=np.float32))
+        self._buffer = Buffer(np.zeros(_FIGURES, dtype=np.float32), is_polled=True)
 
     def add(self, tolerance: float, *, is_final: bool) -> None:
         """
