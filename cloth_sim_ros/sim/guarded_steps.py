@@ -126,11 +126,6 @@ def _lengths(records: np.ndarray, *names: str) -> np.ndarray:
 
 # Make steps, and stop at the last finite state when one leads out of all bounds.
 
-# Between two checks: the read-back of a check waits for the device, and what lies between is
-# stepped again when one fails (docs/notes/performance.md).
-_MOST_SUBSTEPS = 64
-
-
 def _never() -> bool:
     return False
 
@@ -194,7 +189,7 @@ class GuardedSteps:
         since = number = first
         substeps = 0
         while number < first + count:
-            most = -(-(_MOST_SUBSTEPS - substeps) // mode.substeps)
+            most = -(-(mode.checked_substeps - substeps) // mode.substeps)
             try:
                 made = yield from _in_pieces(
                     step(number, min(most, first + count - number)), is_due)
@@ -205,7 +200,7 @@ class GuardedSteps:
             number += made
             substeps += made * mode.substeps
             ends = number == first + count or is_due()
-            if not ends and substeps < _MOST_SUBSTEPS:
+            if not ends and substeps < mode.checked_substeps:
                 continue
             if self._guarded and not self.check.passes(self._state):
                 _go_back(parts, kept, mode)

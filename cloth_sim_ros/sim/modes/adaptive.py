@@ -17,6 +17,7 @@ from cloth_sim_ros.sim.loads import Loads
 from cloth_sim_ros.sim.modes.edge_watch import StrainWatch
 from cloth_sim_ros.sim.modes.implicit import ImplicitStep
 from cloth_sim_ros.sim.modes.mass_spring import OnePass
+from cloth_sim_ros.sim.modes.mode import CHECKED_SUBSTEPS
 from cloth_sim_ros.sim.modes.mode import Pieces
 from cloth_sim_ros.sim.modes.paper_limit import PaperLimit
 from cloth_sim_ros.sim.pin_forces import spring_tension
@@ -198,6 +199,7 @@ class Adaptive:
     name = 'adaptive'
     is_implicit = False
     has_memory = True
+    checked_substeps = CHECKED_SUBSTEPS
 
     def __init__(self, scene: Scene, layout: Layout, *, check_stability: bool = True) -> None:
         """Choose the substeps and compile the passes."""

@@ -18,6 +18,7 @@ from cloth_sim_ros.sim.layout import Layout
 from cloth_sim_ros.sim.loads import Loads
 from cloth_sim_ros.sim.modes.edge_watch import TurnWatch
 from cloth_sim_ros.sim.modes.free_motion import FreeMotion
+from cloth_sim_ros.sim.modes.mode import CHECKED_SUBSTEPS
 from cloth_sim_ros.sim.modes.mode import Pieces
 from cloth_sim_ros.sim.scene import FAMILIES
 from cloth_sim_ros.sim.scene import Scene
@@ -107,6 +108,7 @@ class ImplicitStep(ABC):
 
     # An implicit step is stable whatever its length.
     stability_limit = math.inf
+    checked_substeps = CHECKED_SUBSTEPS
     last_length: float
 
     def __init__(

@@ -14,7 +14,9 @@ from cloth_sim_ros.sim import bindings
 from cloth_sim_ros.sim.forcing import Forcing
 from cloth_sim_ros.sim.layout import Layout
 from cloth_sim_ros.sim.loads import Loads
+from cloth_sim_ros.sim.modes.mode import CHECKED_SUBSTEPS
 from cloth_sim_ros.sim.modes.mode import Pieces
+from cloth_sim_ros.sim.modes.spring_tiles import SpringTiles
 from cloth_sim_ros.sim.pin_forces import spring_tension
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.scene_program import SceneProgram
@@ -136,7 +138,10 @@ class TwoPass:
 # Substeps that can't be interrupted, by their nodes: a few milliseconds on one core.
 _NODES_AT_ONCE = 2**18
 # Where to submit them takes no longer, whatever their nodes: as many as lie between two checks.
-_SUBMITTED_AT_ONCE = 64
+_SUBMITTED_AT_ONCE = CHECKED_SUBSTEPS
+# Max. substeps of a tile between two checks, all in one dispatch of 0.4 to 1 ms on a GPU, where a
+# check takes some 0.1 ms.
+_TILED_AT_ONCE = 256
 # Of a substep: what is short of it by less is a whole one.
 _ROUNDING = 1e-6
 
@@ -157,9 +162,14 @@ class MassSpring:
         self._length: float = scene['dt'] / self.substeps
         self.substep_margin = self._length / self.stability_limit
         self._passes = OnePass(scene, layout) if layout.kind == 'fused' else TwoPass(scene, layout)
-        self._most_at_once = (
-            _SUBMITTED_AT_ONCE if layout.is_asynchronous
-            else max(1, _NODES_AT_ONCE // scene.node_count))
+        self._tiles: SpringTiles | None = None
+        self.checked_substeps = CHECKED_SUBSTEPS
+        self._most_at_once = max(1, _NODES_AT_ONCE // scene.node_count)
+        if layout.is_asynchronous:
+            self._most_at_once = _SUBMITTED_AT_ONCE
+            if SpringTiles.can_run(scene, layout):
+                self._tiles = SpringTiles(scene, layout)
+                self._most_at_once = self.checked_substeps = _TILED_AT_ONCE
 
     @staticmethod
     def edge_model(scene: Scene) -> str:
@@ -188,7 +198,7 @@ class MassSpring:
             forcing = loads.forcing(state, start, start + self._length)
             count = min(self.substeps - made, self._alike(start, loads))
             if count > 1:
-                self._passes.substeps(state, forcing, self._length, count)
+                self._substeps(state, forcing, count)
             else:
                 self._passes.substep(state, forcing, self._length)
             made += count
@@ -197,8 +207,14 @@ class MassSpring:
     def step_ahead(self, state: State, gravity: Forcing, most: int) -> int:
         """Make up to ``most`` steps at once under gravity alone; return how many."""
         count = min(most, self._most_at_once // self.substeps)
-        self._passes.substeps(state, gravity, self._length, count * self.substeps)
+        self._substeps(state, gravity, count * self.substeps)
         return count
+
+    def _substeps(self, state: State, forcing: Forcing, count: int) -> None:
+        """Step ``state`` on ``count`` times by a substep, under the same forcing."""
+        acts_by_node = forcing.has_regions or forcing.touch is not None
+        passes = self._passes if self._tiles is None or acts_by_node else self._tiles
+        passes.substeps(state, forcing, self._length, count)
 
     def _alike(self, start: float, loads: Loads) -> int:
         """Return how many substeps from ``start`` [s] on are made at once, under equal loads."""
@@ -209,6 +225,9 @@ class MassSpring:
         """Make a substep of a ``state`` that nobody needs."""
         self._passes.substep(state, loads.still, self._length)
         yield
+        if self._tiles is not None:
+            self._tiles.substeps(state, loads.still, self._length, 1)
+            yield
 
     def forget(self) -> None:
         """Forget nothing: a step depends on the state alone."""
@@ -229,3 +248,5 @@ class MassSpring:
     def delete(self) -> None:
         """Give the passes back, with what they allocated."""
         self._passes.delete()
+        if self._tiles is not None:
+            self._tiles.delete()

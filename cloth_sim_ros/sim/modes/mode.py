@@ -30,6 +30,11 @@ def finish(pieces: Pieces | Steps) -> None:
         pass
 
 
+# Max. substeps between two checks of the state: the read-back of a check waits for the device, and
+# what lies between is stepped again when one fails (docs/notes/performance.md).
+CHECKED_SUBSTEPS = 64
+
+
 class Mode(Protocol):
     """
     A way to step the state of a scene.
@@ -52,6 +57,10 @@ class Mode(Protocol):
     @property
     def substeps(self) -> int:
         """Get how many there are in a dt."""
+
+    @property
+    def checked_substeps(self) -> int:
+        """Get how many lie between two checks of the state at most."""
 
     @property
     def stability_limit(self) -> float:
