@@ -1,0 +1,49 @@
+# SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
+# SPDX-License-Identifier: Apache-2.0
+
+"""Many cloths that step together in a Batch."""
+
+from collections.abc import Iterator
+import time
+
+from cloth_sim_ros.sim.batch import Batch
+from cloth_sim_ros.sim.scene import Scene
+from cloth_sim_ros.sim.simulation import Simulation
+from cloth_sim_ros.study.speed import bench_scene
+from gpu.section import FAULT
+from gpu.section import Row
+from gpu.section import Section
+import numpy as np
+
+
+def _scenes(side: int, count: int) -> list[Scene]:
+    values = bench_scene(side, {}).values
+    return [Scene({**values, 'start.seed': number}) for number in range(count)]
+
+
+def _measure(quick: bool) -> Iterator[Row]:
+    for side, count in ((12, 8),) if quick else ((12, 256), (12, 4096), (32, 256), (32, 2048)):
+        steps = 20 if quick else 500
+        with Batch(_scenes(side, count)) as batch:
+            batch.step(10)
+            batch.finish()
+            begin = time.perf_counter()
+            batch.step(steps)
+            batch.finish()
+            seconds = time.perf_counter() - begin
+            begin = time.perf_counter()
+            for _ in range(10):
+                batch.step(10)
+                batch.positions()
+            looks = time.perf_counter() - begin
+            first = batch.positions()[0]
+        with Simulation(_scenes(side, 1)[0]) as alone:
+            alone.step(10 + steps + 100)
+            same = np.array_equal(first, alone.positions())
+        yield {'side': side, 'cloths': count,
+               'G node steps/s': count * side**2 * steps / seconds / 1e9,
+               'with positions read every 10 steps': count * side**2 * 100 / looks / 1e9,
+               'bits of a cloth alone': same, FAULT: '' if same else 'other bits'}
+
+
+SECTION = Section('batches', 'Batches', 40.0, _measure)
