@@ -149,6 +149,62 @@ class DepthBuffer:
         GL.glDeleteRenderbuffers(1, [self._buffer])
 
 
+class DepthTexture:
+    """
+    Depth of ``side`` x ``side`` pixels, to draw into and then to compare with in shaders.
+
+    :raises DeviceError: when the device has no texture so large
+    """
+
+    def __init__(self, side: int) -> None:
+        """Allocate the memory."""
+        most = int(GL.glGetIntegerv(GL.GL_MAX_TEXTURE_SIZE))
+        if side > most:
+            raise DeviceError(
+                f'a depth texture of {side} x {side} pixels is too large for this device: use '
+                f'at most {most} per side')
+        self.side = side
+        self._texture = int(GL.glGenTextures(1))
+        GL.glBindTexture(GL.GL_TEXTURE_2D, self._texture)
+        GL.glTexStorage2D(GL.GL_TEXTURE_2D, 1, GL.GL_DEPTH_COMPONENT32F, side, side)
+        for name, value in (
+                (GL.GL_TEXTURE_MIN_FILTER, GL.GL_LINEAR),
+                (GL.GL_TEXTURE_MAG_FILTER, GL.GL_LINEAR),
+                (GL.GL_TEXTURE_WRAP_S, GL.GL_CLAMP_TO_EDGE),
+                (GL.GL_TEXTURE_WRAP_T, GL.GL_CLAMP_TO_EDGE),
+                (GL.GL_TEXTURE_COMPARE_MODE, GL.GL_COMPARE_REF_TO_TEXTURE),
+                (GL.GL_TEXTURE_COMPARE_FUNC, GL.GL_LEQUAL)):
+            GL.glTexParameteri(GL.GL_TEXTURE_2D, name, value)
+        self._framebuffer = int(GL.glGenFramebuffers(1))
+        GL.glBindFramebuffer(GL.GL_FRAMEBUFFER, self._framebuffer)
+        GL.glFramebufferTexture2D(
+            GL.GL_FRAMEBUFFER, GL.GL_DEPTH_ATTACHMENT, GL.GL_TEXTURE_2D, self._texture, 0)
+        GL.glDrawBuffer(GL.GL_NONE)
+        GL.glReadBuffer(GL.GL_NONE)
+        status = GL.glCheckFramebufferStatus(GL.GL_FRAMEBUFFER)
+        if status != GL.GL_FRAMEBUFFER_COMPLETE:
+            raise DeviceError(
+                f'the device cannot draw into a depth texture of {side} x {side} pixels '
+                f'({status:#x}): use another device')
+
+    def begin(self) -> None:
+        """Direct drawing here, with nothing drawn yet."""
+        GL.glBindFramebuffer(GL.GL_FRAMEBUFFER, self._framebuffer)
+        GL.glViewport(0, 0, self.side, self.side)
+        GL.glDepthMask(GL.GL_TRUE)
+        GL.glClear(GL.GL_DEPTH_BUFFER_BIT)
+
+    def bind(self, unit: int) -> None:
+        """Let shaders compare with it, as the sampler2DShadow of ``unit``."""
+        GL.glActiveTexture(GL.GL_TEXTURE0 + unit)
+        GL.glBindTexture(GL.GL_TEXTURE_2D, self._texture)
+
+    def delete(self) -> None:
+        """Give the memory back."""
+        GL.glDeleteFramebuffers(1, [self._framebuffer])
+        GL.glDeleteTextures(1, [self._texture])
+
+
 # What decides whether a drawn pixel is seen: what is there already, and on which side it is.
 
 

@@ -26,7 +26,7 @@ import numpy as np
 _PALETTE_UNIT = 1     # render/strain_color.glsl
 
 PALETTE_DEFINES = {'PALETTE_SIZE': PALETTE_SIZE}
-_HEM_WIDTH = 0.9      # [pixel of the picture]
+HEM_WIDTH = 0.9      # [pixel of the picture]
 _SHADOW_SIDE = 160    # most nodes of the shadow along a side
 
 CLOTH_DEFINES = {
@@ -104,7 +104,7 @@ class ClothDrawing:
         program.set_int('rows', rows)
         program.set_int('cols', cols)
         program.set_pair('cell', cell_sides(frame.positions))
-        program.set_float('hem_width', _HEM_WIDTH * self._detail)
+        program.set_float('hem_width', HEM_WIDTH * self._detail)
         program.set_vectors('limit_color', LIMIT_COLOR)
         program.draw_strips(2 * cols, rows - 1)
 

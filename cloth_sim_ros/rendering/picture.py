@@ -15,6 +15,7 @@ from cloth_sim_ros.rendering.camera import Camera
 from cloth_sim_ros.rendering.look import StrainScale
 from cloth_sim_ros.rendering.look import write_words
 from cloth_sim_ros.rendering.renderer import draw_panel
+from cloth_sim_ros.rendering.renderer import has_bar
 from cloth_sim_ros.rendering.renderer import labels_of
 from cloth_sim_ros.rendering.renderer import note_of
 from cloth_sim_ros.rendering.renderer import Renderer
@@ -77,14 +78,14 @@ def draw_picture(
     layout = Layout(
         rows=-(-len(frames) // columns), columns=columns,
         panel=style.panel or panel_size(survey.points, style.camera),
-        has_title=bool(title), has_labels=has_rows, has_bar=scale.is_known)
+        has_title=bool(title), has_labels=has_rows, has_bar=has_bar(scale, style))
     labels = labels_of(sources, style)
     headings = [f't = {frame.time:.2f} s' for frame in frames]
     if len(rows) > 1 and not has_rows:
         headings = [f'{label}, {time}' for label, time in zip(labels, headings)]
     stage = Stage(
         survey, scale, layout, style.camera, title=title, labels=labels, note=note_of(sources),
-        detail=_DETAIL)
+        detail=_DETAIL, look=style.look)
     try:
         return stage.draw(frames, headings)
     finally:

@@ -18,6 +18,8 @@ from cloth_sim_ros.rendering.camera import Camera
 from cloth_sim_ros.rendering.camera import View
 from cloth_sim_ros.rendering.cloth_drawing import ClothDrawing
 from cloth_sim_ros.rendering.cloth_drawing import PaletteBuffer
+from cloth_sim_ros.rendering.daylight import DaylightDrawing
+from cloth_sim_ros.rendering.daylight import STRAIN
 from cloth_sim_ros.rendering.look import BACKGROUND
 from cloth_sim_ros.rendering.look import GRASP_COLOR
 from cloth_sim_ros.rendering.look import LIMIT_COLOR
@@ -51,16 +53,19 @@ class Renderer:
     Draws frames, all seen alike.
 
     :param detail: 2 draws four times the pixels, for still pictures
+    :param look: one of LOOKS
     :raises DeviceError: when there is no GL device, or it can't draw so large a picture
     """
 
     def __init__(
-            self, survey: Survey, scale: StrainScale, view: View, detail: int = 1) -> None:
+            self, survey: Survey, scale: StrainScale, view: View, detail: int = 1,
+            look: str = STRAIN) -> None:
         """Make the context and the picture."""
         self.view = view
         self._survey = survey
         self._scale = scale
         self._detail = detail
+        self._look = look
         self._context = Context()
         if not self._context.max_texture_texels:
             raise DeviceError(
@@ -78,31 +83,20 @@ class Renderer:
     def draw(self, frame: Frame) -> np.ndarray:
         """Return the image of ``frame``, (height, width, 3) uint8, the uppermost line first."""
         self._context.make_current()
-        self._framebuffer.begin(BACKGROUND)
-        blend_by_opacity()
         is_chain = min(frame.records.shape) == 1
         level = ground(frame.colliders)
         floor = self._survey.floor if level is None else level
-        if level is not None:
-            self._floor.draw_ground(self.view, level)
-        if frame.colliders:
-            self._colliders.draw_shadows(frame.colliders, self.view, floor)
-        self._nodes.load(frame, self.view.middle)
-        if not is_chain:
-            self._cloth.draw_shadow(frame, self.view, floor)
-        self._floor.draw(self.view, floor)
-        draw_nearest()
-        if is_chain:
-            self._ribbon.draw(
-                frame.records.size, self.view,
-                _CHAIN_WIDTH * min(self.view.width, self.view.height), rim=_CHAIN_RIM)
-            self._balls.draw(
-                frame.positions[(frame.records['flags'] & FLAG_AT_LIMIT) != 0], self.view,
-                LIMIT_COLOR, _LIMIT_SIZE)
+        if self._look == STRAIN:
+            self._framebuffer.begin(BACKGROUND)
+            blend_by_opacity()
+            self._draw_with_strains(frame, floor, has_ground=level is not None)
         else:
-            self._cloth.draw(frame, self.view)
-        if frame.colliders:
-            self._colliders.draw(frame.colliders, self.view)
+            self._daylight.cast(frame, self.view)
+            self._framebuffer.begin(BACKGROUND)
+            blend_by_opacity()
+            self._daylight.draw(frame, self.view, floor)
+        if is_chain:
+            self._draw_chain(frame)
         self._pushes.draw(self._survey.arrows(frame), self.view)
         self._draw_rings(frame)
         self._balls.draw(frame.positions[frame.pinned & ~frame.grasped], self.view, PIN_COLOR)
@@ -112,6 +106,37 @@ class Renderer:
     def close(self) -> None:
         """Give the device back."""
         self._context.close()
+
+    def _draw_with_strains(self, frame: Frame, floor: float, *, has_ground: bool) -> None:
+        """Draw a floor at the height ``floor`` [m], the cloth unless it is a chain, and bodies."""
+        is_chain = min(frame.records.shape) == 1
+        if has_ground:
+            self._floor.draw_ground(self.view, floor)
+        if frame.colliders:
+            self._colliders.draw_shadows(frame.colliders, self.view, floor)
+        self._nodes.load(frame, self.view.middle)
+        if not is_chain:
+            self._cloth.draw_shadow(frame, self.view, floor)
+        self._floor.draw(self.view, floor)
+        draw_nearest()
+        if not is_chain:
+            self._cloth.draw(frame, self.view)
+        if frame.colliders:
+            self._colliders.draw(frame.colliders, self.view)
+
+    def _draw_chain(self, frame: Frame) -> None:
+        if self._look == STRAIN:
+            self._nodes.load(frame, self.view.middle)
+        else:
+            self._nodes.load_points(frame.positions, self.view.middle)
+        draw_nearest()
+        self._ribbon.draw(
+            frame.records.size, self.view,
+            _CHAIN_WIDTH * min(self.view.width, self.view.height), rim=_CHAIN_RIM)
+        if self._look == STRAIN:
+            self._balls.draw(
+                frame.positions[(frame.records['flags'] & FLAG_AT_LIMIT) != 0], self.view,
+                LIMIT_COLOR, _LIMIT_SIZE)
 
     def _draw_rings(self, frame: Frame) -> None:
         for ring in region_rings(frame.acting_pushes, self.view.axes):
@@ -144,6 +169,12 @@ class Renderer:
             self._cloth, NodeBuffer(self._context.max_texture_texels), self._survey)
 
     @cached_property
+    def _daylight(self) -> DaylightDrawing:
+        return DaylightDrawing(
+            self._look, self._nodes, NodeBuffer(self._context.max_texture_texels), self._survey,
+            self._detail)
+
+    @cached_property
     def _balls(self) -> BallDrawing:
         return BallDrawing(self._detail)
 
@@ -174,6 +205,7 @@ class Style:
     :param labels: names of the recordings; None takes their own
     :param title: heading; None says what is shown
     :param columns: most panels side by side, of one recording
+    :param look: one of LOOKS
     """
 
     camera: Camera = Camera()
@@ -182,6 +214,7 @@ class Style:
     labels: Sequence[str] | None = None
     title: str | None = None
     columns: int = 3
+    look: str = STRAIN
 
 
 class Stage:
@@ -195,14 +228,14 @@ class Stage:
 
     def __init__(
             self, survey: Survey, scale: StrainScale, layout: Layout, camera: Camera, *,
-            title: str = '', labels: Sequence[str] = (), note: str = '',
-            detail: int = 1) -> None:
+            title: str = '', labels: Sequence[str] = (), note: str = '', detail: int = 1,
+            look: str = STRAIN) -> None:
         """Place the camera and draw what is around the panels."""
         self._survey = survey
         view = camera.looking_at(survey.points, *layout.panel)
-        self._renderer = Renderer(survey, scale, view, detail)
+        self._renderer = Renderer(survey, scale, view, detail, look)
         self._sheet = Sheet(
-            layout, survey, scale, view, title=title, labels=labels, note=note)
+            layout, survey, scale, view, title=title, labels=labels, note=note, look=look)
 
     def draw(self, frames: Sequence[Frame], headings: Sequence[str]) -> np.ndarray:
         """Return the picture of ``frames``, a panel each, (height, width, 3) uint8."""
@@ -214,6 +247,11 @@ class Stage:
     def close(self) -> None:
         """Give the device back."""
         self._renderer.close()
+
+
+def has_bar(scale: StrainScale, style: Style) -> bool:
+    """Tell whether a picture shows strains, and needs a colour bar."""
+    return scale.is_known and style.look == STRAIN
 
 
 def title_of(sources: Sequence[Source], frames: Sequence[Frame]) -> str:

@@ -9,6 +9,7 @@ from typing import Any
 
 from cloth_sim_ros.rendering.camera import Camera
 from cloth_sim_ros.rendering.camera import View
+from cloth_sim_ros.rendering.daylight import STRAIN
 from cloth_sim_ros.rendering.look import COLLIDER_COLOR
 from cloth_sim_ros.rendering.look import GRASP_COLOR
 from cloth_sim_ros.rendering.look import GRID_COLOR
@@ -150,17 +151,20 @@ _POINTS_PER_INCH = 72.0  # so that a point is a pixel
 _LETTERS = 1.7           # height of a letter over its usual width
 
 
-def legend_handles(survey: Survey, grid: float, size: float) -> list[Line2D]:
+def legend_handles(
+        survey: Survey, grid: float, size: float, look: str = STRAIN) -> list[Line2D]:
     """
     Return an entry for each kind of mark that some panel has.
 
     :param grid: distance of the grid's lines [m]
     :param size: of the marks [point]
+    :param look: one of LOOKS; a fabric in daylight has no grid, and bodies explain themselves
     """
-    entries: list[tuple[str, dict[str, Any]]] = [
-        (f'grid {grid:g} m', {'color': GRID_COLOR, 'linewidth': 1.5})]
-    if survey.shows_colliders:
-        entries.append(('collider', {**_dot(COLLIDER_COLOR, size), 'marker': 's'}))
+    entries: list[tuple[str, dict[str, Any]]] = []
+    if look == STRAIN:
+        entries.append((f'grid {grid:g} m', {'color': GRID_COLOR, 'linewidth': 1.5}))
+        if survey.shows_colliders:
+            entries.append(('collider', {**_dot(COLLIDER_COLOR, size), 'marker': 's'}))
     if survey.shows_pins:
         entries.append(('pinned', _dot(PIN_COLOR, size)))
     if survey.shows_grasps:
@@ -170,7 +174,7 @@ def legend_handles(survey: Survey, grid: float, size: float) -> list[Line2D]:
         entries.append(('push', {
             'color': PUSH_COLOR, 'linewidth': 2.0, 'marker': '>', 'markersize': size,
             'markevery': [1]}))
-    if survey.shows_limits:
+    if survey.shows_limits and look == STRAIN:
         entries.append(('node at its strain limit', _dot(LIMIT_COLOR, 0.8 * size)))
     return [Line2D([0.0, 1.0], [0.0, 0.0], label=label, **look) for label, look in entries]
 
@@ -191,7 +195,8 @@ class Sheet:
 
     def __init__(
             self, layout: Layout, survey: Survey, scale: StrainScale, view: View, *,
-            title: str = '', labels: Sequence[str] = (), note: str = '') -> None:
+            title: str = '', labels: Sequence[str] = (), note: str = '',
+            look: str = STRAIN) -> None:
         """Draw what is around the panels."""
         self.layout = layout
         width, height = layout.size
@@ -202,7 +207,7 @@ class Sheet:
         if layout.has_bar:
             self._draw_bar(scale)
         self._draw_directions(view)
-        self._explain(survey, note)
+        self._explain(survey, note, look)
         canvas = FigureCanvasAgg(self._figure)
         canvas.draw()
         self._around = np.asarray(canvas.buffer_rgba())[..., :3].copy()
@@ -276,15 +281,16 @@ class Sheet:
                 color=_INK, fontsize=0.8 * layout.font, ha='center',
                 va='center')
 
-    def _explain(self, survey: Survey, note: str) -> None:
+    def _explain(self, survey: Survey, note: str, look: str) -> None:
         layout = self.layout
         width, height = layout.size
         middle = layout.middle / width
-        handles = legend_handles(survey, grid_step(survey.size), 0.55 * layout.font)
-        self._figure.legend(
-            handles=handles, loc='center', ncols=len(handles), frameon=False,
-            bbox_to_anchor=(middle, 0.68 * layout.legend_height / height), labelcolor=_INK,
-            fontsize=0.9 * layout.font, handletextpad=0.5, columnspacing=1.6)
+        handles = legend_handles(survey, grid_step(survey.size), 0.55 * layout.font, look)
+        if handles:
+            self._figure.legend(
+                handles=handles, loc='center', ncols=len(handles), frameon=False,
+                bbox_to_anchor=(middle, 0.68 * layout.legend_height / height), labelcolor=_INK,
+                fontsize=0.9 * layout.font, handletextpad=0.5, columnspacing=1.6)
         # The directions stand to the left, and the same room is left free on the right.
         room = 2.0 * (layout.middle - layout.legend_height)
         self._figure.text(

@@ -16,6 +16,7 @@ from typing import Protocol
 
 from cloth_sim_ros.analysis.frame import Frame
 from cloth_sim_ros.rendering.look import StrainScale
+from cloth_sim_ros.rendering.renderer import has_bar
 from cloth_sim_ros.rendering.renderer import labels_of
 from cloth_sim_ros.rendering.renderer import note_of
 from cloth_sim_ros.rendering.renderer import Stage
@@ -152,12 +153,14 @@ def write_video(
     scale = StrainScale(survey.strains, style.strain_max)
     parts: dict[str, Any] = {
         'rows': -(-len(sources) // columns), 'columns': columns, 'has_title': bool(title),
-        'has_bar': scale.is_known}
+        'has_bar': has_bar(scale, style)}
     layout = Layout(panel=style.panel, **parts) if style.panel else _usual_layout(parts)
     count = math.floor((end - begin) * fps / speed + 1e-6) + 1
     names = labels_of(sources, style) if len(sources) > 1 or style.labels else ['']
     with open_video(path, layout.size, fps) as video:
-        stage = Stage(survey, scale, layout, style.camera, title=title, note=note_of(sources))
+        stage = Stage(
+            survey, scale, layout, style.camera, title=title, note=note_of(sources),
+            look=style.look)
         try:
             before: list[Frame] = []
             bar = tqdm(

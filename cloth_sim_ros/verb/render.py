@@ -24,6 +24,8 @@ from cloth_sim_ros.analysis.recording import Recording
 from cloth_sim_ros.files.errors import cut
 from cloth_sim_ros.files.errors import shown
 from cloth_sim_ros.rendering.camera import Camera
+from cloth_sim_ros.rendering.daylight import LOOKS
+from cloth_sim_ros.rendering.daylight import STRAIN
 from cloth_sim_ros.rendering.picture import write_picture
 from cloth_sim_ros.rendering.renderer import Style
 from cloth_sim_ros.rendering.source import RecordingSource
@@ -73,6 +75,9 @@ def add_style_arguments(parser: ArgumentParser) -> None:
     group.add_argument(
         '--strain-max', type=float, metavar='S',
         help='strain at the end of the colour scale, 0.05 for 5 %% (default: fit to the data)')
+    group.add_argument(
+        '--look', choices=LOOKS, default=STRAIN,
+        help='colour the cloth by its strain, or draw a fabric in daylight (default: %(default)s)')
     group.add_argument('--labels', nargs='+', metavar='NAME', help='names of the recordings')
     group.add_argument('--title', help='title (default: generated from the contents)')
 
@@ -97,7 +102,7 @@ def style_of(args: Namespace) -> Style:
         None if args.target is None else tuple(args.target))
     return Style(
         camera=camera, panel=args.size, strain_max=args.strain_max, labels=args.labels,
-        title=args.title, columns=args.columns)
+        title=args.title, columns=args.columns, look=args.look)
 
 
 def pixels(text: str) -> tuple[int, int]:

@@ -15,6 +15,9 @@ uniform int stride;  // between the nodes that are drawn: an outline needs fewer
 out vec3 normal;
 out float strain;
 out vec2 place;  // column and row
+#ifdef DAYLIGHT
+out vec3 point;
+#endif
 #endif
 
 void main() {
@@ -33,6 +36,9 @@ void main() {
     normal = normal_and_flags(node).xyz;
     strain = found.w;
     place = vec2(col, row);
+#ifdef DAYLIGHT
+    point = found.xyz;
+#endif
     gl_Position = seen(found.xyz);
 #endif
 }

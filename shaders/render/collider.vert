@@ -9,9 +9,16 @@
 
 uniform float behind;  // where it is as near as cloth, cloth is seen [m]
 out vec3 normal;
+#ifdef DAYLIGHT
+out vec3 point;
+#endif
 
 void main() {
     int node = node_index(gl_InstanceID + (gl_VertexID & 1), gl_VertexID >> 1);
     normal = normal_and_flags(node).xyz;
-    gl_Position = seen_in_front(position_and_strain(node).xyz, -behind);
+    vec3 there = position_and_strain(node).xyz;
+#ifdef DAYLIGHT
+    point = there;
+#endif
+    gl_Position = seen_in_front(there, -behind);
 }

@@ -8,6 +8,7 @@ from collections.abc import Iterator
 
 from cloth_sim_ros.analysis.frame import Frame
 from cloth_sim_ros.rendering.camera import Camera
+from cloth_sim_ros.rendering.daylight import STRAIN
 from cloth_sim_ros.rendering.look import StrainScale
 from cloth_sim_ros.rendering.renderer import Renderer
 from cloth_sim_ros.rendering.survey import Survey
@@ -43,11 +44,11 @@ def rendered() -> Iterator[Callable[..., tuple]]:
 
     def draw(
             frame: Frame, camera: Camera = ABOVE, width: int = 160, height: int = 120,
-            detail: int = 1) -> tuple[np.ndarray, Renderer]:
+            detail: int = 1, look: str = STRAIN) -> tuple[np.ndarray, Renderer]:
         survey = Survey()
         survey.add(frame)
         view = camera.looking_at(survey.points, width, height)
-        renderer = Renderer(survey, StrainScale(survey.strains, FULL), view, detail)
+        renderer = Renderer(survey, StrainScale(survey.strains, FULL), view, detail, look)
         renderers.append(renderer)
         return renderer.draw(frame).astype(int), renderer
 

@@ -14,6 +14,8 @@ from cloth_sim_ros.gl.shader_source import ShaderSource
 from cloth_sim_ros.gl.shared_directory import shader_directory
 from cloth_sim_ros.rendering.cloth_drawing import CLOTH_DEFINES
 from cloth_sim_ros.rendering.cloth_drawing import LIMIT_DEFINES
+from cloth_sim_ros.rendering.daylight import CHECKED_DEFINES
+from cloth_sim_ros.rendering.daylight import DAYLIGHT_DEFINES
 from cloth_sim_ros.rendering.look import LIGHT_DEFINES
 from cloth_sim_ros.rendering.solid_drawing import ARROW_DEFINES
 from cloth_sim_ros.rendering.solid_drawing import BALL_DEFINES
@@ -26,12 +28,15 @@ _FORMS = {
     'arrow.vert': [ARROW_DEFINES],
     'ball.frag': [BALL_DEFINES],
     'ball.vert': [BALL_DEFINES],
+    'body.frag': [DAYLIGHT_DEFINES],
     'cloth.frag': [CLOTH_DEFINES, LIMIT_DEFINES],
-    'cloth.vert': [CLOTH_DEFINES, LIMIT_DEFINES, _SHADOW],
-    'collider.vert': [LIGHT_DEFINES],
+    'cloth.vert': [CLOTH_DEFINES, LIMIT_DEFINES, _SHADOW, DAYLIGHT_DEFINES],
+    'collider.vert': [LIGHT_DEFINES, DAYLIGHT_DEFINES],
+    'fabric.frag': [DAYLIGHT_DEFINES, CHECKED_DEFINES],
     'floor.frag': [{}],
-    'floor.vert': [{}],
+    'floor.vert': [{}, DAYLIGHT_DEFINES],
     'ground.frag': [{}],
+    'lit_floor.frag': [DAYLIGHT_DEFINES],
     'plain.frag': [_SHADOW],
     'ribbon.frag': [RIBBON_DEFINES],
     'ribbon.vert': [RIBBON_DEFINES],

@@ -1,0 +1,187 @@
+# SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
+# SPDX-License-Identifier: Apache-2.0
+
+"""Draw a frame as one sees it: a fabric on its bodies and floor in daylight, with shadows."""
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from functools import cached_property
+import math
+
+from cloth_sim_ros.analysis.collider_surface import collider_surface
+from cloth_sim_ros.analysis.collider_surface import is_ground
+from cloth_sim_ros.analysis.frame import Frame
+from cloth_sim_ros.gl.framebuffer import DepthTexture
+from cloth_sim_ros.gl.framebuffer import draw_nearest
+from cloth_sim_ros.gl.program import RenderProgram
+from cloth_sim_ros.rendering.camera import set_view
+from cloth_sim_ros.rendering.camera import View
+from cloth_sim_ros.rendering.cloth_drawing import cell_sides
+from cloth_sim_ros.rendering.cloth_drawing import HEM_WIDTH
+from cloth_sim_ros.rendering.node_buffer import NodeBuffer
+from cloth_sim_ros.rendering.survey import Survey
+import numpy as np
+
+# What a cloth can be drawn as: coloured by its strain, or as one of the fabrics.
+STRAIN = 'strain'
+FABRICS = ('plain', 'checked')
+LOOKS = (STRAIN, *FABRICS)
+
+# Colours as a screen has them.
+PLAIN_COLOR = (0.45, 0.60, 0.76)
+CHECK_COLOR = (0.76, 0.15, 0.17)
+CHECK_GROUND = (0.97, 0.96, 0.93)
+BODY_COLOR = (0.66, 0.52, 0.40)   # wood
+FLOOR_COLOR = (0.96, 0.955, 0.945)
+
+# Across a cloth along its shorter side: checks of 4 cm on a tablecloth of 0.8 m.
+_CHECKS = 20
+# Right, up and towards the camera: from the side, so that folds shade each other.
+_LAMP = np.array([-0.50, 0.76, 0.42]) / np.linalg.norm([-0.50, 0.76, 0.42])
+_DEPTH_UNIT = 2       # render/lamp.glsl
+_DEPTH_SIDE = 2048    # [pixel]
+_BLUR = 0.008         # radius of a shadow's soft edge, over the longest side of all cloths
+_MARGIN = 1.05        # what the lamp sees over what is in view
+_FLOOR_REACH = 2.6    # half a side of the floor, over the longest side of all cloths
+_PLANE = 0.9          # half the side of a plane that is not level, over that side
+# Cloth that touches a body is drawn in front of it, over the longest side of all cloths.
+_BEHIND = 3e-3
+
+DAYLIGHT_DEFINES = {
+    'DAYLIGHT': 1, 'HEM_SHADE': 0.25, 'LAMP_TAPS': 24,
+    # Light of a surface of white that faces the lamp, and what comes from above and from below.
+    'LAMP_LIGHT': 0.74, 'SKY_LIGHT': 0.40, 'FLOOR_LIGHT': 0.18,
+    'SHINES_THROUGH': 0.22, 'FUZZ': 0.12, 'FUZZ_POWER': 3.0}
+CHECKED_DEFINES = {**DAYLIGHT_DEFINES, 'CHECKED': 1}
+
+
+class DaylightDrawing:
+    """
+    Draws the cloth of a frame as a fabric, with bodies and floor.
+
+    :param fabric: one of FABRICS
+    :param nodes: holds the cloth while it is drawn
+    :param bodies: to write the surfaces of bodies into
+    :param detail: drawn pixels along each side of a pixel of the picture
+    """
+
+    def __init__(
+            self, fabric: str, nodes: NodeBuffer, bodies: NodeBuffer, survey: Survey,
+            detail: int) -> None:
+        """Keep what all frames share."""
+        self._is_checked = fabric == 'checked'
+        self._nodes = nodes
+        self._bodies = bodies
+        self._survey = survey
+        self._detail = detail
+
+    def cast(self, frame: Frame, view: View) -> None:
+        """Draw what the lamp sees, before the picture is begun."""
+        lamp = self._lamp_view(view)
+        self._depths.begin()
+        draw_nearest()
+        program = self._caster
+        program.use()
+        set_view(program, lamp)
+        # It casts a shadow as soon as it is a surface.
+        if min(frame.records.shape) > 1:
+            self._nodes.load(frame, view.middle)
+            self._draw_strips(program, frame.records.shape)
+        for shape in self._each_body(frame, view):
+            self._draw_strips(program, shape)
+
+    def draw(self, frame: Frame, view: View, floor: float) -> None:
+        """
+        Draw floor, bodies and cloth.
+
+        :param floor: its height [m]
+        """
+        draw_nearest()
+        with self._in_daylight(self._floor, view) as program:
+            program.set_float('reach', _FLOOR_REACH * self._survey.size)
+            program.set_vectors(
+                'middle', np.append(self._survey.middle[:2], floor) - view.middle)
+            program.set_vectors('floor_color', FLOOR_COLOR)
+            program.draw_strips(4)
+        with self._in_daylight(self._body, view) as program:
+            program.set_float('behind', _BEHIND * self._survey.size)
+            program.set_vectors('body_color', BODY_COLOR)
+            for shape in self._each_body(frame, view):
+                self._draw_strips(program, shape)
+        if min(frame.records.shape) == 1:
+            return
+        self._nodes.load(frame, view.middle)
+        with self._in_daylight(self._fabric, view) as program:
+            rows, cols = frame.records.shape
+            along, down = cell_sides(frame.positions)
+            shorter = min((cols - 1) * along, (rows - 1) * down)
+            program.set_int('rows', rows)
+            program.set_pair('check', (shorter / _CHECKS / along, shorter / _CHECKS / down))
+            program.set_float('hem_width', HEM_WIDTH * self._detail)
+            program.set_vectors('ground_color', CHECK_GROUND)
+            program.set_vectors(
+                'fabric_color', CHECK_COLOR if self._is_checked else PLAIN_COLOR)
+            self._draw_strips(program, (rows, cols))
+
+    def _lamp_view(self, view: View) -> View:
+        """Return how the lamp sees the scene: from so far away that its rays are parallel."""
+        towards = _LAMP @ view.axes
+        right = np.cross(view.axes[1], towards)
+        right /= np.linalg.norm(right)
+        axes = np.stack([right, np.cross(towards, right), towards])
+        reach = np.abs((self._survey.points - view.middle) @ axes.T).max(axis=0)
+        return View(
+            width=_DEPTH_SIDE, height=_DEPTH_SIDE, axes=axes, middle=view.middle,
+            distance=math.inf, half_height=_MARGIN * float(max(reach[0], reach[1])),
+            depth=_MARGIN * float(reach[2]))
+
+    @contextmanager
+    def _in_daylight(self, program: RenderProgram, view: View) -> Iterator[RenderProgram]:
+        """Use ``program`` with the uniforms of render/lamp.glsl."""
+        lamp = self._lamp_view(view)
+        blur = _BLUR * self._survey.size
+        program.use()
+        set_view(program, view)
+        self._depths.bind(_DEPTH_UNIT)
+        program.set_matrix('lamp_matrix', lamp.matrix)
+        program.set_vectors('lamp', lamp.axes[2])
+        program.set_float('lamp_blur', blur / (2.0 * lamp.half_height))
+        program.set_float('lamp_lift', blur)
+        yield program
+
+    def _each_body(self, frame: Frame, view: View) -> Iterator[tuple[int, int]]:
+        """Load one body after the other that is no floor; yield its rows and columns."""
+        size, middle = self._survey.size, self._survey.middle
+        for collider in frame.colliders:
+            if view.sees(collider) and not is_ground(collider):
+                points, normals = collider_surface(collider, middle, _PLANE * size)
+                self._bodies.load_surface(points, normals, view.middle)
+                rows, cols = points.shape[:2]
+                yield rows, cols
+
+    def _draw_strips(self, program: RenderProgram, shape: tuple[int, ...]) -> None:
+        rows, cols = shape
+        program.set_int('cols', cols)
+        program.draw_strips(2 * cols, rows - 1)
+
+    @cached_property
+    def _depths(self) -> DepthTexture:
+        return DepthTexture(_DEPTH_SIDE)
+
+    @cached_property
+    def _caster(self) -> RenderProgram:
+        return RenderProgram('render/cloth.vert', 'render/plain.frag')
+
+    @cached_property
+    def _floor(self) -> RenderProgram:
+        return RenderProgram('render/floor.vert', 'render/lit_floor.frag', DAYLIGHT_DEFINES)
+
+    @cached_property
+    def _body(self) -> RenderProgram:
+        return RenderProgram('render/collider.vert', 'render/body.frag', DAYLIGHT_DEFINES)
+
+    @cached_property
+    def _fabric(self) -> RenderProgram:
+        return RenderProgram(
+            'render/cloth.vert', 'render/fabric.frag',
+            CHECKED_DEFINES if self._is_checked else DAYLIGHT_DEFINES)
