@@ -38,6 +38,8 @@ VERBS = {
     'pin': 'pin, move or release a node of the cloth',
     'grasp': 'grasp nodes of the cloth, or move a grasp',
     'release': 'release a grasp',
+    'collider': 'move a collider of a running node, and turn it',
+    'wind': 'set the steady wind of a running node',
     'pause': 'pause a running node',
     'resume': 'resume a paused node',
     'step': 'advance a paused node by a number of time steps',

@@ -28,6 +28,8 @@ from rclpy.validate_full_topic_name import validate_full_topic_name
 _LOOK_AGAIN = 0.05
 _SETTLE = 0.1
 _LONG = 0.5
+_TELL_AGAIN = 1.0  # [s]
+_DEPTH = 10
 
 
 class NodeClient:
@@ -82,6 +84,15 @@ class NodeClient:
         :param waiting: to be printed on stderr when the answer takes long
         :raises ClothSimError: when no answer comes, or when it says that the request failed
         """
+        response = self.ask(kind, name, request, patient=patient, waiting=waiting)
+        if not response.success:
+            raise ClothSimError(response.message)
+        return response
+
+    def ask(
+            self, kind: type, name: str, request: Any, *, patient: bool = False,
+            waiting: str = '') -> Any:
+        """Return the same, from a service whose answer does not say whether it failed."""
         client = self._client(kind, name)
         deadline = time.monotonic() + self._timeout
         future = client.call_async(request)
@@ -93,10 +104,34 @@ class NodeClient:
             if patient and client.service_is_ready():
                 deadline = time.monotonic() + self._timeout
             self._wait(deadline, f'{cut(self._target)}/{name} does not respond')
-        response = future.result()
-        if not response.success:
-            raise ClothSimError(response.message)
-        return response
+        return future.result()
+
+    def tell(
+            self, kind: type, name: str, message: Any, echo: str,
+            is_taken: Callable[[Any], bool]) -> None:
+        """
+        Publish ``message`` on the node's topic ``name`` until the node says that it has taken it.
+
+        :param kind: of the messages on both topics
+        :param echo: name of the topic on which the node repeats what it takes
+        :raises ClothSimError: when it does not
+        """
+        taken: list[Any] = []
+        publisher = self._node.create_publisher(kind, f'{self._target}/{name}', _DEPTH)
+        subscription = self._node.create_subscription(
+            kind, f'{self._target}/{echo}', taken.append, _DEPTH)
+        deadline = time.monotonic() + self._timeout
+        while not (publisher.get_subscription_count() and subscription.get_publisher_count()):
+            self._wait(deadline, f'no node listens to {cut(self._target)}/{name}')
+        again = time.monotonic()
+        while not any(map(is_taken, taken)):
+            # The first is lost if the node has not learned of this publisher yet.
+            if time.monotonic() >= again:
+                publisher.publish(message)
+                again = time.monotonic() + _TELL_AGAIN
+            self._wait(deadline, f'{cut(self._target)} has not taken what is on {name}')
+        self._node.destroy_subscription(subscription)
+        self._node.destroy_publisher(publisher)
 
     def read(
             self, kind: type, name: str, quality: QoSProfile,

@@ -11,6 +11,7 @@ from cloth_sim_ros.verb.main import main
 from cloth_under_test import ClothUnderTest
 from cloth_under_test import PAUSED
 from graph_client import GraphClient
+from graph_fixtures import client  # noqa: F401
 from graph_fixtures import discovery  # noqa: F401
 from node_process import NodeProcess
 import pytest
@@ -30,8 +31,8 @@ def verb_node(tmp_path_factory: pytest.TempPathFactory) -> Iterator[NodeProcess]
 @pytest.fixture(scope='session')
 def listening_cloth(verb_node: NodeProcess) -> Iterator[ClothUnderTest]:
     """Listen to the node."""
-    with GraphClient() as client:
-        yield ClothUnderTest(client, PAUSED, NODE)
+    with GraphClient() as listener:
+        yield ClothUnderTest(listener, PAUSED, NODE)
 
 
 @pytest.fixture
