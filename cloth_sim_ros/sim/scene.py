@@ -6,12 +6,11 @@
 from collections import Counter
 from collections.abc import Iterable
 from collections.abc import Mapping
-import difflib
 from itertools import repeat
 from typing import Any
 
+from cloth_sim_ros.files.close_name import close_name
 from cloth_sim_ros.files.errors import cut
-from cloth_sim_ros.files.errors import MOST_SHOWN
 from cloth_sim_ros.files.errors import shown
 from cloth_sim_ros.sim import grid
 from cloth_sim_ros.sim.colliders import colliders_of
@@ -329,6 +328,10 @@ def refuse_unknown(given: Iterable[str], fields: tuple[Field, ...]) -> None:
             raise ClothSimError(f'there is no parameter {cut(name)}: {_hint(name, known)}')
 
 
+# Of one name in several groups, so many are told; more are no help.
+_MOST_MEMBERS = 4
+
+
 def _hint(name: str, known: list[str]) -> str:
     group, _, rest = name.partition('.')
     if group == 'colliders' and '.' in rest:
@@ -337,11 +340,13 @@ def _hint(name: str, known: list[str]) -> str:
             return f'list {cut(collider)} in colliders.names'
     counts = Counter(each.partition('.')[0] for each in known if '.' in each)
     groups = sorted(group for group, count in counts.items() if count > 1)
-    # What is longer than what is shown is like nothing, which takes long to find.
-    close = difflib.get_close_matches(name[:MOST_SHOWN], known + groups, n=1)
-    if not close:
+    close = close_name(name, known + groups)
+    if close is None:
+        members = [each for each in known if each.endswith(f'.{name}')]
+        if 1 <= len(members) <= _MOST_MEMBERS:
+            return f'did you mean {" or ".join(members)}?'
         return 'docs/reference/parameters.md lists them all'
-    if close[0] in known:
-        return f'did you mean {close[0]}?'
-    *others, last = [each for each in known if each.startswith(f'{close[0]}.')]
+    if close in known:
+        return f'did you mean {close}?'
+    *others, last = [each for each in known if each.startswith(f'{close}.')]
     return f'did you mean {", ".join(others)} or {last}?'

@@ -13,14 +13,13 @@ from argparse import RawDescriptionHelpFormatter
 from collections.abc import Iterator
 from collections.abc import Sequence
 from contextlib import contextmanager
-import difflib
 from importlib import import_module
 import sys
 from typing import NoReturn
 import warnings
 
+from cloth_sim_ros.files.close_name import close_name
 from cloth_sim_ros.files.errors import cut
-from cloth_sim_ros.files.errors import MOST_SHOWN
 from cloth_sim_ros.files.errors import shown
 from cloth_sim_ros.gl.errors import DeviceError
 from cloth_sim_ros.node.missing_module import way_out
@@ -128,7 +127,6 @@ def _no_verb(arguments: list[str]) -> int:
 
 
 def _unknown_verb(name: str) -> str:
-    # What is longer than what is shown is like nothing, which takes long to find.
-    close = difflib.get_close_matches(name[:MOST_SHOWN].lower(), VERBS, n=1)
-    hint = f'did you mean {close[0]}?' if close else 'choose one that cloth_sim --help lists'
+    close = close_name(name.lower(), VERBS)
+    hint = f'did you mean {close}?' if close else 'choose one that cloth_sim --help lists'
     return f'there is no verb {shown(name)}: {hint}'

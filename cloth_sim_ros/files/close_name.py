@@ -1,0 +1,44 @@
+# SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
+# SPDX-License-Identifier: Apache-2.0
+
+"""Which name was probably meant by a mistyped one."""
+
+from collections.abc import Iterable
+
+from cloth_sim_ros.files.errors import MOST_SHOWN
+
+# A name may have one slip, and one more for every six characters: chosen. So holes, two slips from
+# cols, is another name.
+_FOR_EACH = 6
+_MOST_EDITS = 3
+
+
+def close_name(name: str, known: Iterable[str]) -> str | None:
+    """Return the one of ``known`` that is few slips from ``name``; None where none is."""
+    # What is longer than what is shown is like nothing, which takes long to find.
+    if len(name) > MOST_SHOWN:
+        return None
+    most = min(1 + len(name) // _FOR_EACH, _MOST_EDITS)
+    near = [(edits(name, each), each) for each in known if abs(len(each) - len(name)) <= most]
+    least, closest = min(near, default=(most + 1, ''))
+    return closest if least <= most else None
+
+
+def edits(name: str, other: str) -> int:
+    """
+    Return by how many slips the two differ.
+
+    A slip is a character too many, one missing, another one, or two that changed places (the
+    optimal string alignment).
+    """
+    before: list[int] = []
+    last = list(range(len(other) + 1))
+    for row, char in enumerate(name, 1):
+        here = [row]
+        for col, wanted in enumerate(other, 1):
+            cost = min(last[col] + 1, here[col - 1] + 1, last[col - 1] + (char != wanted))
+            if row > 1 and col > 1 and (char, name[row - 2]) == (other[col - 2], wanted):
+                cost = min(cost, before[col - 2] + 1)
+            here.append(cost)
+        before, last = last, here
+    return last[-1]
