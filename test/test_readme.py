@@ -184,3 +184,36 @@ def test_every_scene_has_an_entry(scene):
     """A user would not learn of a scene."""
     assert [row for row in rows(reference('scenes'), '# Scenes')
             if row[0] == str(scene.relative_to(ROOT))]
+
+
+RECORDED = re.compile(r'recording\.name=([\w$]+)|SimulationRecorder\(\w+, \'bags\', \'(\w+)\'\)')
+LOOP = re.compile(r'for (\w+) in ([\w ]+); do')
+
+
+def recorded_names(text):
+    """Return the names that the commands and programs of a page record as."""
+    names = [first or second for first, second in RECORDED.findall(text)]
+    for variable, values in LOOP.findall(text):
+        if f'${variable}' in names:
+            names.remove(f'${variable}')
+            names += values.split()
+    return names
+
+
+def test_each_recording_has_a_name_of_its_own():
+    """The second command of a reader would be refused: a recording is never overwritten."""
+    names = [name for page in PAGES for name in recorded_names(page.read_text(encoding='utf-8'))]
+    assert len(names) > 12
+    assert [name for name in names if names.count(name) > 1] == []
+
+
+def test_a_scene_file_is_one_scene():
+    """A page would give a file to be written that is another scene of config/."""
+    ours = {path.name for path in (ROOT / 'config').glob('*.yaml')}
+    bare = re.compile(r'(?<![\w/])(\w+\.yaml)')
+    named = {
+        name for page in PAGES for command in
+        re.findall(r'^ {4}(.*)', page.read_text(encoding='utf-8'), re.MULTILINE)
+        for name in bare.findall(command)}
+    assert 'bath_towel.yaml' in named
+    assert named & ours == set()
