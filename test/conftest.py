@@ -12,12 +12,14 @@ from cloth_sim_ros.gl.context import Context
 from cloth_sim_ros.gl.errors import DeviceError
 from cloth_sim_ros.sim.tuning import OFF
 from cloth_sim_ros.sim.tuning import VARIABLE
+from hypothesis import HealthCheck
 from hypothesis import settings
 from hypothesis.internal.conjecture import providers
 import pytest
 
-# How long an example takes depends on what else the machine does.
-settings.register_profile('any_machine', deadline=None)
+# How long an example takes, or to make one, depends on what else the machine does.
+settings.register_profile(
+    'any_machine', deadline=None, suppress_health_check=[HealthCheck.too_slow])
 settings.load_profile('any_machine')
 
 # It makes examples of the constants in loaded modules, too: then the whole suite draws others than

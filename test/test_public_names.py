@@ -67,7 +67,7 @@ def modules_after(program):
     report = f'import sys; print([name for name in {HEAVY} if name in sys.modules])'
     done = subprocess.run(
         [sys.executable, '-c', f'{program}\n{report}'], capture_output=True, text=True,
-        check=True, timeout=60)
+        check=True, timeout=300)
     return set(ast.literal_eval(done.stdout))
 
 
@@ -96,7 +96,7 @@ def test_without_ros_the_recorder_says_how_to_get_it(tmp_path):
         'from cloth_sim_ros import Simulation, Recording\n'
         'from cloth_sim_ros import SimulationRecorder')
     done = subprocess.run(
-        [sys.executable, '-c', program], capture_output=True, text=True, timeout=60)
+        [sys.executable, '-c', program], capture_output=True, text=True, timeout=300)
     last = done.stderr.splitlines()[-1]
     assert last.startswith('ImportError: SimulationRecorder cannot be used: ROS 2 was not found')
 

@@ -21,7 +21,7 @@ from sensor_msgs.msg import PointCloud2
 from std_srvs.srv import Trigger
 
 PROGRAM = Path(__file__).parent / 'programs' / 'readers.py'
-PATIENCE = 60.0
+PATIENCE = 300.0
 # A reader that runs late by a second still gets all: the node keeps 10 frames for it.
 SCENE = {'rows': 64, 'cols': 64, 'dt': 0.005, 'publish.rate': 10.0}
 FEWEST_FRAMES = 10

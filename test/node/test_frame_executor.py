@@ -15,7 +15,7 @@ from rclpy.context import Context
 from std_msgs.msg import String
 from std_srvs.srv import Trigger
 
-PATIENCE = 20.0
+PATIENCE = 300.0
 
 
 @pytest.fixture

@@ -306,9 +306,7 @@ def test_a_node_that_does_not_listen_says_so(client, tmp_path):
         client.spin_until(
             lambda: ('cloth_sim', '/deaf') in client.node.get_node_names_and_namespaces(),
             'the node is known')
-        client.service(ApplyPush, '/deaf/cloth_sim/apply_push')
-        client.spin_for(0.5)
-        response = client.call(
+        response = client.call_until_answered(
             ApplyPush, '/deaf/cloth_sim/apply_push', header=IN_CAMERA, force=Vector3(z=1.0),
             duration=0.1)
         assert response.message == (

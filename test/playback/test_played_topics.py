@@ -44,9 +44,12 @@ from std_msgs.msg import Int32
 rclpy.init()
 node = rclpy.create_node('reader')
 received = []
-node.create_subscription(
+subscription = node.create_subscription(
     Int32, '/played', lambda message: received.append(message.data), QoSProfile(depth=1000))
 print('ready', flush=True)
+while not subscription.get_publisher_count():
+    rclpy.spin_once(node, timeout_sec=0.1)
+print('found', flush=True)
 while not received or received[-1] != {MESSAGES - 1}:
     rclpy.spin_once(node, timeout_sec=0.1)
 print(*received)
@@ -128,12 +131,13 @@ def reader():
     process.stdout.close()
 
 
-def played(client, name='/played', patience=0.2, **quality):
-    """Return a topic that its reader knows."""
+def played(client, name='/played', patience=0.2, reader=None, **quality):
+    """Return a topic that its reader knows, which says so if it is a process."""
     topic = PlayedTopic(
         client.node, name, Int32, QoSProfile(depth=DEPTH, **quality), patience=patience)
     client.spin_until(lambda: is_read(client, name), 'the reader is found')
-    client.spin_for(0.2)
+    if reader is not None:
+        assert reader.stdout.readline() == 'found\n'
     return topic
 
 
@@ -147,24 +151,24 @@ def is_read(client, name):
 def test_a_burst_loses_nothing(client, reader):
     """What is caught up with would be lost, as the publisher keeps its last messages only."""
     # A busy machine may not let the reader run for a while.
-    topic = played(client, patience=30.0)
+    topic = played(client, patience=300.0, reader=reader)
     for number in range(MESSAGES):
         topic.publish(serialize_message(Int32(data=number)))
-    numbers, _ = reader.communicate(timeout=30.0)
+    numbers, _ = reader.communicate(timeout=300.0)
     assert [int(number) for number in numbers.split()] == list(range(MESSAGES))
     assert topic.overruns == 0
 
 
 def test_a_reader_that_hangs_holds_nobody_up_and_is_told(client, reader):
     """One hung viewer would stop playing for all, or lose messages without a word."""
-    topic = played(client)
+    topic = played(client, reader=reader)
     reader.send_signal(SIGSTOP)
     for number in range(MESSAGES - 1):
         topic.publish(serialize_message(Int32(data=number)))
     assert topic.overruns == MESSAGES - 1 - DEPTH
     reader.send_signal(SIGCONT)
     topic.publish(serialize_message(Int32(data=MESSAGES - 1)))
-    numbers, _ = reader.communicate(timeout=30.0)
+    numbers, _ = reader.communicate(timeout=300.0)
     assert len(numbers.split()) >= DEPTH
 
 

@@ -62,9 +62,12 @@ from rosgraph_msgs.msg import Clock
 rclpy.init()
 node = rclpy.create_node('clock_reader')
 received = []
-node.create_subscription(
+subscription = node.create_subscription(
     Clock, '/clock', lambda message: received.append(message.clock.sec), QoSProfile(depth=1000))
 print('ready', flush=True)
+while not subscription.get_publisher_count():
+    rclpy.spin_once(node, timeout_sec=0.1)
+print('found', flush=True)
 while not received or received[-1] != {STAMPS}:
     rclpy.spin_once(node, timeout_sec=0.1)
 print(*received)
@@ -77,17 +80,17 @@ def test_a_reader_that_is_held_up_for_a_while_gets_every_stamp(client):
             [sys.executable, '-c', READER], stdout=subprocess.PIPE, text=True) as reader:
         try:
             reader.stdout.readline()
-            clock = SimulatedClock(client.node, patience=60.0)
+            clock = SimulatedClock(client.node, patience=300.0)
             client.spin_until(
                 lambda: client.node.count_subscribers('/clock'), 'the reader is found')
-            client.spin_for(0.3)
+            assert reader.stdout.readline() == 'found\n'
             reader.send_signal(SIGSTOP)
             Timer(0.1, reader.send_signal, (SIGCONT,)).start()
             for number in range(1, STAMPS + 1):
                 stats = ClothStats()
                 stats.header.stamp = Time(sec=number)
                 clock.read(ClothStats, serialize_message(stats))
-            seconds, _ = reader.communicate(timeout=60.0)
+            seconds, _ = reader.communicate(timeout=300.0)
         finally:
             reader.kill()
     assert [int(each) for each in seconds.split()] == list(range(1, STAMPS + 1))
@@ -161,21 +164,15 @@ def test_the_pace_is_that_of_the_recording_times_the_rate(bag, client, player, t
     begin, end = BagReader(wall_bag).span
     assert begin == WALL
     assert (end - begin) * 1e-9 == pytest.approx(3.0)
-    took = {}
-    for name, source, rate in [('simulated', bag, 4.0), ('wall', wall_bag, 1.0)]:
-        times = []
-        subscription = client.node.create_subscription(
-            ClothStats, '/cloth_sim/stats', lambda _, to=times: to.append(time.monotonic()), 1000)
+    # A machine that is busy takes longer, and none less. That no message is due later than that,
+    # test_schedule_play_clock.py shows.
+    for source, rate, least in [(bag, 0.5, 2.0), (wall_bag, 1.0, 3.0)]:
         process = player(source, '--rate', rate, '--topics', '/cloth_sim/stats')
+        begin = time.monotonic()
         process.resume(client)
         assert process.wait(client) == 0, process.problems
-        assert len(times) == FRAMES
-        took[name] = times[-1] - times[0]
-        client.node.destroy_subscription(subscription)
-    # 0.75 and 3 s. A busy machine makes each longer, but none shorter than it should be by more
-    # than the first message came late.
-    assert took['wall'] > 2.7
-    assert took['wall'] > 2.0 * took['simulated']
+        assert time.monotonic() - begin > least
+        assert f'played {FRAMES} messages' in process.output
 
 
 def test_a_late_start_has_what_holds_from_before(bag, client, player):
@@ -227,17 +224,22 @@ def test_a_loop_begins_again_with_the_first_stamp(bag, client, player):
 def test_a_pause_stops_the_messages(bag, client, player):
     """A moment could not be looked at."""
     heard = listen(client, '/cloth_sim/stats', ClothStats)
-    process = player(bag)
+    # Round and round: it is not at its end before the pause, however long that takes to come.
+    process = player(bag, '--loop')
     process.resume(client)
     client.spin_until(lambda: heard, 'it plays')
     process.pause(client)
-    client.spin_for(0.2)
+    client.spin_until_quiet()
     count = len(heard)
     client.spin_for(0.5)
-    assert len(heard) == count < FRAMES
+    assert len(heard) == count
     process.resume(client)
+    client.spin_until(lambda: len(heard) > count + FRAMES, 'it goes on for a round')
+    process.process.terminate()
     assert process.wait(client) == 0
-    assert len(heard) == FRAMES
+    one_round = [number * 20_000_000 for number in range(FRAMES)]
+    rounds = -(-len(heard) // FRAMES)
+    assert [stamp(stats) for stats in heard] == (rounds * one_round)[:len(heard)]
 
 
 def test_what_was_cut_off_is_played_to_its_end(bag, client, player, tmp_path):
@@ -316,9 +318,12 @@ def test_topics_of_the_node_can_get_another_name(bag, client, player):
 def test_another_publisher_is_named(bag, client, tmp_path):
     """A user would watch a mixture of two cloths and not know why."""
     publisher = client.node.create_publisher(ClothStats, '/cloth_sim/stats', 10)
-    # Long enough for a machine that is busy besides to find it.
-    with PlayerProcess(tmp_path, bag, '--rate', 10, '--delay', 5) as process:
-        assert process.wait(client) == 0, process.problems
+    # How soon it is found depends on what else the machine does.
+    for delay in (5, 50, 500):
+        with PlayerProcess(tmp_path, bag, '--rate', 10, '--delay', delay) as process:
+            assert process.wait(client) == 0, process.problems
+        if 'as well' in process.problems:
+            break
     assert '/test_client publishes /cloth_sim/stats as well' in process.problems
     assert 'cloth_sim_player publishes' not in process.problems
     client.node.destroy_publisher(publisher)

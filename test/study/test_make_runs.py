@@ -192,13 +192,13 @@ def test_a_stopped_study_goes_on(tmp_path, stop):
         env={**os.environ, 'PYTHONPATH': os.pathsep.join(sys.path)},
         # In the background of a shell SIGINT is ignored, by all that is started there.
         preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL))
-    deadline = time.monotonic() + 60.0
+    deadline = time.monotonic() + 300.0
     while not ((tmp_path / LINES).exists() and len(lines_of(tmp_path)) == 3):
         assert time.monotonic() < deadline
         time.sleep(0.05)
     study.send_signal(stop)
     # Its end is the end of its workers, too: they hold the other end of this pipe.
-    study.communicate(timeout=60.0)
+    study.communicate(timeout=300.0)
     with open(tmp_path / LINES, 'a') as file:
         file.write('{"key": "half a li')
     results = make(squares(range(4)), tmp_path)

@@ -7,7 +7,7 @@ import subprocess
 import sys
 
 _START = 'import sys; from cloth_sim_ros.verb.main import main; sys.exit(main())'
-PATIENCE = 60.0
+PATIENCE = 300.0
 
 
 def cloth_sim(

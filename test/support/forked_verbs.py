@@ -61,9 +61,9 @@ class ForkedVerbs:
     def __exit__(self, *_: object) -> None:
         """End it."""
         self._process.stdin.close()
-        self._process.wait(20)
+        self._process.wait(300)
 
-    def run(self, *arguments: object, limit: float = 60.0) -> Outcome:
+    def run(self, *arguments: object, limit: float = 600.0) -> Outcome:
         """Run `cloth_sim` with ``arguments``, for ``limit`` seconds of wall time at most."""
         request = {'arguments': [str(each) for each in arguments], 'limit': limit}
         print(json.dumps(request), file=self._process.stdin, flush=True)

@@ -12,19 +12,21 @@ from typing import Any
 import rclpy
 from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor
+from rclpy.executors import TimeoutException
 from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy
 from rclpy.qos import QoSProfile
 from rclpy.serialization import deserialize_message
 from rclpy.subscription import Subscription
 
-# A machine that is busy besides compiles shaders for a minute.
-PATIENCE = 120.0
+# A machine that is busy besides compiles shaders for minutes.
+PATIENCE = 300.0
 # Always the same: with another time than before, the executor begins with its first subscription
 # again, and one that is always ready keeps the others from their turn.
 TURN = 0.02
 # Without a message, the queues of the subscriptions are empty.
 QUIET = 3 * TURN
+_ASK_AGAIN = 0.2  # [s]
 
 
 class Watch:
@@ -69,7 +71,6 @@ class GraphClient:
         self._executor.add_node(self.node)
         self._clients: dict[str, Any] = {}
         self._subscriptions: list[Subscription] = []
-        self._received = 0
 
     def __enter__(self) -> 'GraphClient':
         """Return itself."""
@@ -120,6 +121,22 @@ class GraphClient:
         self.spin_until(future.done, f'{name} answers')
         return future.result()
 
+    def call_until_answered(self, kind: type, name: str, /, **fields: Any) -> Any:
+        """
+        Return the answer of the service ``name`` to a request that may come several times.
+
+        A node that does not know this client yet does what it asks, and its answer gets lost.
+        """
+        service = self.service(kind, name)
+        futures: list[Any] = []
+
+        def answer() -> Any:
+            futures.append(service.call_async(kind.Request(**fields)))
+            self.spin_for(_ASK_AGAIN)
+            return next((future.result() for future in futures if future.done()), None)
+
+        return self.spin_until(answer, f'{name} answers')
+
     def spin_for(self, seconds: float) -> None:
         """Take in what comes within ``seconds``."""
         end = time.monotonic() + seconds
@@ -127,23 +144,23 @@ class GraphClient:
             self._executor.spin_once(timeout_sec=TURN)
 
     def spin_until_quiet(self) -> None:
-        """Take in what has been published already: until no watched topic has more to say."""
-        received = None
-        while received != self._received:
-            received = self._received
-            self.spin_for(QUIET)
+        """Take in what has come already: until nothing is left to be taken in for a while."""
+        while True:
+            # Time that this process did not run in is none in which nothing came.
+            try:
+                handler, _, _ = self._executor.wait_for_ready_callbacks(timeout_sec=QUIET)
+            except TimeoutException:
+                return
+            handler()
+            handler.result()  # raises what the callback has raised
 
     def watch(self, kind: type, topic: str, *, depth: int = 1000, kept: bool = False) -> Watch:
         """Listen to ``topic``; ``kept`` asks for what was published before as well."""
         watch = Watch(kind)
         durability = DurabilityPolicy.TRANSIENT_LOCAL if kept else DurabilityPolicy.VOLATILE
 
-        def keep(raw: bytes) -> None:
-            self._received += 1
-            watch.take(raw)
-
         subscription = self.node.create_subscription(
-            kind, topic, keep, QoSProfile(depth=depth, durability=durability), raw=True)
+            kind, topic, watch.take, QoSProfile(depth=depth, durability=durability), raw=True)
         self._subscriptions.append(subscription)
         self.spin_until(
             lambda: self.node.count_publishers(subscription.topic_name), f'{topic} is published')

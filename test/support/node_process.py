@@ -14,7 +14,8 @@ from typing import Any
 import yaml
 
 _START = 'import sys; from cloth_sim_ros.node.main import main; sys.exit(main())'
-PATIENCE = 30.0
+# A machine that is busy besides may let a node run for a tenth of the time.
+PATIENCE = 300.0
 _SHOWN = 5000  # characters
 
 

@@ -69,7 +69,7 @@ class PlayerProcess:
     def wait(self, client: GraphClient) -> int:
         """Take in messages until it has ended, and return the exit code."""
         client.spin_until(lambda: self.process.poll() is not None, 'the player ends')
-        client.spin_for(0.1)
+        client.spin_until_quiet()
         return self.process.returncode
 
     def _call(self, client: GraphClient, *pauses: bool) -> None:

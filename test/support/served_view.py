@@ -5,6 +5,7 @@
 
 from collections.abc import Iterator
 from contextlib import contextmanager
+import random
 import socket
 from threading import Event
 from threading import Thread
@@ -14,12 +15,25 @@ from cloth_sim_ros.view.window import LOOPBACK
 from cloth_sim_ros.view.window import open_server
 from cloth_sim_ros.view.window import Window
 
+# Above those of services that have one of their own, and below those for outgoing connections.
+PORTS = range(20_000, 32_000)
+
 
 def free_port() -> int:
-    """Return a port that nobody listens on."""
-    with socket.socket() as probe:
-        probe.bind((LOOPBACK, 0))
-        return probe.getsockname()[1]
+    """
+    Return a port that nobody listens on.
+
+    It is not one of those that the system gives to whoever connects somewhere: such a one may be
+    gone again before it is used.
+    """
+    for port in random.SystemRandom().sample(PORTS, len(PORTS)):
+        with socket.socket() as probe:
+            try:
+                probe.bind((LOOPBACK, port))
+            except OSError:
+                continue
+            return port
+    raise RuntimeError(f'all ports from {PORTS[0]} to {PORTS[-1]} are in use')
 
 
 @contextmanager

@@ -46,7 +46,7 @@ def die(scene: dict[str, Any]) -> dict[str, Any]:
 def meet(scene: dict[str, Any], *, folder: str, name: str, others: int) -> dict[str, Any]:
     """Wait until ``others`` runs have come to ``folder``, too."""
     Path(folder, name).touch()
-    deadline = time.monotonic() + 30.0
+    deadline = time.monotonic() + 300.0
     while len(list(Path(folder).iterdir())) <= others:
         if time.monotonic() > deadline:
             raise TimeoutError('nobody came')

@@ -13,7 +13,7 @@ import viser
 from websockets.sync.client import connect
 import zstandard
 
-PATIENCE = 60.0
+PATIENCE = 300.0
 
 
 class ViewPage:

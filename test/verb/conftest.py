@@ -59,7 +59,7 @@ def verb(
     def run(*arguments: str) -> Result:
         capsys.readouterr()
         try:
-            code = main([*arguments, '--node', NODE, '--timeout', '20'])
+            code = main([*arguments, '--node', NODE, '--timeout', '120'])
         except SystemExit as stop:
             code = stop.code
         return Result(code, *capsys.readouterr())

@@ -35,7 +35,7 @@ def outdoors(outdoor_node, client) -> ClothUnderTest:
 def run(capsys, *arguments):
     """Return exit code, stdout and stderr of a verb."""
     capsys.readouterr()
-    code = main([*arguments, '--node', NODE, '--timeout', '60'])
+    code = main([*arguments, '--node', NODE, '--timeout', '120'])
     return code, *capsys.readouterr()
 
 

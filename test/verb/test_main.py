@@ -63,8 +63,12 @@ def test_says_that_no_node_answers():
 
 def test_names_the_nodes_that_are_there(cloth):
     """A user of a node with a namespace would not learn its name."""
-    result = cloth_sim('pause', '--node', 'not_me', '--timeout', '2')
-    assert result.returncode == 1
+    # How soon the node is found depends on what else the machine does.
+    for seconds in ('2', '20', '200'):
+        result = cloth_sim('pause', '--node', 'not_me', '--timeout', seconds)
+        assert result.returncode == 1
+        if cloth.name in result.stderr:
+            break
     assert cloth.name in result.stderr
 
 

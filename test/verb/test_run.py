@@ -179,7 +179,7 @@ def test_a_signal_completes_the_recording(
         assert process.poll() is None
         time.sleep(0.05)
     process.send_signal(number)
-    said = process.communicate(timeout=60)[1]
+    said = process.communicate(timeout=300)[1]
     assert process.returncode == code
     recording = Recording(bag)
     end = summarise(recording).end

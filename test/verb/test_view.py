@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 import os
 from pathlib import Path
+import re
 import signal
 import subprocess
 import sys
@@ -37,11 +38,16 @@ def started(*arguments: object) -> Iterator[tuple[str, ViewPage]]:
         with ViewPage(port) as page:
             yield line, page
         view.send_signal(signal.SIGINT)
-        out, errors = view.communicate(timeout=60.0)
+        out, errors = view.communicate(timeout=300.0)
         assert (view.returncode, out, errors) == (130, '', '')
     finally:
         view.kill()
         view.wait()
+
+
+def shown_time(page: ViewPage) -> float:
+    """Return the simulated time that the page tells [s]."""
+    return float(re.search(r't = ([\d.]+) s', page.text)[1])
 
 
 def test_a_scene_is_simulated_for_the_view():
@@ -49,7 +55,8 @@ def test_a_scene_is_simulated_for_the_view():
     with started(TOWEL, *SMALL, '--set', 'total_mass=0.3') as (line, page):
         assert line.startswith('towel is shown at http://127.0.0.1:')
         page.wait_for(lambda: '**towel**, running' in page.text, 'the scene')
-        page.wait_for(lambda: 't = 0.1' in page.text, 'time that goes on')
+        # However few of its frames a busy machine shows.
+        page.wait_for(lambda: shown_time(page) >= 0.1, 'time that goes on')
         assert '2 pins' in page.text
 
 

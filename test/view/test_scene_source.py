@@ -15,7 +15,7 @@ import pytest
 from springs import SPRINGS
 
 SCENE = Scene({**SPRINGS, 'rows': 6, 'cols': 7, 'start.jitter': 0.01})
-PATIENCE = 60.0
+PATIENCE = 300.0
 
 
 @pytest.fixture

@@ -26,7 +26,7 @@ def holder(tmp_path):
     yield process
     for pid in processes_of(process.pid):
         os.kill(pid, signal.SIGKILL)
-    process.communicate(timeout=60.0)
+    process.communicate(timeout=300.0)
 
 
 def test_the_other_set_up_is_named(tmp_path, holder):
@@ -37,7 +37,7 @@ def test_the_other_set_up_is_named(tmp_path, holder):
         r'Waiting for another set-up of this checkout to end: '
         rf'process {holder.pid}, started at \d\d:\d\d:\d\d\.\n', said)
     os.kill(holder.pid, signal.SIGTERM)
-    assert waiting.communicate(timeout=60.0)[0] == 'goes on\n'
+    assert waiting.communicate(timeout=300.0)[0] == 'goes on\n'
 
 
 def test_what_a_killed_set_up_left_behind_is_named(tmp_path, holder):
@@ -51,7 +51,7 @@ def test_what_a_killed_set_up_left_behind_is_named(tmp_path, holder):
     command = said.partition('To end it: ')[2]
     assert command.startswith('kill -- -')
     subprocess.run(command, shell=True, check=True)
-    assert waiting.communicate(timeout=60.0)[0] == 'goes on\n'
+    assert waiting.communicate(timeout=300.0)[0] == 'goes on\n'
 
 
 def child_of(session, command):
@@ -77,5 +77,5 @@ def test_a_short_part_that_was_left_behind_is_named(tmp_path):
     assert f'process {child} (sleep 300), started at ' in said
     assert said.endswith(f'To end it: kill {child}\n')
     os.kill(child, signal.SIGKILL)
-    assert waiting.communicate(timeout=60.0)[0] == 'goes on\n'
-    holder.communicate(timeout=60.0)
+    assert waiting.communicate(timeout=300.0)[0] == 'goes on\n'
+    holder.communicate(timeout=300.0)

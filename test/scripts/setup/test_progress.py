@@ -23,7 +23,7 @@ def test_a_killed_set_up_takes_its_command_along(tmp_path, number):
     while not (tmp_path / 'begun').exists():
         assert process.poll() is None
     os.kill(process.pid, number)
-    output = process.communicate(timeout=60.0)[0]
+    output = process.communicate(timeout=300.0)[0]
     assert process.returncode == 128 + number
     assert f'stopped by {number.name}: run it again to go on' in output
     assert processes_of(process.pid) == []

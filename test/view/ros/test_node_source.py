@@ -29,7 +29,7 @@ def node(tmp_path_factory: pytest.TempPathFactory) -> Iterator[NodeProcess]:
 @pytest.fixture
 def source(node: NodeProcess) -> NodeSource:
     """Listen to the node, at its start; the view of it leaves the graph."""
-    source = NodeSource('shown/cloth_sim', 30.0)
+    source = NodeSource('shown/cloth_sim', 300.0)
     source.set_paused(True)
     source.reset()
     return source

@@ -17,7 +17,7 @@ VALUES = {
     'collider_moves.name': ['ball'], 'collider_moves.target': list(TARGET),
     'collider_moves.orientation': [0.0, 0.0, 1.0, 1.0], 'collider_moves.speed': [3.0],
     'collider_moves.angular_speed': [30.0]}
-PATIENCE = 60.0
+PATIENCE = 300.0
 
 
 def wait_for(condition):
