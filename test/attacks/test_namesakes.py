@@ -21,6 +21,8 @@ def test_both_warn_and_every_request_is_answered(tmp_path):
     with GraphClient() as client, nodes[0] as first, nodes[1] as second:
         client.spin_until(
             lambda: all(TOLD in node.output for node in nodes), 'both nodes warn')
+        client.service(ApplyPush, f'{NAME}/apply_push')
+        assert client.call_until_answered(SetBool, f'{NAME}/pause', data=True).success
         for number in range(20):
             assert client.call(SetBool, f'{NAME}/pause', data=number % 2 == 0).success
             refused = client.call(ApplyPush, f'{NAME}/apply_push', duration=-1.0)
