@@ -40,9 +40,9 @@ def main() -> None:
     scene = Scene(load_parameters(ROOT / 'config' / 'towel.yaml'))
     source = SceneSource(scene, 'towel', frame_seconds=0.02, is_paused=True)
     source.step(_STEPS)
-    with served(source) as port, tempfile.TemporaryDirectory(
+    with served(source) as address, tempfile.TemporaryDirectory(
             ignore_cleanup_errors=True) as folder:
-        with Browser(Path(folder), f'http://127.0.0.1:{port}', _WINDOW) as browser:
+        with Browser(Path(folder), address, _WINDOW) as browser:
             browser.wait_for('towel, paused')
             Image.open(io.BytesIO(browser.picture())).crop(_SHOWN).save(path)
 

@@ -38,7 +38,8 @@ ROOMS = {
 WITHOUT_ROS = ('files', 'gl', 'sim', 'reference', 'gym', 'view')
 NUMERIC_MODULES = {'numpy', 'scipy', 'OpenGL', 'yaml'}
 # What one room alone may import besides.
-OWN_MODULES = {'view': {'viser'}, 'gym': {'gymnasium'}}
+# viser brings msgspec and websockets.
+OWN_MODULES = {'view': {'viser', 'msgspec', 'websockets'}, 'gym': {'gymnasium'}}
 
 SOURCES = sorted(path for path in PACKAGE.rglob('*.py') if path.parent != PACKAGE)
 

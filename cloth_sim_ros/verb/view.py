@@ -5,9 +5,9 @@
 View a cloth in the browser: that of a running node, of a scene or of a recording.
 
 The colour of the cloth shows its strain. A panel has mode, pause, step and reset. A click on the
-cloth pushes it away from the viewer, or pins a node; the arrows at a pin drag it. The page can
-only be opened on this machine, unless --host is given. Ctrl-C stops the server. Needs viser:
-scripts/setup.sh --view.
+cloth pushes it away from the viewer, or pins a node; the arrows at a pin drag it. The page opens
+at the printed address, which ends with a key that is new each time, and only on this machine
+unless --host is given. Ctrl-C stops the server. Needs viser: scripts/setup.sh --view.
 
 For example:
   cloth_sim view
@@ -49,8 +49,8 @@ def add_arguments(parser: ArgumentParser) -> None:
         help='port of the page (default: %(default)s)')
     parser.add_argument(
         '--host', default=_LOOPBACK, metavar='ADDRESS',
-        help='address to serve the page on; 0.0.0.0 lets every machine on the network view and '
-             'control the cloth (default: %(default)s)')
+        help='address to serve the page on; with 0.0.0.0, whoever on the network has the '
+             'printed address can view and control the cloth (default: %(default)s)')
     parser.add_argument(
         '--fps', type=float, default=20.0, metavar='F',
         help='maximum frame rate [Hz] (default: %(default)s)')
@@ -64,15 +64,14 @@ def main(args: Namespace) -> int:
         raise ClothSimError(
             f'--fps must be above 0 and at most {_MOST_FPS:g}, got {args.fps:g}')
     # Viser is optional; without it this says so before anything is started.
-    from cloth_sim_ros.view.window import address
-    from cloth_sim_ros.view.window import open_server
+    from cloth_sim_ros.view.server import open_server
     from cloth_sim_ros.view.window import Window
     with open_server(args.host, args.port) as server:
         source = _source(args)
         try:
             window = Window(server, source)
             print(
-                f'{source.name} is shown at {address(server)}; Ctrl-C ends the view', flush=True)
+                f'{source.name} is shown at {server.address}; Ctrl-C ends the view', flush=True)
             while True:
                 begin = time.monotonic()
                 window.refresh()

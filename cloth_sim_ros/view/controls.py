@@ -48,7 +48,7 @@ class Controls:
     @property
     def full_strain(self) -> float:
         """Get the strain that the last colour stands for."""
-        return float(self._strain.value) / 100.0
+        return _value(self._strain) / 100.0
 
     @property
     def shows_handles(self) -> bool:
@@ -63,17 +63,17 @@ class Controls:
     @property
     def push_force(self) -> float:
         """Get the total force of a push [N]."""
-        return float(self._force.value)
+        return _value(self._force)
 
     @property
     def push_radius(self) -> float:
         """Get how far around a click a push acts [m]."""
-        return float(self._radius.value)
+        return _value(self._radius)
 
     @property
     def push_duration(self) -> float:
         """Get how long a push lasts [s]."""
-        return float(self._duration.value)
+        return _value(self._duration)
 
     def show(self, moment: Moment) -> None:
         """Tell of ``moment``."""
@@ -145,6 +145,11 @@ class Controls:
             if event.client is not None:
                 self._answer(event.client, lambda: action(handle.value))
         handle.on_update(act)
+
+
+def _value(number: viser.GuiNumberHandle[float]) -> float:
+    # While something is typed, a page sends numbers outside the range as well.
+    return float(np.clip(number.value, number.min, number.max))
 
 
 def _legend() -> str:

@@ -10,9 +10,9 @@ import socket
 from threading import Event
 from threading import Thread
 
+from cloth_sim_ros.view.server import LOOPBACK
+from cloth_sim_ros.view.server import open_server
 from cloth_sim_ros.view.source import Source
-from cloth_sim_ros.view.window import LOOPBACK
-from cloth_sim_ros.view.window import open_server
 from cloth_sim_ros.view.window import Window
 
 # Above those of services that have one of their own, and below those for outgoing connections.
@@ -37,10 +37,10 @@ def free_port() -> int:
 
 
 @contextmanager
-def served(source: Source) -> Iterator[int]:
-    """Serve a view of ``source`` and yield its port; the source is closed at the end."""
-    port, ended = free_port(), Event()
-    with open_server(LOOPBACK, port) as server:
+def served(source: Source) -> Iterator[str]:
+    """Serve a view of ``source`` and yield its address; the source is closed at the end."""
+    ended = Event()
+    with open_server(LOOPBACK, free_port()) as server:
         window = Window(server, source)
 
         def refresh() -> None:
@@ -50,7 +50,7 @@ def served(source: Source) -> Iterator[int]:
         thread = Thread(target=refresh)
         thread.start()
         try:
-            yield port
+            yield server.address
         finally:
             ended.set()
             thread.join()

@@ -22,18 +22,21 @@ class ViewPage:
 
     ``nodes`` holds the props, the place and the visibility of each node of the scene by its name,
     ``told`` the notifications.
+
+    :param address: of the view, as it is printed
+    :param headers: that a browser would send, such as Origin
     """
 
-    def __init__(self, port: int) -> None:
+    def __init__(self, address: str, headers: dict[str, str] | None = None) -> None:
         """Connect, as a page does that was just opened."""
         self.nodes: dict[str, dict[str, Any]] = {}
         self.told: list[dict[str, Any]] = []
         self._by_uuid: dict[str, dict[str, Any]] = {}
         self._socket = connect(
-            f'ws://127.0.0.1:{port}', subprotocols=[f'viser-v{viser.__version__}'],
-            max_size=None, compression=None)
+            address.replace('http://', 'ws://'), additional_headers=headers,
+            subprotocols=[f'viser-v{viser.__version__}'], max_size=None, compression=None)
         # The server takes a page for open when it has told of its camera.
-        self._send(
+        self.send(
             'ViewerCameraMessage', wxyz=(1.0, 0.0, 0.0, 0.0), position=(0.0, 0.0, 5.0), fov=1.0,
             near=0.01, far=100.0, image_height=400, image_width=600, look_at=(0.0, 0.0, 0.0),
             up_direction=(0.0, 0.0, 1.0))
@@ -73,20 +76,28 @@ class ViewPage:
 
     def click(self, origin: tuple[float, ...], direction: tuple[float, ...]) -> None:
         """Click where a ray from the camera goes."""
-        self._send(
+        self.send(
             'ScenePointerMessage', event_type='click', ray_origin=origin,
             ray_direction=direction, screen_pos=((0.5, 0.5),), modifier=None)
 
     def give(self, label: str, value: Any) -> None:
         """Give the control ``label`` another value; True presses a button."""
-        self._send('GuiUpdateMessage', uuid=self.controls[label]['uuid'], updates={'value': value})
+        self.send('GuiUpdateMessage', uuid=self.controls[label]['uuid'], updates={'value': value})
 
     def drag(self, name: str, position: tuple[float, ...]) -> None:
         """Take the handle ``name`` to ``position`` and let it go."""
-        self._send('TransformControlsDragStartMessage', name=name, owner='')
-        self._send('TransformControlsUpdateMessage', name=name, wxyz=(1.0, 0.0, 0.0, 0.0),
-                   position=position, owner='')
-        self._send('TransformControlsDragEndMessage', name=name, owner='')
+        self.send('TransformControlsDragStartMessage', name=name, owner='')
+        self.send('TransformControlsUpdateMessage', name=name, wxyz=(1.0, 0.0, 0.0, 0.0),
+                  position=position, owner='')
+        self.send('TransformControlsDragEndMessage', name=name, owner='')
+
+    def send(self, kind: str, **fields: Any) -> None:
+        """Send a message of viser's protocol."""
+        self.send_data(msgspec.msgpack.encode({'type': kind, **fields}))
+
+    def send_data(self, data: bytes | str) -> None:
+        """Send bytes or a text, whatever it is."""
+        self._socket.send(data)
 
     def points(self) -> np.ndarray:
         """Return the vertices of all meshes that are shown, (n, 3) [m]."""
@@ -97,9 +108,6 @@ class ViewPage:
     def dots(self, name: str) -> np.ndarray:
         """Return the points of a cloud, (n, 3) [m]."""
         return self.nodes[name]['points'].reshape(-1, 3)
-
-    def _send(self, kind: str, **fields: Any) -> None:
-        self._socket.send(msgspec.msgpack.encode({'type': kind, **fields}))
 
     def _take(self, data: bytes) -> None:
         size = int.from_bytes(data[8:16], 'little')

@@ -34,8 +34,9 @@ def started(*arguments: object) -> Iterator[tuple[str, ViewPage]]:
         preexec_fn=lambda: signal.signal(signal.SIGINT, signal.default_int_handler))
     try:
         line = view.stdout.readline()
-        assert f'http://127.0.0.1:{port}' in line, view.communicate()
-        with ViewPage(port) as page:
+        address = re.search(rf'http://127\.0\.0\.1:{port}/[\w-]{{20,}}', line)
+        assert address, view.communicate()
+        with ViewPage(address[0]) as page:
             yield line, page
         view.send_signal(signal.SIGINT)
         out, errors = view.communicate(timeout=300.0)

@@ -24,8 +24,8 @@ def test_a_browser_draws_the_cloth_and_steers_it(tmp_path: Path):
     """The page would be empty in a browser, or its buttons do nothing."""
     source = SceneSource(SCENE, 'towel', frame_seconds=0.02, is_paused=True)
     source.step(100)
-    with served(source) as port:
-        with Browser(tmp_path, f'http://127.0.0.1:{port}') as browser:
+    with served(source) as address:
+        with Browser(tmp_path, address) as browser:
             browser.wait_for('towel, paused')
             # The first images come before the cloth is there.
             drawn = browser.picture()

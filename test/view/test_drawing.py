@@ -22,7 +22,7 @@ SCENE = Scene({
 def test_the_page_shows_the_colliders_and_moves_them():
     """The cloth would hang over something that nobody sees, or sees elsewhere."""
     source = SceneSource(SCENE, 'small', frame_seconds=0.02, is_paused=True)
-    with served(source) as port, ViewPage(port) as page:
+    with served(source) as address, ViewPage(address) as page:
         page.wait_for(lambda: '/colliders/floor' in page.nodes, 'a floor')
         ball = page.nodes['/colliders/ball']
         np.testing.assert_allclose(ball['position'], (0.1, 0.2, 0.3))
@@ -47,7 +47,7 @@ def test_the_page_tells_grasped_nodes_from_pins():
         'rows': 4, 'cols': 4, 'pins': ['top_left'], 'start.z': 3.0, 'grasps.start': [0.0],
         'grasps.name': ['hand'], 'grasps.position': [0.5, 0.0, 3.0], 'grasps.count': [1]})
     source = SceneSource(scene, 'small', frame_seconds=0.02, is_paused=True)
-    with served(source) as port, ViewPage(port) as page:
+    with served(source) as address, ViewPage(address) as page:
         source.step(1)
         page.wait_for(
             lambda: '/cloth/grasped' in page.nodes and len(page.dots('/cloth/grasped')) == 1,

@@ -28,7 +28,7 @@ def source() -> SceneSource:
 @pytest.fixture
 def page(source: SceneSource) -> Iterator[ViewPage]:
     """Open a page of the scene."""
-    with served(source) as port, ViewPage(port) as page:
+    with served(source) as address, ViewPage(address) as page:
         page.wait_for(lambda: page.text and '/cloth/pins' in page.nodes, 'a cloth')
         yield page
 
@@ -70,7 +70,7 @@ def test_a_click_pushes_along_the_look():
     """A push would go to another place, in another direction or with another force."""
     scene = Scene({**SPRINGS, 'rows': 6, 'cols': 7, 'pins': ['none'], 'gravity': [0.0, 0.0, 0.0]})
     source = SceneSource(scene, 'free', frame_seconds=0.02, is_paused=True)
-    with served(source) as port, ViewPage(port) as page:
+    with served(source) as address, ViewPage(address) as page:
         page.wait_for(lambda: page.text, 'a cloth')
         page.give('Force [N]', 2.0)
         page.give('Radius [m]', 0.25)
@@ -136,7 +136,7 @@ def test_a_recording_has_a_time_and_nothing_to_act_on():
     source = RecordingSource(EXAMPLE)
     source.set_paused(True)
     begin, end = source.span
-    with served(source) as port, ViewPage(port) as page:
+    with served(source) as address, ViewPage(address) as page:
         page.wait_for(lambda: page.text, 'a moment')
         assert not {'Step', 'Reset', 'Mode', 'Click'} & set(page.controls)
         page.give('Time [s]', begin + 0.5)
@@ -148,7 +148,7 @@ def test_a_chain_is_drawn_as_dots():
     """A page without triangles would be empty."""
     scene = Scene({**SPRINGS, 'rows': 1, 'cols': 9, 'start.z': 0.5})
     source = SceneSource(scene, 'chain', frame_seconds=0.02, is_paused=True)
-    with served(source) as port, ViewPage(port) as page:
+    with served(source) as address, ViewPage(address) as page:
         page.wait_for(lambda: '/cloth/nodes' in page.nodes, 'nodes')
         np.testing.assert_allclose(
             page.dots('/cloth/nodes'), scene.rest_positions().reshape(-1, 3), atol=1e-6)

@@ -38,7 +38,7 @@ def source(node: NodeProcess) -> NodeSource:
 @pytest.fixture
 def page(source: NodeSource) -> Iterator[ViewPage]:
     """Open a page of the node."""
-    with served(source) as port, ViewPage(port) as page:
+    with served(source) as address, ViewPage(address) as page:
         page.wait_for(lambda: page.text and '/cloth/pins' in page.nodes, 'a cloth')
         yield page
 

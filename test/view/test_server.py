@@ -6,9 +6,8 @@
 import socket
 
 from cloth_sim_ros.sim.errors import ClothSimError
-from cloth_sim_ros.view.window import address
-from cloth_sim_ros.view.window import LOOPBACK
-from cloth_sim_ros.view.window import open_server
+from cloth_sim_ros.view.server import LOOPBACK
+from cloth_sim_ros.view.server import open_server
 import pytest
 from served_view import free_port
 
@@ -17,7 +16,7 @@ def test_it_listens_on_loopback_alone(capfd):
     """Whoever reaches the machine could steer the cloth, or stdout hold what no result is."""
     port = free_port()
     with open_server(LOOPBACK, port) as server:
-        assert address(server) == f'http://127.0.0.1:{port}'
+        assert server.address.startswith(f'http://127.0.0.1:{port}/')
         socket.create_connection((LOOPBACK, port), 10.0).close()
         # Another address of this machine, as one of the network is.
         with pytest.raises(OSError):
