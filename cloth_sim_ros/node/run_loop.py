@@ -172,8 +172,10 @@ class RunLoop:
         # Pieces of the step under way, and when the slice ends.
         self._work: Pieces | None = None
         self._deadline = 0.0
-        # What a caller of step waits for.
+        # What a caller of step waits for, how many steps it asked for, and the first of them.
         self._answer: Future | None = None
+        self._asked = 0
+        self._asked_from: int | None = None
         self._begin_frame()
         alarm.ring = self._make_slice
         self._alarm = alarm
@@ -208,9 +210,25 @@ class RunLoop:
         if self._simulation.is_ready and (self.running or self._answer is not None):
             self._alarm.ring_in(0.0)
 
-    def pause(self) -> None:
-        """Make no more frames; a step under way comes to its end."""
+    def pause(self) -> str:
+        """
+        Make no more frames or steps; a step of dt under way comes to its end.
+
+        :return: what becomes of a request for steps; empty where there is none
+        """
         self._paused = True
+        if self._answer is None:
+            return ''
+        stepping, answer = self._simulation.stepping, self._answer
+        stepping.at_rest(lambda: self._cut_steps(answer))
+        made = 0 if self._asked_from is None else stepping.edit_step - self._asked_from
+        return f'~/step ends there, after {made} of {self._asked} steps'
+
+    def _cut_steps(self, answer: Future) -> None:
+        # A reset that came first has answered the request already.
+        if self._answer is answer:
+            self._simulation.stepping.drop_aim()
+            self._alarm.ring_in(0.0)
 
     def resume(self) -> None:
         """Make frames again; after a stop, try again from the state that was kept."""
@@ -237,7 +255,8 @@ class RunLoop:
         """
         Begin to make ``steps`` steps of dt.
 
-        :return: done when they are made, with a NonFiniteStateError when one is lost
+        :return: done when they are made, with a NonFiniteStateError when one is lost, or a
+            ClothSimError when a pause or a reset comes before the last
         :raises ClothSimError: while running
         """
         if not self._paused and not self._problem:
@@ -251,6 +270,7 @@ class RunLoop:
             raise ClothSimError(
                 'another caller is stepping: wait until ~/step has responded')
         answer = self._answer = Future()
+        self._asked, self._asked_from = steps, None
         self._paused, self._problem = True, ''
         self._simulation.stepping.at_rest(lambda: self._begin_steps(steps))
         self.start()
@@ -259,6 +279,7 @@ class RunLoop:
     def _begin_steps(self, steps: int) -> None:
         self._begin_frame()
         self._is_frame_open = True
+        self._asked_from = self._first
         try:
             self._simulation.stepping.aim_steps(steps)
         except ClothSimError as error:
@@ -340,7 +361,7 @@ class RunLoop:
         elif steps > 0:
             self._on_frame(worked, steps, False)
         if self._answer is not None:
-            self._end_steps(None)
+            self._end_steps(self._cut_short(steps))
             self._pacing.restart(time.monotonic())
             delay = 0.0
         else:
@@ -349,6 +370,13 @@ class RunLoop:
             self._alarm.ring_in(delay)
         else:
             self._alarm.cancel()
+
+    def _cut_short(self, made: int) -> ClothSimError | None:
+        if made == self._asked:
+            return None
+        return ClothSimError(
+            f'~/pause ended the steps at {self._simulation.time:.6g} s, after {made} of '
+            f'{self._asked}: request the other {self._asked - made} with ~/step')
 
     def _end_steps(self, error: Exception | None) -> None:
         answer, self._answer = self._answer, None

@@ -90,12 +90,14 @@ class RunServices:
         serve_later(node, Trigger, '~/reset', self._on_reset)
 
     def _on_pause(self, request: SetBool.Request, _: SetBool.Response) -> str:
+        time = self._simulation.stepping.edit_time
+        ended = ''
         if request.data:
-            self._run_loop.pause()
+            ended = self._run_loop.pause()
         else:
             self._run_loop.resume()
         self._changed()
-        return f'{self._run_loop.run_state} at {self._simulation.stepping.edit_time:.6g} s'
+        return f'{self._run_loop.run_state} at {time:.6g} s' + (f'; {ended}' if ended else '')
 
     async def _on_step(self, request: Step.Request, response: Step.Response) -> str:
         before = self._run_loop.run_state

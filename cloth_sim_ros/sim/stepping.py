@@ -56,7 +56,12 @@ class Stepping:
     @property
     def edit_time(self) -> float:
         """Return when changes that are asked for now are made [s]."""
-        return (self.step_under_way + 1) * self._dt if self.is_mid_step else self.time
+        return self.edit_step * self._dt
+
+    @property
+    def edit_step(self) -> int:
+        """Return how many steps are made before changes that are asked for now."""
+        return self.step_under_way + 1 if self.is_mid_step else self.steps
 
     @property
     def is_behind(self) -> bool:

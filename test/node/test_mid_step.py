@@ -4,6 +4,7 @@
 """Requests that come while a step is under way: answered at once, done at its end, recorded so."""
 
 from pathlib import Path
+import re
 from signal import SIGINT
 from signal import Signals
 from signal import SIGTERM
@@ -12,6 +13,7 @@ from cloth_sim_interfaces.srv import ApplyPush
 from cloth_sim_interfaces.srv import MovePin
 from cloth_sim_interfaces.srv import SetMode
 from cloth_sim_interfaces.srv import SetPin
+from cloth_sim_interfaces.srv import Step
 from cloth_sim_ros.analysis.recording import Recording
 from cloth_under_test import ClothUnderTest
 from command import cloth_sim
@@ -26,6 +28,9 @@ from std_srvs.srv import Trigger
 # A step takes many slices of the node's work.
 SLOW = {'rows': 40, 'cols': 40, 'dt': 0.02, 'publish.rate': 50.0, 'recording.enabled': True,
         'recording.name': 'slow', 'publish.markers': False}
+
+# Steps that take far longer than it takes to pause.
+MANY = 100000
 
 
 @pytest.mark.parametrize('mode', [
@@ -77,6 +82,39 @@ def test_the_health_is_published_while_a_step_is_under_way(client: GraphClient, 
         frame = cloth.wait_for(
             'stats', lambda stats: stats.sim_time == pytest.approx(time, abs=1e-4))
         assert frame.steps == pytest.approx(time / 0.02)
+
+
+@pytest.mark.parametrize('values', [
+    {'rows': 8, 'cols': 10, 'dt': 0.005}, {**SLOW, 'mode': 'constraint', 'rows': 64, 'cols': 64}],
+    ids=['quick steps', 'slow steps'])
+def test_pause_ends_steps_that_were_asked_for(
+        client: GraphClient, tmp_path: Path, values: dict):
+    """Time would run on for minutes after an answer that says it stands."""
+    values = {**values, 'start_paused': True, 'recording.enabled': False}
+    name = f'/cut_{values["rows"]}/cloth_sim'
+    with NodeProcess(tmp_path, values, '-r', f'__ns:=/cut_{values["rows"]}'):
+        cloth = ClothUnderTest(client, values, name)
+        steps = client.service(Step, f'{name}/step').call_async(Step.Request(steps=MANY))
+        paused = cloth.call(SetBool, 'pause', data=True)
+        # A pause that is served before the steps have begun ends nothing.
+        while 'steps' not in paused.message:
+            assert not steps.done()
+            paused = cloth.call(SetBool, 'pause', data=True)
+        client.spin_until(steps.done, 'the answer to the steps')
+        told = re.fullmatch(
+            rf'paused at (.*) s; ~/step ends there, after (\d+) of {MANY} steps', paused.message)
+        assert told, paused.message
+        made = int(told[2])
+        assert float(told[1]) == pytest.approx(made * cloth.dt, rel=1e-5)
+        answer = steps.result()
+        assert not answer.success and answer.sim_time == pytest.approx(made * cloth.dt)
+        assert answer.message == (
+            f'~/pause ended the steps at {told[1]} s, after {made} of {MANY}: request the other '
+            f'{MANY - made} with ~/step')
+        # Time stands where both say: the next step is the one after it.
+        after = cloth.call(Step, 'step', steps=1)
+        assert after.success and after.sim_time == pytest.approx((made + 1) * cloth.dt)
+        cloth.wait_for('stats', lambda stats: stats.steps == made + 1)
 
 
 @pytest.mark.parametrize('number', [SIGINT, pytest.param(SIGTERM, marks=pytest.mark.long)])
