@@ -16,6 +16,7 @@ from cloth_sim_ros.gl.errors import DeviceError
 from cloth_sim_ros.node.missing_module import way_out
 from cloth_sim_ros.node.shared_memory import frame_bytes
 from cloth_sim_ros.node.shared_memory import reclaim_dead_segments
+from cloth_sim_ros.node.shared_memory import refuse_ros_without_memory
 from cloth_sim_ros.node.shared_memory import use_profile
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.scene_fields import SCENE_FIELDS
@@ -73,6 +74,7 @@ def main(args: Sequence[str] | None = None) -> int:
         # Before ROS starts, and first what gives room to the second.
         reclaimed = reclaim_dead_segments()
         memory = use_profile(frame_bytes(*grid_of_arguments(args)))
+        refuse_ros_without_memory()
         # Imported here, so that a missing ROS or interface package gets an answer as well.
         from cloth_sim_ros.node.process import run_node
         run_node(args, memory, reclaimed)

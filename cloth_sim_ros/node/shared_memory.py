@@ -6,11 +6,14 @@
 from collections.abc import MutableMapping
 from dataclasses import dataclass
 import fcntl
+from importlib.abc import MetaPathFinder
 import os
 from pathlib import Path
 import re
+import resource
 import shutil
 import stat
+import sys
 import time
 
 from cloth_sim_ros.files.regular_file import read_regular
@@ -33,6 +36,12 @@ _FRAMES = 3
 _FAST_DDS = ('', 'rmw_fastrtps_cpp', 'rmw_fastrtps_dynamic_cpp')
 # What Fast DDS takes by itself [bytes]: larger messages are lost to best-effort subscribers.
 _DEFAULT_SEGMENT = 512 << 10
+# Below this [bytes] no segment fits beside what others need, and shared memory is left out.
+_LEAST = 2 * _DEFAULT_SEGMENT
+# Two pages.
+_TRACING_ROOM = 2 * resource.getpagesize()
+_UDP_PROFILE = 'fastdds_large_messages_udp.xml'
+TRANSPORTS = 'FASTDDS_BUILTIN_TRANSPORTS'
 _MOST_PROFILE_BYTES = _MIB
 
 
@@ -56,7 +65,8 @@ class SharedMemory:
 
         :param cloud: size of a cloud [bytes]; 0 when none are sent
         """
-        if self.lack and cloud > self.segment:
+        # UDP brings whole what the default segment would.
+        if self.lack and cloud > (self.segment or _DEFAULT_SEGMENT):
             return (
                 f'a point cloud has {cloud / 1e6:.2g} MB but Fast DDS only '
                 f'{self.segment / 1e6:.2g} MB of shared memory, so best-effort subscribers will '
@@ -90,13 +100,15 @@ def use_profile(
         return SharedMemory(_DEFAULT_SEGMENT, (
             f'{implementation} does not use Fast DDS profiles: give it larger buffers, or set '
             'RMW_IMPLEMENTATION=rmw_fastrtps_cpp'))
+    room = _free_memory() if free is None else free
     if VARIABLE in environment:
-        return _memory_of(environment[VARIABLE])
-    transports = environment.get('FASTDDS_BUILTIN_TRANSPORTS', 'DEFAULT')
+        lack = leave_out_memory(environment, room)
+        return SharedMemory(0, lack, is_full=True) if lack else _memory_of(environment[VARIABLE])
+    transports = environment.get(TRANSPORTS, 'DEFAULT')
     if transports != 'DEFAULT':
         return SharedMemory(_DEFAULT_SEGMENT, '' if transports.startswith('LARGE_DATA') else (
-            f'FASTDDS_BUILTIN_TRANSPORTS is {transports}: unset it, or set LARGE_DATA'))
-    return _fitting(frame, environment, _free_memory() if free is None else free)
+            f'{TRANSPORTS} is {transports}: unset it, or set LARGE_DATA'))
+    return _fitting(frame, environment, room)
 
 
 def _fitting(frame: int, environment: MutableMapping[str, str], free: int) -> SharedMemory:
@@ -106,15 +118,76 @@ def _fitting(frame: int, environment: MutableMapping[str, str], free: int) -> Sh
     fitting = [
         profile for profile in _PROFILES if profile[0] <= wanted and 2 * profile[0] <= free]
     segment = _DEFAULT_SEGMENT
+    if free < _LEAST:
+        environment[VARIABLE] = str(shared_directory('config') / _UDP_PROFILE)
+        return SharedMemory(0, _lack(free, 2 * wanted, 'is left out'), is_full=True)
     if fitting:
         segment, name = fitting[-1]
         environment[VARIABLE] = str(shared_directory('config') / name)
     # A reader that keeps up takes the parts of a frame out while the others come in.
     if segment == wanted or fitting and segment >= frame:
         return SharedMemory(segment)
-    return SharedMemory(segment, (
-        f'/dev/shm has {free / _MIB:.0f} MiB free and {2 * wanted // _MIB} MiB are needed for the '
-        'shared memory of Fast DDS: free some, or raise --shm-size of a container'), is_full=True)
+    return SharedMemory(segment, _lack(free, 2 * wanted, 'is smaller'), is_full=True)
+
+
+def _lack(free: int, needed: int, outcome: str) -> str:
+    return (
+        f'/dev/shm has {free / _MIB:.3g} MiB free and {needed // _MIB} MiB are needed for the '
+        f'shared memory of Fast DDS, which {outcome}: free some, or raise --shm-size of a '
+        'container')
+
+
+def leave_out_memory(
+        environment: MutableMapping[str, str] = os.environ, free: int | None = None) -> str:
+    """
+    Have Fast DDS do without shared memory where there is no room for it.
+
+    A profile with transports of its own is not changed by that; Fast DDS then prints that it
+    could not make a segment, and uses the other transports.
+
+    :param free: room in /dev/shm [bytes]; by default what there is
+    :return: what to warn of; empty when there is room, or something else was chosen
+    """
+    room = _free_memory() if free is None else free
+    if room >= _LEAST or environment.get('RMW_IMPLEMENTATION', '') not in _FAST_DDS:
+        return ''
+    if environment.setdefault(TRANSPORTS, 'UDPv4') not in ('DEFAULT', 'UDPv4'):
+        return ''
+    environment[TRANSPORTS] = 'UDPv4'
+    return _lack(room, _LEAST, 'is left out')
+
+
+class _NoRoomForTracing(MetaPathFinder):
+    """Refuses to load ROS."""
+
+    def find_spec(self, fullname: str, path: object = None, target: object = None) -> None:
+        if fullname.partition('.')[0] == 'rclpy':
+            raise ClothSimError(
+                f'{SHARED_MEMORY} is full, and loading ROS would end this process, as its tracing '
+                f'(LTTng) needs {_TRACING_ROOM} bytes there: free some, or raise --shm-size of a '
+                'container')
+
+
+def refuse_ros_without_memory(free: int | None = None, folder: Path | None = None) -> None:
+    """
+    Let imports of ROS raise ClothSimError where they would end the process.
+
+    The tracing of ROS maps two files in /dev/shm when it is loaded and reads them on a thread of
+    its own. Without room for their pages, that is a SIGBUS.
+
+    :param free: room in /dev/shm [bytes]; by default what there is
+    :param folder: where the files lie
+    """
+    room = _free_memory() if free is None else free
+    if room < _TRACING_ROOM and not _has_tracing_files(folder or SHARED_MEMORY):
+        sys.meta_path.insert(0, _NoRoomForTracing())
+
+
+def _has_tracing_files(folder: Path) -> bool:
+    """Tell whether the files of all users and of this one are there, with their pages."""
+    own = f'-{os.getuid()}'
+    found = [path for path in folder.glob('lttng-ust-wait-*') if path.stat().st_blocks]
+    return len({path.name.endswith(own) for path in found}) == 2
 
 
 def _memory_of(profile: str) -> SharedMemory:

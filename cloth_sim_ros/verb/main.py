@@ -23,6 +23,7 @@ from cloth_sim_ros.files.errors import cut
 from cloth_sim_ros.files.errors import shown
 from cloth_sim_ros.gl.errors import DeviceError
 from cloth_sim_ros.node.missing_module import way_out
+from cloth_sim_ros.node.shared_memory import refuse_ros_without_memory
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.verb.termination import interruptible
 from cloth_sim_ros.verb.termination import Terminated
@@ -78,6 +79,8 @@ def main(argv: Sequence[str] | None = None) -> int:
         return _no_verb(arguments)
     name, *rest = arguments
     try:
+        # Many verbs use ROS, some of them for messages alone, and load it here or later.
+        refuse_ros_without_memory()
         verb = import_module(f'cloth_sim_ros.verb.{name}')
         parser = _Parser(
             prog=f'cloth_sim {name}', description=verb.__doc__,

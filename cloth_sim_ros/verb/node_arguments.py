@@ -9,6 +9,8 @@ import os
 import sys
 from typing import TYPE_CHECKING
 
+from cloth_sim_ros.node.shared_memory import leave_out_memory
+
 if TYPE_CHECKING:
     from cloth_sim_ros.verb.node_client import NodeClient
 
@@ -30,7 +32,15 @@ def open_node(args: Namespace) -> 'NodeClient':
     # A verb may do without a node, and then without ROS.
     from cloth_sim_ros.verb.node_client import NodeClient
     _keep_stdout_for_answers()
+    use_the_memory_there_is()
     return NodeClient(args.node, args.timeout)
+
+
+def use_the_memory_there_is() -> None:
+    """Do without shared memory where there is no room for it, and say so; before ROS starts."""
+    lack = leave_out_memory()
+    if lack:
+        print(f'cloth_sim: {lack}', file=sys.stderr)
 
 
 def _keep_stdout_for_answers() -> None:

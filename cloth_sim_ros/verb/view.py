@@ -24,6 +24,7 @@ import time
 
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.verb.node_arguments import add_node_arguments
+from cloth_sim_ros.verb.node_arguments import use_the_memory_there_is
 from cloth_sim_ros.verb.scene_arguments import add_tuning_argument
 from cloth_sim_ros.verb.scene_arguments import parse_change
 from cloth_sim_ros.verb.scene_arguments import scene_from
@@ -97,4 +98,5 @@ def _source(args: Namespace) -> Source:
         recording.set_paused(args.paused)
         return recording
     from cloth_sim_ros.view.ros.node_source import NodeSource
+    use_the_memory_there_is()
     return NodeSource(args.node, args.timeout)

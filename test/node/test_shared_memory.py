@@ -16,10 +16,12 @@ from cloth_sim_interfaces.srv import Step
 from cloth_sim_ros.gl.shared_directory import shared_directory
 from cloth_sim_ros.node.shared_memory import cloud_bytes
 from cloth_sim_ros.node.shared_memory import frame_bytes
+from cloth_sim_ros.node.shared_memory import leave_out_memory
 from cloth_sim_ros.node.shared_memory import reclaim_dead_segments
 from cloth_sim_ros.node.shared_memory import Reclaimed
 from cloth_sim_ros.node.shared_memory import SHARED_MEMORY
 from cloth_sim_ros.node.shared_memory import SharedMemory
+from cloth_sim_ros.node.shared_memory import TRANSPORTS
 from cloth_sim_ros.node.shared_memory import use_profile
 from cloth_sim_ros.node.shared_memory import VARIABLE
 from node_process import NodeProcess
@@ -138,6 +140,28 @@ def test_a_full_memory_is_told_with_numbers(free):
     told = use_profile(frame_bytes(256, 256), {}, free).warning(cloud_bytes(256**2))
     assert f'/dev/shm has {free / MIB:.0f} MiB free and 64 MiB are needed' in told
     assert 'free some, or raise --shm-size of a container' in told
+
+
+@pytest.mark.parametrize('free', [0, MIB - 1])
+def test_without_room_shared_memory_is_left_out(free):
+    """Fast DDS would try, and print errors; other processes would find no room for theirs."""
+    environment = {}
+    memory = use_profile(frame_bytes(4, 4), environment, free)
+    root = ElementTree.parse(environment[VARIABLE]).getroot()
+    assert [kind.text for kind in root.iterfind('.//{*}type')] == ['UDPv4']
+    assert memory.segment == 0 and 'is left out: free some' in memory.warning(1)
+    assert 'best-effort subscribers will miss some' in memory.warning(600_000)
+    assert leave_out_memory(environment := {}, free) and environment == {TRANSPORTS: 'UDPv4'}
+    own = {VARIABLE: '/nowhere.xml'}
+    assert 'is left out' in use_profile(1, own, free).lack and own[TRANSPORTS] == 'UDPv4'
+
+
+@pytest.mark.parametrize('environment', [
+    {}, {TRANSPORTS: 'LARGE_DATA'}, {'RMW_IMPLEMENTATION': 'rmw_cyclonedds_cpp'}])
+def test_with_room_or_a_choice_nothing_is_left_out(environment):
+    """Verbs would speak of memory that is there, or undo what the user has chosen."""
+    given = dict(environment)
+    assert leave_out_memory(environment, 0 if given else MIB) == '' and environment == given
 
 
 @pytest.mark.parametrize('points', [True, False])
