@@ -46,6 +46,12 @@ def end_with_launch() -> list[str]:
 
 def simulator(context: LaunchContext) -> list[Node]:
     """Return the node; an argument that was not given leaves the params file its say."""
+    params_file = LaunchConfiguration('params_file').perform(context)
+    # Launch passes on what is no file as a warning, and the node would start with its defaults.
+    if not os.path.isfile(params_file):
+        raise RuntimeError(
+            f'params_file:={params_file} is not a file: give the path of a ROS parameter file, '
+            f'absolute or from {os.getcwd()}')
     given = {}
     mode = LaunchConfiguration('mode').perform(context)
     if mode != AS_IN_FILE:
@@ -60,7 +66,7 @@ def simulator(context: LaunchContext) -> list[Node]:
         name='cloth_sim',
         namespace=LaunchConfiguration('namespace'),
         output='screen',
-        parameters=[LaunchConfiguration('params_file')] + ([given] if given else []),
+        parameters=[params_file] + ([given] if given else []),
         remappings=[CLICKS],
         prefix=[LaunchConfiguration('launch-prefix', default=''), ' ', *end_with_launch()],
         on_exit=Shutdown(reason='the simulator has ended'),

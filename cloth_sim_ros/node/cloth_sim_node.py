@@ -5,6 +5,7 @@
 
 from collections.abc import Callable
 from collections.abc import Sequence
+from pathlib import Path
 import time
 from typing import Any
 import warnings
@@ -44,6 +45,7 @@ from cloth_sim_ros.node.targets import MoveServices
 from cloth_sim_ros.node.targets import PinService
 from cloth_sim_ros.node.targets import PinTargets
 from cloth_sim_ros.node.targets import PoseStreams
+from cloth_sim_ros.recording.bag_folder import fresh_name
 from cloth_sim_ros.recording.bag_folder import RecordingOptions
 from cloth_sim_ros.recording.recording_faults import RecordingError
 from cloth_sim_ros.recording.recording_faults import RecordingFull
@@ -153,7 +155,7 @@ class ClothSimNode(GuardedNode):
         scene = simulation.scene
         self._outlet.send('topology', lambda: serialise_topology(scene), simulation.time)
         if self._values['recording.enabled']:
-            self._start_recording(self._values['recording.name'])
+            self._start_first_recording()
         else:
             self._state.send()
         sent = cloud_bytes(scene.node_count) if self._values['publish.points'] else 0
@@ -192,6 +194,16 @@ class ClothSimNode(GuardedNode):
         RecordingServices(
             self, self._simulation, self._recording, start=self._start_recording,
             changed=self._state.send)
+
+    def _start_first_recording(self) -> None:
+        directory, name = self._values['recording.directory'], self._values['recording.name']
+        fresh = fresh_name(directory, name) if name else ''
+        path = self._start_recording(fresh)
+        # As with a launch that starts a node again after it was killed.
+        if fresh != name:
+            self.get_logger().warning(
+                f'{Path(path).with_name(name)} already exists, and no recording is overwritten: '
+                f'recording to {path} instead')
 
     def _start_recording(self, name: str) -> str:
         path = self._recording.start(name)

@@ -32,7 +32,8 @@ NODE_FIELDS = (
           'transforms on /tf and /tf_static'),
     Field('recording.directory', str, 'bags', 'directory in which recordings are created'),
     Field('recording.enabled', bool, False, 'start recording when the node starts'),
-    Field('recording.name', str, '', 'name of that recording; empty to generate one'),
+    Field('recording.name', str, '', 'name of that recording, with a number appended '
+          'where it is taken; empty to generate one'),
     Field('recording.max_bagfile_size', int, 0, 'size at which a recording is split into a '
           'new file, at least 1 MiB; 0 for no limit', 'bytes', low=0, high=10**15),
     Field('recording.max_bagfile_duration', float, 0.0, 'duration after which a recording is '

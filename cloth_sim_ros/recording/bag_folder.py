@@ -6,6 +6,7 @@
 from collections.abc import Mapping
 from dataclasses import dataclass
 from datetime import datetime
+from itertools import count
 import os
 from pathlib import Path
 import re
@@ -85,6 +86,14 @@ def make_bag_folder(
         return _make_named(parent / name) if name else _make_dated(parent)
     except OSError as error:
         raise refusal(parent, error, setting) from error
+
+
+def fresh_name(directory: str | os.PathLike[str], name: str) -> str:
+    """Return ``name`` or, where it is taken in ``directory``, ``name`` with a number."""
+    folder = Path(directory).expanduser()
+    return next(
+        candidate for candidate in (f'{name}_{number}' if number else name for number in count())
+        if not os.path.lexists(folder / candidate))
 
 
 def sync_file(path: Path) -> None:

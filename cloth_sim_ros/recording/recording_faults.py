@@ -107,8 +107,9 @@ def nothing_flushed(path: Path, finding: str) -> ClothSimError:
     :param finding: what is there in place of a recording, behind the path
     """
     return ClothSimError(
-        f'{path} {finding}, as it was truncated before the first flush, within a second of its '
-        'start: give another recording, or read it later if it is being recorded')
+        f'{path} {finding}: its writer was killed before the first flush, or messages were '
+        'cut off or removed since; give another recording, or read it later if it is being '
+        'recorded')
 
 
 def refusal(folder: Path, error: Exception, setting: str) -> ClothSimError:

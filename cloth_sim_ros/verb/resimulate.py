@@ -18,12 +18,11 @@ from argparse import ArgumentParser
 from argparse import Namespace
 from contextlib import AbstractContextManager
 from contextlib import nullcontext
-from itertools import count
-from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
 
 from cloth_sim_ros.node.node_fields import NODE_FIELDS
+from cloth_sim_ros.recording.bag_folder import fresh_name
 from cloth_sim_ros.recording.bag_metadata import project_version
 from cloth_sim_ros.resimulation.input_replay import Listener
 from cloth_sim_ros.resimulation.recorded_run import recorded_version
@@ -39,15 +38,6 @@ from cloth_sim_ros.verb.recording_arguments import add_recording_arguments
 from cloth_sim_ros.verb.recording_arguments import open_recording
 from cloth_sim_ros.verb.scene_arguments import parse_change
 from tqdm import tqdm
-
-
-def fresh_name(directory: str | Path, name: str) -> str:
-    """Return ``name`` or, where it is taken in ``directory``, ``name`` with a number."""
-    folder = Path(directory).expanduser()
-    return next(
-        candidate for candidate in (f'{name}_{number}' if number else name for number in count())
-        if not (folder / candidate).exists())
-
 
 _BAR = '{percentage:3.0f}% |{bar}| {n}/{total} frames{postfix}'
 

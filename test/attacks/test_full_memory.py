@@ -14,7 +14,7 @@ import pytest
 _PRIVATE = ('unshare', '--mount', 'bash', '-c')
 _MOUNT = 'mount -t tmpfs -o size=$0k tmpfs /dev/shm || exit 99\n'
 # What a node says of itself, what a verb says of it, and how both end.
-_TRIAL = _MOUNT + '''
+_TRIAL = _MOUNT + """
 "$1" -m cloth_sim_ros.node --ros-args -p rows:=4 -p cols:=4 -r __ns:=/full &
 node=$!
 "$1" -m cloth_sim_ros.verb status --node full/cloth_sim --timeout 100
@@ -22,8 +22,8 @@ echo "status ended with $?"
 kill -INT $node
 wait $node
 echo "node ended with $?"
-'''
-_FULL = _MOUNT + '''
+"""
+_FULL = _MOUNT + """
 head -c 1M /dev/zero > /dev/shm/filler 2>/dev/null
 for module in "node" "verb status" "verb pause" "verb play bags/example"; do
   "$1" -m cloth_sim_ros.$module
@@ -31,7 +31,7 @@ for module in "node" "verb status" "verb pause" "verb play bags/example"; do
 done
 "$1" -m cloth_sim_ros.verb run config/towel.yaml --set rows=4 --set cols=4 --seconds 0.1
 echo "run ended with $?"
-'''
+"""
 SIZES = [8, 64, 600, *(
     pytest.param(size, marks=pytest.mark.long)
     for size in (12, 16, 24, 100, 300, 540, 548, 552, 560, 604, 608, 656, 800, 1020, 1200, 1600))]

@@ -153,3 +153,23 @@ def test_a_hundred_killed_nodes(tmp_path, client, seed):
     files = shared_memory_files()
     attack(tmp_path / 'others', client, seed + 1, 80)
     print(f'{files} files in shared memory after 20 kills, {shared_memory_files()} after 100')
+
+
+@pytest.mark.parametrize('kills', [3, pytest.param(30, marks=pytest.mark.long)])
+def test_a_fixed_name_survives_kills(kills, tmp_path, seed):
+    """A node that is started again with a name that is taken would end, or overwrite it."""
+    drawn = random.Random(seed)
+    parameters = {**PARAMETERS, 'recording.name': 'fixed'}
+    bags, kept = tmp_path / 'bags', {}
+    for number in range(kills):
+        folder = bags / (f'fixed_{number}' if number else 'fixed')
+        with NodeProcess(tmp_path, parameters, '-r', '__ns:=/fixed') as node:
+            while not list(folder.glob('*.mcap')):
+                assert node.running, node.output
+                time.sleep(0.01)
+            time.sleep(drawn.uniform(0.0, 1.5))
+            node.send(signal.SIGKILL)
+            assert node.wait() == -signal.SIGKILL, node.output
+        kept.update({file: file.read_bytes() for file in folder.iterdir()})
+        assert all(file.read_bytes() == content for file, content in kept.items())
+    assert len(list(bags.iterdir())) == kills

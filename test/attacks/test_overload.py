@@ -4,6 +4,7 @@
 """More requests at once than a node can answer at once."""
 
 from collections.abc import Callable
+import random
 from typing import Any
 
 from cloth_sim_interfaces.msg import ClothState
@@ -100,3 +101,28 @@ def test_a_frame_that_takes_too_long_starves_nobody(client, tmp_path, mode):
 
 def _is_done(future: Any) -> bool:
     return future.done()
+
+
+@pytest.mark.parametrize('rounds', [5, pytest.param(200, marks=pytest.mark.long)])
+def test_pauses_end_steps_wherever_they_come(cloth, rounds, seed):
+    """Time would run on after an answer that says it stands, for as long as steps were asked."""
+    drawn = random.Random(seed)
+    cloth.call(SetBool, 'pause', data=True)
+    service = cloth.client.service(Step, f'{cloth.name}/step')
+    for _ in range(rounds):
+        asked = drawn.choice([1, 7, 500, 20_000, 100_000])
+        begin = cloth.call(Step, 'step', steps=1).sim_time
+        steps = service.call_async(Step.Request(steps=asked))
+        cloth.client.spin_for(drawn.uniform(0.0, 0.1))
+        told = ''
+        while not steps.done() and 'ends there' not in told:
+            told = cloth.call(SetBool, 'pause', data=True).message
+        cloth.client.spin_until(steps.done, 'the answer to the steps')
+        answer = steps.result()
+        made = round((answer.sim_time - begin) / cloth.dt)
+        assert answer.success == (made == asked), answer.message
+        if not answer.success:
+            assert f'after {made} of {asked} steps' in told, (told, answer.message)
+            assert f'after {made} of {asked}: request the other' in answer.message
+        after = cloth.call(Step, 'step', steps=1).sim_time
+        assert after == pytest.approx(answer.sim_time + cloth.dt)

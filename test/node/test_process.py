@@ -4,6 +4,7 @@
 """The end of the node: asked to stop, it closes its recording and leaves with exit code 0."""
 
 from signal import SIGINT
+from signal import SIGKILL
 from signal import SIGTERM
 import time
 
@@ -67,6 +68,26 @@ def test_a_tuning_that_is_none_is_warned_of(monkeypatch, tmp_path):
         assert node.wait() == 0, node.output
     warning, = (line for line in node.output.splitlines() if 'is not the tuning of' in line)
     assert warning.startswith('[WARN] ') and warning.endswith('or set CLOTH_SIM_TUNING=off')
+
+
+def test_a_node_started_again_records_beside_what_is_there(tmp_path):
+    """A launch that starts a killed node again would end, and no recording be made any more."""
+    paths = [tmp_path / 'bags' / name for name in ('run', 'run_1', 'run_2')]
+    kept = {}
+    for number, path in enumerate(paths):
+        with NodeProcess(tmp_path, RECORDING, '-r', '__ns:=/again') as node:
+            while node.running and not list(path.glob('*.mcap')):
+                time.sleep(0.01)
+            while node.running and ' nodes in mode ' not in node.output:
+                time.sleep(0.01)
+            node.send(SIGKILL)
+            assert node.wait() == -SIGKILL, node.output
+        told = f'{paths[0]} already exists, and no recording is overwritten: recording to {path}'
+        assert (told in node.output) == (number > 0), node.output
+        for file, content in kept.items():
+            assert file.read_bytes() == content
+        kept.update({file: file.read_bytes() for file in path.iterdir()})
+    assert sorted(path.name for path in (tmp_path / 'bags').iterdir()) == ['run', 'run_1', 'run_2']
 
 
 def test_an_interrupt_while_starting_is_a_clean_stop(tmp_path):

@@ -5,6 +5,7 @@
 """Asking what a recording holds."""
 
 from pathlib import Path
+import shutil
 
 from cloth_sim_ros.verb.main import main
 import pytest
@@ -51,7 +52,7 @@ def test_a_recording_cut_off_in_its_first_chunk_is_told_so(
     capsys.readouterr()
     assert main([arguments[0], 'cut.mcap', *arguments[1:]]) == 1
     said = capsys.readouterr().err
-    assert 'as it was truncated before the first flush' in said
+    assert 'its writer was killed before the first flush' in said
     assert 'publish.points' not in said and 'Traceback' not in said
 
 
@@ -66,7 +67,22 @@ def test_the_folder_of_a_recording_that_never_got_anything_is_told_so(
         (tmp_path / 'small' / name).touch()
     arguments = {'render': ('--out', 'picture.png')}.get(verb, ())
     assert main([verb, 'small', *arguments]) == 1
-    assert 'as it was truncated before the first flush' in capsys.readouterr().err
+    assert 'its writer was killed before the first flush' in capsys.readouterr().err
+
+
+@pytest.mark.parametrize('how', ['removed', 'emptied'])
+def test_what_was_removed_later_is_not_called_a_kill(recorded, tmp_path, capsys, how):
+    """A user whose file was removed after minutes would look for a crash in the first second."""
+    folder = tmp_path / 'lost'
+    shutil.copytree(recorded.parent, folder)
+    file = folder / recorded.name
+    if how == 'removed':
+        file.unlink()
+    else:
+        file.write_bytes(b'')
+    assert main(['info', str(folder)]) == 1
+    said = capsys.readouterr().err
+    assert 'or messages were cut off or removed since' in said and 'within a second' not in said
 
 
 def test_says_what_is_wrong_with_a_recording(tmp_path, capsys):
