@@ -44,7 +44,11 @@ def main() -> None:
             ignore_cleanup_errors=True) as folder:
         with Browser(Path(folder), address, _WINDOW) as browser:
             browser.wait_for('towel, paused')
-            Image.open(io.BytesIO(browser.picture())).crop(_SHOWN).save(path)
+            # The panel opens in several images.
+            picture, before = browser.picture(), b''
+            while picture != before:
+                picture, before = browser.picture(), picture
+            Image.open(io.BytesIO(picture)).crop(_SHOWN).save(path)
 
 
 if __name__ == '__main__':

@@ -8,6 +8,7 @@ from functools import lru_cache
 import math
 from pathlib import Path
 
+from cloth_sim_ros.analysis.strain_stops import STRAIN_STOPS
 from cloth_sim_ros.gl.program import RenderProgram
 from cloth_sim_ros.rendering.camera import View
 from cloth_sim_ros.sim.errors import ClothSimError
@@ -63,9 +64,8 @@ def set_light(program: RenderProgram, view: View) -> None:
 _LEAST_STRAIN, _MOST = 1e-6, 1e3
 _BINS = 2000
 PALETTE_SIZE = 256
-# Light at rest: folds are seen by their shade, which a dark colour would hide.
 _COLORS = LinearSegmentedColormap.from_list(
-    'strain', ('#c3d3e8', '#e6dfae', '#f4b942', '#e0632b', '#9c1429'), N=PALETTE_SIZE)
+    'strain', [tuple(part / 255 for part in color) for color in STRAIN_STOPS], N=PALETTE_SIZE)
 _SHARE = 0.995        # of the nodes whose strain the colours tell apart
 _LEAST = 1e-3
 _STEPS = (1.0, 2.0, 5.0)

@@ -6,10 +6,10 @@
 from collections.abc import Callable
 from typing import Any
 
+from cloth_sim_ros.analysis.collider_surface import ground
 from cloth_sim_ros.analysis.collider_surface import local_surface
 from cloth_sim_ros.analysis.frame import Frame
-from cloth_sim_ros.messages.geometry import FULL_STRAIN
-from cloth_sim_ros.messages.geometry import strain_colors
+from cloth_sim_ros.analysis.strain_stops import strain_rgb
 from cloth_sim_ros.messages.geometry import triangles
 from cloth_sim_ros.sim.colliders import Collider
 from cloth_sim_ros.view.source import Source
@@ -40,7 +40,8 @@ class ClothDrawing:
         self._bands = [
             self._scene.add_mesh_simple(
                 f'/cloth/strain_{band}', _NO_VERTICES, _NO_FACES, color=color, side='double',
-                visible=False)
+                # A thin sheet would be striped by its own shadow.
+                receive_shadow=False, visible=False)
             for band, color in enumerate(band_colors())]
 
     def draw(self, frame: Frame, full_strain: float) -> None:
@@ -60,8 +61,7 @@ class ClothDrawing:
             if mesh is not None:
                 handle.vertices, handle.faces = mesh
         if not len(self.surface.faces):
-            strain = self.surface.strain(frame) * (FULL_STRAIN / full_strain)
-            colors = (255 * strain_colors(strain)[:, :3]).astype(np.uint8)
+            colors = strain_rgb(self.surface.strain(frame) / full_strain)
             self._add_dots('/cloth/nodes', self.surface.points(frame), colors)
         for name, nodes, color in (
                 ('pins', frame.pinned & ~frame.grasped, _PIN_COLOR),
@@ -75,6 +75,50 @@ class ClothDrawing:
         self._scene.add_point_cloud(
             name, points, colors, point_size=self._size, point_shape='circle',
             precision='float32', visible=len(points) > 0)
+
+
+# The floor and the lamp.
+
+_FLOOR_COLOR = (243, 241, 238)
+_GRID_COLOR = (204, 204, 204)
+# From the lowest node to the floor, and how far the floor reaches, in diagonals of the cloth.
+_BELOW, _FLOOR = 0.08, 8.0
+# Cells of the floor along a diagonal.
+_CELLS = 4
+# Towards the lamp: to the left of where a page first looks from, and above.
+_LAMP = np.array((-0.7, -1.0, 1.0))
+_LAMP_INTENSITY, _SKY_INTENSITY = 2.8, 1.3
+_SKY, _GROUND = (255, 255, 255), (205, 200, 195)
+
+
+def draw_surroundings(
+        scene: viser.SceneApi, positions: np.ndarray, colliders: tuple[Collider, ...]) -> None:
+    """
+    Add a lamp and, where no level plane is one, a floor below the cloth.
+
+    :param positions: of the cloth as it is first shown, (..., 3) [m]
+    """
+    points = positions.reshape(-1, 3)
+    points = points[np.isfinite(points).all(axis=1)]
+    size = max(float(np.linalg.norm(np.ptp(points, axis=0))), 1e-3) if len(points) else 1.0
+    middle = points.mean(axis=0) if len(points) else np.zeros(3)
+    # Its own lights would be added to these, and leave no shade in folds.
+    scene.configure_default_lights(False)
+    scene.configure_environment_map(None)
+    scene.add_light_hemisphere(
+        '/lights/sky', sky_color=_SKY, ground_color=_GROUND, intensity=_SKY_INTENSITY)
+    scene.add_light_directional(
+        '/lights/lamp', intensity=_LAMP_INTENSITY, cast_shadow=True,
+        position=tuple((middle + 2.0 * size * _LAMP).tolist()))
+    level = ground(colliders)
+    if level is None:
+        hangs = float(points[:, 2].min()) if len(points) else 0.0
+        level = hangs - _BELOW * size
+    scene.add_grid(
+        '/floor', width=_FLOOR * size, height=_FLOOR * size, cell_size=size / _CELLS,
+        section_size=size / _CELLS, cell_color=_GRID_COLOR, section_color=_GRID_COLOR,
+        plane_color=_FLOOR_COLOR, plane_opacity=1.0, shadow_opacity=0.25,
+        position=(float(middle[0]), float(middle[1]), level))
 
 
 # What the cloth can touch, in the scene of a page.

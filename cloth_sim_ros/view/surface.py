@@ -7,8 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from cloth_sim_ros.analysis.frame import Frame
-from cloth_sim_ros.messages.geometry import FULL_STRAIN
-from cloth_sim_ros.messages.geometry import strain_colors
+from cloth_sim_ros.analysis.strain_stops import strain_rgb
 from cloth_sim_ros.messages.geometry import triangles
 import numpy as np
 
@@ -69,9 +68,8 @@ class Surface:
 
 
 def band_colors() -> list[tuple[int, int, int]]:
-    """Return red, green and blue from 0 to 255 of each band, as markers have them."""
-    middles = (np.arange(BANDS) + 0.5) / BANDS * FULL_STRAIN
-    return [tuple(color) for color in (255 * strain_colors(middles)[:, :3]).astype(int).tolist()]
+    """Return red, green and blue from 0 to 255 of each band, as pictures have them."""
+    return [tuple(color) for color in strain_rgb((np.arange(BANDS) + 0.5) / BANDS).tolist()]
 
 
 def _thinned(count: int) -> np.ndarray:

@@ -9,6 +9,7 @@ from typing import Any
 from cloth_sim_ros.view.controls import Controls
 from cloth_sim_ros.view.drawing import ClothDrawing
 from cloth_sim_ros.view.drawing import ColliderDrawing
+from cloth_sim_ros.view.drawing import draw_surroundings
 from cloth_sim_ros.view.drawing import PinHandles
 from cloth_sim_ros.view.server import do_for
 from cloth_sim_ros.view.server import ViewServer
@@ -45,6 +46,8 @@ class Window:
             return
         if self._shown is None:
             self._look_at(moment)
+            draw_surroundings(
+                self._server.scene, moment.frame.positions, moment.frame.colliders)
         is_new = self._shown is None or moment.frame is not self._shown.frame
         # First, so that a click on what a page shows means that.
         self._shown = moment

@@ -140,7 +140,8 @@ class ViewPage:
             self._by_uuid[message['uuid']] = {
                 **message['props'], 'uuid': message['uuid'], 'value': message.get('value')}
         elif name is not None and 'props' in message:
-            self.nodes[name] = {'visible': True, **message['props']}
+            self.nodes[name] = {
+                'visible': True, 'position': (0.0, 0.0, 0.0), **message['props']}
 
 
 def _with_arrays(value: Any, arrays: list[bytes]) -> Any:

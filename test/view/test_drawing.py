@@ -53,3 +53,20 @@ def test_the_page_tells_grasped_nodes_from_pins():
             lambda: '/cloth/grasped' in page.nodes and len(page.dots('/cloth/grasped')) == 1,
             'a node that is held')
         assert len(page.dots('/cloth/pins')) == 1
+
+
+def test_a_lamp_and_a_floor_show_where_the_cloth_is():
+    """A cloth in the void has no depth, and its folds no shade."""
+    free = Scene({'rows': 4, 'cols': 4, 'start.z': 3.0})
+    for scene, level in ((free, None), (SCENE, 0.0)):
+        source = SceneSource(scene, 'small', frame_seconds=0.02, is_paused=True)
+        lowest = float(source.latest().frame.positions[..., 2].min())
+        with served(source) as address, ViewPage(address) as page:
+            page.wait_for(lambda: '/floor' in page.nodes, 'a floor')
+            page.wait_for(lambda: '/lights/lamp' in page.nodes, 'a lamp')
+            page.wait_for(
+                lambda: page.nodes['/lights/lamp']['position'][2] > lowest, 'a lamp above it')
+            page.wait_for(
+                lambda: page.nodes['/floor']['position'][2] < lowest, 'a floor below it')
+            if level is not None:
+                assert page.nodes['/floor']['position'][2] == level

@@ -5,6 +5,8 @@
 
 from cloth_sim_ros.analysis.frame import Frame
 from cloth_sim_ros.messages.geometry import triangles
+from cloth_sim_ros.rendering.look import StrainRange
+from cloth_sim_ros.rendering.look import StrainScale
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.snapshot import POINT_DTYPE
 from cloth_sim_ros.view.surface import band_colors
@@ -67,6 +69,16 @@ def test_a_large_cloth_is_thinned_and_keeps_its_edges():
 def test_each_band_has_a_colour_of_its_own():
     """Two strains could not be told apart."""
     assert len(set(band_colors())) == BANDS
+
+
+def test_the_colours_are_those_of_pictures():
+    """The same strain would have one colour in the view and another in a picture."""
+    strains = StrainRange()
+    strains.add(np.array([0.0, 0.1]))
+    middles = (np.arange(BANDS) + 0.5) / BANDS
+    pictured = 255 * StrainScale(strains, 1.0).colors(middles)[:, :3]
+    # Pictures have 256 colours, which differ by up to 3.
+    np.testing.assert_allclose(band_colors(), pictured, atol=2.0)
 
 
 # A ray meets the cloth where geometry says.
