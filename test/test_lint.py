@@ -195,15 +195,6 @@ def test_license_header():
     assert not without
 
 
-def test_no_file_is_long():
-    """A file would hold more than one purpose."""
-    long = {
-        str(path.relative_to(ROOT)): count
-        for path in files_in(HEADED_PLACES, ('.c', '.py', '.sh', '.comp', '.glsl'))
-        if (count := len(path.read_text(encoding='utf-8').splitlines())) > 400}
-    assert not long
-
-
 def test_every_test_says_what_it_shows():
     """A failing test would not tell what is wrong."""
     silent = [
