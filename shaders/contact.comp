@@ -9,6 +9,7 @@
 #include "state_in.glsl"
 #include "contact.glsl"
 #include "near_blocks.glsl"
+#include "low_parts.glsl"
 
 layout(local_size_x = NEAR_LOCAL) in;
 
@@ -34,7 +35,11 @@ void main() {
     }
     vec3 to = position_out[index].xyz;
     if (contact.kind != FREE) {
+#if HAS_LOW_PARTS
+        to = changed_position(index, to, substep * (contact.velocity - velocity_out[index].xyz));
+#else
         to = x + substep * contact.velocity;
+#endif
         velocity_out[index].xyz = contact.velocity;
     }
     position_out[index].xyz = moved_out(to, substep);

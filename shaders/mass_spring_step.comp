@@ -131,11 +131,12 @@ void main() {
         for (int col = HALO; col < HALO + BLOCK; ++col) {
             int index = node_index(first.y + row - HALO, first.x + col - HALO);
             vec4 v = load_velocity(index);
-            v.xyz = next_velocity(v, force[row][col], applied_acceleration(index));
+            v.xyz = next_velocity(
+                index, v, force[row][col], applied_acceleration(index));
             // Both w stand in every pair of buffers; software devices store number by number.
             velocity_out[index].xyz = v.xyz;
 #if STRAIN_LIMIT == NO_LIMIT
-            position_out[index].xyz = next_position(position[row][col].xyz, v.xyz);
+            position_out[index].xyz = next_position(index, position[row][col].xyz, v.xyz);
 #endif
 #if HAS_CONTACT
             add_speed(bound, v.xyz);

@@ -7,6 +7,7 @@
 
 #include "lattice.glsl"
 #include "state_in.glsl"
+#include "low_parts.glsl"
 
 layout(local_size_x = LOCAL_X, local_size_y = LOCAL_Y) in;
 
@@ -23,5 +24,6 @@ void main() {
     }
     int index = node_index(row, col);
     vec4 x = load_position(index);
-    position_out[index] = vec4(x.xyz + substep * velocity_out[index].xyz, x.w);
+    position_out[index] = vec4(
+        changed_position(index, x.xyz, substep * velocity_out[index].xyz), x.w);
 }

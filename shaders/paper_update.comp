@@ -7,6 +7,7 @@
 
 #include "lattice.glsl"
 #include "applied_acceleration.glsl"
+#include "low_parts.glsl"
 
 layout(local_size_x = UPDATE_LOCAL) in;
 
@@ -24,7 +25,7 @@ void main() {
     }
     int i = node_index(node / COLS, node % COLS);
     vec3 a = applied_acceleration(i) + force[i].xyz / mass[i];
-    velocity[i].xyz += velocity[i].w * substep * a;
-    position[i].xyz += substep * velocity[i].xyz;
+    velocity[i].xyz = changed_velocity(i, velocity[i].xyz, velocity[i].w * substep * a);
+    position[i].xyz = changed_position(i, position[i].xyz, substep * velocity[i].xyz);
     force[i] = vec4(0.0);
 }

@@ -8,6 +8,7 @@
 #include "lattice.glsl"
 #include "state_in.glsl"
 #include "state_out.glsl"
+#include "low_parts.glsl"
 
 layout(local_size_x = LOCAL_X, local_size_y = LOCAL_Y) in;
 
@@ -27,5 +28,5 @@ void main() {
     vec4 x = load_position(index);
     vec3 change = velocity + cross(turn, x.xyz - substep * v.xyz - centre);
     velocity_out[index] = vec4(v.xyz + change, v.w);
-    position_out[index] = vec4(x.xyz + substep * change, x.w);
+    position_out[index] = vec4(changed_position(index, x.xyz, substep * change), x.w);
 }

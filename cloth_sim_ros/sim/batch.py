@@ -17,6 +17,9 @@ from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.guarded_steps import BoundsCheck
 from cloth_sim_ros.sim.layout import choose_layout
 from cloth_sim_ros.sim.loads import Loads
+from cloth_sim_ros.sim.low_parts import largest_coordinate
+from cloth_sim_ros.sim.low_parts import needs_low_parts
+from cloth_sim_ros.sim.low_parts import plain_reach
 from cloth_sim_ros.sim.modes.mass_spring import MassSpring
 from cloth_sim_ros.sim.modes.mode import finish
 from cloth_sim_ros.sim.pins import check_node
@@ -60,7 +63,8 @@ class Stack:
         starts[rows] = [each.start_positions() for each in scenes]
         pinned = np.zeros_like(present)
         pinned[rows] = [each.pinned_nodes() for each in scenes]
-        self._state = State(self.layout, starts, pinned, present)
+        self._state = State(
+            self.layout, starts, pinned, present, has_low_parts=needs_low_parts(scene))
         self._loads = Loads(scene, self.layout, self._state)
         self._mode = MassSpring(scene, self.layout)
         self.pins = StackedPins(scene, self.layout, self._state)
@@ -170,8 +174,13 @@ class Batch(AbstractContextManager['Batch']):
         self._context.make_current()
         self.device = self._context.device
         kinds: dict[Hashable, list[int]] = {}
+        reaches: dict[Hashable, float] = {}
         for number, scene in enumerate(self.scenes):
-            kinds.setdefault(_kind(scene), []).append(number)
+            values = _kind(scene)
+            if values not in reaches:
+                reaches[values] = plain_reach(scene)
+            is_far = largest_coordinate(scene) > reaches[values]
+            kinds.setdefault((values, is_far), []).append(number)
         self._stacks: list[Stack] = []
         # Of each stack, which cloths; and of each cloth, its stack and its place there.
         self._members = [np.array(numbers) for numbers in kinds.values()]

@@ -26,5 +26,6 @@ TENSION = 5
 AT_LIMIT = 7
 CONTACTS = 7
 CONTACTS_SEEN = 2
+LOW_PARTS = 8
 
 DEFINES = {name: value for name, value in list(globals().items()) if name.isupper()}

@@ -25,6 +25,7 @@ from cloth_sim_ros.sim.scene_fields import MODES
 from cloth_sim_ros.sim.snapshot import Measures
 from cloth_sim_ros.sim.snapshot import Snapshot
 from cloth_sim_ros.sim.solver.edge_law import EdgeLaw
+from cloth_sim_ros.sim.state import start_state
 from cloth_sim_ros.sim.state import State
 
 
@@ -93,7 +94,7 @@ class Engine:
         Drivers compile a program in part when it first runs.
         """
         scene, layout = self.scene, self.layout
-        state = State(layout, scene.start_positions(), scene.pinned_nodes())
+        state = start_state(scene, layout)
         loads = Loads(scene, layout, state)
         try:
             still = loads.still

@@ -16,6 +16,7 @@ from cloth_sim_ros.sim.edge_kinds import REST_KINDS
 from cloth_sim_ros.sim.edge_kinds import rest_lengths
 from cloth_sim_ros.sim.forcing import Forcing
 from cloth_sim_ros.sim.layout import Layout
+from cloth_sim_ros.sim.low_parts import needs_low_parts
 from cloth_sim_ros.sim.scene import FAMILIES
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.state import MOST_MAGNITUDE
@@ -87,6 +88,7 @@ def scene_defines(scene: Scene) -> dict[str, object]:
         'HAS_RIGIDITY': int(scene.has_rigidity),
         'HAS_BENDING_DAMPING': int(scene.has_bending_damping),
         'HAS_CONTACT': int(scene.has_contact),
+        'HAS_LOW_PARTS': int(needs_low_parts(scene)),
         **(collider_defines(scene.colliders) if scene.has_contact else {}),
         **edge_defines(scene.families),
     }

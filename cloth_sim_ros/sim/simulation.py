@@ -40,7 +40,7 @@ from cloth_sim_ros.sim.push import Push
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.snapshot import Measures
 from cloth_sim_ros.sim.snapshot import Snapshot
-from cloth_sim_ros.sim.state import State
+from cloth_sim_ros.sim.state import start_state
 from cloth_sim_ros.sim.stepping import Stepping
 import numpy as np
 
@@ -86,7 +86,7 @@ class Simulation(Handling, AbstractContextManager['Simulation']):
         self._first_context = context
         self.device = context.device
         self.layout = choose_layout(scene, context, tuned=tuned)
-        self._state = State(self.layout, scene.start_positions(), scene.pinned_nodes())
+        self._state = start_state(scene, self.layout)
         self.engines = Engines(
             scene, self.layout, self._state, context, check_stability=check_stability,
             stop_at_non_finite=stop_at_non_finite)

@@ -13,6 +13,9 @@ from cloth_sim_ros.sim import bindings
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.layout import HALO
 from cloth_sim_ros.sim.layout import Layout
+from cloth_sim_ros.sim.low_parts import LowParts
+from cloth_sim_ros.sim.low_parts import needs_low_parts
+from cloth_sim_ros.sim.scene import Scene
 import numpy as np
 
 # A position [m] or velocity [m/s] beyond it counts as not finite: with the softest and the
@@ -39,13 +42,14 @@ class State:
 
     def __init__(
             self, layout: Layout, positions: np.ndarray, pinned: np.ndarray,
-            present: np.ndarray | None = None) -> None:
+            present: np.ndarray | None = None, *, has_low_parts: bool = False) -> None:
         """
         Upload ``positions`` [m] at rest.
 
         :param positions: (rows, cols, 3)
         :param pinned: (rows, cols) bool
         :param present: where there are nodes, (rows, cols) bool; None for everywhere
+        :param has_low_parts: as ``needs_low_parts`` says of the scene
         """
         self._layout = layout
         self._present = np.ones(pinned.shape, dtype=bool) if present is None else present
@@ -58,6 +62,7 @@ class State:
         self._kept = 0
         self._next = 1
         self.edits = 0
+        self._low = LowParts(layout.stored) if has_low_parts else None
         self.write(positions, np.zeros_like(positions))
 
     @property
@@ -98,6 +103,8 @@ class State:
             buffer.write(position, offset)
         for buffer in self._velocities:
             buffer.write(velocity, offset)
+        if self._low is not None:
+            self._low.clear(self._layout.index(first, -HALO), len(position) * self._layout.pitch)
 
     def set_pinned(self, row: int, col: int, pinned: bool) -> None:
         """Hold one node where it is, or let it go with the velocity its pin has."""
@@ -154,6 +161,12 @@ class State:
     def bind_out(self) -> None:
         """Let the next dispatch write the state to come."""
         self._pairs[self._next].bind_storage(bindings.POSITION_OUT)
+        self.bind_low_parts()
+
+    def bind_low_parts(self) -> None:
+        """Let the next dispatch change the low parts, where there are some."""
+        if self._low is not None:
+            self._low.bind(bindings.LOW_PARTS)
 
     def bind_for_changes(self) -> None:
         """Let the next dispatch change the present state."""
@@ -177,17 +190,23 @@ class State:
         """Keep the present state, in place of the one kept before, for ``restore``."""
         self._kept = self._now
         self._next = _SPARE[self._now, self._kept]
+        if self._low is not None:
+            self._low.keep()
 
     def restore(self, _: None = None) -> None:
         """Go back to the state that was kept; pins set since then are not undone."""
         self.edits += 1
         self._now = self._kept
         self._next = _SPARE[self._now, self._kept]
+        if self._low is not None:
+            self._low.restore()
 
     def delete(self) -> None:
         """Give the buffers back."""
         for buffer in self._positions + self._velocities:
             buffer.delete()
+        if self._low is not None:
+            self._low.delete()
 
     def _bind(self, binding: int, buffer: Buffer) -> None:
         if self._layout.texture_loads:
@@ -206,6 +225,13 @@ class State:
 
     def _offset(self, row: int, col: int) -> int:
         return self._layout.index(row, col) * 4 * np.dtype(np.float32).itemsize
+
+
+def start_state(scene: Scene, layout: Layout) -> State:
+    """Return the state that ``scene`` starts with."""
+    return State(
+        layout, scene.start_positions(), scene.pinned_nodes(),
+        has_low_parts=needs_low_parts(scene))
 
 
 def _with_fourth(vectors: np.ndarray, fourth: np.ndarray | float) -> np.ndarray:

@@ -17,6 +17,7 @@ from cloth_sim_ros.reference.edges import Edges
 from cloth_sim_ros.reference.edges import edges_of
 from cloth_sim_ros.sim.forcing import Forcing
 from cloth_sim_ros.sim.layout import choose_layout
+from cloth_sim_ros.sim.low_parts import needs_low_parts
 from cloth_sim_ros.sim.scene import FAMILIES
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.solver.edge_law import EdgeLaw
@@ -260,7 +261,8 @@ class _SolverStep:
         """Write the state and compile the passes."""
         self.step = step
         layout = choose_layout(scene, context, tuned=False)
-        self._state = State(layout, state[0], scene.pinned_nodes())
+        self._state = State(
+            layout, state[0], scene.pinned_nodes(), has_low_parts=needs_low_parts(scene))
         self._state.write(*state)
         self._forcing = Forcing(scene['gravity'])
         self._solver = Solver(

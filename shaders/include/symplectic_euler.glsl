@@ -6,16 +6,23 @@
 // A velocity belongs to the middle of its substep. Where the one before had another length, the
 // kick is what lies between their middles; with h instead each change of h would add energy.
 
+#include "low_parts.glsl"
+
 uniform float substep;       // [s]
 uniform float kick;          // [s] what forces act for: mean of this substep and the one before
 uniform float inverse_mass;  // [1/kg]
 
-vec3 next_velocity(vec4 velocity, vec3 force, vec3 applied) {
-    vec3 next = velocity.xyz + kick * (applied + inverse_mass * force);
+vec3 next_velocity(int index, vec4 velocity, vec3 force, vec3 applied) {
+    vec3 change = kick * (applied + inverse_mass * force);
     // Not times 0: what is not finite would pass from a cloth by its ghosts to another one.
+#if HAS_LOW_PARTS
+    return changed_velocity(index, velocity.xyz, velocity.w > 0.0 ? change : vec3(0.0));
+#else
+    vec3 next = velocity.xyz + change;
     return velocity.w > 0.0 ? next : velocity.xyz;
+#endif
 }
 
-vec3 next_position(vec3 position, vec3 velocity) {
-    return position + substep * velocity;
+vec3 next_position(int index, vec3 position, vec3 velocity) {
+    return changed_position(index, position, substep * velocity);
 }

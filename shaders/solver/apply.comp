@@ -9,6 +9,7 @@
 #include "solver/vectors.glsl"
 #include "state_in.glsl"
 #include "state_out.glsl"
+#include "low_parts.glsl"
 #include "solver/state_index.glsl"
 
 layout(local_size_x = LOCAL_X, local_size_y = LOCAL_Y) in;
@@ -31,8 +32,9 @@ void main() {
         ? load_vector(cloth_entry(CHANGE, level_index(0, row, col))) : vec3(0.0);
     store_vector(cloth_entry(CHANGE, level_index(0, row, col)), before + change);
     change += common_change;
-    velocity.xyz += change;
+    velocity.xyz = changed_velocity(index, velocity.xyz, change);
     vec3 moved = substep * (is_further == 1 ? change : velocity.xyz);
     velocity_out[index] = velocity;
-    position_out[index] = vec4(position.xyz + moved, position.w);
+    position_out[index] = vec4(
+        changed_position(index, position.xyz, moved), position.w);
 }

@@ -28,6 +28,7 @@
 #include "solver/state_index.glsl"
 #include "state_in.glsl"
 #include "state_out.glsl"
+#include "low_parts.glsl"
 #if STAGE == BEGIN
 #include "applied_acceleration.glsl"
 #endif
@@ -265,7 +266,11 @@ void decide(int at, int index, inout vec4 x, inout vec4 v) {
     keep(index, hold, hold.kind == FREE ? vec3(0.0) : reaction + hold.change);
     if (hold.change != vec3(0.0)) {
         v.xyz += hold.change;
+#if HAS_LOW_PARTS
+        x.xyz = changed_position(at, x.xyz, substep * hold.change);
+#else
         x.xyz = begin + substep * v.xyz;
+#endif
         store_vector(
             cloth_entry(CHANGE, index), v.xyz - load_vector(cloth_entry(BEGIN_VELOCITY, index)));
     }
@@ -311,8 +316,12 @@ void decide(int at, int index, inout vec4 x, inout vec4 v) {
     }
     if (to != v.xyz) {
         store_vector(cloth_entry(REACTION, index), reaction + (to - v.xyz));
-        v.xyz = to;
+#if HAS_LOW_PARTS
+        x.xyz = changed_position(at, x.xyz, substep * (to - v.xyz));
+#else
         x.xyz = begin + substep * to;
+#endif
+        v.xyz = to;
     }
     x.xyz = moved_out(x.xyz, substep);
     vectors[cloth_entry(REACTION, index)].w = sticks ? STUCK : 0.0;

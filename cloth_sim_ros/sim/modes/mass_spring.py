@@ -123,6 +123,7 @@ class TwoPass:
         force = self._force.use()
         force.dispatch(*self._force_groups)
         shader_writes_visible()
+        state.bind_low_parts()
         update = self._update.use_for_step(forcing, length)
         update.dispatch(self._update_groups)
         shader_writes_visible()

@@ -9,6 +9,7 @@ from dataclasses import replace
 from cloth_sim_ros.sim.edge_kinds import EDGE_KINDS
 from cloth_sim_ros.sim.forcing import Forcing
 from cloth_sim_ros.sim.layout import Layout
+from cloth_sim_ros.sim.low_parts import needs_low_parts
 from cloth_sim_ros.sim.scene import FAMILIES
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.solver.active_set import LimitSearch
@@ -91,6 +92,7 @@ class Solver:
             has_rigidity=scene.has_rigidity, has_bending_damping=scene.has_bending_damping,
             has_contact=scene.has_contact)
         self._damps_bending = scene.has_bending_damping
+        self._has_low_parts = needs_low_parts(scene)
         parts = scene, state, self._programs, levels
         self._right_side = RightSide(*parts, foresees_turn=foresees_turn)
         self._search = LimitSearch(*parts, foresees_turn=foresees_turn)
@@ -376,4 +378,5 @@ class Solver:
         if self._damps_bending:
             self._damp = SolverPass(programs.make('damp_bending.comp'), nodes)
         self._find = SolverPass(programs.make('find_tension.comp'), cloth.groups)
-        self._apply = SolverPass(programs.make('apply.comp'), nodes)
+        self._apply = SolverPass(
+            programs.make('apply.comp', HAS_LOW_PARTS=int(self._has_low_parts)), nodes)
