@@ -77,7 +77,8 @@ WARN = DiagnosticStatus.WARN
 ERROR = DiagnosticStatus.ERROR
 
 
-def slow_pace(achieved: float, wanted: float, *, substeps: int, automatic: bool) -> str:
+def slow_pace(
+        achieved: float, wanted: float, *, substeps: int, automatic: bool, mode: str) -> str:
     """
     Return that a run is too slow, and what makes it faster.
 
@@ -85,8 +86,12 @@ def slow_pace(achieved: float, wanted: float, *, substeps: int, automatic: bool)
     :param wanted: the same as asked for
     :param substeps: in each dt
     :param automatic: True where they follow from what is stable: a longer dt has more of them
+    :param mode: its name
     """
-    faster = 'softer springs' if automatic and substeps > 1 else 'a longer dt'
+    faster = 'a longer dt'
+    if automatic and substeps > 1:
+        # In mode constraint substeps follow how edges rotate.
+        faster = 'a larger solver.tolerance' if mode == 'constraint' else 'softer springs'
     return (
         f'{achieved:.3g} x real time, below the target {wanted:.3g}: use fewer nodes, {faster}, '
         'another mode or a lower real_time_factor')
@@ -121,7 +126,7 @@ def diagnostics_message(
             'real-time factor': _pace(
                 snapshot, paused, real_time_factor, wanted_factor, automatic_substeps),
             'solver': _solver(snapshot),
-            'stability': _stability(snapshot, problem),
+            'stability': _stability(snapshot, problem, automatic_substeps),
             'pins': _pins(snapshot)})
     findings['recorder'] = _recorder(recording_path, recording_error, recording_is_whole)
     findings['program'] = _program(faults, latest_fault, ignored)
@@ -153,7 +158,8 @@ def _pace(
         return OK, f'{achieved:.3g} x real time, as fast as possible', values
     if achieved < SLOW * wanted:
         return WARN, slow_pace(
-            achieved, wanted, substeps=snapshot.substeps, automatic=automatic), values
+            achieved, wanted, substeps=snapshot.substeps, automatic=automatic,
+            mode=snapshot.mode), values
     return OK, f'{achieved:.3g} x real time', values
 
 
@@ -180,7 +186,7 @@ def _solver(snapshot: Snapshot) -> _Verdict:
     return OK, text, values
 
 
-def _stability(snapshot: Snapshot, problem: str) -> _Verdict:
+def _stability(snapshot: Snapshot, problem: str, automatic: bool) -> _Verdict:
     margin = float(snapshot.stability_margin)
     values = {
         'margin': margin,
@@ -196,7 +202,7 @@ def _stability(snapshot: Snapshot, problem: str) -> _Verdict:
             f'edges deviate by {snapshot.max_strain:.2g} from their length, and '
             f'{snapshot.strain_bound:.2g} is allowed: use a shorter dt, or smaller forces'), values
     if snapshot.solves:
-        return _turns(margin, values)
+        return _turns(margin, values, automatic)
     text = f'a substep is {margin:.3g} times the stability limit'
     if margin > 1.0:
         return ERROR, f'{text}: use a shorter dt, or auto_substeps: true', values
@@ -214,10 +220,11 @@ def _pins(snapshot: Snapshot) -> _Verdict:
     return OK, 'no moving pin is stalled', values
 
 
-def _turns(margin: float, values: dict[str, Any]) -> _Verdict:
+def _turns(margin: float, values: dict[str, Any], automatic: bool) -> _Verdict:
     text = f'edges rotate by {margin**2:.3g} times the accurate limit per substep'
     if margin > 1.0 + 1e-3:
-        return WARN, f'{text}: raise constraint.max_substeps, or use a shorter dt', values
+        way_out = 'raise constraint.max_substeps' if automatic else 'set auto_substeps: true'
+        return WARN, f'{text}: {way_out}, or use a shorter dt', values
     return OK, text, values
 
 

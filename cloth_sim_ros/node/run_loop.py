@@ -119,7 +119,8 @@ class PaceReport:
                 self._is_behind, self._warned = True, now
                 self._warn(slow_pace(
                     pacing.achieved, pacing.factor, substeps=self._simulation.substeps,
-                    automatic=self._simulation.scene['auto_substeps']))
+                    automatic=self._simulation.scene['auto_substeps'],
+                    mode=self._simulation.mode))
         elif self._is_behind and pacing.has_window:
             self._steady_since = min(self._steady_since, now)
             if now - self._steady_since >= STEADY:

@@ -6,6 +6,8 @@
 from collections.abc import Callable
 from collections.abc import Generator
 from collections.abc import Sequence
+from dataclasses import dataclass
+from dataclasses import replace
 from typing import Any
 from typing import NoReturn
 from typing import Protocol
@@ -30,6 +32,8 @@ import numpy as np
 _FAR = 0.5
 # Makes up to so many steps, from the one of a number on.
 StepsFrom = Callable[[int, int], Steps]
+# Of the accurate rotation of edges: what is no excess [1].
+_ROUNDING = 1e-3
 # A strain that no cloth was laid out for.
 _OVERSTRETCHED = 10.0
 
@@ -55,17 +59,51 @@ class BoundsCheck:
         self._program.delete()
 
 
+@dataclass(frozen=True)
+class StepReport:
+    """
+    How a mode has made a step.
+
+    :param substeps: of dt
+    :param stability_limit: longest stable substep [s]; infinite for an implicit step
+    :param turn_margin: of an implicit step, the substep over the longest in which edges turn by
+        no more than they should
+    :param solves: linear solves
+    :param iterations: most of a solve
+    :param solver_reached: False when one of them stopped before ``solver.tolerance``, or edges at
+        their limit were not found
+    """
+
+    substeps: int
+    stability_limit: float
+    turn_margin: float = 0.0
+    solves: int = 0
+    iterations: int = 0
+    solver_reached: bool = True
+
+    @property
+    def is_implicit(self) -> bool:
+        """Tell whether it was an implicit step."""
+        return self.solves > 0
+
+
+def report_of(mode: Mode) -> StepReport:
+    """Return how ``mode`` has made the last step."""
+    found = mode.report()
+    return StepReport(
+        mode.substeps, mode.stability_limit, mode.substep_margin, found.get('solves', 0),
+        found.get('solver_iterations', 0), found.get('solver_reached', True))
+
+
 def explain(
-        scene: Scene, lost: np.ndarray, records: np.ndarray, *, mode: str, substeps: int,
-        longest_substep: float, stability_limit: float, steps: int,
-        gained_speed: float) -> NonFiniteStateError:
+        scene: Scene, lost: np.ndarray, records: np.ndarray, *, mode: str, step: StepReport,
+        steps: int, gained_speed: float) -> NonFiniteStateError:
     """
     Return the error that tells when, where, why, and what to change.
 
     :param lost: records of the state that is not finite
     :param records: of the last finite one, which is kept
-    :param substeps: of the step that led from one to the other
-    :param longest_substep: that the mode takes of a cloth at rest [s]
+    :param step: that led from one to the other
     :param steps: made until the state that is kept
     :param gained_speed: by pushes in the step after it [m/s]
     """
@@ -75,43 +113,74 @@ def explain(
         np.argmax(np.where(_is_lost(lost), speeds, -1.0)), speeds.shape))
     time = steps * scene['dt']
     cause, way_out = _cause(
-        scene, longest_substep, stability_limit, float(speeds.max()),
-        float(records['strain'].max()), gained_speed)
+        scene, mode, step, float(speeds.max()), float(records['strain'].max()), gained_speed)
     return NonFiniteStateError(
         f'the state became non-finite in the step from t = {time:.6g} s, first at node '
-        f'({row}, {col}), in mode {mode} with substeps of {scene["dt"] / substeps:.3g} s: '
+        f'({row}, {col}), in mode {mode} with substeps of {scene["dt"] / step.substeps:.3g} s: '
         f'positions and velocities must stay below {MOST_MAGNITUDE:g} m and m/s, but {cause}; '
         f'the state at {time:.6g} s is kept: {way_out}', steps=steps, node=(row, col))
 
 
 def _cause(
-        scene: Scene, substep: float, stability_limit: float, speed: float, strain: float,
+        scene: Scene, mode: str, step: StepReport, speed: float, strain: float,
         gained_speed: float) -> tuple[str, str]:
+    substep = scene['dt'] / step.substeps
     reach = _FAR * min(scene.spacing)
-    safe_dt = f'{safe_substep(scene) * scene["substeps"]:.3g}'
-    if substep > stability_limit:
+    if substep > step.stability_limit:
         return (
-            f'the substep is {substep / stability_limit:.3g} times the stability limit',
-            f'set dt <= {safe_dt}, or auto_substeps: true')
+            f'the substep is {substep / step.stability_limit:.3g} times the stability limit',
+            _shorter_springs(scene))
     if gained_speed * substep > reach:
         return (
             f'a push accelerated nodes by up to {gained_speed:.3g} m/s, more than {reach:.3g} m '
             'per substep', 'push with less force, or use a larger mass')
+    most = scene['solver.max_iterations']
+    if step.is_implicit and not step.solver_reached and step.iterations >= most:
+        return (
+            f'solves stopped at solver.max_iterations {most}, above solver.tolerance '
+            f'{scene["solver.tolerance"]:g}',
+            f'raise solver.max_iterations, or set dt <= {scene["dt"] / 2.0:.3g}')
+    if step.is_implicit and step.turn_margin > 1.0 + _ROUNDING:
+        return (
+            f'edges rotated by {step.turn_margin**2:.3g} times the accurate limit per substep',
+            _more_turns(scene))
+    if step.is_implicit and not step.solver_reached and mode == 'adaptive':
+        return (
+            'the edges at their limit were not found',
+            f'set dt <= {scene["dt"] / 2.0:.3g}, or raise adaptive.threshold')
     if speed * substep > reach:
         return (
             f'the fastest node moved at {speed:.3g} m/s, more than {reach:.3g} m per '
             'substep', 'push or start it more gently, or set a smaller dt')
     if strain > _OVERSTRETCHED:
         return (
-            f'a spring had the strain {strain:.3g}',
-            'stretch it less, or use stiffer springs or more damping')
-    if substep > safe_substep(scene):
+            f'an edge had the strain {strain:.3g}',
+            'stretch it less, or set a smaller dt' if step.is_implicit
+            else 'stretch it less, or use stiffer springs or more damping')
+    if not step.is_implicit and substep > safe_substep(scene):
         return (
             'substeps of that length are stable for a flat cloth, but not for a folded one',
-            f'set dt <= {safe_dt}, or auto_substeps: true')
+            _shorter_springs(scene))
+    softer = 'a larger constraint.strain' if step.is_implicit else 'softer springs'
     return (
         f'the fastest node moved at {speed:.3g} m/s and the largest strain was {strain:.3g}',
-        f'set dt <= {min(substep, scene["dt"]) / 2.0:.3g}, or use softer springs or a larger mass')
+        f'set dt <= {min(substep, scene["dt"]) / 2.0:.3g}, or use {softer} or a larger mass')
+
+
+def _shorter_springs(scene: Scene) -> str:
+    """Return the way out of substeps that are too long for springs."""
+    way_out = f'set dt <= {safe_substep(scene) * scene["substeps"]:.3g}'
+    # With them substeps are short enough; a dt of that length would not be needed.
+    return way_out if scene['auto_substeps'] else f'{way_out}, or auto_substeps: true'
+
+
+def _more_turns(scene: Scene) -> str:
+    """Return the way out of substeps in which edges turn too far."""
+    other = (
+        'raise constraint.max_substeps' if scene['auto_substeps'] else 'auto_substeps: true')
+    if scene['constraint.newton_iterations'] == 1:
+        other = f'constraint.newton_iterations: 2, or {other}'
+    return f'set dt <= {scene["dt"] / 2.0:.3g}, or {other}'
 
 
 def _is_lost(records: np.ndarray) -> np.ndarray:
@@ -218,18 +287,26 @@ class GuardedSteps:
     def _step_to_the_last_finite(
             self, begin: int, end: int, step: StepsFrom, mode: Mode,
             loads: Loads, parts: Sequence[Restorable]) -> NoReturn:
+        before: StepReport | None = None
+        most = self._scene['solver.max_iterations']
         for number in range(begin, end):
             kept = _keep(parts)
             finish(step(number, 1))
+            made = report_of(mode)
             if self.check.passes(self._state):
+                before = made
                 continue
-            time, substeps = number * self._dt, mode.substeps
+            # Of what is no number, no solve reaches a tolerance: the step before tells more.
+            if before is not None and before.is_implicit == made.is_implicit:
+                made = replace(before, substeps=made.substeps)
+            else:
+                made = replace(made, solver_reached=made.iterations < most or made.solver_reached)
+            time = number * self._dt
             lost = self._look()
             _go_back(parts, kept, mode)
             raise explain(
-                self._scene, lost, self._look(), mode=mode.name, substeps=substeps,
-                longest_substep=self._dt / mode.substeps, stability_limit=mode.stability_limit,
-                steps=number, gained_speed=loads.speed_gained(time, time + self._dt))
+                self._scene, lost, self._look(), mode=mode.name, step=made, steps=number,
+                gained_speed=loads.speed_gained(time, time + self._dt))
         raise NonFiniteStateError(
             f'the state became non-finite before t = {end * self._dt:.6g} s in mode {mode.name}, '
             f'but not when the steps since {begin * self._dt:.6g} s were repeated without what '

@@ -48,11 +48,19 @@ OK, WARN, ERROR = DiagnosticStatus.OK, DiagnosticStatus.WARN, DiagnosticStatus.E
 @pytest.mark.parametrize(('substeps', 'automatic', 'faster', 'useless'), [
     (16, True, 'softer springs', 'dt'), (1, True, 'a longer dt', 'springs'),
     (16, False, 'a longer dt', 'springs')])
-def test_a_longer_dt_is_advised_where_it_helps(substeps, automatic, faster, useless):
+@pytest.mark.parametrize('mode', ['mass_spring', 'adaptive'])
+def test_a_longer_dt_is_advised_where_it_helps(
+        mode, substeps, automatic, faster, useless):
     """A user would take a longer dt, which then has more substeps of the same length."""
-    advice = slow_pace(0.5, 1.0, substeps=substeps, automatic=automatic)
+    advice = slow_pace(0.5, 1.0, substeps=substeps, automatic=automatic, mode=mode)
     assert advice.startswith('0.5 x real time, below the target 1: use fewer nodes, ')
     assert faster in advice and useless not in advice
+
+
+def test_pace_advice_fits_mode_constraint():
+    """There are no springs in it whose stiffness makes substeps."""
+    advice = slow_pace(0.5, 1.0, substeps=16, automatic=True, mode='constraint')
+    assert 'solver.tolerance' in advice and 'spring' not in advice
 
 
 def diagnose(snapshot, **changes):
@@ -97,6 +105,8 @@ def test_a_healthy_run_is_ok_in_all_parts():
     ('stability', WARN, 'edges deviate', {'strain_bound': 0.0}, {}),
     ('stability', OK, 'edges rotate', {'solves': 2, 'stability_margin': 1.0}, {}),
     ('stability', WARN, 'constraint.max_substeps', {'solves': 2, 'stability_margin': 1.2}, {}),
+    ('stability', WARN, 'set auto_substeps: true', {'solves': 2, 'stability_margin': 1.2},
+     {'automatic_substeps': False}),
     ('pins', OK, 'no moving pin', {}, {}),
     ('pins', WARN, 'nearer targets', {'stalled_pins': 2}, {}),
     ('recorder', OK, '/bags/a', {}, {'recording_path': '/bags/a'}),

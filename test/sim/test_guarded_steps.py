@@ -171,6 +171,32 @@ def test_the_error_says_when_where_and_what_to_change(simulate, values, push, sa
         assert mended.measure().finite
 
 
+_IMPLICIT = {
+    'mode': 'constraint', 'auto_substeps': False, 'constraint.newton_iterations': 1,
+    'constraint.strain': 1e-4, 'rows': 12, 'cols': 12, 'start.jitter': 0.01}
+
+
+@pytest.mark.parametrize(('values', 'cause', 'offered', 'mended'), [
+    ({'dt': 0.1, 'rows': 32, 'cols': 32, 'constraint.strain': 1e-5, 'auto_substeps': True,
+      'constraint.newton_iterations': 2, 'solver.max_iterations': 1},
+     'solves stopped at solver.max_iterations 1,', 'raise solver.max_iterations',
+     {'solver.max_iterations': 60}),
+    ({'dt': 0.05, 'solver.max_iterations': 2000}, 'edges rotated by',
+     'constraint.newton_iterations: 2, or auto_substeps: true',
+     {'auto_substeps': True, 'constraint.newton_iterations': 2}),
+])
+def test_advice_fits_an_implicit_step(simulate, values, cause, offered, mended):
+    """A blow-up in mode constraint was told to set auto_substeps, which was on."""
+    values = {**_IMPLICIT, **values}
+    message = str(_stop(simulate(values), 2000))
+    assert cause in message and offered in message
+    assert 'spring' not in message and 'stability limit' not in message
+    assert values['auto_substeps'] != ('auto_substeps' in message)
+    simulation = simulate({**values, **mended})
+    simulation.step(20)
+    assert simulation.measure().finite
+
+
 def test_the_node_that_was_lost_is_named(simulate):
     """The user would look at the wrong place."""
     simulation = simulate({'pins': ['all'], 'gravity': [0.0, 0.0, 0.0]})
