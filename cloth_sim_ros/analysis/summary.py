@@ -140,6 +140,8 @@ class Summary:
     :param solver_residual: worst of any frame
     :param solver_missed: frames in which a solve stopped before the residual asked for
     :param lengths_lost: frames in which an edge was far off its length or limit
+    :param settling: frames in which a limit closed in on a cloth that came with more strain
+    :param settling_work: largest work of such a limit [J]
     :param stalled: frames in which a moving pin waited, as its edges pulled too hard
     :param gaps: begin and end [s] of spans without frames where there should be some
     :param missing: topics that would have told more
@@ -174,6 +176,8 @@ class Summary:
     solver_residual: float
     solver_missed: int
     lengths_lost: int
+    settling: int
+    settling_work: float
     stalled: int
     pushes: int
     pins: int
@@ -214,6 +218,8 @@ class Summary:
             solver_missed=int(np.count_nonzero(columns['solver_reached'] == 0.0))
             if told.largest('solver_iterations') > 0 else 0,
             lengths_lost=int(np.count_nonzero(columns['lengths_are_held'] == 0.0)),
+            settling=int(np.count_nonzero(columns['settling'] > 0.0)),
+            settling_work=told.largest('settling_work'),
             stalled=int(np.count_nonzero(columns['stalled_pins'] > 0.0)),
             **{name: run.counts[name] for name in ('pushes', 'pins', 'releases', 'resets')},
             gaps=find_gaps(columns['time'], columns['resets']),
@@ -290,6 +296,10 @@ def summary_lines(summary: Summary) -> dict[str, str]:
         lines['constraints'] = f'at most {summary.most_active:.0f} active'
     if summary.lengths_lost:
         lines['lengths'] = f'far off in {summary.lengths_lost} frames'
+    if summary.settling:
+        lines['settling'] = (
+            f'in {summary.settling} frames, by a limit that did {summary.settling_work:.3g} J of '
+            'work')
     if summary.stalled:
         lines['stalled pins'] = f'in {summary.stalled} frames'
     if summary.switches:

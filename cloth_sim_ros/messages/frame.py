@@ -112,6 +112,8 @@ def _stats(
         'active_fraction': float(snapshot.active_fraction),
         'constraint_switches': int(snapshot.constraint_switches),
         'lengths_are_held': bool(snapshot.lengths_are_held),
+        'settling': bool(snapshot.settling),
+        'settling_work': float(snapshot.settling_work),
         'stalled_pins': int(snapshot.stalled_pins),
         'sticking_nodes': int(snapshot.sticking_nodes),
         'sliding_nodes': int(snapshot.sliding_nodes),

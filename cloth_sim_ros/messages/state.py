@@ -193,14 +193,23 @@ def _stability(snapshot: Snapshot, problem: str, automatic: bool) -> _Verdict:
         'dt': float(snapshot.dt),
         'substeps': int(snapshot.substeps),
         'max strain': float(snapshot.max_strain),
+        'settling': bool(snapshot.settling),
+        'settling work': float(snapshot.settling_work),
         'total energy': float(snapshot.total_energy),
     }
     if problem:
         return ERROR, problem, values
     if not snapshot.lengths_are_held:
+        way_out = (
+            'the cloth came like that, and a limit is closing in on it' if snapshot.settling
+            else 'use a shorter dt, or smaller forces')
         return WARN, (
             f'edges deviate by {snapshot.max_strain:.2g} from their length, and '
-            f'{snapshot.strain_bound:.2g} is allowed: use a shorter dt, or smaller forces'), values
+            f'{snapshot.strain_bound:.2g} is allowed: {way_out}'), values
+    if snapshot.settling:
+        return OK, (
+            'a limit is closing in on edges that came longer or shorter, and has done '
+            f'{snapshot.settling_work:.3g} J of work'), values
     if snapshot.solves:
         return _turns(margin, values, automatic)
     text = f'a substep is {margin:.3g} times the stability limit'

@@ -76,8 +76,13 @@ class LimitedSprings(ImplicitStep):
 
     @property
     def strain_bound(self) -> float:
-        """Return the strain limit that holds now."""
-        return self._limit(self.settling.limit)
+        """Return the strain limit."""
+        return float(self._scene['adaptive.threshold'])
+
+    @property
+    def is_settling(self) -> bool:
+        """Tell whether the limit that holds now is a wider one."""
+        return self._limit(self.settling.limit) > self.strain_bound
 
     def law(self, length: float, settling: float) -> EdgeLaw:
         """Return the law of springs with their limit, or what is left of the strain they had."""
@@ -86,6 +91,12 @@ class LimitedSprings(ImplicitStep):
             limit=self._limit(settling),
             strain=strain_past_limit(self._scene), transition=transition_of(self._scene),
             geometric=BETA if self._solves > 1 else 0.0)
+
+    def spend_calm(self, seconds: float) -> None:
+        """Go on by ``seconds`` in which no edge came near its limit."""
+        self.settling.spend(seconds)
+        # It has closed in on nothing.
+        self._settled_from = self.settling.limit
 
     def pulls_in(self, state: State) -> bool:
         """Return whether the limit pulls at some edge of a new ``state``."""
@@ -258,7 +269,7 @@ class Adaptive:
 
     @property
     def strain_bound(self) -> float:
-        """Return the strain limit that holds now."""
+        """Return the strain limit."""
         return self._limit.strain_bound
 
     def step(self, state: State, begin: float, loads: Loads) -> Pieces:
@@ -277,6 +288,7 @@ class Adaptive:
                 self._is_limited = False
                 yield from self._spring_substeps(state, now, length, calm, loads)
                 self._watch.spend(calm)
+                self._limit.spend_calm(calm * length)
                 done += calm * length
                 substeps += calm
             else:
@@ -314,7 +326,7 @@ class Adaptive:
     def report(self) -> dict[str, Any]:
         """Return how the solves ended, and how many edges are at their limit or changed."""
         solves = self._limit.report() if self._made_limited else {}
-        return {**solves, **self._marks.count()}
+        return {**self._limit.settling_report(), **solves, **self._marks.count()}
 
     def limit_marks(self) -> Buffer | None:
         """Return which edges are at their limit; None if none are."""

@@ -52,9 +52,9 @@ class Constraint(ImplicitStep):
 
     @property
     def strain_bound(self) -> float:
-        """Return the strain that edges may have: none, but where some are no hard ones."""
+        """Return 0, or infinity where some structural or shear edges are springs."""
         are_all_hard = {'structural', 'shear'} <= set(self._scene['constraint.hard'])
-        return self.settling.limit if are_all_hard else math.inf
+        return 0.0 if are_all_hard else math.inf
 
     def limit_marks(self) -> Buffer | None:
         """Return None: an edge has no limit to come to, it is a constraint always."""

@@ -20,6 +20,7 @@ from cloth_sim_ros.sim.modes.edge_watch import TurnWatch
 from cloth_sim_ros.sim.modes.free_motion import FreeMotion
 from cloth_sim_ros.sim.modes.mode import CHECKED_SUBSTEPS
 from cloth_sim_ros.sim.modes.mode import Pieces
+from cloth_sim_ros.sim.observer import Observer
 from cloth_sim_ros.sim.scene import FAMILIES
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.solver.edge_law import EdgeLaw
@@ -126,6 +127,7 @@ class ImplicitStep(ABC):
         self._watch = TurnWatch(scene, layout, families)
         self._free_motion = FreeMotion(scene, layout)
         self.settling = Settling(notable)
+        self._energies = Observer(scene, layout, set(families))
         # The law of the last substep, and what it was asked for.
         self._law: tuple[tuple[float, float], EdgeLaw] | None = None
         self.forget()
@@ -165,6 +167,7 @@ class ImplicitStep(ABC):
         length = seconds / self.substeps
         is_held = bool(state.pinned.any())
         for substep in range(self.substeps):
+            self._account_for_settling(state)
             self._solver.set_law(self._present_law(length))
             start = begin + substep * length
             # A velocity belongs to the middle of its substep, so forces act from there to the
@@ -213,6 +216,8 @@ class ImplicitStep(ABC):
         self._solver.run_search(state)
         yield
         self._free_motion.restore(state, still, self._dt)
+        self._stored(state, 0.0)
+        yield
         self.forget()
 
     def forget(self) -> None:
@@ -223,6 +228,8 @@ class ImplicitStep(ABC):
         # Passes of the last dt that have not found the limits in force.
         self._unsettled = 0
         self.settling.forget()
+        self._settled_from = self._settling_work = 0.0
+        self._began_settling = False
         self._solver.forget()
         self._free_motion.forget()
 
@@ -236,6 +243,7 @@ class ImplicitStep(ABC):
         """Begin to count solves anew."""
         self._solver.clear_tally()
         self._unsettled = 0
+        self._began_settling = self.is_settling
 
     def report(self) -> dict[str, Any]:
         """Return how the solves of the last dt ended."""
@@ -246,7 +254,19 @@ class ImplicitStep(ABC):
             'solver_reached': tally.unreached == 0 and self._unsettled == 0,
             'solves': tally.solves,
             'mean_iterations': tally.iterations / max(tally.solves, 1),
+            **self.settling_report(),
         }
+
+    def settling_report(self) -> dict[str, Any]:
+        """Return whether a limit has closed in during the last dt, and the work it has done."""
+        return {
+            'settling': self.is_settling or self._began_settling,
+            'settling_work': self._settling_work}
+
+    @property
+    def is_settling(self) -> bool:
+        """Tell whether edges have a wider limit than their own yet."""
+        return self.settling.limit > 0.0
 
     def tension(
             self, positions: np.ndarray, velocities: np.ndarray,
@@ -259,6 +279,22 @@ class ImplicitStep(ABC):
         self._solver.delete()
         self._watch.delete()
         self._free_motion.delete()
+        self._energies.delete()
+
+    def _account_for_settling(self, state: State) -> None:
+        """Add the work of a limit that has closed in by the length of the substep before."""
+        limit = self.settling.limit
+        if limit != self._settled_from:
+            # The nodes have not moved since: what edges store changes by the limit alone.
+            if self._settled_from:
+                self._settling_work += (
+                    self._stored(state, limit) - self._stored(state, self._settled_from))
+            self._settled_from = limit
+
+    def _stored(self, state: State, settling: float) -> float:
+        """Return what the edges of ``state`` store within the limit ``settling`` [J]."""
+        law = replace(self.law(self._dt, settling), acts_between_pins=False)
+        return self._energies.measure(state, _NO_FORCING, law).elastic_energy
 
     def _present_law(self, length: float) -> EdgeLaw:
         """Return the law of a substep of ``length`` [s]; most are like the one before."""

@@ -164,6 +164,15 @@ class PaperLimit:
         """Return nothing."""
         return {}
 
+    @staticmethod
+    def settling_report() -> dict[str, Any]:
+        """Return nothing: an edge is held at once."""
+        return {}
+
+    @staticmethod
+    def spend_calm(seconds: float) -> None:
+        """Do nothing: no limit closes in."""
+
     def _substep(self, state: State, forcing: Forcing, length: float, kick: float) -> None:
         self._sweeps.clear()
         self._springs.run(state, forcing, length, kick)
