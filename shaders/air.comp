@@ -7,6 +7,7 @@
 // triangles of half the weight, three of them with a corner at a node of the cell. Each node has an
 // equal share of mass and area, so nodes at a border count twice in their triangles, at a corner
 // four times.
+// MEASURES_RATE: find the fastest rate at which air would slow a triangle instead, in strips.
 
 #include "lattice.glsl"
 #include "state_in.glsl"
@@ -15,7 +16,11 @@
 
 layout(local_size_x = LOCAL_X, local_size_y = LOCAL_Y) in;
 
+#if MEASURES_RATE
+layout(std430, binding = PARTIAL_SUMS) writeonly buffer PartialSums { float partial_sums[]; };
+#else
 layout(std430, binding = AIR_OUT) writeonly buffer AirOut { vec4 air_out[]; };
+#endif
 
 uniform vec3 past;           // [m/s] the wind less what gravity adds to a free cloth in the lead
 uniform float inverse_area;  // [1/m2] of a cell at rest
@@ -49,18 +54,17 @@ vec3 triangle(Node corner, Node one, Node other) {
 vec3 cell(Node here, Node side, Node other_side, Node across) {
     // 0 where the cell is beyond the border.
     float present = side.position.w * other_side.position.w * across.position.w;
+#if MEASURES_RATE
+    if (present == 0.0) {
+        return vec3(0.0);
+    }
+#endif
     return present * (triangle(here, side, other_side) + triangle(side, here, across)
         + triangle(other_side, here, across));
 }
 
-void main() {
-    int row = int(gl_GlobalInvocationID.y);
-    int col = int(gl_GlobalInvocationID.x);
-    if (row >= ROWS || col >= COLS) {
-        return;
-    }
+vec3 given_at(int row, int col, Node here) {
     int of_cloth = row % stack.y;
-    Node here = load_node(row, col, of_cloth);
     Node left = load_node(row, col - 1, of_cloth);
     Node right = load_node(row, col + 1, of_cloth);
     Node above = load_node(row - 1, col, of_cloth - 1);
@@ -69,7 +73,33 @@ void main() {
     given += cell(here, right, above, load_node(row - 1, col + 1, of_cloth - 1));
     given += cell(here, left, below, load_node(row + 1, col - 1, of_cloth + 1));
     given += cell(here, right, below, load_node(row + 1, col + 1, of_cloth + 1));
+    return given;
+}
+
+#if MEASURES_RATE
+void main() {
+    int col = int(gl_GlobalInvocationID.x);
+    int strip = int(gl_GlobalInvocationID.y);
+    int first = strip * STRIP;
+    if (first >= ROWS || col >= COLS) {
+        return;
+    }
+    for (int row = first; row < min(first + STRIP, ROWS); ++row) {
+        given_at(row, col, load_node(row, col, row % stack.y));
+    }
+    partial_sums[strip * COLS + col] = fastest_rate;
+}
+#else
+void main() {
+    int row = int(gl_GlobalInvocationID.y);
+    int col = int(gl_GlobalInvocationID.x);
+    if (row >= ROWS || col >= COLS) {
+        return;
+    }
+    Node here = load_node(row, col, row % stack.y);
+    vec3 given = given_at(row, col, here);
     int index = node_index(row, col);
     vec4 pushed = has_region_pushes ? load_region_pushes(index) : vec4(0.0);
     air_out[index] = vec4(pushed.xyz + SHARE * here.velocity.w * given, pushed.w);
 }
+#endif

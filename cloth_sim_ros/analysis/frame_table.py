@@ -13,7 +13,8 @@ STATS = (
     'gravitational_energy', 'total_energy', 'max_strain', 'solver_iterations',
     'solver_residual', 'solver_reached', 'active_constraints', 'active_fraction',
     'constraint_switches', 'lengths_are_held', 'settling', 'settling_work', 'stalled_pins',
-    'sticking_nodes', 'sliding_nodes', 'deepest_node', 'step_wall_time', 'real_time_factor')
+    'air_margin', 'sticking_nodes', 'sliding_nodes', 'deepest_node', 'step_wall_time',
+    'real_time_factor')
 # What is computed from ~/points.
 POINTS = ('mean_strain', 'mean_height')
 COLUMNS = ('time', 'resets', *STATS, *POINTS)

@@ -115,6 +115,7 @@ def _stats(
         'settling': bool(snapshot.settling),
         'settling_work': float(snapshot.settling_work),
         'stalled_pins': int(snapshot.stalled_pins),
+        'air_margin': float(snapshot.air_margin),
         'sticking_nodes': int(snapshot.sticking_nodes),
         'sliding_nodes': int(snapshot.sliding_nodes),
         'deepest_node': float(snapshot.deepest_node),

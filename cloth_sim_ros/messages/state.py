@@ -195,6 +195,7 @@ def _stability(snapshot: Snapshot, problem: str, automatic: bool) -> _Verdict:
         'max strain': float(snapshot.max_strain),
         'settling': bool(snapshot.settling),
         'settling work': float(snapshot.settling_work),
+        'air margin': float(snapshot.air_margin),
         'total energy': float(snapshot.total_energy),
     }
     if problem:
@@ -206,6 +207,13 @@ def _stability(snapshot: Snapshot, problem: str, automatic: bool) -> _Verdict:
         return WARN, (
             f'edges deviate by {snapshot.max_strain:.2g} from their length, and '
             f'{snapshot.strain_bound:.2g} is allowed: {way_out}'), values
+    if snapshot.air_margin > 1.0 + 1e-3:
+        way_out = 'use a shorter dt'
+        if automatic and snapshot.solves:
+            way_out = f'raise constraint.max_substeps, or {way_out}'
+        return WARN, (
+            f'air acts with less than its force, as a substep is {snapshot.air_margin:.3g} times '
+            f'as long as it may be for that: {way_out}'), values
     if snapshot.settling:
         return OK, (
             'a limit is closing in on edges that came longer or shorter, and has done '

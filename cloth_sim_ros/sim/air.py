@@ -15,6 +15,7 @@ from cloth_sim_ros.sim.layout import Layout
 from cloth_sim_ros.sim.push_field import PushField
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.scene_program import SceneProgram
+from cloth_sim_ros.sim.scene_program import Strips
 from cloth_sim_ros.sim.state import State
 from cloth_sim_ros.sim.wind import Wind
 import numpy as np
@@ -25,6 +26,8 @@ _CHANGE = 0.1
 # velocity that is left grows with the one there was.
 _MOST_SHARE = 0.5
 _GRAVITY = 9.81
+# Speed of a node, over that of a cloth that falls its own size: more is not looked for [1].
+_FASTEST = 4.0
 # Of a substep: rounding that is no part of one.
 _NOTHING = 1e-6
 
@@ -82,8 +85,11 @@ class Air:
         """Allocate the accelerations; the pass is compiled when it is first needed."""
         self._scene = scene
         self._layout = layout
-        self._program = SceneProgram('air.comp', scene, layout, {
-            'HAS_AIR_FRICTION': int(scene['air.friction'] > 0.0)})
+        defines = {'HAS_AIR_FRICTION': int(scene['air.friction'] > 0.0), 'MEASURES_RATE': 0}
+        self._program = SceneProgram('air.comp', scene, layout, defines)
+        self._rate = SceneProgram(
+            'air.comp', scene, layout, {**defines, **Strips.defines(), 'MEASURES_RATE': 1})
+        self._strips = Strips(layout, 1)
         self._drag, self._friction = air_coefficients(scene)
         self._inverse_area = 1.0 / math.prod(scene.spacing)
         # How fast a cloth is moved, as a rule: as if it fell its own size on earth [m/s].
@@ -119,6 +125,37 @@ class Air:
             return forcing
         return self._look(state, base, begin, length, length if kick is None else kick)
 
+    def margin(self, state: State, begin: float, end: float, length: float) -> float:
+        """
+        Return ``length`` over the longest substep [s] in which air acts with all its force.
+
+        Where something is pinned, air acts by the velocity at the start of a substep; in a longer
+        one it would turn it round, and acts with less. 0 where it is that short at any speed
+        which is to be expected.
+
+        :param begin: of the time whose wind counts [s]
+        :param end: of that time [s]
+        """
+        if not state.pinned.any():
+            return 0.0
+        speed = self.wind.fastest + _FASTEST * self._own_speed
+        if (self._drag + self._friction) * speed * length < _MOST_SHARE:
+            return 0.0
+        return self.fastest_rate(state, begin, end) * length / _MOST_SHARE
+
+    def fastest_rate(self, state: State, begin: float, end: float) -> float:
+        """Return the fastest rate [1/s] at which air would slow a triangle of ``state``."""
+        program = self._rate.use()
+        program.set_float('drag', self._drag)
+        program.set_float('friction', self._friction)
+        program.set_float('inverse_area', self._inverse_area)
+        program.set_float('lead', 0.0)
+        program.set_float('most_rate', math.inf)
+        program.set_vectors('past', tuple(self.wind.mean(begin, end)))
+        state.bind_in()
+        self._strips.dispatch(program)
+        return float(self._strips.largest()[0])
+
     def quiet_until(self, now: float) -> float:
         """Return until when the accelerations hold [s], ``now`` where they don't."""
         return max(self._until, now)
@@ -145,7 +182,9 @@ class Air:
     def delete(self) -> None:
         """Give pass and accelerations back."""
         self._accelerations.delete()
+        self._strips.delete()
         self._program.delete()
+        self._rate.delete()
 
     def _forget(self) -> None:
         self._asked = None

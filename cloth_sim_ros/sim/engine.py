@@ -61,7 +61,7 @@ class Engine:
         return self.observer.measure(state, forcing, self.mode.energy_law(state))
 
     def snapshot(
-            self, state: State, forcing: Forcing, *, time: float, steps: int, dt: float,
+            self, state: State, loads: Loads, *, time: float, steps: int, dt: float,
             stalled_pins: int, later: bool) -> Callable[[], Snapshot]:
         """
         Look at ``state``, which is that at ``time`` [s]; return what makes a Snapshot of it.
@@ -73,8 +73,10 @@ class Engine:
         known = {
             **mode.report(), 'mode': mode.name, 'time': time, 'steps': steps, 'dt': dt,
             'substeps': mode.substeps, 'stability_margin': mode.substep_margin,
-            'strain_bound': mode.strain_bound, 'stalled_pins': stalled_pins}
-        find = self.observer.begin_record(state, forcing, law, marks, later=later)
+            'strain_bound': mode.strain_bound, 'stalled_pins': stalled_pins,
+            'air_margin': loads.air_margin(state, time, time + dt, dt / mode.substeps)}
+        find = self.observer.begin_record(
+            state, loads.acting(time), law, marks, later=later)
 
         def make() -> Snapshot:
             measures, records = find()
@@ -106,6 +108,9 @@ class Engine:
             yield
             loads.forcing(state, 0.0, scene['dt'])
             yield
+            if loads.air is not None:
+                loads.air.fastest_rate(state, 0.0, scene['dt'])
+                yield
             yield from self.mode.run_all_passes(state, loads)
         finally:
             loads.delete()

@@ -107,6 +107,17 @@ class Loads:
         gravity = np.broadcast_to(np.array(self.still.everywhere), (len(nodes), 3))
         return gravity if self.air is None else gravity + self.air.at_nodes(nodes)
 
+    def air_margin(self, state: State, begin: float, end: float, length: float) -> float:
+        """
+        Return a substep of ``length`` [s] over the longest in which air acts with all its force.
+
+        0 without air, and where there is no doubt.
+
+        :param begin: of the time whose wind counts [s]
+        :param end: of that time [s]
+        """
+        return 0.0 if self.air is None else self.air.margin(state, begin, end, length)
+
     def keep_account(self) -> None:
         """Begin to add up the work that ``work`` tells."""
         if self.air is not None:

@@ -385,8 +385,8 @@ class Simulation(Handling, AbstractContextManager['Simulation']):
     def _look(self, *, later: bool) -> Callable[[], Snapshot]:
         with self._settled_state():
             return self.engines.in_use.snapshot(
-                self._state, self.loads.acting(self.time), time=self.time, steps=self.steps,
-                dt=self.dt, stalled_pins=self._pin_motion.stalled, later=later)
+                self._state, self.loads, time=self.time, steps=self.steps, dt=self.dt,
+                stalled_pins=self._pin_motion.stalled, later=later)
 
     @contextmanager
     def _settled_state(self) -> Iterator[None]:

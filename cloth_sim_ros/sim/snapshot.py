@@ -82,6 +82,8 @@ class Snapshot(Measures):
         (docs/explanation/adaptive.md)
     :param stalled_pins: pins under way that stood still in the last step, as edges pulled at them
         with more than ``pin.max_force``
+    :param air_margin: a substep over the longest in which air acts on a pinned cloth with all its
+        force; 0 where it is below 1 without doubt
     :param sticking_nodes: that touched a collider in the last step and had its velocity
     :param sliding_nodes: that touched a collider in the last step and moved along it
     :param deepest_node: how far a node is inside a collider at most [m]
@@ -110,6 +112,7 @@ class Snapshot(Measures):
     active_fraction: float = 0.0
     constraint_switches: int = 0
     stalled_pins: int = 0
+    air_margin: float = 0.0
     sticking_nodes: int = 0
     sliding_nodes: int = 0
     deepest_node: float = 0.0

@@ -11,6 +11,10 @@ uniform float lead;       // [s] half of what the acceleration acts for on a clo
                           // 0 on one that is held
 uniform float most_rate;  // [1/s]
 
+#if MEASURES_RATE
+float fastest_rate = 0.0;  // [1/s] of those asked for
+#endif
+
 // The acceleration over the velocity of the air past the cloth [1/s]; before: without the lead's
 // share of an implicit step.
 //
@@ -18,6 +22,9 @@ uniform float most_rate;  // [1/s]
 // cloth that is held may not, so that there the present velocity counts. No rate is so high that
 // the velocity would turn round. Both are stable for any step.
 float rate(float before) {
+#if MEASURES_RATE
+    fastest_rate = max(fastest_rate, before);
+#endif
     float left = 2.0 / (1.0 + sqrt(1.0 + 4.0 * lead * before));
     return min(left * left * before, most_rate);
 }

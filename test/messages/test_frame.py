@@ -93,7 +93,7 @@ NUMBERS = {
     'solver_iterations': 11, 'solver_residual': 1e-3, 'solver_reached': False,
     'active_constraints': 12,
     'active_fraction': 0.25, 'constraint_switches': 13, 'strain_bound': 0.0, 'settling': True,
-    'settling_work': 0.75, 'stalled_pins': 14}
+    'settling_work': 0.75, 'stalled_pins': 14, 'air_margin': 2.5}
 
 
 def test_every_number_is_in_its_place():

@@ -103,6 +103,8 @@ def test_a_healthy_run_is_ok_in_all_parts():
     ('stability', ERROR, 'auto_substeps', {'stability_margin': 1.1}, {}),
     ('stability', ERROR, 'lost at node (1, 2)', {}, {'problem': 'lost at node (1, 2)'}),
     ('stability', WARN, 'edges deviate', {'strain_bound': 0.0}, {}),
+    ('stability', WARN, '2.5 times as long as it may be for that: use', {'air_margin': 2.5}, {}),
+    ('stability', WARN, 'raise constraint.max_substeps', {'air_margin': 2.5, 'solves': 2}, {}),
     ('stability', WARN, 'use a shorter dt', {'strain_bound': 0.0, 'max_strain': 0.06}, {}),
     ('stability', WARN, 'is closing in',
      {'strain_bound': 0.0, 'max_strain': 0.06, 'settling': True}, {}),

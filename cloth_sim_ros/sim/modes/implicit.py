@@ -163,7 +163,9 @@ class ImplicitStep(ABC):
 
     def advance(self, state: State, begin: float, seconds: float, loads: Loads) -> Pieces:
         """Step ``state`` on by ``seconds``, one dt or what is left of it."""
-        self._choose_substeps(state, loads.forcing(state, begin, begin + seconds), seconds)
+        self._choose_substeps(
+            state, loads.forcing(state, begin, begin + seconds), seconds,
+            loads.air_margin(state, begin, begin + seconds, seconds))
         length = seconds / self.substeps
         is_held = bool(state.pinned.any())
         for substep in range(self.substeps):
@@ -303,12 +305,14 @@ class ImplicitStep(ABC):
             self._law = asked, self.law(*asked)
         return self._law[1]
 
-    def _choose_substeps(self, state: State, forcing: Forcing, seconds: float) -> None:
+    def _choose_substeps(
+            self, state: State, forcing: Forcing, seconds: float, air_margin: float) -> None:
         longest, strain = self._watch.look(state, forcing, seconds)
         self.settling.begin(strain)
         if self._scene['auto_substeps']:
             # Nodes that are pushed absurdly turn their edges at once.
             wanted = seconds / longest - _NOTHING if longest > 0.0 else math.inf
+            wanted = max(wanted, air_margin - _NOTHING)
             most = self._scene['constraint.max_substeps']
             # What is no number becomes the most, too.
             self.substeps = most

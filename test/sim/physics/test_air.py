@@ -267,3 +267,44 @@ def test_each_layout_has_air(start, layout):
     for each in (run, other):
         each.step(20)
     assert run.snapshot().positions[-1, 9, 2] > other.snapshot().positions[-1, 9, 2] + 0.01
+
+
+@pytest.mark.parametrize('wind', [5.0, 20.0])
+@pytest.mark.parametrize('dt', [0.005, 0.02])
+def test_a_held_sheet_has_all_the_wind(start, any_mode, dt, wind):
+    """In mode constraint at dt 0.02 s it had 0.35 of the force at 5 m/s, 0.087 at 20 m/s."""
+    run = start({
+        'rows': 12, 'cols': 12, 'mode': any_mode, 'dt': dt, 'areal_density': 0.05, **AIR,
+        'pins': ['all'], 'gravity': [0.0, 0.0, 0.0], 'air.wind': [0.0, 0.0, wind]})
+    run.step(3)
+    seen = run.snapshot(pin_forces=True)
+    force = abs(seen.pin_forces.forces[:, 2].sum())
+    assert force == pytest.approx(RHO * CN / 2.0 * wind**2, rel=1e-3)
+    assert seen.air_margin <= 1.0
+
+
+@pytest.mark.parametrize(('values', 'longer'), [
+    ({'mode': 'constraint', 'auto_substeps': False}, 11.5),
+    ({'mode': 'constraint', 'constraint.max_substeps': 4}, 2.87),
+    ({'mode': 'mass_spring', **LOOSE, 'stiffness.structural': 1e-3}, 11.5)])
+def test_wind_that_is_cut_is_reported(start, values, longer):
+    """The force of the air would be too small without a word, where substeps are too long."""
+    run = start({
+        'rows': 12, 'cols': 12, 'dt': 0.02, 'areal_density': 0.05, **AIR, 'pins': ['all'],
+        'gravity': [0.0, 0.0, 0.0], 'air.wind': [0.0, 0.0, 20.0], **values})
+    run.step(3)
+    seen = run.snapshot(pin_forces=True)
+    assert seen.air_margin == pytest.approx(longer, rel=0.01)
+    force = abs(seen.pin_forces.forces[:, 2].sum())
+    assert force == pytest.approx(RHO * CN / 2.0 * 400.0 / seen.air_margin, rel=0.02)
+
+
+@pytest.mark.parametrize('pins', [['all'], ['none']])
+def test_air_costs_no_substeps_in_usual_scenes(start, pins):
+    """Scenes whose substeps are short enough would be stepped otherwise, or looked at."""
+    run = start({
+        'rows': 12, 'cols': 12, 'mode': 'constraint', 'dt': 0.005, **AIR, 'pins': pins,
+        'air.wind': [0.0, 0.0, 5.0], 'areal_density': 0.2})
+    run.step(3)
+    assert run.snapshot().substeps == 1
+    assert run.snapshot().air_margin == 0.0
