@@ -5,6 +5,7 @@
 
 from cloth_sim_ros import Batch
 from cloth_sim_ros import Scene
+from cloth_sim_ros import Simulation
 from cloth_sim_ros.sim.low_parts import needs_low_parts
 import numpy as np
 import pytest
@@ -77,3 +78,19 @@ def test_short_steps_of_a_batch(context):
 def test_usual_steps_do_without(values):
     """Usual scenes keep their bits and pay nothing."""
     assert not needs_low_parts(Scene(values))
+
+
+def test_short_steps_of_a_batch_have_the_same_bits(context):
+    """Low parts of one cloth would get into another, or be left behind by a reset."""
+    scenes = [
+        Scene({**FREE, 'mode': 'mass_spring', 'dt': 1e-6, 'start.z': z, 'start.jitter': 0.05})
+        for z in (1.0, 3.0)]
+    with Batch(scenes, context=context) as batch:
+        batch.step(300)
+        batch.reset([1])
+        batch.step(200)
+        found = batch.positions()
+    for scene, positions, steps in zip(scenes, found, (500, 200)):
+        with Simulation(scene, context=context) as alone:
+            alone.step(steps)
+            assert np.array_equal(alone.positions(), positions)
