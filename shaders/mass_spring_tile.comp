@@ -54,8 +54,8 @@ void main() {
     for (int count = 0; count < substeps; ++count) {
         vec3 force = vec3(0.0);
         EACH_EDGE(ADD_SPRINGS, force)
-        vec3 next = next_velocity(velocity[place], force, acceleration);
-        vec3 moved = next_position(position[place].xyz, next);
+        vec3 next = next_velocity(index, velocity[place], force, acceleration);
+        vec3 moved = next_position(index, position[place].xyz, next);
         barrier();
         velocity[place].xyz = next;
         position[place].xyz = moved;

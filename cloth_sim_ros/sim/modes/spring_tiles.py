@@ -6,6 +6,7 @@
 from cloth_sim_ros.gl.buffer import shader_writes_visible
 from cloth_sim_ros.sim.forcing import Forcing
 from cloth_sim_ros.sim.layout import Layout
+from cloth_sim_ros.sim.low_parts import needs_low_parts
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.scene_program import SceneProgram
 from cloth_sim_ros.sim.state import State
@@ -36,7 +37,7 @@ class SpringTiles:
         return (
             layout.kind == 'fused' and max(scene.rows, scene.cols) <= _SIDES[-1]
             and not (scene.has_rigidity or scene.has_bending_damping or scene.has_air
-                     or scene.has_contact))
+                     or scene.has_contact or needs_low_parts(scene)))
 
     def substeps(self, state: State, forcing: Forcing, length: float, count: int) -> None:
         """Step ``state`` on ``count`` times by ``length`` [s], under one load on all nodes."""
