@@ -4,9 +4,9 @@
 """
 Check and measure this package on a GPU, in at most eight minutes and without a network.
 
-Needs NumPy, PyOpenGL and PyYAML. Each section runs in a process of its own with a time limit: one
-that fails is reported, and the others continue. Ctrl-C keeps what was measured. Results are in
-DIRECTORY/gpu_suite.json and DIRECTORY/gpu_suite.md.
+Needs NumPy, PyOpenGL and PyYAML; with SciPy, two sections measure more. Each section runs in a
+process of its own with a time limit: one that fails is reported, and the others continue. Ctrl-C
+keeps what was measured. Results are in DIRECTORY/gpu_suite.json and DIRECTORY/gpu_suite.md.
 
 For example:
   python benchmarks/gpu_suite.py --out /tmp/gpu
@@ -26,6 +26,7 @@ import time
 from typing import Any
 
 from gpu import asynchronous
+from gpu import barriers
 from gpu import batches
 from gpu import buffer_order
 from gpu import device
@@ -46,8 +47,9 @@ from gpu.section import run_section
 
 # In order of worth: what comes last is lost first when time is short.
 SECTIONS = (
-    device.SECTION, buffer_order.SECTION, states.SECTION, shaders.SECTION, asynchronous.SECTION,
-    springs.SECTION, modes.SECTION, tuning.SECTION, passes.SECTION, paper.SECTION,
+    device.SECTION, buffer_order.SECTION, states.SECTION, shaders.SECTION, barriers.SECTION,
+    asynchronous.SECTION, springs.SECTION, modes.SECTION, tuning.SECTION, passes.SECTION,
+    paper.SECTION,
     batches.SECTION, fused_substeps.SECTION, dispatches.SECTION, read_back.SECTION)
 # Wall time of all sections together [s].
 TIME_LIMIT = 470.0
@@ -55,7 +57,10 @@ _ROOT = Path(__file__).resolve().parents[1]
 
 
 def commit() -> str:
-    """Return the commit of this checkout; 'unknown' without git."""
+    """Return the commit of this checkout, or of an offline kit; 'unknown' where none is known."""
+    noted = _ROOT / 'commit'
+    if noted.is_file():
+        return noted.read_text(encoding='utf-8').strip()
     try:
         return subprocess.run(
             ['git', '-C', str(_ROOT), 'rev-parse', '--short', 'HEAD'], capture_output=True,

@@ -18,6 +18,7 @@ import time
 import traceback
 from typing import Any
 
+_SUITE = Path(__file__).resolve().parents[1] / 'gpu_suite.py'
 # A figure or a verdict: the columns of a table and their values.
 Row = dict[str, Any]
 # Key of a row that found the device to be wrong.
@@ -102,7 +103,7 @@ def run_section(section: Section, quick: bool, seconds: float) -> Outcome:
         errors = Path(folder, 'errors')
         with errors.open('wb') as stream:
             process = subprocess.Popen(
-                [sys.executable, str(Path(sys.argv[0]).resolve()), '--in-process', section.name,
+                [sys.executable, str(_SUITE), '--in-process', section.name,
                  '--rows', str(path), *(['--quick'] if quick else [])],
                 stderr=stream, env=_environment())
             try:

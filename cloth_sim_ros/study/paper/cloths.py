@@ -17,7 +17,6 @@ from cloth_sim_ros.study.paper.printed import printed_speeds
 from cloth_sim_ros.study.paper.printed import PrintedSpeed
 from cloth_sim_ros.study.speed import bench_scene
 import numpy as np
-from scipy.interpolate import RectBivariateSpline
 
 _CONSTRAINT_DT = 0.005
 # [N/m]; a cloth of 0.2 kg falls into its two corners, and up to some 300 edges reach 10 %. With
@@ -118,6 +117,8 @@ def _draped(scene: Scene, context: Context) -> State:
 
 def _refined(field: np.ndarray, rows: int, cols: int) -> np.ndarray:
     """Return ``field`` (n, m, 3) on ``rows`` x ``cols`` nodes, by cubic splines."""
+    # The other cloths do without SciPy.
+    from scipy.interpolate import RectBivariateSpline
     down, right = (np.linspace(0.0, 1.0, count) for count in field.shape[:2])
     return np.stack([
         RectBivariateSpline(down, right, part)(
