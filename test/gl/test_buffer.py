@@ -6,6 +6,7 @@
 from cloth_sim_ros.gl.buffer import Buffer
 from cloth_sim_ros.gl.context import Context
 from cloth_sim_ros.gl.libraries import GL
+from gpu.buffer_order import sequences
 import numpy as np
 import pytest
 
@@ -52,3 +53,28 @@ def test_content_is_what_was_given(count):
     buffer.read_into(found)
     assert np.array_equal(found, given[::-1])
     buffer.delete()
+
+
+@pytest.mark.parametrize('name', [
+    'fill, write', 'copy, write', 'dispatch, fill, dispatch', 'dispatch, write, dispatch',
+    'dispatch, copy, dispatch', 'fill, dispatch, write'])
+def test_commands_take_effect_in_their_order(name: str):
+    """A cloth would start from zeros: on an H200, a fill overwrote a later write."""
+    buffer, value = dict(sequences(64))[name]()
+    found = np.empty(64, dtype=np.float32)
+    buffer.read_into(found)
+    assert (found == value).all()
+    buffer.delete()
+
+
+def test_a_polled_buffer_holds_what_shaders_write():
+    """A solve would go by numbers that are not those of the device."""
+    polled = Buffer(np.arange(64, dtype=np.float32), is_polled=True)
+    source = Buffer(np.arange(64, 128, dtype=np.float32))
+    source.copy_to(polled, 16, 32, begin=8)
+    found = np.empty(64, dtype=np.float32)
+    polled.read_into(found)
+    assert found[:4].tolist() == [0, 1, 2, 3]
+    assert found[4:12].tolist() == list(range(66, 74)) and found[12] == 12
+    polled.delete()
+    source.delete()

@@ -5,6 +5,7 @@
 
 from collections import Counter
 from itertools import product
+from math import prod
 from pathlib import Path
 import re
 import subprocess
@@ -63,6 +64,7 @@ _COUNTING = {
 _FORMS = {
     'bounds_check.comp': {'STRIP': 16},
     'mass_spring_step.comp': {'STRAIN_LIMIT': 'RIGID_LIMIT'},
+    'mass_spring_tile.comp': {'TILE_SIDE': 32},
     'observe.comp': {'RECORDS_WANTED': 1, 'STRIP': 16},
     'place_pins.comp': {'PINS_LOCAL': 32},
     'paper_force.comp': {},
@@ -170,3 +172,43 @@ def test_version_is_430_core():
         name for name in shader_names()
         if '#version 430 core' not in (shader_directory() / name).read_text().splitlines()
         or not ShaderSource(name).text.startswith('#version 430 core\n')] == []
+
+
+# What OpenGL 4.3 grants to every compute shader.
+MOST_STORAGE_BLOCKS = 8
+MOST_SHARED_BYTES = 32 * 1024
+MOST_INVOCATIONS = 1024
+_BYTES_OF = {'float': 4, 'uint': 4, 'int': 4, 'vec3': 16, 'vec4': 16}
+
+
+def preprocessed(text: str) -> str:
+    """Return ``text`` after the preprocessor, without what other choices leave out."""
+    done = subprocess.run(
+        ['glslangValidator', '--stdin', '-E', '-S', 'comp'], input=text, capture_output=True,
+        text=True)
+    assert done.returncode == 0, done.stdout + done.stderr
+    return done.stdout
+
+
+@pytest.mark.parametrize('form', sorted({*shader_names(), *_FORMS}))
+def test_limits_of_opengl_43_are_kept(form: str):
+    """A shader would run on the device of its author alone."""
+    text, first_user = max(variants(form).items(), key=lambda entry: len(entry[0]))
+    code = preprocessed(text)
+    blocks = re.findall(r'layout\s*\([^)]*std430[^)]*\)[\w\s]*buffer\s+\w+\s*\{([^}]*)\}', code)
+    assert len(blocks) <= MOST_STORAGE_BLOCKS, first_user
+    # std430 gives a vec3 in an array the room of a vec4; the host packs 12 bytes.
+    assert not any(re.search(r'\bvec3\s+\w+\s*\[', block) for block in blocks), first_user
+    sizes = [int(size) for size in re.findall(r'local_size_[xyz]\s*=\s*(\d+)', code)]
+    assert 1 <= prod(sizes) <= MOST_INVOCATIONS, first_user
+    shared = sum(
+        _BYTES_OF[kind] * eval(size.replace('/', '//'))
+        for kind, size in re.findall(r'\bshared\s+(\w+)\s+\w+\s*\[([^\]]+)\]', code))
+    assert shared <= MOST_SHARED_BYTES, first_user
+
+
+@pytest.mark.parametrize('name', shader_names())
+def test_no_index_of_an_edge_leaves_its_vector(name: str):
+    """NVIDIA's compiler refuses such a constant, even in a branch that is never taken."""
+    text = ShaderSource(name, {}).text
+    assert not re.search(r'\[\s*edge\b', text)
