@@ -20,13 +20,15 @@ _WORKGROUPS = ((8, 4), (8, 8), (16, 4), (16, 8), (32, 2), (32, 4), (32, 8), (64,
 
 def _measure(quick: bool) -> Iterator[Row]:
     context = Context()
-    for found in tune(context, (16,) if quick else (32, 128, 512, 2048), rounds=1 if quick else 3):
+    sides = (32, 128, 512) if context.is_software else (32, 128, 512, 2048)
+    for found in tune(context, (16,) if quick else sides, rounds=1 if quick else 3):
         yield {'side': found.side, 'built in': str(found.built_in), 'choice': str(found.choice),
                'rivals': '; '.join(rival.in_words() for rival in found.rivals)}
     # The workgroup is a compile-time choice without a parameter of its own.
     name = '_SOFTWARE_LOCAL' if context.is_software else '_GPU_LOCAL'
     built_in = getattr(layout, name)
-    for side in (32,) if quick else (128, 1024, 4096):
+    sides = (128,) if context.is_software else (128, 1024, 4096)
+    for side in (32,) if quick else sides:
         rates = {}
         for local in _WORKGROUPS[:2] if quick else _WORKGROUPS:
             setattr(layout, name, local)
