@@ -62,7 +62,7 @@ def test_the_first_commands_end_with_a_picture_of_the_push(tmp_path):
     finally:
         kill_all_of(node.pid)
         node.communicate()
-    # What goes wrong is told as `cloth_sim VERB: ...`.
+    # Errors are printed as `cloth_sim VERB: ...`.
     assert 'Traceback' not in said and 'cloth_sim ' not in said, said
     frames = list(read_frames(Recording(tmp_path / 'bags' / 'my_run')))
     pushed = [bool(frame.acting_pushes) for frame in frames]

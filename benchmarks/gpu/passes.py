@@ -25,7 +25,7 @@ import numpy as np
 from OpenGL.raw.GL.VERSION.GL_3_3 import glGetQueryObjectui64v
 
 _STEPS = 5
-# Of the wall time: llvmpipe, which has no timer, tells of a nanosecond a pass.
+# Min. device time over wall time [1]: llvmpipe has no timer and reports 1 ns a pass.
 _LEAST_SHARE = 1e-3
 
 

@@ -15,7 +15,7 @@ def strain_rgb(share: np.ndarray) -> np.ndarray:
     """
     Return red, green and blue from 0 to 255 of strains, (..., 3) uint8.
 
-    :param share: of the end of the scale, from 0 to 1; what is not a number has the last colour
+    :param share: of the end of the scale, from 0 to 1; NaN has the last colour
     """
     places = np.linspace(0.0, 1.0, len(STRAIN_STOPS))
     known = np.nan_to_num(np.asarray(share, float), nan=1.0)

@@ -55,7 +55,7 @@ class Framebuffer:
         return np.ascontiguousarray(pixels[::-1, :, :3])
 
     def delete(self) -> None:
-        """Give the memory back."""
+        """Free the memory."""
         names = {self._drawn, self._resolved, self._read}
         GL.glDeleteFramebuffers(len(names), list(names))
         GL.glDeleteRenderbuffers(len(self._buffers), self._buffers)

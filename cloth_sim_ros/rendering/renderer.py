@@ -104,7 +104,7 @@ class Renderer:
         return self._framebuffer.read()
 
     def close(self) -> None:
-        """Give the device back."""
+        """Release the device."""
         self._context.close()
 
     def _draw_with_strains(self, frame: Frame, floor: float, *, has_ground: bool) -> None:

@@ -32,7 +32,7 @@ import numpy as np
 _FAR = 0.5
 # Makes up to so many steps, from the one of a number on.
 StepsFrom = Callable[[int, int], Steps]
-# Of the accurate rotation of edges: what is no excess [1].
+# Rotation of edges in a substep over the accurate one [1]; below it, rotation is no cause.
 _ROUNDING = 1e-3
 # A strain that no cloth was laid out for.
 _OVERSTRETCHED = 10.0
@@ -296,7 +296,7 @@ class GuardedSteps:
             if self.check.passes(self._state):
                 before = made
                 continue
-            # Of what is no number, no solve reaches a tolerance: the step before tells more.
+            # With NaN in the state no solve reaches its tolerance: the step before says more.
             if before is not None and before.is_implicit == made.is_implicit:
                 made = replace(before, substeps=made.substeps)
             else:

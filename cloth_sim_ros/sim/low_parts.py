@@ -86,6 +86,6 @@ class LowParts:
         self._kept.copy_to(self._now, 0, self._kept.bytes)
 
     def delete(self) -> None:
-        """Give the memory back."""
+        """Free the memory."""
         self._now.delete()
         self._kept.delete()

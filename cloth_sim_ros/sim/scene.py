@@ -328,7 +328,7 @@ def refuse_unknown(given: Iterable[str], fields: tuple[Field, ...]) -> None:
             raise ClothSimError(f'there is no parameter {cut(name)}: {_hint(name, known)}')
 
 
-# Of one name in several groups, so many are told; more are no help.
+# Max. number of suggestions for a name that several groups have.
 _MOST_MEMBERS = 4
 
 

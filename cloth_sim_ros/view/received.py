@@ -32,7 +32,7 @@ def problem_of(data: bytes | str, control: Callable[[str], Any]) -> str:
     :param control: returns viser's handle of the control with a given uuid, or None
     """
     if isinstance(data, str):
-        return 'a text in place of a message'
+        return 'a text instead of a message'
     try:
         message = msgspec.msgpack.decode(data)
     except (msgspec.DecodeError, RecursionError, ValueError) as error:

@@ -24,7 +24,7 @@ from viser import _messages
 from websockets.asyncio.server import ServerConnection
 
 LOOPBACK = '127.0.0.1'
-# Of complaints of one kind, one in this time [s] is printed.
+# Min. time between two printed warnings of one kind [s].
 _QUIET = 10.0
 # What a browser causes that opens a connection in advance and does not use it.
 _ORDINARY = 'opening handshake failed'
@@ -90,7 +90,7 @@ class _PageConnection(ServerConnection):
                 return data
             if not self._has_complained:
                 self._has_complained = True
-                # Viser takes up the page's first message meanwhile, and so knows the page.
+                # Meanwhile viser handles the page's first message, and so knows the page.
                 await asyncio.sleep(0.0)
                 self._view.tell_page(self, problem)
 
@@ -156,7 +156,7 @@ def tell(client: viser.ClientHandle, text: str) -> None:
 def do_for(
         server: ViewServer, client: viser.ClientHandle | None,
         action: Callable[[], Any]) -> None:
-    """Do ``action``; what is wrong with it is told on the page of ``client``, which asked."""
+    """Do ``action``; report errors on the page of ``client``, which asked."""
     try:
         action()
     except ClothSimError as error:

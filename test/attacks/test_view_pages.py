@@ -57,7 +57,7 @@ def view() -> Iterator[tuple[subprocess.Popen, str]]:
 
 
 def check_it_lives(process: subprocess.Popen, address: str) -> None:
-    """Step the cloth by a page that behaves, end the view and read what it has printed."""
+    """Step the cloth by a page that behaves, end the view and return its output."""
     with ViewPage(address) as page:
         page.wait_for(lambda: page.text and 'Reset' in page.controls, 'the cloth')
         if 'Pause' in page.controls:

@@ -186,7 +186,7 @@ _IMPLICIT = {
      {'auto_substeps': True, 'constraint.newton_iterations': 2}),
 ])
 def test_advice_fits_an_implicit_step(simulate, values, cause, offered, mended):
-    """A blow-up in mode constraint was told to set auto_substeps, which was on."""
+    """A blow-up in mode constraint was answered by "set auto_substeps", which was on."""
     values = {**_IMPLICIT, **values}
     message = str(_stop(simulate(values), 2000))
     assert cause in message and offered in message

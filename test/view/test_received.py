@@ -124,7 +124,7 @@ def test_bytes_that_are_no_message_are_dropped(address, page, source, capfd, wha
 
 @pytest.mark.parametrize(('label', 'value'), CONTROLS, ids=str)
 def test_values_that_a_control_cannot_have_are_dropped(page, source, capfd, label, value):
-    """The view would go on with a force of no number, or a mode that is none."""
+    """The view would continue with a NaN force, or a mode that does not exist."""
     before = page.controls[label]['value']
     page.give(label, value)
     page.wait_for(lambda: page.told, 'what was wrong')

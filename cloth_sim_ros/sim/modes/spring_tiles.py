@@ -50,5 +50,5 @@ class SpringTiles:
         state.swap()
 
     def delete(self) -> None:
-        """Give the pass back."""
+        """Free the pass."""
         self._program.delete()

@@ -10,7 +10,7 @@ import pytest
 TAUT = {
     'rows': 1, 'cols': 11, 'node_mass': 2.36, 'start.jitter': 0.01, 'adaptive.threshold': 0.01,
     'pins': ['top_left', 'top_right'], 'stiffness.structural': 100.0}
-# Of energies, which are sums of float32 [1].
+# Relative rounding of energies, which are float32 sums [1].
 ROUNDING = 1e-6
 
 
@@ -66,7 +66,7 @@ def test_settling_goes_on_in_calm(simulate):
 
 
 def test_settling_is_in_the_stats(simulate):
-    """A reader of topics or of a recording could not tell where the energy came from."""
+    """A reader of topics or of a recording would not know where the energy came from."""
     seen = run(simulate, {**TAUT, 'mode': 'constraint', 'dt': 0.005}, 0.2)[-1]
     stats = stats_message(seen, 'world')
     assert stats.settling
