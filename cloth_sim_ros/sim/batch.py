@@ -12,7 +12,14 @@ from contextlib import AbstractContextManager
 import math
 from typing import Any
 
+from cloth_sim_ros.files.errors import shown
 from cloth_sim_ros.gl.context import Context
+from cloth_sim_ros.sim.arguments import array
+from cloth_sim_ros.sim.arguments import instance
+from cloth_sim_ros.sim.arguments import integer
+from cloth_sim_ros.sim.arguments import integers
+from cloth_sim_ros.sim.arguments import iterable
+from cloth_sim_ros.sim.arguments import real_number
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.guarded_steps import BoundsCheck
 from cloth_sim_ros.sim.layout import choose_layout
@@ -22,14 +29,17 @@ from cloth_sim_ros.sim.low_parts import needs_low_parts
 from cloth_sim_ros.sim.low_parts import plain_reach
 from cloth_sim_ros.sim.modes.mass_spring import MassSpring
 from cloth_sim_ros.sim.modes.mode import finish
-from cloth_sim_ros.sim.pins import check_node
+from cloth_sim_ros.sim.pins import checked_node
 from cloth_sim_ros.sim.pins import PinMove
+from cloth_sim_ros.sim.scene import GIVE_SCENE
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.simulation import SINGLE_THREAD_NODES
+from cloth_sim_ros.sim.simulation_arguments import check_context
 from cloth_sim_ros.sim.stacked_pins import StackedPins
+from cloth_sim_ros.sim.state import checked_vectors
 from cloth_sim_ros.sim.state import MOST_MAGNITUDE
 from cloth_sim_ros.sim.state import State
-from cloth_sim_ros.sim.stepping import LATEST
+from cloth_sim_ros.sim.stepping import checked_steps
 import numpy as np
 
 # What cloths of one stack may differ in.
@@ -37,6 +47,7 @@ _OWN = ('start.pose', 'start.z', 'start.jitter', 'start.seed', 'pins', 'pin_poin
         'pin_points.max_distance')
 # What all cloths of a batch have in common.
 _COMMON = ('rows', 'cols', 'dt')
+_MOST_CLOTHS = 1_000_000  # chosen: so many of the smallest ones fit in no buffer
 # What none of them may have.
 _TIMED = ('pushes.start', 'pin_moves.start', 'grasps.start')
 
@@ -164,6 +175,7 @@ class Batch(AbstractContextManager['Batch']):
             context: Context | None = None) -> None:
         """Compile, allocate and take up the start poses."""
         self.scenes = _checked_scenes(scenes, count)
+        check_context(context)
         self.count = len(self.scenes)
         self.dt: float = self.scenes[0]['dt']
         self.steps = 0
@@ -202,9 +214,7 @@ class Batch(AbstractContextManager['Batch']):
 
     def step(self, count: int = 1) -> None:
         """Make ``count`` steps of dt of every cloth."""
-        if not 0 <= (self.steps + count) * self.dt <= LATEST or count < 0:
-            raise ClothSimError(
-                f'cannot make {count} steps: give 0 or more, up to {LATEST} s of simulated time')
+        count = checked_steps(count, self.steps, self.dt)
         self._context.make_current()
         for stack, members in zip(self._stacks, self._members):
             self.lost[members] |= stack.step(self.steps, count)
@@ -230,15 +240,11 @@ class Batch(AbstractContextManager['Batch']):
         """
         numbers = self._checked_cloths(cloths)
         shape = (len(numbers), *self._shape, 3)
-        for name, values in (('positions', positions), ('velocities', velocities)):
-            if np.shape(values) != shape or not np.all(np.abs(values) < MOST_MAGNITUDE):
-                raise ClothSimError(
-                    f'{name} must be {shape} numbers below {MOST_MAGNITUDE:g}, got '
-                    f'{np.shape(values)} up to {np.abs(values).max(initial=0.0):g}: give one '
-                    'state for each cloth')
+        states = [
+            checked_vectors(values, of, shape, 'give one state for each cloth')
+            for of, values in (('positions', positions), ('velocities', velocities))]
         self._context.make_current()
-        for (stack, place), at, velocity in zip(
-                self._places[numbers], np.asarray(positions), np.asarray(velocities)):
+        for (stack, place), at, velocity in zip(self._places[numbers], *states):
             self._stacks[stack].write(place, at, velocity)
         self.lost[numbers] = False
 
@@ -256,8 +262,8 @@ class Batch(AbstractContextManager['Batch']):
 
     def pinned_nodes(self, cloth: int) -> np.ndarray:
         """Return which nodes of a cloth are held, (rows, cols) bool."""
-        (number,) = self._checked_cloths([cloth])
-        stack, place = self._places[number]
+        number = integer(cloth, 'the number of a cloth')
+        stack, place = self._places[self._checked_cloths([number])[0]]
         return self._stacks[stack].pinned(place)
 
     def move_pins(
@@ -273,12 +279,16 @@ class Batch(AbstractContextManager['Batch']):
         :raises ClothSimError: when a node is not pinned or a value is wrong; then none moves
         """
         numbers = self._checked_cloths(cloths)
-        nodes, targets = np.asarray(nodes), np.asarray(targets, dtype=float)
-        if nodes.shape != (len(numbers), 2) or targets.shape != (len(numbers), 3):
+        nodes = integers(nodes, 'the nodes', 'give [row, col] of each pin')
+        targets = array(
+            targets, 'the targets', (len(numbers), 3), 'give x, y and z for each pin')
+        if nodes.shape != (len(numbers), 2):
             raise ClothSimError(
-                f'{len(numbers)} pins need ({len(numbers)}, 2) nodes and ({len(numbers)}, 3) '
-                f'targets, got {nodes.shape} and {targets.shape}: give both for each pin')
-        speed = np.broadcast_to(np.asarray(speeds, dtype=float), len(numbers))
+                f'{len(numbers)} pins need ({len(numbers)}, 2) nodes, got {nodes.shape}: give '
+                '[row, col] of each pin')
+        if np.ndim(speeds) == 0:
+            speeds = [real_number(speeds, 'the speed', 'give it in m/s')] * len(numbers)
+        speed = array(speeds, 'the speeds', (len(numbers),), 'give one for each pin, or for all')
         entries = zip(numbers.tolist(), nodes.tolist(), targets.tolist(), speed.tolist())
         for cloth, (row, col), target, pace in entries:
             self._check_pin(cloth, row, col)
@@ -320,7 +330,11 @@ class Batch(AbstractContextManager['Batch']):
     def _checked_cloths(self, cloths: Iterable[int] | None) -> np.ndarray:
         if cloths is None:
             return np.arange(self.count)
-        numbers = np.array(list(cloths), dtype=int)
+        numbers = integers(
+            cloths, 'the numbers of cloths', 'give a list of int, np.flatnonzero(mask) for a mask')
+        if numbers.ndim != 1:
+            raise ClothSimError(
+                f'the numbers of cloths must be (n,), got {numbers.shape}: give a list of them')
         if numbers.size and not 0 <= numbers.min() <= numbers.max() < self.count:
             raise ClothSimError(
                 f'there is no cloth {numbers.min() if numbers.min() < 0 else numbers.max()} in a '
@@ -328,7 +342,7 @@ class Batch(AbstractContextManager['Batch']):
         return numbers
 
     def _check_pin(self, cloth: int, row: int, col: int) -> None:
-        check_node(row, col, *self._shape)
+        checked_node(row, col, *self._shape)
         stack, place = self._places[cloth]
         if not self._stacks[stack].pinned(place)[row, col]:
             raise ClothSimError(
@@ -337,11 +351,20 @@ class Batch(AbstractContextManager['Batch']):
 
 
 def _checked_scenes(scenes: Scene | Sequence[Scene], count: int | None) -> tuple[Scene, ...]:
+    count = None if count is None else integer(count, 'the count of a batch')
     if isinstance(scenes, Scene):
+        if count is not None and count > _MOST_CLOTHS:
+            raise ClothSimError(
+                f'a batch has at most {_MOST_CLOTHS} cloths, got {shown(count)}: make several')
         scenes = [scenes] * (1 if count is None else count)
-    elif count is not None and count != len(scenes):
-        raise ClothSimError(
-            f'count is {count}, and there are {len(scenes)} scenes: give one scene, or no count')
+    else:
+        scenes = [
+            instance(scene, Scene, 'each cloth of a batch', GIVE_SCENE)
+            for scene in iterable(scenes, 'the cloths of a batch', GIVE_SCENE)]
+        if count is not None and count != len(scenes):
+            raise ClothSimError(
+                f'count is {shown(count)}, and there are {len(scenes)} scenes: give one scene, or '
+                'no count')
     if not scenes:
         raise ClothSimError('a batch needs one cloth or more: give a count of 1 or more')
     for name in _COMMON:

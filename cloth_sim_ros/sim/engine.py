@@ -12,6 +12,7 @@ from cloth_sim_ros.gl.context import Context
 from cloth_sim_ros.gl.inventory import Inventory
 from cloth_sim_ros.gl.inventory import take_inventory
 from cloth_sim_ros.sim import modes
+from cloth_sim_ros.sim.arguments import instance
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.forcing import Forcing
 from cloth_sim_ros.sim.guarded_steps import GuardedSteps
@@ -221,7 +222,7 @@ class Engines:
 
     def check(self, mode: str) -> None:
         """Raise ClothSimError when ``mode`` can't step this scene."""
-        if mode not in MODES:
+        if not isinstance(mode, str) or mode not in MODES:
             raise ClothSimError(
                 f'there is no mode {shown(mode)}: choose one of {", ".join(MODES)}')
         modes.AVAILABLE[mode].check(self._scene, check_stability=self._check_stability)
@@ -252,7 +253,12 @@ class Engines:
 
     def add(self, prepared: Preparation) -> None:
         """Have the engine that was prepared, if there is none of its mode yet."""
-        assert prepared.engine is not None  # it has run, without an error
+        instance(
+            prepared, Preparation, 'what is taken over', 'give what engines.preparation returns')
+        if prepared.engine is None:
+            raise ClothSimError(
+                f'mode {prepared.mode} has not been compiled by its preparation: call run() of it '
+                'and look at its error')
         self._by_mode.setdefault(prepared.mode, prepared.engine)
 
     def energy_law(self) -> EdgeLaw:

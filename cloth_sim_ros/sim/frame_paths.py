@@ -11,6 +11,8 @@ from dataclasses import replace
 import math
 
 from cloth_sim_ros.files.errors import cut
+from cloth_sim_ros.sim.arguments import real_number
+from cloth_sim_ros.sim.arguments import word
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.pose import checked_position
 from cloth_sim_ros.sim.pose import Pose
@@ -22,6 +24,7 @@ from cloth_sim_ros.sim.pose import Vector
 import numpy as np
 
 _SLOWEST, _FASTEST = 1e-6, 1e3
+_IN_SECONDS = 'give it in simulated seconds'
 
 
 @dataclass(frozen=True)
@@ -51,7 +54,10 @@ class FrameMove:
             cls, *, name: str, target: Sequence[float], orientation: Sequence[float] | None,
             speed: float, angular_speed: float, start: float) -> 'FrameMove':
         """Return a FrameMove, or raise ClothSimError saying which value is wrong."""
-        named = cut(name)
+        named = cut(word(name, 'the name of a frame'))
+        speed = real_number(speed, f'the speed of {named}', 'give it in m/s')
+        angular_speed = real_number(
+            angular_speed, f'the angular_speed of {named}', 'give it in rad/s')
         for quantity, value, unit in (
                 ('speed', speed, 'm/s'), ('angular_speed', angular_speed, 'rad/s')):
             if not _SLOWEST <= value <= _FASTEST:
@@ -62,7 +68,7 @@ class FrameMove:
             name, checked_position(target, f'the target of {named}'),
             None if orientation is None
             else unit_quaternion(orientation, f'the orientation of {named}'),
-            float(speed), float(angular_speed), float(start))
+            speed, angular_speed, float(start))
 
     def slowed(self, duration: float, origin: Pose) -> 'FrameMove':
         """
@@ -70,6 +76,12 @@ class FrameMove:
 
         :param origin: where the frame is when it begins
         """
+        duration = real_number(duration, f'the duration of the move of {self.name}', _IN_SECONDS)
+        # NaN fails this as well.
+        if not 0.0 <= duration < math.inf:
+            raise ClothSimError(
+                f'the duration of the move of {self.name} must be 0 s or more, got {duration} s: '
+                'give 0 for the speeds alone')
         way, _, angle = _way(origin, self)
         return replace(
             self, speed=_slower(self.speed, float(np.linalg.norm(way)), duration),

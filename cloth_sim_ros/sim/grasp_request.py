@@ -8,6 +8,8 @@ from dataclasses import dataclass
 import math
 
 from cloth_sim_ros.files.errors import shown
+from cloth_sim_ros.sim.arguments import integer
+from cloth_sim_ros.sim.arguments import real_number
 from cloth_sim_ros.sim.colliders import NAME_PATTERN
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.pose import checked_position
@@ -48,10 +50,13 @@ class GraspRequest:
             orientation: Sequence[float] | None = None, radius: float = 0.0, count: int = 0,
             max_force: float = 0.0, start: float = 0.0, release: float = 0.0) -> 'GraspRequest':
         """Return a GraspRequest, or raise ClothSimError saying which value is wrong."""
-        if not NAME_PATTERN.fullmatch(name):
+        if not isinstance(name, str) or not NAME_PATTERN.fullmatch(name):
             raise ClothSimError(
                 f'{shown(name)} is no name of a grasp: give lower-case letters, digits and '
                 'underscores, beginning with a letter, 40 at most')
+        radius = real_number(radius, f'the radius of grasp {name}', 'give it in metres')
+        max_force = real_number(max_force, f'the max_force of grasp {name}', 'give it in newtons')
+        count = integer(count, f'the count of grasp {name}', 'give a number of nodes')
         for quantity, value in (('radius', radius), ('max_force', max_force)):
             if not 0.0 <= value <= _LARGEST:
                 raise ClothSimError(
@@ -59,7 +64,8 @@ class GraspRequest:
                     'give 0 for none')
         if count < 0:
             raise ClothSimError(
-                f'the count of grasp {name} must be 0 or more, got {count}: give 0 for 1 node')
+                f'the count of grasp {name} must be 0 or more, got {shown(count)}: give 0 for 1 '
+                'node')
         if radius > 0.0 and count > 0:
             raise ClothSimError(
                 f'grasp {name} has a radius and a count, {radius:g} m and {count}: give one of '
@@ -73,7 +79,7 @@ class GraspRequest:
                 checked_position(position, f'the position of grasp {name}'),
                 NO_ROTATION if orientation is None
                 else unit_quaternion(orientation, f'the orientation of grasp {name}')),
-            float(radius), max(count, 1), float(max_force), float(start), float(release))
+            radius, max(count, 1), max_force, float(start), float(release))
 
     def chosen(self, positions: np.ndarray, pinned: np.ndarray, reach: float) -> np.ndarray:
         """

@@ -3,11 +3,16 @@
 
 """Grasps: nodes that are held rigidly to a frame, which can be moved and turned."""
 
+from collections.abc import Callable
+from collections.abc import Iterator
 from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from dataclasses import replace
+from functools import partial
 
 from cloth_sim_ros.files.errors import shown
+from cloth_sim_ros.sim.arguments import integers
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.frame_paths import FrameMove
 from cloth_sim_ros.sim.frame_paths import FramePath
@@ -16,8 +21,9 @@ from cloth_sim_ros.sim.grasp_request import GraspRequest
 from cloth_sim_ros.sim.pin_forces import PinForces
 from cloth_sim_ros.sim.pin_motion import PinMotion
 from cloth_sim_ros.sim.pin_motion import PinRequests
-from cloth_sim_ros.sim.pins import check_node
+from cloth_sim_ros.sim.pins import checked_node
 from cloth_sim_ros.sim.pose import Pose
+from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.snapshot import FLAG_GRASPED
 from cloth_sim_ros.sim.state import State
 from cloth_sim_ros.sim.stepping import Stepping
@@ -194,12 +200,26 @@ class GraspRequests:
         self._stepping.at_rest(lambda: self._grasps.begin(grasp))
         return grasp
 
-    def begin_timed(self, request: GraspRequest, positions: np.ndarray) -> None:
-        """Hold what a scene asks for at this time; nothing where there is no free node."""
-        try:
-            self.begin(request, positions)
-        except ClothSimError:
-            return
+    def timed_edits(
+            self, scene: Scene, read_positions: Callable[[], np.ndarray],
+            ) -> Iterator[tuple[float, Callable[[], object]]]:
+        """
+        Yield what ``scene`` asks for, with the time [s] of each.
+
+        A grasp that finds no free node at its time holds nothing.
+
+        :param read_positions: returns those of that time, (rows, cols, 3) [m]
+        """
+        def begin(request: GraspRequest) -> None:
+            with suppress(ClothSimError):
+                self.begin(request, read_positions())
+
+        for request in scene.timed_grasps():
+            yield request.start, partial(begin, request)
+            if request.release:
+                yield request.release, partial(self._grasps.end, request.name)
+        for move in scene.timed_grasp_moves():
+            yield move.start, partial(self._grasps.move, move)
 
     def end(self, name: str) -> Grasp:
         """Let go; return what was held."""
@@ -225,7 +245,7 @@ class GraspRequests:
     def holding(self, name: str) -> Grasp:
         """Return the grasp ``name``, or raise ClothSimError when it holds nothing."""
         present = self.present()
-        if name not in present:
+        if not isinstance(name, str) or name not in present:
             names = ', '.join(present) or 'none'
             raise ClothSimError(
                 f'there is no grasp {shown(name)}: grasp first, or give one of those that hold '
@@ -247,11 +267,15 @@ class GraspRequests:
 def _given_nodes(
         name: str, nodes: Sequence[Sequence[int]], pinned: np.ndarray) -> np.ndarray:
     """Return ``nodes`` as (n, 2), or raise ClothSimError where they can't be held."""
-    chosen = np.array(nodes, dtype=int).reshape(-1, 2)
-    if not len(chosen):
+    chosen = integers(nodes, f'the nodes of grasp {name}', 'give [row, col] of each')
+    if not chosen.size:
         raise ClothSimError(f'grasp {name} has no node: give some, or a radius')
+    if chosen.ndim != 2 or chosen.shape[1] != 2:
+        raise ClothSimError(
+            f'the nodes of grasp {name} must be (n, 2), got {chosen.shape}: give [row, col] of '
+            'each')
     for row, col in chosen.tolist():
-        check_node(row, col, *pinned.shape)
+        checked_node(row, col, *pinned.shape)
         if pinned[row, col]:
             raise ClothSimError(
                 f'grasp {name} cannot have node ({row}, {col}), which is pinned: release it '

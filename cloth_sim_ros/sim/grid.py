@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 import math
 
+from cloth_sim_ros.sim.arguments import real_number
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.pose import checked_position
 import numpy as np
@@ -59,7 +60,8 @@ def near_node(
     :param parameter: what ``max_distance`` is set by, for the error
     :raises ClothSimError: when the point is none, no node is pinned, or the node is too far away
     """
-    checked_position(point, 'a point')
+    point = checked_position(point, 'a point')
+    max_distance = real_number(max_distance, parameter, 'give the distance in metres')
     if not max_distance > 0.0:
         raise ClothSimError(
             f'{parameter} must be above 0, got {max_distance:g}: give the distance in metres, '

@@ -21,6 +21,7 @@ from cloth_sim_ros.sim.grid import near_node
 from cloth_sim_ros.sim.grid import NearNode
 from cloth_sim_ros.sim.pin_motion import PinMotion
 from cloth_sim_ros.sim.pin_motion import PinRequests
+from cloth_sim_ros.sim.pins import checked_node
 from cloth_sim_ros.sim.pins import PinMove
 from cloth_sim_ros.sim.pins import PinPath
 from cloth_sim_ros.sim.push import Push
@@ -138,10 +139,10 @@ class Handling(RunStatus, ABC):
         :param start: simulated time at which it begins [s]; now by default
         :raises ClothSimError: when a value is wrong or no free node is in the region
         """
-        begin = self.stepping.edit_time if start is None else start
         push = Push.checked(
-            force=force, start=begin, duration=duration, region=region, center=center,
-            radius=radius)
+            force=force, start=self.stepping.edit_time if start is None else start,
+            duration=duration, region=region, center=center, radius=radius)
+        begin = push.start
         if begin < self.time:
             raise ClothSimError(
                 f'the start of the push, {begin:g} s, is in the past, the time is {self.time:g} '
@@ -170,15 +171,13 @@ class Handling(RunStatus, ABC):
 
     def pin(self, row: int, col: int) -> None:
         """Pin the node (row, col) where it is; a moving pin stops."""
-        self.engines.context.make_current()
-        self._grasps.refuse_held(row, col)
+        row, col = self._free_of_grasps(row, col)
         self._pins.hold(row, col)
         self.listener.pin(row, col, True)
 
     def release(self, row: int, col: int) -> None:
         """Release the node (row, col), with the velocity of its pin."""
-        self.engines.context.make_current()
-        self._grasps.refuse_held(row, col)
+        row, col = self._free_of_grasps(row, col)
         self._pins.release(row, col)
         self.listener.pin(row, col, False)
 
@@ -194,8 +193,7 @@ class Handling(RunStatus, ABC):
         :return: its path, with the time of arrival
         :raises ClothSimError: when the node is not pinned or a value is wrong
         """
-        self.engines.context.make_current()
-        self._grasps.refuse_held(row, col)
+        row, col = self._free_of_grasps(row, col)
         path = self._pins.move(row, col, target, speed)
         self.listener.pin_target(path.move)
         return path
@@ -292,7 +290,7 @@ class Handling(RunStatus, ABC):
         """Move a collider as ``move_grasp`` does a grasp."""
         contacts = self.loads.contacts
         names = [collider.name for collider in self.colliders]
-        if contacts is None or name not in names:
+        if contacts is None or not isinstance(name, str) or name not in names:
             raise ClothSimError(
                 f'there is no collider {shown(name)}: give one of those of the scene, '
                 f'{", ".join(names) or "none"}')
@@ -313,6 +311,13 @@ class Handling(RunStatus, ABC):
         """Return the colliders that are not where the scene alone has them."""
         contacts = self.loads.contacts
         return () if contacts is None else contacts.moved(self.time)
+
+    def _free_of_grasps(self, row: int, col: int) -> tuple[int, int]:
+        """Return row and col as ints; ClothSimError when a grasp holds the node, or none is."""
+        row, col = checked_node(row, col, self.scene.rows, self.scene.cols)
+        self.engines.context.make_current()
+        self._grasps.refuse_held(row, col)
+        return row, col
 
     def _frame_move(
             self, name: str, target: Sequence[float], orientation: Sequence[float] | None,

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 import math
 
 from cloth_sim_ros.sim.errors import ClothSimError
-from cloth_sim_ros.sim.pins import check_node
+from cloth_sim_ros.sim.pins import checked_node
 from cloth_sim_ros.sim.pins import PinMove
 from cloth_sim_ros.sim.pins import PinPath
 from cloth_sim_ros.sim.pins import Way
@@ -214,7 +214,7 @@ class PinMotion:
 
     def check_node(self, row: int, col: int) -> None:
         """Raise ClothSimError when there is no such node."""
-        check_node(row, col, self._scene.rows, self._scene.cols)
+        checked_node(row, col, self._scene.rows, self._scene.cols)
 
     def _start(self, move: PinMove) -> PinPath:
         path = PinPath(move, self.position(*move.node, move.start))

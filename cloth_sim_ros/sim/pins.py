@@ -6,11 +6,13 @@
 from collections.abc import Sequence
 from copy import copy
 from dataclasses import dataclass
-import math
 import re
 from typing import Protocol
 
 from cloth_sim_ros.files.errors import shown
+from cloth_sim_ros.sim.arguments import integer
+from cloth_sim_ros.sim.arguments import real_number
+from cloth_sim_ros.sim.arguments import vector
 from cloth_sim_ros.sim.errors import ClothSimError
 import numpy as np
 
@@ -42,7 +44,7 @@ def pinned_nodes(
         node = re.fullmatch(r'\s*(\d{1,9})\s*,\s*(\d{1,9})\s*', name)
         if node:
             row, col = int(node[1]), int(node[2])
-            check_node(row, col, rows, cols)
+            checked_node(row, col, rows, cols)
             pinned[row, col] = True
         elif name not in _REGIONS:
             raise ClothSimError(
@@ -63,12 +65,15 @@ def only_node(name: str, rows: int, cols: int, parameter: str) -> tuple[int, int
     return row, col
 
 
-def check_node(row: int, col: int, rows: int, cols: int) -> None:
-    """Raise ClothSimError when the cloth has no node (row, col)."""
+def checked_node(row: int, col: int, rows: int, cols: int) -> tuple[int, int]:
+    """Return ``row`` and ``col`` as ints; ClothSimError when the cloth has no such node."""
+    row = integer(row, 'the row of a node')
+    col = integer(col, 'the col of a node')
     if not (0 <= row < rows and 0 <= col < cols):
         raise ClothSimError(
-            f'there is no node ({row}, {col}) in a cloth of {rows} x {cols} nodes: '
+            f'there is no node ({shown(row)}, {shown(col)}) in a cloth of {rows} x {cols} nodes: '
             f'give a row from 0 to {rows - 1} and a col from 0 to {cols - 1}')
+    return row, col
 
 
 # Where a moving pin is at each time, and where it ends.
@@ -101,20 +106,17 @@ class PinMove:
             cls, *, row: int, col: int, target: Sequence[float], speed: float,
             start: float) -> 'PinMove':
         """Return a PinMove, or raise ClothSimError saying which value is wrong."""
-        if len(target) != 3 or not all(math.isfinite(part) for part in target):
-            raise ClothSimError(
-                'the target of a pin must be 3 finite numbers [m], '
-                f'got {[float(part) for part in target]}: give x, y and z')
-        if max(map(abs, target)) > FARTHEST:
+        x, y, z = vector(target, 'the target of a pin')
+        if max(abs(x), abs(y), abs(z)) > FARTHEST:
             raise ClothSimError(
                 f'the target of a pin must be at most {FARTHEST:g} m along each axis, got '
-                f'{[float(part) for part in target]}: keep the cloth near the origin')
+                f'{[x, y, z]}: keep the cloth near the origin')
+        speed = real_number(speed, 'the speed of a pin', 'give it in simulated time [m/s]')
         if not _SLOWEST <= speed <= _FASTEST:
             raise ClothSimError(
                 f'the speed of a pin must be from {_SLOWEST:g} to {_FASTEST:g} m/s, got {speed} '
                 'm/s: give it in simulated time')
-        x, y, z = map(float, target)
-        return cls(row, col, (x, y, z), float(speed), float(start))
+        return cls(row, col, (x, y, z), speed, float(start))
 
     @property
     def node(self) -> tuple[int, int]:

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 import math
 
-from cloth_sim_ros.files.errors import shown
+from cloth_sim_ros.sim.arguments import vector
 from cloth_sim_ros.sim.errors import ClothSimError
 import numpy as np
 
@@ -71,29 +71,25 @@ class Pose:
 
 def checked_position(position: Sequence[float], of: str) -> Vector:
     """Return ``position``, or raise ClothSimError; ``of`` says what it is: 'the target of ...'."""
-    if len(position) != 3 or not all(math.isfinite(part) for part in position):
+    x, y, z = vector(position, of)
+    if max(abs(x), abs(y), abs(z)) > FARTHEST:
         raise ClothSimError(
-            f'{of} must be 3 finite numbers [m], got {shown(list(position))}: give x, y and z')
-    if max(map(abs, position)) > FARTHEST:
-        raise ClothSimError(
-            f'{of} must be at most {FARTHEST:g} m along each axis, got {shown(list(position))}: '
-            'keep the cloth near the origin')
-    x, y, z = map(float, position)
+            f'{of} must be at most {FARTHEST:g} m along each axis, got {[x, y, z]}: keep the '
+            'cloth near the origin')
     return x, y, z
 
 
 def unit_quaternion(orientation: Sequence[float], of: str) -> Quaternion:
     """Return ``orientation`` x y z w of length 1, or raise ClothSimError; ``of`` names it."""
-    if len(orientation) != 4 or not all(math.isfinite(part) for part in orientation):
-        raise ClothSimError(
-            f'{of} needs 4 finite numbers, got {shown(list(orientation))}: write [x, y, z, w]')
-    length = math.hypot(*orientation)
+    parts = vector(
+        orientation, of, '', length=4, verb='needs', hint='write [x, y, z, w]')
+    length = math.hypot(*parts)
     if not _LEAST_QUATERNION < length < math.inf:
         raise ClothSimError(
-            f'{of} {shown(list(orientation))} has no direction: give a quaternion x y z w, '
+            f'{of} {list(parts)} has no direction: give a quaternion x y z w, '
             '[0.0, 0.0, 0.0, 1.0] for none')
     divisor = length if abs(length - 1.0) > _ROUNDING else 1.0
-    x, y, z, w = (float(part) / divisor for part in orientation)
+    x, y, z, w = (part / divisor for part in parts)
     return x, y, z, w
 
 

@@ -8,6 +8,8 @@ from dataclasses import dataclass
 import math
 
 from cloth_sim_ros.files.errors import shown
+from cloth_sim_ros.sim.arguments import real_number
+from cloth_sim_ros.sim.arguments import vector
 from cloth_sim_ros.sim.errors import ClothSimError
 import numpy as np
 
@@ -17,6 +19,7 @@ _STRONGEST = 1e30
 # What a scene may have as well [m], [s].
 _FARTHEST = 1e6
 _LONGEST = 1e9
+_IN_SECONDS = 'give it in simulated seconds'
 # What a node on the surface of a sphere may lie outside of it, over how far from the origin the
 # sphere reaches: see Push.contains.
 _ROUNDING = 2.0**-23
@@ -49,29 +52,31 @@ class Push:
             cls, *, force: Sequence[float], start: float, duration: float, region: str = 'all',
             center: Sequence[float] = (0.0, 0.0, 0.0), radius: float = 0.0) -> 'Push':
         """Return a Push, or raise ClothSimError saying which value is wrong."""
-        if region not in REGIONS:
+        if not isinstance(region, str) or region not in REGIONS:
             raise ClothSimError(
                 f'a push needs the region {" or ".join(REGIONS)}, got {shown(region)}: '
                 'leave it empty for all')
         vectors = {'force': (force, _STRONGEST, 'N'), 'center': (center, _FARTHEST, 'm')}
-        for name, (vector, most, unit) in vectors.items():
-            if len(vector) != 3 or not all(math.isfinite(part) for part in vector):
-                raise ClothSimError(
-                    f'the {name} of a push must be 3 finite numbers [{unit}], '
-                    f'got {[float(part) for part in vector]}: give x, y and z')
-            if max(map(abs, vector)) > most:
+        checked = []
+        for name, (given, most, unit) in vectors.items():
+            x, y, z = vector(given, f'the {name} of a push', unit)
+            if max(abs(x), abs(y), abs(z)) > most:
                 raise ClothSimError(
                     f'the {name} of a push must be at most {most:g} {unit} along each axis, got '
-                    f'{[float(part) for part in vector]}: give less')
+                    f'{[x, y, z]}: give less')
+            checked.append((x, y, z))
+        start = real_number(start, 'the start of a push', _IN_SECONDS)
+        duration = real_number(duration, 'the duration of a push', _IN_SECONDS)
+        radius = real_number(radius, 'the radius of a push', 'give it in metres')
         # Written so that what is no number is refused.
         if not 0.0 <= start <= _LONGEST:
             raise ClothSimError(
-                f'the start of a push must be from 0 to {_LONGEST:g} s, got {start} s: give it in '
-                'simulated seconds')
+                f'the start of a push must be from 0 to {_LONGEST:g} s, got {start} s: '
+                f'{_IN_SECONDS}')
         if not 0.0 < duration <= _LONGEST:
             raise ClothSimError(
                 f'the duration of a push must be above 0 and at most {_LONGEST:g} s, got '
-                f'{duration} s: give it in simulated seconds')
+                f'{duration} s: {_IN_SECONDS}')
         if not 0.0 <= radius <= _FARTHEST:
             raise ClothSimError(
                 f'the radius of a push must be from 0 to {_FARTHEST:g} m, got {radius} m: give it '
@@ -80,9 +85,7 @@ class Push:
             raise ClothSimError(
                 'a push on a sphere needs a radius above 0, got 0 m: '
                 'give one, or the region all')
-        (fx, fy, fz), (cx, cy, cz) = map(float, force), map(float, center)
-        return cls(
-            (fx, fy, fz), float(start), float(duration), region, (cx, cy, cz), float(radius))
+        return cls(checked[0], start, duration, region, checked[1], radius)
 
     @property
     def end(self) -> float:

@@ -13,6 +13,8 @@ from cloth_sim_ros.files.close_name import close_name
 from cloth_sim_ros.files.errors import cut
 from cloth_sim_ros.files.errors import shown
 from cloth_sim_ros.sim import grid
+from cloth_sim_ros.sim.arguments import integer
+from cloth_sim_ros.sim.arguments import mapping
 from cloth_sim_ros.sim.colliders import colliders_of
 from cloth_sim_ros.sim.colliders import fields_with_colliders
 from cloth_sim_ros.sim.errors import ClothSimError
@@ -33,6 +35,8 @@ from cloth_sim_ros.sim.scene_fields import Field
 from cloth_sim_ros.sim.wind import Gust
 import numpy as np
 
+GIVE_SCENE = "write Scene({'rows': 32}), or load_scene(path)"
+
 
 class Scene:
     """
@@ -44,9 +48,12 @@ class Scene:
 
     def __init__(self, values: Mapping[str, Any] | None = None) -> None:
         """Check ``values`` against the field table."""
-        fields = fields_with_colliders(values or {})
-        refuse_unknown(values or {}, fields)
-        given = completed(values or {})
+        values = {} if values is None else mapping(
+            values, 'the values of a scene', "give parameters by name, {'rows': 32}")
+        fields = fields_with_colliders(values)
+        refuse_unknown(values, fields)
+        by_name = {field.name: field for field in fields}
+        given = completed({name: by_name[name].check(value) for name, value in values.items()})
         self.values = {
             field.name: field.check(given.get(field.name, field.default)) for field in fields}
         if self.rows * self.cols < 2:
@@ -79,8 +86,13 @@ class Scene:
         self.timed_grasp_moves()
 
     def __getitem__(self, name: str) -> Any:
-        """Return the value of the parameter ``name``."""
-        return self.values[name]
+        """Return the value of the parameter ``name``; ClothSimError when there is none."""
+        try:
+            return self.values[name]
+        except (KeyError, TypeError):
+            known = list(self.values)
+        hint = _hint(name, known) if isinstance(name, str) else 'give its name'
+        raise ClothSimError(f'there is no parameter {shown(name)}: {hint}')
 
     @property
     def rows(self) -> int:
@@ -118,11 +130,13 @@ class Scene:
         :param direction: WARP for those along rows, WEFT for those along columns; None for the
             larger of both
         """
-        return of_direction(self._stiffness[family], direction)
+        return of_direction(
+            self._stiffness[checked_family(family)], checked_direction(direction))
 
     def damping(self, family: str, direction: int | None = None) -> float:
         """Return the damping of the springs of a family [N s/m]; as ``stiffness``."""
-        return of_direction(self[f'damping.{family}'], direction)
+        return of_direction(
+            self[f'damping.{checked_family(family)}'], checked_direction(direction))
 
     @property
     def has_rigidity(self) -> bool:
@@ -318,6 +332,24 @@ class Scene:
                 f'{name} needs {width} per {entry}, {count * width} for the {count} in '
                 f'{group}.start, got {len(flat)}: give one entry for each {entry}')
         return [flat[i * width:(i + 1) * width] for i in range(count)]
+
+
+def checked_family(family: str) -> str:
+    """Return ``family``, or raise ClothSimError when there are no such springs."""
+    if not isinstance(family, str) or family not in FAMILIES:
+        raise ClothSimError(
+            f'there are no springs of the family {shown(family)}: give one of '
+            f'{", ".join(FAMILIES)}')
+    return family
+
+
+def checked_direction(direction: int | None) -> int | None:
+    """Return ``direction``, or raise ClothSimError when it is not WARP, WEFT or None."""
+    if direction is not None and integer(direction, 'the direction') not in (WARP, WEFT):
+        raise ClothSimError(
+            f'the direction must be {WARP} for warp or {WEFT} for weft, got {shown(direction)}: '
+            'give one of them, or None for the larger')
+    return direction
 
 
 def refuse_unknown(given: Iterable[str], fields: tuple[Field, ...]) -> None:

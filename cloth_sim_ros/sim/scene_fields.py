@@ -77,7 +77,7 @@ class Field:
         is_number = isinstance(value, (int, float)) and not isinstance(value, bool)
         if self.kind is float and is_number:
             value = _as_float(value)
-        if self.choices and value not in self.choices:
+        if self.choices and not (isinstance(value, str) and value in self.choices):
             raise ClothSimError(
                 f'{self.name} must be one of {", ".join(self.choices)}, got {shown(value)}')
         is_kind = type(value) is self.kind

@@ -22,7 +22,6 @@ from cloth_sim_ros.sim.engine import Preparation
 from cloth_sim_ros.sim.forces import lost_grasps
 from cloth_sim_ros.sim.forces import pulled_too_hard
 from cloth_sim_ros.sim.forces import with_forces
-from cloth_sim_ros.sim.grasp_request import GraspRequest
 from cloth_sim_ros.sim.grasps import GraspForce
 from cloth_sim_ros.sim.grasps import GraspRequests
 from cloth_sim_ros.sim.grasps import Grasps
@@ -38,6 +37,11 @@ from cloth_sim_ros.sim.pin_motion import PinRequests
 from cloth_sim_ros.sim.pose import Pose
 from cloth_sim_ros.sim.push import Push
 from cloth_sim_ros.sim.scene import Scene
+from cloth_sim_ros.sim.simulation_arguments import check_callable
+from cloth_sim_ros.sim.simulation_arguments import check_creation
+from cloth_sim_ros.sim.simulation_arguments import check_flags
+from cloth_sim_ros.sim.simulation_arguments import checked_forces
+from cloth_sim_ros.sim.simulation_arguments import checked_run
 from cloth_sim_ros.sim.snapshot import Measures
 from cloth_sim_ros.sim.snapshot import Snapshot
 from cloth_sim_ros.sim.state import start_state
@@ -78,6 +82,9 @@ class Simulation(Handling, AbstractContextManager['Simulation']):
             check_stability: bool = True, stop_at_non_finite: bool = True,
             compiles: bool = True, tuned: bool = True) -> None:
         """Compile, allocate and take up the start pose."""
+        check_creation(
+            scene, context, check_stability=check_stability, compiles=compiles, tuned=tuned,
+            stop_at_non_finite=stop_at_non_finite)
         self.scene = scene
         self.dt: float = scene['dt']
         self._owns_context = context is None
@@ -131,6 +138,7 @@ class Simulation(Handling, AbstractContextManager['Simulation']):
 
         :raises NonFiniteStateError: when the state is lost; the last finite one is kept
         """
+        check_callable(is_due=is_due)
         engine, stepping = self.engines.in_use, self.stepping
         engine.context.make_current()
 
@@ -175,10 +183,10 @@ class Simulation(Handling, AbstractContextManager['Simulation']):
         Pins are at rest then: moves under way end, those of the scene that are to come don't.
         """
         self.stepping.refuse_mid_step('set_state')
-        self._state.check(positions, velocities)
+        positions, velocities = self._state.checked(positions, velocities)
         self.listener.new_state()
         self.engines.context.make_current()
-        self._state.write(np.asarray(positions), np.asarray(velocities))
+        self._state.write(positions, velocities)
         self._held.stop(self.time)
         self._pin_motion.drop()
         self.loads.forget()
@@ -203,11 +211,12 @@ class Simulation(Handling, AbstractContextManager['Simulation']):
         :param colliders: where those are, by name, that are not where the scene has them
         """
         self.stepping.refuse_mid_step('go_on_from')
-        self._state.check(positions, velocities)
+        positions, velocities = self._state.checked(positions, velocities)
+        steps, pinned, pushes = checked_run(self.scene, steps, pinned, pushes, colliders)
         self.listener.new_state()
         self.engines.context.make_current()
         self._state.pinned[:] = pinned
-        self._state.write(np.asarray(positions), np.asarray(velocities))
+        self._state.write(positions, velocities)
         self.engines.forget()
         self._begin_run(steps)
         self.loads.pushes.take_up(pushes, self.time)
@@ -240,6 +249,7 @@ class Simulation(Handling, AbstractContextManager['Simulation']):
         :param tension: True to have the tension of every edge in it, and the forces at the pins
         :param pin_forces: True to have these forces alone, which costs less on a large cloth
         """
+        check_flags(tension=tension, pin_forces=pin_forces)
         snapshot = self._look(later=False)()
         self._held.mark(snapshot.records['flags'])
         if self.loads.contacts is not None and not self.stepping.is_mid_step:
@@ -294,9 +304,9 @@ class Simulation(Handling, AbstractContextManager['Simulation']):
 
         :param snapshot: of this time, with the forces at pins; made here by default
         """
-        snapshot = snapshot or self.snapshot(pin_forces=True)
-        assert snapshot.pin_forces is not None
-        return self._held.forces(snapshot.pin_forces, snapshot.positions, self.time)
+        seen = self.snapshot(pin_forces=True) if snapshot is None else snapshot
+        forces = checked_forces(seen, self.time, self.grasped_nodes())
+        return self._held.forces(forces, seen.positions, self.time)
 
     def finish(self) -> None:
         """Wait until the device has finished all work; for timing."""
@@ -323,18 +333,8 @@ class Simulation(Handling, AbstractContextManager['Simulation']):
         self._held = Grasps(self._state, self._pin_motion)
         self._grasps = GraspRequests(
             self._held, self._pins, self.stepping, usual_reach(self.scene))
-        self.stepping.at_times(self._timed_edits())
-
-    def _timed_edits(self) -> Iterator[tuple[float, Callable[[], object]]]:
-        for request in self.scene.timed_grasps():
-            yield request.start, partial(self._begin_timed_grasp, request)
-            if request.release:
-                yield request.release, partial(self._held.end, request.name)
-        for move in self.scene.timed_grasp_moves():
-            yield move.start, partial(self._held.move, move)
-
-    def _begin_timed_grasp(self, request: GraspRequest) -> None:
-        self._grasps.begin_timed(request, self._state.read_positions())
+        self.stepping.at_times(
+            self._grasps.timed_edits(self.scene, self._state.read_positions))
 
     def _make_steps(self, number: int, most: int) -> modes.Steps:
         count = min(most, self._quiet_steps(number)) if most > 1 else 1

@@ -10,6 +10,7 @@ from contextlib import contextmanager
 from cloth_sim_ros.gl.buffer import Buffer
 from cloth_sim_ros.gl.buffer import BufferRow
 from cloth_sim_ros.sim import bindings
+from cloth_sim_ros.sim.arguments import array
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.layout import HALO
 from cloth_sim_ros.sim.layout import Layout
@@ -75,14 +76,13 @@ class State:
         """Return a buffer of as many bytes as any that has four floats for each node."""
         return self._positions[0]
 
-    def check(self, positions: np.ndarray, velocities: np.ndarray) -> None:
-        """Raise ClothSimError unless both are (rows, cols, 3) numbers that can be stepped."""
+    def checked(
+            self, positions: np.ndarray, velocities: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Return both as arrays, or raise ClothSimError where they can't be stepped."""
         shape = (*self.pinned.shape, 3)
-        for name, values in (('positions', positions), ('velocities', velocities)):
-            if np.shape(values) != shape or not np.all(np.abs(values) < MOST_MAGNITUDE):
-                raise ClothSimError(
-                    f'{name} must be {shape} numbers below {MOST_MAGNITUDE:g}, '
-                    f'got {np.shape(values)} up to {np.abs(values).max(initial=0.0):g}')
+        return (
+            checked_vectors(positions, 'positions', shape),
+            checked_vectors(velocities, 'velocities', shape))
 
     def write(self, positions: np.ndarray, velocities: np.ndarray) -> None:
         """Replace all positions [m] and velocities [m/s], (rows, cols, 3); pins are at rest."""
@@ -232,6 +232,20 @@ def start_state(scene: Scene, layout: Layout) -> State:
     return State(
         layout, scene.start_positions(), scene.pinned_nodes(),
         has_low_parts=needs_low_parts(scene))
+
+
+def checked_vectors(
+        values: np.ndarray, of: str, shape: tuple[int, ...],
+        hint: str = 'give 3 for each node') -> np.ndarray:
+    """Return ``values`` as float64 of ``shape``; ClothSimError where a cloth can't have them."""
+    found = array(values, of, shape, hint)
+    largest = np.abs(found).max(initial=0.0)
+    # NaN fails this as well.
+    if not largest < MOST_MAGNITUDE:
+        raise ClothSimError(
+            f'{of} must be {shape} numbers below {MOST_MAGNITUDE:g}, got up to {largest:g}: give '
+            'finite ones near the origin')
+    return found
 
 
 def _with_fourth(vectors: np.ndarray, fourth: np.ndarray | float) -> np.ndarray:

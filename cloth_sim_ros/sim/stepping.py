@@ -8,7 +8,10 @@ from collections.abc import Generator
 from collections.abc import Iterable
 import math
 
+from cloth_sim_ros.files.errors import shown
 from cloth_sim_ros.sim import modes
+from cloth_sim_ros.sim.arguments import integer
+from cloth_sim_ros.sim.arguments import real_number
 from cloth_sim_ros.sim.colliders import Collider
 from cloth_sim_ros.sim.engine import Engines
 from cloth_sim_ros.sim.errors import ClothSimError
@@ -81,9 +84,12 @@ class Stepping:
 
     def aim(self, seconds: float) -> None:
         """Go on for ``seconds`` more; what is no whole dt is carried over."""
+        seconds = real_number(seconds, 'the time to advance by', 'give it in seconds')
         if not math.isfinite(seconds) or seconds < 0.0:
             raise ClothSimError(f'cannot advance by {seconds} s: give a time of 0 s or more')
         carried = self._carried + seconds
+        # Before it is counted in steps, of which there would be too many for a float.
+        refuse_later_than_latest(self.time + carried)
         # The small share keeps a sum of frame times from falling just short of a step.
         count = math.floor(carried / self._dt + 1e-6)
         self._aim_at(self._goal + count)
@@ -92,9 +98,7 @@ class Stepping:
 
     def aim_steps(self, count: int) -> None:
         """Make ``count`` steps of dt from now on."""
-        if count < 0:
-            raise ClothSimError(f'cannot make {count} steps: give 0 or more')
-        self._aim_at(self.steps + count)
+        self._aim_at(self.steps + checked_steps(count, self.steps, self._dt))
         self._carried = 0.0
 
     def drop_aim(self) -> None:
@@ -158,10 +162,7 @@ class Stepping:
                 f'{name} needs the current step to end: continue its work, or close it')
 
     def _aim_at(self, goal: int) -> None:
-        if goal * self._dt > LATEST:
-            raise ClothSimError(
-                f'simulated time ends at {LATEST} s, like ROS time stamps, and the run would '
-                f'reach {goal * self._dt:.10g} s: reset it, which restarts at 0')
+        refuse_later_than_latest(goal * self._dt)
         self._goal = goal
 
     def _make_edits(self) -> None:
@@ -174,6 +175,29 @@ class Stepping:
     def _take_edits(self) -> list[Callable[[], object]]:
         edits, self._edits = self._edits, []
         return edits
+
+
+def checked_steps(count: int, made: int, dt: float) -> int:
+    """
+    Return ``count`` as an int, or raise ClothSimError when so many steps of dt can't be made.
+
+    :param made: steps before
+    :param dt: [s]
+    """
+    count = integer(count, 'the number of steps', 'give an int, or advance by seconds')
+    if count < 0:
+        raise ClothSimError(f'cannot make {shown(count)} steps: give 0 or more')
+    # An int of any size is compared with a float without overflow.
+    refuse_later_than_latest((made + count) * dt if count < LATEST / dt else math.inf)
+    return count
+
+
+def refuse_later_than_latest(time: float) -> None:
+    """Raise ClothSimError when a run would go on until ``time`` [s]."""
+    if time > LATEST:
+        raise ClothSimError(
+            f'simulated time ends at {LATEST} s, like ROS time stamps, and the run would '
+            f'reach {time:.10g} s: reset it, which restarts at 0')
 
 
 class RunStatus:

@@ -7,6 +7,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 import math
 
+from cloth_sim_ros.files.errors import shown
+from cloth_sim_ros.sim.arguments import vector_or_none
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.scene_fields import FASTEST_WIND
 import numpy as np
@@ -75,11 +77,12 @@ class Wind:
 
 def checked_wind(velocity: Sequence[float]) -> tuple[float, float, float]:
     """Return ``velocity`` [m/s] as three numbers; ClothSimError says what is wrong with it."""
-    if len(velocity) != 3 or not all(abs(part) <= FASTEST_WIND for part in velocity):
+    found = vector_or_none(velocity)
+    if found is None or not all(abs(part) <= FASTEST_WIND for part in found):
         raise ClothSimError(
-            f'the wind must be 3 numbers of at most {FASTEST_WIND:g} m/s each, '
-            f'got {[float(part) for part in velocity]}: give x, y and z')
-    return _three(velocity)
+            f'the wind must be 3 numbers of at most {FASTEST_WIND:g} m/s each, got '
+            f'{shown(velocity if found is None else list(found))}: give x, y and z')
+    return _three(found)
 
 
 def _three(velocity: Sequence[float]) -> tuple[float, float, float]:
