@@ -18,6 +18,10 @@ from cloth_sim_ros.gl.device import headless_displays
 from cloth_sim_ros.gl.device import refusal
 from cloth_sim_ros.gl.device import VERSION
 from cloth_sim_ros.gl.errors import DeviceError
+from cloth_sim_ros.gl.forked import forks
+from cloth_sim_ros.gl.forked import note_device
+from cloth_sim_ros.gl.forked import refuse_context_of
+from cloth_sim_ros.gl.forked import refuse_new_context
 from cloth_sim_ros.gl.libraries import EGL
 from cloth_sim_ros.gl.libraries import error
 from cloth_sim_ros.gl.libraries import GL
@@ -107,6 +111,8 @@ class Context:
     def __init__(
             self, *, single_thread: bool = False, beside: 'Context | None' = None) -> None:
         """Make the context and make it current."""
+        refuse_new_context()
+        self._forks = forks()
         if beside is None:
             with _worker_threads(single_thread):
                 self._display, self._context, self._attributes = _best_context()
@@ -124,18 +130,25 @@ class Context:
         self.device = GL.glGetString(GL.GL_RENDERER).decode()
         self.version = GL.glGetString(GL.GL_VERSION).decode()
         self.is_software = is_software(self.device)
+        note_device(self.is_software)
         self.max_buffer_bytes = _integer(GL.GL_MAX_SHADER_STORAGE_BLOCK_SIZE)
         # 0 without texture buffers.
         self.max_texture_texels = _integer(GL.GL_MAX_TEXTURE_BUFFER_SIZE)
 
     def make_current(self) -> None:
         """Direct the GL calls of this thread to this context; DeviceError once it is closed."""
+        refuse_context_of(self._forks)
         if self._context is None:
             raise DeviceError('the GL context is closed: create a new Simulation')
         if not quick_calls.make_current(*self._addresses):
             raise DeviceError('the GL context cannot be used on this thread: use it on the thread '
                               'that created it')
         set_current_pool(self._programs)
+
+    @property
+    def is_of_parent(self) -> bool:
+        """Tell whether this process was forked since the context was made."""
+        return self._forks != forks()
 
     def release(self) -> None:
         """Have no context on this thread, so that this one can be used on another."""
@@ -150,7 +163,9 @@ class Context:
         GL.glFinish()
 
     def close(self) -> None:
-        """Give the context and all its buffers back."""
+        """Give the context and all its buffers back; in a forked child they are the parent's."""
+        if self.is_of_parent:
+            self._context = None
         if self._context is not None:
             EGL.eglMakeCurrent(
                 self._display, EGL.EGL_NO_SURFACE, EGL.EGL_NO_SURFACE, EGL.EGL_NO_CONTEXT)

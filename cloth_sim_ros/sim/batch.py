@@ -286,7 +286,7 @@ class Batch(AbstractContextManager['Batch']):
             raise ClothSimError(
                 f'{len(numbers)} pins need ({len(numbers)}, 2) nodes, got {nodes.shape}: give '
                 '[row, col] of each pin')
-        if np.ndim(speeds) == 0:
+        if getattr(speeds, 'shape', None) == () or not hasattr(speeds, '__len__'):
             speeds = [real_number(speeds, 'the speed', 'give it in m/s')] * len(numbers)
         speed = array(speeds, 'the speeds', (len(numbers),), 'give one for each pin, or for all')
         entries = zip(numbers.tolist(), nodes.tolist(), targets.tolist(), speed.tolist())
@@ -308,8 +308,8 @@ class Batch(AbstractContextManager['Batch']):
         self._context.finish()
 
     def close(self) -> None:
-        """Free all memory on the device; does nothing when called again."""
-        if not self._stacks:
+        """Free all memory on the device; does nothing when called again, or in a forked child."""
+        if not self._stacks or self._context.is_of_parent:
             return
         self._context.make_current()
         for stack in self._stacks:

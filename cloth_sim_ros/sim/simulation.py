@@ -313,8 +313,8 @@ class Simulation(Handling, AbstractContextManager['Simulation']):
         self.engines.context.finish()
 
     def close(self) -> None:
-        """Free all memory on the device; does nothing when called again."""
-        if self._is_closed:
+        """Free all memory on the device; does nothing when called again, or in a forked child."""
+        if self._is_closed or self._first_context.is_of_parent:
             return
         self._is_closed = True
         self.engines.delete()
