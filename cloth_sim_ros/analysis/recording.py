@@ -20,6 +20,9 @@ from cloth_sim_ros.recording.bag_messages import BagTopic
 from cloth_sim_ros.recording.bag_messages import RawMessage
 from cloth_sim_ros.recording.bag_reader import BagReader
 from cloth_sim_ros.recording.recording_faults import nothing_flushed
+from cloth_sim_ros.sim.arguments import instance
+from cloth_sim_ros.sim.arguments import path as checked_path
+from cloth_sim_ros.sim.arguments import word
 from cloth_sim_ros.sim.errors import ClothSimError
 import numpy as np
 
@@ -219,7 +222,9 @@ class Recording:
 
     def __init__(self, path: str | Path, node: str | None = None) -> None:
         """Open the files."""
-        self.path = Path(path)
+        self.path = checked_path(path, 'the recording')
+        if node is not None:
+            word(node, 'the name of the node', 'leave it out to have it found')
         self._bag = BagReader(self.path)
         self._given_node = node
 
@@ -266,7 +271,7 @@ class Recording:
         """
         # Resets are always read: the time must not depend on what else is.
         names = {
-            topic.name: topic.type_name for topic in self._known_topics({*keys, 'inputs/command'})}
+            topic.name: topic.type_name for topic in self._known_topics((*keys, 'inputs/command'))}
         begin = len(self.node) + 1
         time = SteadyTime()
         for raw in self._bag.messages(names) if names else ():
@@ -293,7 +298,7 @@ class Recording:
 
         :raises ClothSimError: when the recording has no such topic, or a message makes no sense
         """
-        if key not in self.keys():
+        if word(key, 'the topic') not in self.keys():
             raise ClothSimError(
                 f'{cut(self.path)} holds no topic {cut(key)} of the node {self.node}: choose one '
                 f'of {", ".join(sorted(self.keys()))}')
@@ -305,6 +310,7 @@ class Recording:
 
     def decode(self, message: RawMessage) -> Any:
         """Return the decoded message; ClothSimError when it can't be."""
+        instance(message, RawMessage, 'the message', 'give one of raw_messages()')
         return self._bag.decode(message)
 
     def no_frame(self) -> ClothSimError:
@@ -322,6 +328,11 @@ class Recording:
             '--node, or record with publish.points: true')
 
     def _known_topics(self, keys: Iterable[str]) -> list[BagTopic]:
+        keys = list(keys)
+        for key in keys:
+            if word(key, 'the topic') not in TYPES:
+                raise ClothSimError(
+                    f'a node has no topic {cut(key)}: choose one of {", ".join(TYPES)}')
         wanted = {f'{self.node}/{key}': TYPES[key] for key in keys}
         return [
             topic for topic in self.topics if wanted.get(topic.name) == topic.type_name]

@@ -9,6 +9,8 @@ from typing import Any
 
 from cloth_sim_ros.node.node_fields import checked_node_values
 from cloth_sim_ros.node.node_fields import NODE_FIELDS
+from cloth_sim_ros.sim.arguments import mapping
+from cloth_sim_ros.sim.arguments import path as checked_path
 from cloth_sim_ros.sim.colliders import fields_with_colliders
 from cloth_sim_ros.sim.given_values import load_parameters
 from cloth_sim_ros.sim.scene import refuse_unknown
@@ -23,7 +25,9 @@ def load_scene(path: str | Path, changes: Mapping[str, Any] | None = None) -> Sc
     :raises ClothSimError: when the file can't be read, or a parameter in it or in ``changes`` is
         not right
     """
-    return scene_from(path, changes or {})[0]
+    given = {} if changes is None else mapping(
+        changes, 'the changes of a scene', "give parameters by name, {'rows': 32}")
+    return scene_from(checked_path(path, 'the scene file'), given)[0]
 
 
 def scene_from(

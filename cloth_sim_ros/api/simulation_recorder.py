@@ -31,6 +31,11 @@ from cloth_sim_ros.node.recording_session import write_opening
 from cloth_sim_ros.recording.bag_folder import RecordingOptions
 from cloth_sim_ros.recording.recording_faults import RecordingError
 from cloth_sim_ros.recording.recording_faults import RecordingFull
+from cloth_sim_ros.sim.arguments import instance
+from cloth_sim_ros.sim.arguments import mapping
+from cloth_sim_ros.sim.arguments import path as checked_path
+from cloth_sim_ros.sim.arguments import vector
+from cloth_sim_ros.sim.arguments import word
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.errors import NonFiniteStateError
 from cloth_sim_ros.sim.handling import InputListener
@@ -202,18 +207,24 @@ class SimulationRecorder(AbstractContextManager['SimulationRecorder']):
             self, simulation: Simulation, directory: str | os.PathLike[str], name: str = '', *,
             node: str = 'cloth_sim', parameters: Mapping[str, Any] | None = None) -> None:
         """Open the recording and write what it begins with."""
+        instance(simulation, Simulation, 'what is recorded', 'give a Simulation')
+        folder = checked_path(directory, 'the directory')
+        word(name, 'the name of a recording', 'leave it out for one of date and time')
+        word(node, 'the name of the node', "give one like 'cloth_sim'")
+        parameters = {} if parameters is None else mapping(
+            parameters, 'the parameters', "give them by name, {'publish.rate': 50.0}")
         if type(simulation.listener) is not InputListener:
             raise ClothSimError(
                 'this simulation is already being recorded: close its recorder before creating '
                 'another')
-        given = {**(parameters or {}), 'recording.name': name}
+        given = {**parameters, 'recording.name': name}
         refuse_unknown(given, NODE_FIELDS)
         values = checked_node_values(given)
         self._simulation = simulation
         self._frame_seconds = max(1.0 / values['publish.rate'], simulation.dt)
         self._ending: RecordingError | None = None
         self._recording = RunRecording(
-            simulation, values, os.fspath(directory), say=_warn, lost=self._keep,
+            simulation, values, os.fspath(folder), say=_warn, lost=self._keep,
             node_name=node, setting='directory')
         self.path: str = self._recording.path
         self._is_open = True
@@ -234,9 +245,7 @@ class SimulationRecorder(AbstractContextManager['SimulationRecorder']):
         """
         simulation = self._simulation
         first = simulation.steps
-        if not 0.0 <= seconds < math.inf:
-            # It has the words for what is wrong.
-            simulation.advance(seconds)
+        seconds = simulation.stepping.checked_seconds(seconds)
         for frame in range(math.ceil(seconds / self._frame_seconds - _ROUNDING)):
             self._make_frame(min(self._frame_seconds, seconds - frame * self._frame_seconds))
         return simulation.steps - first
@@ -252,7 +261,10 @@ class SimulationRecorder(AbstractContextManager['SimulationRecorder']):
         if not self._is_open:
             raise RecordingError(
                 f'the recording {self.path} is closed: create another SimulationRecorder')
-        self._recording.write(step_wall_time, real_time_factor)
+        measured = vector(
+            (step_wall_time, real_time_factor), 'step_wall_time and real_time_factor', '',
+            length=2, hint='give 0 where it was not measured')
+        self._recording.write(*measured)
         if self._ending is not None:
             raise self._ending
 

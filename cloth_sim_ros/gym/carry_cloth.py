@@ -5,12 +5,16 @@
 
 from collections.abc import Mapping
 from collections.abc import Sequence
-import math
 from types import MappingProxyType
 from typing import Any
 
+from cloth_sim_ros.files.errors import shown
 from cloth_sim_ros.gym.observations import Observation
 from cloth_sim_ros.gym.observations import Observer
+from cloth_sim_ros.sim.arguments import array
+from cloth_sim_ros.sim.arguments import integer
+from cloth_sim_ros.sim.arguments import real_number
+from cloth_sim_ros.sim.arguments import vector_or_none
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.errors import NonFiniteStateError
 from cloth_sim_ros.sim.pins import FARTHEST
@@ -22,6 +26,8 @@ import numpy as np
 
 _DEFAULT = {'rows': 16, 'cols': 16, 'width': 0.4, 'height': 0.4, 'start.pose': 'hanging'}
 _NOTHING = 1e-9  # [m]
+_LONGEST_FRAME = 1e6  # [s]; chosen: eleven days of simulated time are no action
+_FASTEST = 1e6  # [m/s]; as of any pin, sim/pins.py
 
 
 class CarryCloth(gymnasium.Env[Observation, np.ndarray]):
@@ -72,17 +78,24 @@ class CarryCloth(gymnasium.Env[Observation, np.ndarray]):
         if not len(self.pins):
             raise ClothSimError('the cloth is carried by its pins, but this scene has none: set '
                                 'pins')
-        _check('frame', frame, 's')
-        _check('speed', speed, 'm/s')
+        frame = _checked('frame', frame, _LONGEST_FRAME, 's')
+        speed = _checked('speed', speed, _FASTEST, 'm/s')
+        tolerance = real_number(tolerance, 'the tolerance', 'give a distance in metres')
+        if not 0.0 <= tolerance <= FARTHEST:
+            raise ClothSimError(
+                f'the tolerance must be from 0 to {FARTHEST:g} m, got {tolerance}: give a '
+                'distance')
+        jitter = real_number(jitter, 'the jitter', 'give a share of the node spacing')
         if not 0.0 <= jitter <= 0.5:
             raise ClothSimError(
                 f'the jitter must be from 0 to 0.5 of the node spacing, got {jitter}: give less')
-        offset = np.array(goal, dtype=float)
-        if offset.shape != (3,) or not np.all(np.abs(offset) <= FARTHEST):
+        offset = vector_or_none(goal)
+        if offset is None or not all(abs(part) <= FARTHEST for part in offset):
             raise ClothSimError(
-                f'the goal needs 3 numbers up to {FARTHEST:g} m, got {goal}: give x, y and z')
+                f'the goal needs 3 numbers up to {FARTHEST:g} m, got {shown(goal)}: give x, y '
+                'and z')
         start = scene.rest_positions()
-        self._goal = start + offset
+        self._goal = start + np.array(offset)
         self._observer = Observer(
             observation, start.shape[:2], np.concatenate([start, self._goal]).reshape(-1, 3),
             camera, picture_size)
@@ -105,6 +118,10 @@ class CarryCloth(gymnasium.Env[Observation, np.ndarray]):
         :param options: none are known
         :return: observation and info
         """
+        if seed is not None:
+            seed = integer(seed, 'the seed', 'give an int of 0 or more, or None')
+            if seed < 0:
+                raise ClothSimError(f'the seed must be 0 or more, got {shown(seed)}: give another')
         super().reset(seed=seed)
         simulation = self._simulation
         simulation.reset()
@@ -123,14 +140,17 @@ class CarryCloth(gymnasium.Env[Observation, np.ndarray]):
         :return: observation, reward, terminated, truncated and info
         :raises ClothSimError: when the action has another shape or a value outside its range
         """
-        if not self.action_space.contains(np.asarray(action, dtype=np.float32)):
+        shape = (len(self.pins), 3)
+        ways = array(action, 'an action', shape, 'give x, y and z from -1 to 1 for each pin')
+        # NaN fails this as well.
+        if not np.all(np.abs(ways.astype(np.float32)) <= 1.0):
             raise ClothSimError(
-                f'an action must be {self.action_space.shape} numbers from -1 to 1, got '
-                f'{np.shape(action)}: clip it')
+                f'an action must be {shape} numbers from -1 to 1, got {ways.min():g} to '
+                f'{ways.max():g}: clip it')
         simulation = self._simulation
         places = simulation.positions()
         seconds = self._steps * simulation.dt
-        for (row, col), way in zip(self.pins.tolist(), self._reach * np.asarray(action, float)):
+        for (row, col), way in zip(self.pins.tolist(), self._reach * ways):
             length = float(np.linalg.norm(way))
             if length > _NOTHING:
                 simulation.move_pin(row, col, places[row, col] + way, speed=length / seconds)
@@ -162,6 +182,10 @@ class CarryCloth(gymnasium.Env[Observation, np.ndarray]):
         }
 
 
-def _check(name: str, value: float, unit: str) -> None:
-    if not (math.isfinite(value) and value > 0.0):
-        raise ClothSimError(f'the {name} must be above 0 {unit}, got {value}: give more')
+def _checked(name: str, value: float, most: float, unit: str) -> float:
+    value = real_number(value, f'the {name}', f'give it in {unit}')
+    if not 0.0 < value <= most:
+        raise ClothSimError(
+            f'the {name} must be above 0 {unit} and at most {most:g} {unit}, got {value}: give '
+            f'{"less" if value > most else "more"}')
+    return value

@@ -10,6 +10,11 @@ from collections.abc import Sequence
 from typing import Any
 
 from cloth_sim_ros.files.errors import shown
+from cloth_sim_ros.sim.arguments import integers
+from cloth_sim_ros.sim.arguments import iterable
+from cloth_sim_ros.sim.arguments import mapping
+from cloth_sim_ros.sim.arguments import real_number
+from cloth_sim_ros.sim.arguments import vector
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.pins import FARTHEST
 from cloth_sim_ros.sim.simulation import Simulation
@@ -17,6 +22,8 @@ from gymnasium import spaces
 import numpy as np
 
 _MOST_PIXELS = 4096
+_ANGLES = ('azimuth', 'elevation', 'field_of_view', 'zoom')
+_CAMERA = f'give {", ".join(_ANGLES)} as numbers, or target as x, y and z'
 Observation = np.ndarray | dict[str, np.ndarray]
 
 
@@ -74,12 +81,7 @@ class Depth(Part):
         from cloth_sim_ros.rendering.camera import Camera
         from cloth_sim_ros.rendering.camera import DepthCamera
         height, width = _checked_size(size)
-        try:
-            view = Camera(**camera).looking_at(points, width, height)
-        except TypeError as error:
-            raise ClothSimError(
-                f'the camera cannot be {shown(camera)}: give azimuth, elevation, field_of_view '
-                'and zoom as numbers, or target as x, y and z') from error
+        view = Camera(**_checked_camera(camera)).looking_at(points, width, height)
         self._camera = DepthCamera(view)
         self.space = spaces.Box(0.0, self._camera.far, (height, width), np.float32)
 
@@ -92,6 +94,7 @@ class Depth(Part):
         self._camera.close()
 
 
+_CHOOSE = 'choose one, or several for a dictionary'
 PARTS = ('positions', 'state', 'depth')
 
 
@@ -139,19 +142,33 @@ class Observer:
 
 
 def _checked_names(asked: str | Sequence[str]) -> list[str]:
-    names = [asked] if isinstance(asked, str) else list(asked)
-    if not names or len(set(map(str, names))) < len(names) or not set(names) <= set(PARTS):
+    names = [asked] if isinstance(asked, str) else iterable(asked, 'an observation', _CHOOSE)
+    are_known = all(isinstance(name, str) and name in PARTS for name in names)
+    if not names or not are_known or len(set(names)) < len(names):
         raise ClothSimError(
             f'an observation must be {", ".join(PARTS[:-1])} or {PARTS[-1]}, or a list of them, '
-            f'got {shown(asked)}: choose one, or several for a dictionary')
+            f'got {shown(asked)}: {_CHOOSE}')
     return names
 
 
+def _checked_camera(given: Mapping[str, Any]) -> dict[str, Any]:
+    found: dict[str, Any] = {}
+    for name, value in mapping(given, 'the camera', _CAMERA).items():
+        if name not in _ANGLES and name != 'target':
+            raise ClothSimError(f'a camera has no {shown(name)}: {_CAMERA}')
+        if name == 'target':
+            value = None if value is None else vector(value, 'the target of a camera')
+        else:
+            value = real_number(value, f'the {name} of a camera', _CAMERA)
+        found[name] = value
+    return found
+
+
 def _checked_size(size: Sequence[int]) -> tuple[int, int]:
-    good = len(size) == 2 and all(
-        isinstance(side, (int, np.integer)) and 1 <= side <= _MOST_PIXELS for side in size)
-    if not good:
+    sides = integers(size, 'the size of a picture', 'give two whole numbers, height and width')
+    if sides.shape != (2,) or not np.all((sides >= 1) & (sides <= _MOST_PIXELS)):
         raise ClothSimError(
             f'the size of a picture must be a height and a width from 1 to {_MOST_PIXELS} pixels, '
             f'got {shown(size)}: give two whole numbers')
-    return int(size[0]), int(size[1])
+    height, width = sides.tolist()
+    return height, width

@@ -15,6 +15,9 @@ from collections.abc import Mapping
 from collections.abc import Sequence
 import math
 import operator
+from os import fspath
+from os import PathLike
+from pathlib import Path
 from typing import Any
 from typing import TypeVar
 import warnings
@@ -131,6 +134,14 @@ def word(value: object, of: str, hint: str = 'give a str') -> str:
     if not isinstance(value, str):
         raise ClothSimError(f'{of} must be text, got {shown(value)}: {hint}')
     return value
+
+
+def path(value: object, of: str) -> Path:
+    """Return ``value``, a str or a path object, as a Path."""
+    if isinstance(value, str) or isinstance(value, PathLike) and isinstance(fspath(value), str):
+        if '\0' not in fspath(value):
+            return Path(value)
+    raise ClothSimError(f'{of} must be a path, got {shown(value)}: give a str or a pathlib.Path')
 
 
 def instance(value: object, kind: type[_Kind], of: str, hint: str) -> _Kind:

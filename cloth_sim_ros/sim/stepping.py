@@ -84,17 +84,21 @@ class Stepping:
 
     def aim(self, seconds: float) -> None:
         """Go on for ``seconds`` more; what is no whole dt is carried over."""
-        seconds = real_number(seconds, 'the time to advance by', 'give it in seconds')
-        if not math.isfinite(seconds) or seconds < 0.0:
-            raise ClothSimError(f'cannot advance by {seconds} s: give a time of 0 s or more')
-        carried = self._carried + seconds
-        # Before it is counted in steps, of which there would be too many for a float.
-        refuse_later_than_latest(self.time + carried)
+        carried = self._carried + self.checked_seconds(seconds)
         # The small share keeps a sum of frame times from falling just short of a step.
         count = math.floor(carried / self._dt + 1e-6)
         self._aim_at(self._goal + count)
         # Only what is left over is summed: a sum of all times would lose its last digits.
         self._carried = carried - count * self._dt
+
+    def checked_seconds(self, seconds: float) -> float:
+        """Return ``seconds`` as a float; ClothSimError where a run can't go on for so long."""
+        seconds = real_number(seconds, 'the time to advance by', 'give it in seconds')
+        if not math.isfinite(seconds) or seconds < 0.0:
+            raise ClothSimError(f'cannot advance by {seconds} s: give a time of 0 s or more')
+        # Before it is counted in steps, of which there may be more than a float can tell.
+        refuse_later_than_latest(self.time + self._carried + seconds)
+        return seconds
 
     def aim_steps(self, count: int) -> None:
         """Make ``count`` steps of dt from now on."""

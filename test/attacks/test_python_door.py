@@ -150,6 +150,7 @@ def attack(target: Any, table: dict[str, dict[str, Any]], look: Callable[[], lis
         refused += bool(reason)
         if not reason:
             bring_back()
+            before = look()
         elif look() != before:
             bad.append(f'{method}({argument}={name}) changed the state, refused')
             bring_back()
@@ -166,6 +167,12 @@ def look_at(simulation: Simulation) -> list[Any]:
         simulation.loads.wind, simulation.colliders, [grasp.name for grasp in simulation.grasps],
         [path.move for path in simulation.grasp_paths], simulation.stepping.is_behind,
         [moved.name for moved in simulation.moved_colliders]]
+
+
+@pytest.fixture(autouse=True)
+def in_a_folder_of_its_own(tmp_path, monkeypatch):
+    """Let recordings of directories like '1' be made where nobody keeps anything."""
+    monkeypatch.chdir(tmp_path)
 
 
 @pytest.fixture
