@@ -183,16 +183,53 @@ def test_pep257(caplog):
     assert pep257(argv=[str(path) for path in PYTHON_FILES]) == 0
 
 
+def has_header(path: Path) -> bool:
+    """Tell whether ``path`` begins with HEADER, after a line that has to be the first."""
+    lines = path.read_text(encoding='utf-8').splitlines()
+    if lines and lines[0].startswith(('#!', '#version')):
+        del lines[0]
+    return lines[:2] == [f'{COMMENT_OF[path.suffix]} {line}' for line in HEADER]
+
+
 def test_license_header():
-    """A file would not say whose it is and what may be done with it."""
-    without = []
-    for path in files_in(HEADED_PLACES, tuple(COMMENT_OF)):
-        lines = path.read_text(encoding='utf-8').splitlines()
-        if lines and lines[0].startswith(('#!', '#version')):
-            del lines[0]
-        if lines[:2] != [f'{COMMENT_OF[path.suffix]} {line}' for line in HEADER]:
-            without.append(str(path.relative_to(ROOT)))
-    assert not without
+    """
+    A file would not say whose it is and what may be done with it.
+
+    ament_copyright can't read SPDX tags: it wants the text of the license in each file.
+    """
+    files = files_in(HEADED_PLACES, tuple(COMMENT_OF))
+    assert len(files) > 700
+    assert not [str(path.relative_to(ROOT)) for path in files if not has_header(path)]
+
+
+@pytest.mark.parametrize('text', [
+    '', 'number = 3\n', f'# {HEADER[0]}\n', f'# {HEADER[1]}\n# {HEADER[0]}\n',
+    f'\n# {HEADER[0]}\n# {HEADER[1]}\n', f'// {HEADER[0]}\n// {HEADER[1]}\n',
+    f'# {HEADER[0]}\n# SPDX-License-Identifier: MIT\n',
+    f'"""Do it."""\n# {HEADER[0]}\n# {HEADER[1]}\n'])
+def test_a_wrong_license_header_is_found(tmp_path, text):
+    """A check that takes anything would let files without a license pass."""
+    path = tmp_path / 'module.py'
+    path.write_text(text, encoding='utf-8')
+    assert not has_header(path)
+    path.write_text(f'# {HEADER[0]}\n# {HEADER[1]}\n{text}', encoding='utf-8')
+    assert has_header(path)
+
+
+def test_license_file():
+    """The license that the headers name would not be there to read."""
+    text = (ROOT / 'LICENSE').read_text(encoding='utf-8')
+    assert 'Apache License' in text and 'Version 2.0, January 2004' in text
+
+
+def test_each_declared_linter_runs():
+    """A linter of the manifest that no test runs would find errors by the hundred."""
+    declared = {
+        depend.name for folder in ('.', 'cloth_sim_interfaces')
+        for depend in parse_package(ROOT / folder).test_depends
+        if depend.name.startswith('ament_')}
+    names = {'test_flake8': 'ament_flake8', 'test_pep257': 'ament_pep257'}
+    assert declared == {linter for test, linter in names.items() if test in globals()}
 
 
 def test_every_test_says_what_it_shows():
@@ -206,6 +243,20 @@ def test_every_test_says_what_it_shows():
     assert not silent
 
 
+# The order of package_format3.xsd, which ament_xmllint would fetch from the internet.
+MANIFEST_ORDER = (
+    'name', 'version', 'description', 'maintainer', 'license', 'url', 'author', 'depends',
+    'export')
+
+
+def assert_in_order(path: Path) -> None:
+    """Fail unless the elements of a manifest stand in the order of its schema."""
+    tags = [element.tag for element in ElementTree.parse(path).getroot()]
+    kinds = ['depends' if tag.endswith(('depend', '_of_group')) else tag for tag in tags]
+    assert [MANIFEST_ORDER.index(kind) for kind in kinds] == sorted(
+        MANIFEST_ORDER.index(kind) for kind in kinds)
+
+
 @pytest.mark.parametrize('folder', ['.', 'cloth_sim_interfaces'])
 def test_package_manifest(folder):
     """Colcon, rosdep and bloom would not accept the manifest."""
@@ -213,6 +264,7 @@ def test_package_manifest(folder):
     package = parse_package(ROOT / folder, warnings=warnings)
     package.validate()
     assert not warnings
+    assert_in_order(ROOT / folder / 'package.xml')
     assert {url.type for url in package.urls} == {'website', 'repository', 'bugtracker'}
 
 
