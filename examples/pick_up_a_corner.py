@@ -9,17 +9,15 @@ Grasp a towel by a corner, carry it along a path, and print the force on the gri
 """
 
 from argparse import ArgumentParser
-from typing import Any
+import sys
 
-from cloth_sim_interfaces.srv import Grasp
-from cloth_sim_interfaces.srv import MoveFrame
-from cloth_sim_interfaces.srv import Release
+from cloth_sim_interfaces import srv
 from geometry_msgs.msg import Pose
 from geometry_msgs.msg import WrenchStamped
 import rclpy
 from rclpy.wait_for_message import wait_for_message
 
-# Up, down while it turns about x, and aside: ways [m], with x and w of the rotation.
+# Ways [m], with x and w of the rotation: up, down and turning about x, aside.
 PATH = ((0.0, 0.0, 0.5, 0.0, 1.0), (0.0, -0.1, -0.1, 0.5, 0.866), (0.3, 0.0, 0.0, 0.5, 0.866))
 
 
@@ -28,31 +26,33 @@ def main() -> None:
     parser = ArgumentParser(description=__doc__)
     parser.add_argument('--node', default='/cloth_sim', help='name, with its namespace')
     parser.add_argument('--at', nargs=3, type=float, default=(-0.2, 0.2, 0.0), help='[m]')
+    parser.add_argument('--wait', type=float, default=30.0, help='for an answer [s]')
     args = parser.parse_args()
     rclpy.init()
-    node = rclpy.create_node('corner_picker')
+    node, topic = rclpy.create_node('corner_picker'), f'{args.node}/grasps/wrenches'
 
-    def call(kind: Any, name: str, **fields: Any) -> Any:
+    def call(kind: type, name: str, **fields: object) -> srv.MoveFrame.Response:
         client = node.create_client(kind, f'{args.node}/{name}')
-        client.wait_for_service()
+        client.wait_for_service(args.wait) or sys.exit(f'no {args.node}: start cloth_sim_node')
         future = client.call_async(kind.Request(name='hand', **fields))
-        rclpy.spin_until_future_complete(node, future)
-        print(future.result().message)
-        return future.result()
+        rclpy.spin_until_future_complete(node, future, timeout_sec=args.wait)
+        answer = future.result() or sys.exit(f'{name}: no answer')
+        print(answer.message if answer.success else sys.exit(answer.message))
+        return answer
 
     hand, now = Pose(), 0.0
     place, turn = hand.position, hand.orientation
     place.x, place.y, place.z = args.at
-    call(Grasp, 'grasp', pose=hand, radius=0.05)
+    call(srv.Grasp, 'grasp', pose=hand, radius=0.05)
     for x, y, z, turn.x, turn.w in PATH:
         place.x, place.y, place.z = place.x + x, place.y + y, place.z + z
-        arrival = call(MoveFrame, 'move_grasp', pose=hand).arrival
+        arrival = call(srv.MoveFrame, 'move_grasp', pose=hand).arrival
         while now < arrival:
-            _, felt = wait_for_message(WrenchStamped, node, f'{args.node}/grasps/wrenches')
-            now = felt.header.stamp.sec + 1e-9 * felt.header.stamp.nanosec
-        force = felt.wrench.force
+            _, felt = wait_for_message(WrenchStamped, node, topic, time_to_wait=args.wait)
+            stamp = felt.header.stamp if felt else sys.exit('no force: it has lost the towel')
+            now, force = stamp.sec + 1e-9 * stamp.nanosec, felt.wrench.force
         print(f'at {now:.2f} s the hand feels {force.x:.2f} {force.y:.2f} {force.z:.2f} N')
-    call(Release, 'release')
+    call(srv.Release, 'release')
 
 
 if __name__ == '__main__':

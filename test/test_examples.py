@@ -20,11 +20,16 @@ ROOT = Path(__file__).resolve().parents[1]
 EXAMPLES = sorted((ROOT / 'examples').glob('*.py'))
 
 
-def run_example(name, folder, *arguments):
-    """Return what examples/NAME.py prints, run in ``folder``."""
-    done = subprocess.run(
+def ended(name, folder, *arguments):
+    """Return how examples/NAME.py ended, run in ``folder``."""
+    return subprocess.run(
         [sys.executable, str(ROOT / 'examples' / f'{name}.py'), *map(str, arguments)],
         cwd=folder, capture_output=True, text=True, timeout=300)
+
+
+def run_example(name, folder, *arguments):
+    """Return what examples/NAME.py prints, run in ``folder``."""
+    done = ended(name, folder, *arguments)
     assert done.returncode == 0, done.stderr
     return done.stdout
 
@@ -127,6 +132,26 @@ def test_a_client_picks_up_a_corner(tmp_path):
     assert len(felt) == 3 and np.all(np.linalg.norm(felt, axis=1) < 2.0), shown
     assert min(felt[1][1], felt[2][1]) < -0.1, shown
     assert 'nodes of grasp hand are free' in shown
+
+
+@pytest.mark.parametrize('name', ['pick_up_a_corner', 'carry_towel'])
+def test_a_client_without_a_node_ends(tmp_path, name):
+    """pick_up_a_corner.py waited for ever."""
+    done = ended(name, tmp_path, '--node', '/nowhere/cloth_sim', '--wait', 1.0)
+    assert done.returncode == 1 and 'start cloth_sim_node' in done.stderr
+    assert len(done.stderr.splitlines()) == 1
+
+
+@pytest.mark.parametrize(('name', 'arguments', 'told'), [
+    ('pick_up_a_corner', ('--at', 5.0, 5.0, 5.0), 'has no free node within'),
+    ('carry_towel', ('--speed', -1.0), 'speed of a pin')])
+def test_a_client_that_is_refused_ends(tmp_path, name, arguments, told):
+    """pick_up_a_corner.py went on with a hand that held nothing, and waited for its force."""
+    parameters = {'rows': 8, 'cols': 8, 'publish.rate': 20.0}
+    with NodeProcess(tmp_path, parameters, '-r', '__ns:=/refusing'):
+        done = ended(name, tmp_path, '--node', '/refusing/cloth_sim', *arguments)
+    assert done.returncode == 1 and told in done.stderr
+    assert 'Traceback' not in done.stderr
 
 
 def test_two_stiffnesses_share_a_plot(tmp_path):
