@@ -10,6 +10,7 @@ Grasp a towel by a corner, carry it along a path, and print the force on the gri
 
 from argparse import ArgumentParser
 import sys
+from typing import Any
 
 from cloth_sim_interfaces import srv
 from geometry_msgs.msg import Pose
@@ -17,12 +18,11 @@ from geometry_msgs.msg import WrenchStamped
 import rclpy
 from rclpy.wait_for_message import wait_for_message
 
-# Ways [m], with x and w of the rotation: up, down and turning about x, aside.
 PATH = ((0.0, 0.0, 0.5, 0.0, 1.0), (0.0, -0.1, -0.1, 0.5, 0.866), (0.3, 0.0, 0.0, 0.5, 0.866))
 
 
 def main() -> None:
-    """Grasp, follow the path, and let go."""
+    """Grasp, follow PATH, which has ways [m] with x and w of a rotation, and let go."""
     parser = ArgumentParser(description=__doc__)
     parser.add_argument('--node', default='/cloth_sim', help='name, with its namespace')
     parser.add_argument('--at', nargs=3, type=float, default=(-0.2, 0.2, 0.0), help='[m]')
@@ -31,7 +31,7 @@ def main() -> None:
     rclpy.init()
     node, topic = rclpy.create_node('corner_picker'), f'{args.node}/grasps/wrenches'
 
-    def call(kind: type, name: str, **fields: object) -> srv.MoveFrame.Response:
+    def call(kind: Any, name: str, **fields: Any) -> Any:
         client = node.create_client(kind, f'{args.node}/{name}')
         client.wait_for_service(args.wait) or sys.exit(f'no {args.node}: start cloth_sim_node')
         future = client.call_async(kind.Request(name='hand', **fields))

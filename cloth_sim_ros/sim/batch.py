@@ -287,7 +287,8 @@ class Batch(AbstractContextManager['Batch']):
                 f'{len(numbers)} pins need ({len(numbers)}, 2) nodes, got {nodes.shape}: give '
                 '[row, col] of each pin')
         if getattr(speeds, 'shape', None) == () or not hasattr(speeds, '__len__'):
-            speeds = [real_number(speeds, 'the speed', 'give it in m/s')] * len(numbers)
+            one = real_number(speeds, 'the speed', 'give it in m/s')
+            speeds = np.full(len(numbers), one)
         speed = array(speeds, 'the speeds', (len(numbers),), 'give one for each pin, or for all')
         entries = zip(numbers.tolist(), nodes.tolist(), targets.tolist(), speed.tolist())
         for cloth, (row, col), target, pace in entries:

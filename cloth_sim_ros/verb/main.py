@@ -26,6 +26,7 @@ from cloth_sim_ros.node.missing_module import way_out
 from cloth_sim_ros.node.shared_memory import refuse_ros_without_memory
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.verb.termination import interruptible
+from cloth_sim_ros.verb.termination import leave_broken_pipes
 from cloth_sim_ros.verb.termination import Terminated
 
 VERBS = {
@@ -61,6 +62,7 @@ _WRONG_USE = 2
 # 128 and the number of the signal, as shells have it.
 INTERRUPTED = 130
 TERMINATED = 143
+NOBODY_READS = 141
 _MOST_CHARACTERS = 2000
 
 
@@ -74,7 +76,18 @@ class _Parser(ArgumentParser):
 
 def main(argv: Sequence[str] | None = None) -> int:
     """Run the verb named by the first argument and return the exit code."""
-    arguments = list(sys.argv[1:] if argv is None else argv)
+    try:
+        code = _run(list(sys.argv[1:] if argv is None else argv))
+        # What is left in the buffer would break at the end of the process, out of reach.
+        sys.stdout.flush()
+        return code
+    except BrokenPipeError:
+        if not leave_broken_pipes():
+            raise
+        return NOBODY_READS
+
+
+def _run(arguments: list[str]) -> int:
     if not arguments or arguments[0] not in VERBS:
         return _no_verb(arguments)
     name, *rest = arguments

@@ -1,11 +1,13 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-"""What verbs say beside their result, and SIGINT and SIGTERM as a wish to stop."""
+"""What verbs say beside their result; SIGINT, SIGTERM and closed pipes as a wish to stop."""
 
 from collections.abc import Callable
 from collections.abc import Iterator
 from contextlib import contextmanager
+import os
+import select
 import signal
 import sys
 import threading
@@ -76,6 +78,28 @@ def _raise_terminated(_number: int, _frame: FrameType | None) -> NoReturn:
     # What is cleaned up must not be broken off.
     signal.signal(signal.SIGTERM, signal.SIG_IGN)
     raise Terminated
+
+
+def leave_broken_pipes() -> bool:
+    """
+    Have what is still printed go nowhere, where stdout or stderr is a pipe that nobody reads.
+
+    :return: whether there is such a pipe, as in `cloth_sim info ... | head`
+    """
+    found = False
+    for stream in (sys.stdout, sys.stderr):
+        try:
+            number = stream.fileno()
+        except (OSError, ValueError):  # of a test, or closed
+            continue
+        pipe = select.poll()
+        pipe.register(number, 0)
+        if any(event & select.POLLERR for _, event in pipe.poll(0)):
+            found = True
+            nowhere = os.open(os.devnull, os.O_WRONLY)
+            os.dup2(nowhere, number)
+            os.close(nowhere)
+    return found
 
 
 class StopSignals:

@@ -4,11 +4,15 @@
 """The command as a whole."""
 
 from pathlib import Path
+import subprocess
+import sys
 
 from cloth_sim_ros.verb.main import main
 from cloth_sim_ros.verb.main import VERBS
 from command import cloth_sim
 import pytest
+
+EXAMPLE = str(Path(__file__).resolve().parents[2] / 'bags' / 'example')
 
 
 @pytest.mark.parametrize('verb', VERBS)
@@ -50,6 +54,38 @@ def test_says_which_verb_may_be_meant(name, hint, capsys):
     assert told.out == ''
     assert told.err.startswith(f"cloth_sim: there is no verb '{name[:100]}")
     assert told.err.endswith(f': {hint}\n') and len(told.err) < 400
+
+
+@pytest.mark.parametrize('arguments', [
+    ('info', EXAMPLE), ('materials',), ('analyze', EXAMPLE, '--out', '.')])
+@pytest.mark.parametrize('program', ['true', 'head -1'])
+def test_nobody_reads_the_output(tmp_path, arguments, program):
+    """`cloth_sim info ... | head` ended with a traceback of BrokenPipeError."""
+    line = f'{sys.executable} -m cloth_sim_ros.verb {" ".join(arguments)} 2>err | {program}'
+    done = subprocess.run(
+        ['bash', '-c', f'{line} > /dev/null; echo ${{PIPESTATUS[0]}}'], cwd=tmp_path,
+        capture_output=True, text=True, timeout=300)
+    # Whether the reader has gone before the output comes is chance with head, and certain with
+    # true, which ends at once: Python takes longer to start.
+    assert done.stdout.strip() in (('141',) if program == 'true' else ('0', '141'))
+    assert (tmp_path / 'err').read_text() == ''
+
+
+def test_errors_that_nobody_reads(tmp_path):
+    """`cloth_sim info nothing 2>&1 | true` ended with a traceback, and code 120."""
+    done = subprocess.run(
+        ['bash', '-c', f'{sys.executable} -m cloth_sim_ros.verb info nothing 2>&1 | true; '
+         'echo ${PIPESTATUS[0]}'], cwd=tmp_path, capture_output=True, text=True, timeout=300)
+    assert done.stdout.strip() == '141' and done.stderr == ''
+
+
+def test_a_broken_pipe_elsewhere_is_told(tmp_path):
+    """An error of another pipe, as of a video program, would end a verb in silence."""
+    result = cloth_sim('materials', before=(
+        'import cloth_sim_ros.verb.materials as verb\n'
+        'def fail(_): raise BrokenPipeError(32, "of something else")\n'
+        'verb.main = fail'))
+    assert result.returncode == 1 and 'of something else' in result.stderr
 
 
 def test_says_that_no_node_answers():
