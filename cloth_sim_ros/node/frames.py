@@ -197,8 +197,10 @@ class Frames:
         began = time.monotonic() - begin
 
         def send() -> None:
+            # Whoever plays a recording of it would move the time of every node.
             self._outlet.send(
-                'clock', lambda: serialise_clock(now), now, to_recording=to_recording)
+                'clock', lambda: serialise_clock(now), now,
+                to_recording=to_recording and self._values['publish.clock'])
             if not (made or of_pins or of_bodies):
                 return
             begin = time.monotonic()

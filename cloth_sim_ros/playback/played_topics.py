@@ -23,6 +23,7 @@ from cloth_sim_ros.recording.message_definition import type_hash
 from cloth_sim_ros.sim.errors import ClothSimError
 from rclpy.duration import Duration
 from rclpy.exceptions import InvalidTopicNameException
+from rclpy.impl.implementation_singleton import rclpy_implementation
 from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy
 from rclpy.qos import QoSProfile
@@ -39,8 +40,10 @@ from rosidl_generator_py.import_type_support_impl import UnsupportedTypeSupport
 _ENCAPSULATION = 4
 _STAMP = 8
 _DEPTH = 10
-# A reader on a busy machine is away for tenths of a second; a hung one costs this once.
-PATIENCE = 1.0
+CLOCK = TOPICS['clock'].name
+# Wait for a reader to confirm [s]; Fast DDS asks for it again every 3 s, so one that has all
+# messages may seem to lack them for so long. A hung one costs this once.
+PATIENCE = 4.0
 _SLICE = 0.01
 
 
@@ -94,7 +97,9 @@ class PlayedTopic:
     A reliable publisher keeps its last ``depth`` messages until every reader has them, and drops
     the oldest without a word when one more comes. So it is given no more than that at once.
 
-    ``overruns`` counts messages that were sent although a reader had not taken the last ones.
+    ``overruns`` counts those that it dropped while a reader had not confirmed them, and
+    ``damaged`` those that the middleware refused. What a slow reader drops from its own queue no
+    publisher learns.
 
     :param name: in the graph, with its namespace
     :param kept: how many of its messages still hold for those who come late
@@ -109,6 +114,7 @@ class PlayedTopic:
         self.message_class = message_class
         self.kept = kept
         self.overruns = 0
+        self.damaged = 0
         self._publisher = node.create_publisher(message_class, name, quality)
         self._is_reliable = quality.reliability == ReliabilityPolicy.RELIABLE
         self._depth = quality.depth
@@ -116,8 +122,8 @@ class PlayedTopic:
         self._waiting = 0
         self._is_stuck = False
 
-    def publish(self, data: bytes) -> None:
-        """Publish ``data``, a serialised message."""
+    def publish(self, data: bytes) -> bool:
+        """Publish ``data``, a serialised message; tell whether the middleware took it."""
         if self._is_reliable and self._waiting >= self._depth:
             # A reader that has hung is waited for once, and then no more until it is back.
             if self.settle(0.0 if self._is_stuck else self._patience):
@@ -125,8 +131,13 @@ class PlayedTopic:
             else:
                 self._is_stuck = True
                 self.overruns += 1
-        self._publisher.publish(data)
+        try:
+            self._publisher.publish(data)
+        except rclpy_implementation.RCLError:
+            self.damaged += 1
+            return False
         self._waiting += 1
+        return True
 
     def settle(self, patience: float) -> bool:
         """Wait up to ``patience`` [s] until all readers have all of it; tell whether they have."""
@@ -218,11 +229,18 @@ def wanted_topics(topics: Iterable[BagTopic], options: PlayOptions) -> list[BagT
     """Return those of ``topics`` that are to be played; ClothSimError when one is not there."""
     topics = list(topics)
     names = {topic.name for topic in topics}
+    if CLOCK in options.topics and not options.clock:
+        raise ClothSimError(
+            f'--topics has {CLOCK}, which moves the time of every node with use_sim_time: add '
+            '--clock to have it played')
     for name in options.topics:
         if name not in names:
             raise ClothSimError(
                 f'the recording has no topic {cut(name)}: choose from {", ".join(sorted(names))}')
-    return [topic for topic in topics if not options.topics or topic.name in options.topics]
+    return [
+        topic for topic in topics
+        if (not options.topics or topic.name in options.topics)
+        and (options.clock or topic.name != CLOCK)]
 
 
 def open_topics(

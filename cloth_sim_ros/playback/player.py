@@ -5,13 +5,16 @@
 
 from collections import deque
 from collections.abc import Callable
+from collections.abc import Iterable
 from collections.abc import Iterator
 from dataclasses import dataclass
 from dataclasses import field
 import time
 
 from builtin_interfaces.msg import Time
+from cloth_sim_ros.files.errors import cut
 from cloth_sim_ros.messages.topics import TOPICS
+from cloth_sim_ros.playback.played_topics import CLOCK
 from cloth_sim_ros.playback.played_topics import has_header
 from cloth_sim_ros.playback.played_topics import header_stamp
 from cloth_sim_ros.playback.played_topics import open_topics
@@ -22,9 +25,11 @@ from cloth_sim_ros.playback.played_topics import wanted_topics
 from cloth_sim_ros.playback.played_topics import warning_of
 from cloth_sim_ros.playback.schedule import PlayClock
 from cloth_sim_ros.playback.schedule import PlayOptions
+from cloth_sim_ros.recording.bag_messages import BagTopic
 from cloth_sim_ros.recording.bag_messages import RawMessage
 from cloth_sim_ros.recording.bag_reader import BagReader
 from cloth_sim_ros.sim.errors import ClothSimError
+from cloth_sim_ros.sim.stepping import LATEST
 import rclpy
 from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor
@@ -48,6 +53,7 @@ class PlayReport:
     :param furthest_behind: of any message, behind its time on the wall clock [s]
     :param slipped: by how much the schedule was moved, as it could not be kept [s]
     :param overruns: messages sent to readers that had not taken those before, by topic
+    :param damaged: messages that were left out, by topic
     """
 
     messages: int = 0
@@ -55,6 +61,7 @@ class PlayReport:
     furthest_behind: float = 0.0
     slipped: float = 0.0
     overruns: dict[str, int] = field(default_factory=dict)
+    damaged: dict[str, int] = field(default_factory=dict)
 
     def sentences(self) -> list[str]:
         """Return it in words: what was played, then what went wrong."""
@@ -66,6 +73,10 @@ class PlayReport:
             found.append(
                 f'this took {self.slipped:.2g} s longer than intended, as the machine or the '
                 'subscribers could not keep up: nothing was dropped, but use a lower --rate')
+        for topic, count in self.damaged.items():
+            found.append(
+                f'{count} messages of {cut(topic)} were left out, as they are damaged: record '
+                'them again')
         for topic, count in self.overruns.items():
             found.append(
                 f'a subscriber of {topic} may have lost up to {count} messages, as it did not '
@@ -158,6 +169,8 @@ _LOOK_UP = 0.05
 # less; their word that they have them can come seconds later, with the next heartbeat.
 _FAREWELL = 0.5
 _NANOSECONDS = 1e9
+# A wait before a message that is worth a word [s]; chosen: who watches has not yet given up.
+_LONG = 10.0
 
 
 class Player:
@@ -190,16 +203,23 @@ class Player:
                 f'--start {options.start:g} is after the end of the recording: give a time from 0 '
                 f'to {(end - self._begin) / _NANOSECONDS:g}')
         self._end = min(end, self._start + options.duration * _NANOSECONDS)
+        if self._end - self._start > LATEST * _NANOSECONDS:
+            raise ClothSimError(
+                f'{cut(bag.path)} goes on for {(end - self._begin) / _NANOSECONDS:.3g} s, longer '
+                f'than the {LATEST} s of ROS time stamps, so the time of a message is damaged: '
+                'play what comes before it with --duration')
         topics = wanted_topics(bag.topics, options)
         self._topics = open_topics(node.node, topics, options, warn)
+        self._prepare_checks(topics)
         self._names = {name for name, _ in self._topics}
         self._published = [*self._topics.values()]
         self._simulated_clock = None
-        if options.clock and '/clock' not in self._names:
+        if options.clock and CLOCK not in self._names:
             self._simulated_clock = SimulatedClock(node.node)
             self._published.append(self._simulated_clock.topic)
         self._report = PlayReport()
         self._looked_up = 0.0
+        self._gap_before = 0
         node.offer_pause()
 
     @property
@@ -225,6 +245,8 @@ class Player:
         self._report.slipped = self._clock.slipped
         self._report.overruns = {
             topic.name: topic.overruns for topic in self._published if topic.overruns}
+        self._report.damaged = {
+            topic.name: topic.damaged for topic in self._published if topic.damaged}
         return self._report
 
     def _play_once(self) -> None:
@@ -261,12 +283,14 @@ class Player:
         topic = self._topics.get((message.topic, message.type_name))
         if topic is None:
             return
+        if self._bag.problem_of(message):
+            topic.damaged += 1
+            return
         # What is kept for late subscribers can be older: files of a split bag begin with it.
         is_timely = self._is_of_the_cloth(message.topic) and not topic.kept
         if self._simulated_clock is not None and is_timely:
             self._simulated_clock.read(topic.message_class, message.data)
-        topic.publish(message.data)
-        self._report.messages += 1
+        self._report.messages += topic.publish(message.data)
 
     def _wait_for(self, recorded: int) -> bool:
         """Wait until messages of ``recorded`` [ns] are due; return False when to stop."""
@@ -275,6 +299,7 @@ class Player:
                 self._spin(_LOOK_UP)
                 continue
             delay = self._clock.delay(time.monotonic(), recorded)
+            self._tell_of_gap(delay, recorded)
             # Late, the messages go out one behind the other, but a call is still answered.
             if delay == 0.0:
                 if time.monotonic() - self._looked_up > _LOOK_UP:
@@ -282,6 +307,20 @@ class Player:
                 return not self._stopped()
             self._spin(min(delay, _LOOK_UP))
         return False
+
+    def _tell_of_gap(self, delay: float, recorded: int) -> None:
+        """Say that nothing comes for long before the message of ``recorded`` [ns], once."""
+        if delay > _LONG and recorded != self._gap_before:
+            self._gap_before = recorded
+            after = (recorded - self._begin) / _NANOSECONDS
+            self._warn(
+                f'the next message is due in {delay:.3g} s, at {after:.10g} s of the recording: '
+                f'wait, or go on from there with --start {after:.10g}')
+
+    def _prepare_checks(self, topics: Iterable[BagTopic]) -> None:
+        """Parse the definitions of all types now: it takes a second, and messages would be late."""
+        for topic in topics:
+            self._bag.prepare_check(topic.type_name)
 
     def _wait_until(self, wall: float) -> None:
         while not self._stopped() and (left := wall - time.monotonic()) > 0.0:

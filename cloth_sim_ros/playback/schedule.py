@@ -19,7 +19,7 @@ class PlayOptions:
     :param duration: how much to play [s]; infinite for all
     :param topics: names of those to play; empty for all
     :param paused: True to wait for ~/pause with data: false
-    :param clock: True to publish simulated time where the recording has no /clock
+    :param clock: True to publish /clock: the recorded one, or else simulated time
     :param delay: wall time before the first message, in which readers find the player [s]
     :param node: name of the recorded node, with its namespace
     :param played_node: name that its topics get instead; empty to leave it

@@ -14,6 +14,7 @@ from typing import NamedTuple
 from cloth_sim_ros.files.checked_yaml import parse_yaml
 from cloth_sim_ros.files.errors import cut
 from cloth_sim_ros.files.errors import shown
+from cloth_sim_ros.recording.cdr_check import CdrCheck
 from cloth_sim_ros.sim.errors import ClothSimError
 from rosbags.interfaces import MessageDefinition
 from rosbags.interfaces import MessageDefinitionFormat
@@ -181,6 +182,7 @@ class MessageDecoder:
             if topic.definition.format is not MessageDefinitionFormat.NONE:
                 self._definitions.setdefault(topic.type_name, topic.definition)
         self._stores: dict[str, Typestore] = {}
+        self._checks: dict[str, CdrCheck | None] = {}
 
     def decode(self, message: RawMessage) -> Any:
         """Return the message; ClothSimError when its bytes or its definition make no sense."""
@@ -194,6 +196,25 @@ class MessageDecoder:
                 f'a message on {cut(message.topic)} is not a valid {cut(name)} '
                 f'({cut(error) or type(error).__name__}): give a recording of a cloth_sim '
                 'node') from error
+
+    def problem(self, message: RawMessage) -> str:
+        """Return what is wrong with the lengths within a message; empty for nothing."""
+        check = self.check_of(message.type_name)
+        try:
+            if check is not None:
+                check.check(message.data)
+        except ValueError as error:
+            return str(error)
+        return ''
+
+    def check_of(self, name: str) -> CdrCheck | None:
+        """Return what checks messages of the type ``name``; None where nothing is known of it."""
+        if name not in self._checks:
+            try:
+                self._checks[name] = CdrCheck(self._store(name), name)
+            except Exception:  # what foreign text raises can be anything
+                self._checks[name] = None
+        return self._checks[name]
 
     def _store(self, name: str) -> Typestore:
         if name in self._definitions:

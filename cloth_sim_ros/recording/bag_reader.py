@@ -205,6 +205,14 @@ class BagReader:
         """Return the decoded message; ClothSimError when it can't be."""
         return self._decoder.decode(message)
 
+    def prepare_check(self, type_name: str) -> None:
+        """Do what the first ``problem_of`` a message of this type would take its time for."""
+        self._decoder.check_of(type_name)
+
+    def problem_of(self, message: RawMessage) -> str:
+        """Return what is wrong with the lengths within a message; empty for nothing."""
+        return self._decoder.problem(message)
+
     @cached_property
     def _decoder(self) -> MessageDecoder:
         return MessageDecoder(self.topics)

@@ -52,7 +52,8 @@ def add_arguments(parser: ArgumentParser) -> None:
         help='node name under which the topics of the recorded node are published')
     parser.add_argument(
         '--clock', action='store_true',
-        help='publish simulated time on /clock; a recorded /clock is always played')
+        help='publish time on /clock: the recorded /clock, or the stamps of the frames where none '
+             'is recorded; without this, no /clock is played')
     parser.add_argument(
         '--paused', action='store_true', help='start paused; continue with cloth_sim resume')
     parser.add_argument(

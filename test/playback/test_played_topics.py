@@ -7,6 +7,7 @@ from signal import SIGCONT
 from signal import SIGSTOP
 import subprocess
 import sys
+from threading import Timer
 
 from builtin_interfaces.msg import Time
 from cloth_sim_interfaces.msg import ClothStats
@@ -14,6 +15,7 @@ from cloth_sim_ros.messages.topics import TOPICS
 from cloth_sim_ros.playback.played_topics import has_header
 from cloth_sim_ros.playback.played_topics import header_stamp
 from cloth_sim_ros.playback.played_topics import message_class
+from cloth_sim_ros.playback.played_topics import PATIENCE
 from cloth_sim_ros.playback.played_topics import played_quality
 from cloth_sim_ros.playback.played_topics import PlayedTopic
 from cloth_sim_ros.recording.bag_metadata import yaml_text
@@ -170,6 +172,18 @@ def test_a_reader_that_hangs_holds_nobody_up_and_is_told(client, reader):
     topic.publish(serialize_message(Int32(data=MESSAGES - 1)))
     numbers, _ = reader.communicate(timeout=300.0)
     assert len(numbers.split()) >= DEPTH
+
+
+def test_late_confirmations_are_no_losses(client, reader):
+    """A topic that lost nothing would be named: readers may confirm only when asked again."""
+    topic = played(client, patience=PATIENCE)
+    reader.send_signal(SIGSTOP)
+    Timer(1.5, reader.send_signal, (SIGCONT,)).start()
+    for number in range(MESSAGES):
+        topic.publish(serialize_message(Int32(data=number)))
+    numbers, _ = reader.communicate(timeout=60.0)
+    assert [int(number) for number in numbers.split()] == list(range(MESSAGES))
+    assert topic.overruns == 0
 
 
 def test_best_effort_waits_for_nobody(client):

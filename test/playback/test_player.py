@@ -20,6 +20,7 @@ from cloth_sim_ros.playback.player import SimulatedClock
 from cloth_sim_ros.recording.bag_folder import RecordingOptions
 from cloth_sim_ros.recording.bag_reader import BagReader
 from cloth_sim_ros.recording.recorder import Recorder
+from command import cloth_sim
 from copied_bag import copy_bag
 from copied_bag import WALL
 from player_process import PlayerProcess
@@ -282,6 +283,68 @@ def test_a_recorded_clock_is_played_and_no_other(client, player, tmp_path):
     process.resume(client)
     assert process.wait(client) == 0, process.problems
     assert [message.clock.sec for message in clock] == list(range(100, 120))
+
+
+def test_a_recorded_clock_is_not_played_unasked(client, player, tmp_path):
+    """Every node with use_sim_time would jump to the time of a recording."""
+    recorder = Recorder(tmp_path, 'run')
+    for number in range(20):
+        recorder.write('clock', serialize_message(Clock(clock=Time(sec=100 + number))), number)
+        recorder.write('stats', serialize_message(ClothStats(steps=number)), number)
+    recorder.close()
+    clock, stats = listen(client, '/clock', Clock), listen(client, '/cloth_sim/stats', ClothStats)
+    process = player(recorder.path, '--rate', 100)
+    process.resume(client)
+    assert process.wait(client) == 0, process.problems
+    assert len(stats) == 20 and not clock
+    assert client.node.count_publishers('/clock') == 0
+
+
+def test_damaged_messages_are_left_out_and_counted(bag, client, player, tmp_path):
+    """A forged length made readers fail, and bytes that are none ended the player: RCLError."""
+    recorder = Recorder(tmp_path, 'run')
+    good = serialize_message(ClothStats(steps=7))
+    forged = good[:12] + b'\xff\xff\xff\xff' + good[16:]  # the length of header.frame_id
+    clock = serialize_message(Clock(clock=Time(sec=1)))
+    for number, data in enumerate((good, forged, good[:20], b'', b'\x77' * 40, good)):
+        recorder.write('stats', data, number / 10)
+        recorder.write('clock', clock + bytes(100 * number), number / 10)
+    recorder.close()
+    stats = listen(client, '/cloth_sim/stats', ClothStats)
+    process = player(recorder.path, '--rate', 10, '--clock')
+    process.resume(client)
+    assert process.wait(client) == 0, process.problems
+    assert [message.steps for message in stats] == [7, 7]
+    assert '4 messages of /cloth_sim/stats were left out, as they are damaged' in process.problems
+    assert 'Traceback' not in process.problems and 'RCLError' not in process.problems
+
+
+def test_a_jump_of_centuries_is_refused_at_once(tmp_path):
+    """The player said nothing, and waited for 292 years."""
+    recorder = Recorder(tmp_path, 'run')
+    for begin in (0.0, 0.1, 2.0**63 * 1e-9 - 1.0):
+        recorder.write('stats', serialize_message(ClothStats()), begin)
+    recorder.close()
+    result = cloth_sim('play', str(recorder.path))
+    assert result.returncode == 1 and result.stdout == ''
+    [line] = result.stderr.splitlines()
+    assert 'goes on for 9.22e+09 s' in line and '--duration' in line
+    # What comes before it can be played.
+    result = cloth_sim('play', str(recorder.path), '--duration', '1', '--delay', '0')
+    assert result.returncode == 0 and result.stdout.startswith('played 2 messages')
+
+
+def test_a_long_gap_is_told(client, player, tmp_path):
+    """A user would take a recording with a gap of an hour for a player that hangs."""
+    recorder = Recorder(tmp_path, 'run')
+    for begin in (0.0, 3600.0):
+        recorder.write('stats', serialize_message(ClothStats()), begin)
+    recorder.close()
+    process = player(recorder.path)
+    process.resume(client)
+    client.spin_until(lambda: 'the next message' in process.problems, 'the gap is told')
+    assert 'is due in 3.6e+03 s, at 3600 s of the recording' in process.problems
+    assert process.problems.count('the next message') == 1
 
 
 def test_the_clock_never_goes_back_where_a_split_recording_goes_on(client, player, tmp_path):
