@@ -318,7 +318,7 @@ class Player:
                 f'wait, or go on from there with --start {after:.10g}')
 
     def _prepare_checks(self, topics: Iterable[BagTopic]) -> None:
-        """Parse the definitions of all types now: it takes a second, and messages would be late."""
+        """Parse all definitions now: it takes a second, by which messages would be late."""
         for topic in topics:
             self._bag.prepare_check(topic.type_name)
 

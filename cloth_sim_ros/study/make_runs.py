@@ -16,6 +16,7 @@ from contextlib import closing
 from importlib import import_module
 from itertools import islice
 import os
+import sys
 import time
 from typing import Any
 
@@ -37,6 +38,7 @@ from tqdm import tqdm
 
 _DEFAULTS = {field.name: field.default for field in SCENE_FIELDS}
 _Kind = tuple[str, str]
+_LOG_PERIOD = 30.0  # [s]; chosen: some lines in the log of a study of minutes
 _BAR = '{desc} |{bar}| {n_fmt}/{total_fmt} runs, {elapsed}{postfix}'
 
 
@@ -160,16 +162,25 @@ def make_runs(
                 total=len(distinct), initial=len(distinct) - len(todo), bar_format=_BAR,
                 desc=title, disable=None) as bar:
             forecast = Forecast(todo)
+            begin = told = time.monotonic()
+            before = len(distinct) - len(todo)
             # Closed at once, so that an interrupt ends the processes.
             with closing(_make_alone(todo) if alone else _make(todo, workers)) as made:
-                for result in made:
+                for number, result in enumerate(made, 1):
                     results.add(result)
                     forecast.end(result)
                     if result.outcome == FAILED:
                         bar.write(f'failed: {result.reason}')
-                    left = forecast.seconds_left(bar.format_dict['elapsed'])
+                    now = time.monotonic()
+                    left = forecast.seconds_left(now - begin)
                     bar.set_postfix_str(f'{in_minutes(left)} left' if left else '', refresh=False)
                     bar.update()
+                    # A log has no bar, but is to show that the work goes on.
+                    if bar.disable and now - told > _LOG_PERIOD:
+                        told = now
+                        print(
+                            f'cloth_sim study: {title}, {before + number} of {len(distinct)} runs'
+                            f'{f", {in_minutes(left)} left" if left else ""}', file=sys.stderr)
     return [_kept(results, run) for run in runs]
 
 

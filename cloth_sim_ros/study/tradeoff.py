@@ -16,6 +16,7 @@ For example:
   cloth_sim study tradeoff config/drape.yaml --budget-rtf 1
   cloth_sim study tradeoff config/drape.yaml --budget-error 1e-3 --write fast.yaml
   cloth_sim study tradeoff config/drape.yaml --budget-strain 0.02
+  cloth_sim study tradeoff config/drape.yaml --budget-strain 0.02 --quick
   cloth_sim study tradeoff config/drape.yaml --check fast.yaml
 """
 
@@ -24,17 +25,21 @@ from argparse import Namespace
 from collections.abc import Callable
 from collections.abc import Sequence
 from pathlib import Path
+import sys
 
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.study.results import ResultsFolder
 from cloth_sim_ros.study.trade.choice import Budget
 from cloth_sim_ros.study.trade.choice import BUDGETS
+from cloth_sim_ros.study.trade.choice import SpeedBudget
 from cloth_sim_ros.study.trade.choice import StrainBudget
 from cloth_sim_ros.study.trade.choice import write_choice
 from cloth_sim_ros.study.trade.front import Row
 from cloth_sim_ros.study.trade.front import within_strain
 from cloth_sim_ros.study.trade.grid import default_grid_path
+from cloth_sim_ros.study.trade.grid import Grid
 from cloth_sim_ros.study.trade.grid import load_grid
+from cloth_sim_ros.study.trade.grid import quick_grid
 from cloth_sim_ros.study.trade.grid import Variant
 from cloth_sim_ros.study.trade.measured import check
 from cloth_sim_ros.study.trade.measured import measure
@@ -50,6 +55,9 @@ def add_arguments(parser: ArgumentParser) -> None:
     """Add the arguments of this study."""
     parser.add_argument('--grid', metavar='GRID.yaml',
                         help='settings to measure (default: config/studies/tradeoff.yaml)')
+    parser.add_argument('--quick', action='store_true',
+                        help='measure the scene alone, with the coarsest and the finest setting '
+                             'of each method, up to the second time of the grid')
     add_run_arguments(parser, 'studies/tradeoff')
     parser.add_argument('--figure', metavar='FIGURE.png',
                         help='figure to write (default: tradeoff.png in --out)')
@@ -72,9 +80,12 @@ def main(args: Namespace) -> int:
     """Make the runs and tell what came out."""
     budget = _budget(args)
     grid = load_grid(args.grid or default_grid_path())
+    if args.quick:
+        grid = quick_grid(grid)
     with ResultsFolder(args.out) as results:
         if args.check:
             return check(Path(args.check), args.scene, grid, results, workers_of(args))
+        _tell_forecast(args, grid, results)
         measured = measure(
             args.scene, grid, results, workers_of(args), _wanted(budget))
         _write(Path(args.out), measured, args)
@@ -103,11 +114,28 @@ def _write(folder: Path, measured: Measured, args: Namespace) -> None:
     print(f'all of it is in {folder}')
 
 
+def _tell_forecast(args: Namespace, grid: Grid, results: ResultsFolder) -> None:
+    # Slow to import, and of no use to --help.
+    from cloth_sim_ros.study.trade.forecast import forecast
+    workers = workers_of(args)
+    found = forecast(args.scene, grid, results, workers.processes)
+    if found.runs:
+        words = found.in_words(
+            workers.processes, '' if args.quick else '--quick measures fewer settings')
+        print(f'cloth_sim study: {words}', file=sys.stderr, flush=True)
+
+
 def _budget(args: Namespace) -> Budget | None:
     for budget in BUDGETS:
         value = getattr(args, budget.option.replace('-', '_'))
         if value is not None and not value > 0.0:
             raise ClothSimError(f'--{budget.option} must be above 0, got {value:g}')
+        if value is not None and budget is not SpeedBudget and not value < 1.0:
+            percent = value / 100.0
+            hint = f'give {percent:g} for {value:g} %' if percent < 1.0 else 'give 0.02 for 2 %'
+            raise ClothSimError(
+                f'--{budget.option} {value:g} would allow {100.0 * value:g} %, and must be below '
+                f'1: {hint}')
         if value is not None:
             return budget(value)
     return None

@@ -83,8 +83,31 @@ def test_a_strain_budget_names_the_cheapest_setting_that_keeps_to_it(folder, cap
     assert 'holds (budget-strain: 0.05)' in capsys.readouterr().out
 
 
+def test_a_forecast_comes_first_and_quick_is_a_part(folder, tmp_path, capsys):
+    """A study of hours would begin without a word, and there was no shorter one."""
+    more = {'rows': 8, 'cols': 8, 'variants': [{'stiffness': 2.0}], 'times': [0.02, 0.04, 0.06]}
+    (folder / 'more.yaml').write_text(yaml.safe_dump(
+        {**GRID, **{name: more[name] for name in ('variants', 'times')}}))
+    arguments = ['--grid', str(folder / 'more.yaml')]
+    assert study(folder, *arguments, '--out', str(tmp_path / 'all')) == 0
+    whole = capsys.readouterr().err.splitlines()[0]
+    # Each variant has 3 settings and 3 references.
+    assert whole.startswith('cloth_sim study: 12 runs in 1 processes take ')
+    assert whole.endswith('--quick measures fewer settings')
+    assert study(folder, *arguments, '--quick', '--out', str(tmp_path / 'quick')) == 0
+    assert capsys.readouterr().err.startswith('cloth_sim study: 5 runs in 1 processes take ')
+    lines = (tmp_path / 'quick' / 'table.jsonl').read_text().splitlines()
+    assert [json.loads(line)['setting'] for line in lines] == ['refine 1', 'refine 4']
+    # Nothing is left to forecast.
+    assert study(folder, *arguments, '--quick', '--out', str(tmp_path / 'quick')) == 0
+    assert 'runs in' not in capsys.readouterr().err
+
+
 @pytest.mark.parametrize('arguments, told', [
     (['--budget-strain', '1e-9'], 'give a larger --budget-strain'),
+    (['--budget-strain', '2'], 'would allow 200 %, and must be below 1: give 0.02 for 2 %'),
+    (['--budget-strain', '1'], 'give 0.01 for 1 %'),
+    (['--budget-error', '5'], 'give 0.05 for 5 %'), (['--budget-strain', 'nan'], 'above 0'),
     (['--budget-error', '-1'], '--budget-error must be above 0'),
     (['--jobs', '0'], '--jobs must be 1 or more'),
     (['--budget-error', '1e-9'], 'give a larger --budget-error'),

@@ -5,6 +5,7 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from dataclasses import replace
 from itertools import product
 import math
 from pathlib import Path
@@ -143,6 +144,23 @@ class Grid:
     rounds: int
     margin: float
     settings: tuple[Setting, ...]
+
+
+def quick_grid(grid: Grid) -> Grid:
+    """
+    Return a part of ``grid`` that takes a fraction of its time.
+
+    It has the scene alone, the coarsest and the finest setting of each method, the first two
+    times, and one round of timing.
+    """
+    by_method: dict[str, list[Setting]] = {}
+    for setting in grid.settings:
+        by_method.setdefault(setting.method, []).append(setting)
+    ends = [
+        setting for settings in by_method.values()
+        for setting in (settings[0], *settings[-1:] * (len(settings) > 1))]
+    return replace(
+        grid, times=grid.times[:2], variants=grid.variants[:1], rounds=1, settings=tuple(ends))
 
 
 def default_grid_path() -> Path:
