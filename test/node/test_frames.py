@@ -12,6 +12,8 @@ from cloth_sim_interfaces.srv import MovePin
 from cloth_sim_interfaces.srv import SetPin
 from cloth_sim_interfaces.srv import StartRecording
 from cloth_sim_interfaces.srv import Step
+from cloth_sim_ros.recording.bag_reader import BagReader
+from cloth_under_test import ClothUnderTest
 from cloth_under_test import PAUSED
 from geometry_msgs.msg import Point
 from geometry_msgs.msg import Pose
@@ -107,6 +109,21 @@ def test_a_recording_has_them(cloth):
     places = [message for topic, _, message in Recorded(path).entries if topic == '/tf']
     assert [cloth.steps_of(message.transforms[0]) for message in places] == [0, 8]
     assert set(frames_of(places[1:])) == set(forces_of(recorded[2:]))
+
+
+@pytest.mark.parametrize('is_published', [False, True])
+def test_clock_is_recorded_where_it_is_published(tmp_path, client, is_published):
+    """Whoever played the recording moved the time of every node with use_sim_time."""
+    values = {**PAUSED, 'publish.clock': is_published}
+    with NodeProcess(tmp_path, values, '-r', '__ns:=/clocked'):
+        cloth = ClothUnderTest(client, values, '/clocked/cloth_sim')
+        path = Path(cloth.call(
+            StartRecording, 'start_recording', name=f'clock_{is_published}').path)
+        assert cloth.call(Step, 'step', steps=4).success
+        assert cloth.call(Trigger, 'stop_recording').success
+        topics = {topic.name for topic in BagReader(path).topics if topic.count}
+    assert ('/clock' in topics) == is_published
+    assert '/clocked/cloth_sim/stats' in topics
 
 
 def test_the_parameter_turns_them_off_and_on(cloth):
