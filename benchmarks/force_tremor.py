@@ -49,7 +49,7 @@ def tremor(values: Mapping[str, Any], seconds: float) -> tuple[float, float, flo
         for _ in range(_STEPS):
             simulation.step()
             snapshot = simulation.snapshot(pin_forces=True)
-            forces.append(snapshot.pin_forces.forces[:, 2].sum())
+            forces.append(-snapshot.pin_forces.forces[:, 2].sum())
             positions.append(snapshot.positions)
         scene = simulation.scene
     weight = -scene.node_count * scene.node_mass * scene['gravity'][2]

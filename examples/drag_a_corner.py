@@ -40,7 +40,7 @@ def main() -> None:
             corner = np.flatnonzero((held.nodes == (row, col)).all(axis=1))[0]
             moved = np.linalg.norm(now.positions[row, col] - start)
             print(f'{now.time:8.2f}  {moved:9.3f}  '
-                  + ' '.join(f'{part:8.3f}' for part in -held.forces[corner])
+                  + ' '.join(f'{part:8.3f}' for part in held.forces[corner])
                   + ('  stands still' if now.stalled_pins else ''))
 
 

@@ -20,9 +20,13 @@ from cloth_sim_ros.messages.pins import PinFrames
 from cloth_sim_ros.messages.pins import too_many_pins
 from cloth_sim_ros.messages.pins import WrenchMessages
 from cloth_sim_ros.messages.state import state_of
+from cloth_sim_ros.messages.wanted_forces import WantedForces
 from cloth_sim_ros.node.frames import body_messages
-from cloth_sim_ros.node.frames import GRASPS
+from cloth_sim_ros.node.frames import PEAKS
+from cloth_sim_ros.node.frames import pin_messages
 from cloth_sim_ros.node.frames import wanted_of_bodies
+from cloth_sim_ros.node.frames import WITH_FORCES
+from cloth_sim_ros.node.frames import WRENCHES
 from cloth_sim_ros.node.node_fields import checked_node_values
 from cloth_sim_ros.node.node_fields import NODE_FIELDS
 from cloth_sim_ros.node.outlet import Inputs
@@ -79,6 +83,7 @@ class RunRecording:
             simulation.scene.rows, simulation.scene.cols, self._frame_id)
         self._pin_frames = PinFrames(node_name, self._frame_id)
         self._wrenches = WrenchMessages(node_name)
+        self._forces = WantedForces(simulation)
         self.problem = ''
         self._session = RecordingSession(
             directory, node_name, self._on_lost, setting,
@@ -100,8 +105,10 @@ class RunRecording:
         if not self._session.active:
             return
         of_bodies = wanted_of_bodies(self._simulation, self._node_values, self)
-        snapshot = self._simulation.snapshot(
-            pin_forces=self._has_wrenches or GRASPS in of_bodies)
+        snapshot = self._simulation.snapshot()
+        of_pins = frozenset((WRENCHES, PEAKS)) if self._has_wrenches else frozenset()
+        forces = (
+            self._forces.of(snapshot) if WITH_FORCES & (of_pins | of_bodies) else None)
         stats = stats_message(
             snapshot, self._frame_id, step_wall_time=step_wall_time,
             real_time_factor=real_time_factor)
@@ -116,11 +123,11 @@ class RunRecording:
         held = self._simulation.grasped_nodes()
         if self._has_pin_frames and self._pins().any():
             self._session.write('tf', self._pin_frames.serialise(snapshot, held), snapshot.time)
-        if self._has_wrenches:
-            for data in self._wrenches.serialise(snapshot, held):
-                self._session.write('pins/wrenches', data, snapshot.time)
+        for key, messages in pin_messages(self._wrenches, forces, snapshot.time, of_pins):
+            for data in messages:
+                self._session.write(key, data, snapshot.time)
         for key, message in body_messages(
-                self._simulation, snapshot, of_bodies, self._node_name, self._frame_id):
+                self._simulation, snapshot, forces, of_bodies, self._node_name, self._frame_id):
             self.send_message(key, message, snapshot.time)
 
     def wanted(self, key: str, *, by_recording: bool = True) -> bool:
@@ -145,6 +152,7 @@ class RunRecording:
 
     def close(self) -> None:
         """Finish the recording; where that fails, ``problem`` says so."""
+        self._forces.leave_out()
         try:
             self._session.close()
         except RecordingError as error:

@@ -5,6 +5,7 @@
 
 from collections.abc import Mapping
 from collections.abc import Sequence
+from dataclasses import replace
 
 from cloth_sim_ros.messages.frame_names import collider_frame
 from cloth_sim_ros.messages.frame_names import grasp_frame
@@ -58,11 +59,20 @@ def grasp_wrenches(
     Return what each of ``grasps`` feels at ``sim_time`` [s], in its frame and about its origin.
 
     :param node_name: with its namespace
-    :param forces: of the cloth on each of them, in the same order
+    :param forces: of the cloth on them; those on others are left out
     """
+    poses = {grasp.name: grasp.pose for grasp in grasps}
     return [
-        _wrench(grasp_frame(node_name, grasp.name), grasp.pose, felt, sim_time)
-        for grasp, felt in zip(grasps, forces)]
+        _wrench(grasp_frame(node_name, felt.name), poses[felt.name], felt, sim_time)
+        for felt in forces if felt.name in poses]
+
+
+def grasp_peaks(
+        node_name: str, grasps: Sequence[Grasp], forces: Sequence[GraspForce],
+        sim_time: float) -> list[WrenchStamped]:
+    """Return the strongest force in a substep that each of them feels, with a torque of 0."""
+    strongest = [replace(felt, force=felt.peak, torque=np.zeros(3)) for felt in forces]
+    return grasp_wrenches(node_name, grasps, strongest, sim_time)
 
 
 def collider_wrenches(

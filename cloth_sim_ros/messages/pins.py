@@ -91,9 +91,8 @@ class WrenchMessages:
     """
     WrenchStamped of each pin: the force of the cloth on its holder [N].
 
-    It is the opposite of Snapshot.pin_forces: what a force sensor in the gripper measures, with
-    the gripper's own weight taken off. A node is a point, so the torque is 0. The frame of a
-    message is that of its pin, as in PinFrames.
+    It is what a force sensor in the gripper measures, with the gripper's own weight taken off. A
+    node is a point, so the torque is 0. The frame of a message is that of its pin.
 
     :param node_name: with its namespace
     """
@@ -104,19 +103,16 @@ class WrenchMessages:
         self._templates: dict[tuple[int, int], tuple[bytearray, int]] = {}
 
     def serialise(
-            self, snapshot: Snapshot, held: np.ndarray | None = None) -> list[bytes]:
+            self, nodes: np.ndarray, forces: np.ndarray, sim_time: float) -> list[bytes]:
         """
-        Return the CDR bytes of each message of ``snapshot``, row by row of the pins.
+        Return the CDR bytes of each message of a frame at ``sim_time`` [s].
 
-        :param held: (rows, cols) bool, nodes to leave out: their grasp has a wrench
+        :param nodes: rows and columns of pins, (pins, 2) int
+        :param forces: of the cloth on each [N], (pins, 3)
         """
-        time = stamp_parts(snapshot.time)
+        time = stamp_parts(sim_time)
         messages = []
-        pins = snapshot.pin_forces
-        assert pins is not None  # Frames asks for them where this topic is read
-        for node, force in zip(pins.nodes.tolist(), (-pins.forces).tolist()):
-            if held is not None and held[tuple(node)]:
-                continue
+        for node, force in zip(nodes.tolist(), forces.tolist()):
             data, place = self._template(*node)
             STAMP.pack_into(data, STAMP_AT, *time)
             _FORCE.pack_into(data, place, *force)

@@ -78,12 +78,16 @@ TOPICS = {
         Topic('stats', ClothStats, depth=10, text='energies, largest strain, solver, constraints '
               'and real-time factor as plain numbers to plot'),
         # A message a pin: a whole frame of them must have room.
-        Topic('pins/wrenches', WrenchStamped, depth=MOST_PINS, text='force that the cloth '
-              'exerts on each pin, one message per pin'),
-        Topic('grasps/wrenches', WrenchStamped, depth=100, text='force and torque that the cloth '
-              'exerts on each grasp, one message per grasp'),
-        Topic('colliders/wrenches', WrenchStamped, depth=100, text='force and torque that the '
-              'cloth exerts on each collider, one message per collider'),
+        Topic('pins/wrenches', WrenchStamped, depth=MOST_PINS, text='force of the cloth on each '
+              'pin, mean over the frame, one message per pin'),
+        Topic('pins/peak_wrenches', WrenchStamped, depth=MOST_PINS, text='force of the cloth on '
+              'each pin in the substep of the frame in which it was strongest'),
+        Topic('grasps/wrenches', WrenchStamped, depth=100, text='force and torque of the cloth on '
+              'each grasp, means over the frame, one message per grasp'),
+        Topic('grasps/peak_wrenches', WrenchStamped, depth=100, text='force of the cloth on each '
+              'grasp in the substep of the frame in which it was strongest, without torque'),
+        Topic('colliders/wrenches', WrenchStamped, depth=100, text='force and torque of the cloth '
+              'on each collider, means over the frame, one message per collider'),
         Topic('state', ClothState, depth=1, transient_local=True, text='mode, run state, device '
               'and recording'),
         # As tf2's own broadcasters have it.

@@ -15,6 +15,7 @@ from typing import Protocol
 from cloth_sim_ros.messages.body_frames import body_frames
 from cloth_sim_ros.messages.body_frames import body_poses
 from cloth_sim_ros.messages.body_frames import collider_wrenches
+from cloth_sim_ros.messages.body_frames import grasp_peaks
 from cloth_sim_ros.messages.body_frames import grasp_wrenches
 from cloth_sim_ros.messages.frame import PointsMessage
 from cloth_sim_ros.messages.frame import StatsMessage
@@ -23,19 +24,22 @@ from cloth_sim_ros.messages.pins import PinFrames
 from cloth_sim_ros.messages.pins import too_many_pins
 from cloth_sim_ros.messages.pins import WrenchMessages
 from cloth_sim_ros.messages.stamp import serialise_clock
+from cloth_sim_ros.messages.wanted_forces import WantedForces
 from cloth_sim_ros.node.input_frames import OwnFrames
 from cloth_sim_ros.node.outlet import Outlet
+from cloth_sim_ros.sim.force_window import FrameForces
 from cloth_sim_ros.sim.simulation import Simulation
 from cloth_sim_ros.sim.snapshot import Snapshot
 import numpy as np
 
-PIN_FRAMES, WRENCHES = 'tf', 'pins/wrenches'
-_PIN_PARAMETERS = {PIN_FRAMES: 'publish.tf', WRENCHES: 'publish.wrenches'}
+PIN_FRAMES, WRENCHES, PEAKS = 'tf', 'pins/wrenches', 'pins/peak_wrenches'
+_PIN_PARAMETERS = {
+    PIN_FRAMES: 'publish.tf', WRENCHES: 'publish.wrenches', PEAKS: 'publish.wrenches'}
 
 
 class PinTopics:
     """
-    Send /tf, one message a frame, and ~/pins/wrenches, one message a pin.
+    Send /tf, one message a frame, ~/pins/wrenches and ~/pins/peak_wrenches, one message a pin.
 
     :param values: the node's parameter values, read at each frame
     :param node_name: with its namespace
@@ -55,7 +59,7 @@ class PinTopics:
         self._reason = ''
 
     def wanted(self, *, by_recording: bool = True) -> frozenset[str]:
-        """Return which of PIN_FRAMES and WRENCHES are sent; WRENCHES need the pins' forces."""
+        """Return which topics are sent; WRENCHES and PEAKS need the forces of the frame."""
         wanted = frozenset(
             key for key, parameter in _PIN_PARAMETERS.items()
             if self._values[parameter] and self._outlet.wanted(key, by_recording=by_recording))
@@ -70,28 +74,45 @@ class PinTopics:
         return wanted if pins > 0 and not reason else frozenset()
 
     def send(
-            self, snapshot: Snapshot, held: np.ndarray, wanted: Collection[str], *,
-            to_recording: bool = True) -> None:
+            self, snapshot: Snapshot, held: np.ndarray, forces: FrameForces | None,
+            wanted: Collection[str], *, to_recording: bool = True) -> None:
         """
         Send what is ``wanted`` of ``snapshot``, the frames before what is given in them.
 
         :param held: which nodes grasps hold, (rows, cols) bool
+        :param forces: of the frame, where WRENCHES or PEAKS are wanted
         """
         if PIN_FRAMES in wanted:
             self._outlet.send(
                 PIN_FRAMES, lambda: self._frames.serialise(snapshot, held), snapshot.time,
                 to_recording=to_recording)
-        if WRENCHES in wanted:
-            for data in self._wrenches.serialise(snapshot, held):
+        for key, messages in pin_messages(self._wrenches, forces, snapshot.time, wanted):
+            for data in messages:
                 self._outlet.send(
-                    WRENCHES, partial(bytes, data), snapshot.time, to_recording=to_recording)
+                    key, partial(bytes, data), snapshot.time, to_recording=to_recording)
+
+
+def pin_messages(
+        wrenches: WrenchMessages, forces: FrameForces | None, now: float,
+        wanted: Collection[str]) -> Sequence[tuple[str, list[bytes]]]:
+    """Return what is ``wanted`` of WRENCHES and PEAKS, and the messages ``now`` [s] of each."""
+    if forces is None:
+        return []
+    pins = forces.pins
+    return [
+        (key, wrenches.serialise(pins.nodes, values, now))
+        for key, values in ((WRENCHES, pins.forces), (PEAKS, pins.peaks)) if key in wanted]
 
 
 # What is sent of grasps and colliders: their frames, and what the cloth does to them.
 
-FRAMES, GRASPS, COLLIDERS = 'tf', 'grasps/wrenches', 'colliders/wrenches'
+FRAMES, COLLIDERS = 'tf', 'colliders/wrenches'
+GRASPS, GRASP_PEAKS = 'grasps/wrenches', 'grasps/peak_wrenches'
 _BODY_PARAMETERS = {
-    FRAMES: 'publish.tf', GRASPS: 'publish.wrenches', COLLIDERS: 'publish.wrenches'}
+    FRAMES: 'publish.tf', GRASPS: 'publish.wrenches', GRASP_PEAKS: 'publish.wrenches',
+    COLLIDERS: 'publish.wrenches'}
+# What needs the forces of the frame.
+WITH_FORCES = frozenset((WRENCHES, PEAKS, GRASPS, GRASP_PEAKS, COLLIDERS))
 
 
 class Readers(Protocol):
@@ -104,10 +125,10 @@ class Readers(Protocol):
 def wanted_of_bodies(
         simulation: Simulation, values: Mapping[str, Any], readers: Readers, *,
         by_recording: bool = True) -> frozenset[str]:
-    """Return which of FRAMES, GRASPS and COLLIDERS are to be sent; GRASPS need the pin forces."""
+    """Return which topics of grasps and colliders are to be sent."""
     there = set()
     if simulation.grasps:
-        there |= {FRAMES, GRASPS}
+        there |= {FRAMES, GRASPS, GRASP_PEAKS}
     if simulation.colliders:
         there |= {FRAMES, COLLIDERS}
     return frozenset(
@@ -116,20 +137,27 @@ def wanted_of_bodies(
 
 
 def body_messages(
-        simulation: Simulation, snapshot: Snapshot, wanted: frozenset[str], node_name: str,
-        frame_id: str) -> Sequence[tuple[str, Any]]:
-    """Return topics and messages of what is ``wanted``, the frames before what is in them."""
+        simulation: Simulation, snapshot: Snapshot, forces: FrameForces | None,
+        wanted: frozenset[str], node_name: str, frame_id: str) -> Sequence[tuple[str, Any]]:
+    """
+    Return topics and messages of what is ``wanted``, the frames before what is in them.
+
+    :param forces: of the frame, where some of WITH_FORCES are wanted
+    """
     now, grasps, colliders = snapshot.time, simulation.grasps, simulation.colliders
     messages: list[tuple[str, Any]] = []
     if FRAMES in wanted:
         poses = body_poses(node_name, grasps, colliders)
         messages.append((FRAMES, body_frames(poses, now, frame_id)))
-    if GRASPS in wanted:
-        wrenches = grasp_wrenches(node_name, grasps, simulation.grasp_forces(snapshot), now)
-        messages += [(GRASPS, wrench) for wrench in wrenches]
-    if COLLIDERS in wanted:
-        wrenches = collider_wrenches(node_name, colliders, simulation.contact_forces(), now)
-        messages += [(COLLIDERS, wrench) for wrench in wrenches]
+    if forces is None:
+        return messages
+    made = (
+        (GRASPS, lambda: grasp_wrenches(node_name, grasps, forces.grasps, now)),
+        (GRASP_PEAKS, lambda: grasp_peaks(node_name, grasps, forces.grasps, now)),
+        (COLLIDERS, lambda: collider_wrenches(node_name, colliders, forces.contacts, now)))
+    for key, make in made:
+        if key in wanted:
+            messages += [(key, wrench) for wrench in make()]
     return messages
 
 
@@ -159,6 +187,7 @@ class Frames:
         self._markers = MarkersMessage(scene.rows, scene.cols, self._frame_id)
         self._stats = StatsMessage(self._frame_id)
         self._pins = PinTopics(simulation, outlet, values, node_name, warn)
+        self._forces = WantedForces(simulation)
         self._own = own
         self._node_name = node_name
 
@@ -188,12 +217,14 @@ class Frames:
         drawn = (
             [applied.push for applied in simulation.pushes], simulation.colliders,
             simulation.grasps) if 'markers' in made else ()
-        has_forces = WRENCHES in of_pins or GRASPS in of_bodies
+        has_forces = bool(WITH_FORCES & (of_pins | of_bodies))
         is_pending = later and bool(made or of_pins) and not (has_forces or of_bodies)
         begin = time.monotonic()
         take = (
             simulation.begin_snapshot() if is_pending
-            else partial(simulation.snapshot, pin_forces=has_forces))
+            else simulation.snapshot)
+        if not has_forces:
+            self._forces.leave_out()
         began = time.monotonic() - begin
 
         def send() -> None:
@@ -221,9 +252,10 @@ class Frames:
                 self._own.note_pins(snapshot)
             if of_bodies:
                 self._own.note_bodies()
-            self._pins.send(snapshot, held, of_pins, to_recording=to_recording)
+            forces = self._forces.of(snapshot) if has_forces else None
+            self._pins.send(snapshot, held, forces, of_pins, to_recording=to_recording)
             for key, message in body_messages(
-                    simulation, snapshot, of_bodies, self._node_name, self._frame_id):
+                    simulation, snapshot, forces, of_bodies, self._node_name, self._frame_id):
                 self._outlet.send_message(key, message, now, to_recording=to_recording)
 
         if is_pending:

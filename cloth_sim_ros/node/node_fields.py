@@ -22,8 +22,8 @@ NODE_FIELDS = (
     Field('publish.points', bool, True, 'publish ~/points', live=True),
     Field('publish.markers', bool, True, 'publish ~/markers', live=True),
     Field('publish.stats', bool, True, 'publish ~/stats', live=True),
-    Field('publish.wrenches', bool, True, 'publish ~/pins/wrenches, ~/grasps/wrenches and '
-          '~/colliders/wrenches', live=True),
+    Field('publish.wrenches', bool, True, 'publish ~/pins/wrenches, ~/grasps/wrenches, their '
+          'peaks and ~/colliders/wrenches', live=True),
     Field('publish.tf', bool, True, 'publish a transform for each pin, grasp and collider on /tf',
           live=True),
     Field('publish.clock', bool, False, 'publish simulated time on /clock, unless another '

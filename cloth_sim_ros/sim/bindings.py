@@ -27,5 +27,9 @@ AT_LIMIT = 7
 CONTACTS = 7
 CONTACTS_SEEN = 2
 LOW_PARTS = 8
+HELD = 6
+SOLVER_HELD = 7
+HELD_SUMS = 2
+HELD_OWN = 3
 
 DEFINES = {name: value for name, value in list(globals().items()) if name.isupper()}

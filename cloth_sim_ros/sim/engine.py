@@ -16,6 +16,7 @@ from cloth_sim_ros.sim.arguments import instance
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.forcing import Forcing
 from cloth_sim_ros.sim.guarded_steps import GuardedSteps
+from cloth_sim_ros.sim.held_impulses import HeldImpulses
 from cloth_sim_ros.sim.layout import Layout
 from cloth_sim_ros.sim.loads import Loads
 from cloth_sim_ros.sim.modes.mode import Mode
@@ -99,6 +100,7 @@ class Engine:
         scene, layout = self.scene, self.layout
         state = start_state(scene, layout)
         loads = Loads(scene, layout, state)
+        impulses = state.impulses = HeldImpulses(scene, layout)
         try:
             still = loads.still
             self.observer.measure(state, still, None)
@@ -112,8 +114,11 @@ class Engine:
             if loads.air is not None:
                 loads.air.fastest_rate(state, 0.0, scene['dt'])
                 yield
+            impulses.begin_step(state.pinned, (), {}, {})
             yield from self.mode.run_all_passes(state, loads)
+            impulses.end_step({})
         finally:
+            impulses.delete()
             loads.delete()
             state.delete()
 

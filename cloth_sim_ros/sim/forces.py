@@ -5,11 +5,11 @@
 
 from dataclasses import replace
 
+from cloth_sim_ros.sim.force_window import forces_at
 from cloth_sim_ros.sim.grasps import Grasps
-from cloth_sim_ros.sim.loads import Loads
+from cloth_sim_ros.sim.held_impulses import Impulses
 from cloth_sim_ros.sim.modes.mode import Mode
 from cloth_sim_ros.sim.pin_forces import edge_pulls
-from cloth_sim_ros.sim.pin_forces import pin_forces
 from cloth_sim_ros.sim.pin_motion import Node
 from cloth_sim_ros.sim.pin_motion import PinMotion
 from cloth_sim_ros.sim.scene import Scene
@@ -20,27 +20,25 @@ import numpy as np
 
 
 def with_forces(
-        snapshot: Snapshot, scene: Scene, mode: Mode, pins: PinMotion, loads: Loads, *,
+        snapshot: Snapshot, mode: Mode, impulses: Impulses | None, node_mass: float, *,
         every_edge: bool) -> Snapshot:
     """
-    Return ``snapshot`` with the forces at its pins.
+    Return ``snapshot`` with the forces on its pins, means over the last step of dt.
 
     :param mode: that made its last step
-    :param pins: whose velocities were changed for that step
-    :param loads: that acted in it
+    :param impulses: of that step
     :param every_edge: True to add the tension of every edge too, at a cost that grows with the
         cloth
     """
-    positions, velocities = snapshot.positions, snapshot.velocities
+    tension = None
+    if every_edge:
+        # A state that is not finite has no finite forces either.
+        with np.errstate(invalid='ignore', over='ignore'):
+            tension = mode.tension(snapshot.positions, snapshot.velocities)
     nodes = np.argwhere(snapshot.flags & FLAG_PINNED)
-    # A state that is not finite has no finite forces either.
-    with np.errstate(invalid='ignore', over='ignore'):
-        tension = mode.tension(positions, velocities, None if every_edge else nodes)
-        return replace(
-            snapshot, tension=tension if every_edge else None,
-            pin_forces=pin_forces(
-                scene, positions, tension, nodes, pins.velocity_changes(nodes) / snapshot.dt,
-                loads.at_nodes(nodes), velocities))
+    return replace(
+        snapshot, tension=tension,
+        pin_forces=forces_at(impulses, nodes, node_mass, snapshot.dt))
 
 
 def pulled_too_hard(scene: Scene, state: State, mode: Mode, pins: PinMotion) -> list[Node]:

@@ -18,7 +18,6 @@ from cloth_sim_ros.sim.frame_paths import FrameMove
 from cloth_sim_ros.sim.frame_paths import FramePath
 from cloth_sim_ros.sim.frame_paths import FramePaths
 from cloth_sim_ros.sim.grasp_request import GraspRequest
-from cloth_sim_ros.sim.pin_forces import PinForces
 from cloth_sim_ros.sim.pin_motion import PinMotion
 from cloth_sim_ros.sim.pin_motion import PinRequests
 from cloth_sim_ros.sim.pins import checked_node
@@ -50,16 +49,18 @@ class Grasp:
 @dataclass(frozen=True)
 class GraspForce:
     """
-    What a gripper feels.
+    What a gripper feels: the force of the cloth on it.
 
     :param name: of the grasp
-    :param force: of the cloth on it [N], (3,)
-    :param torque: about the origin of its frame [N m], (3,)
+    :param force: the mean over the last step of dt, or over a frame [N], (3,)
+    :param torque: the same about the origin of its frame [N m], (3,)
+    :param peak: the force in the substep in which it was strongest [N], (3,)
     """
 
     name: str
     force: np.ndarray
     torque: np.ndarray
+    peak: np.ndarray
 
 
 class Grasps:
@@ -131,22 +132,6 @@ class Grasps:
         """Have their frames at rest where they are: their nodes have been put elsewhere."""
         for grasp in self.present(now):
             self._paths.put(grasp.name, grasp.pose)
-
-    def forces(self, pins: PinForces, positions: np.ndarray, now: float) -> tuple[GraspForce, ...]:
-        """
-        Return what each of them feels.
-
-        :param pins: the forces on the cloth at all pinned nodes
-        :param positions: (rows, cols, 3) [m]
-        """
-        by_node = {tuple(node): -force for node, force in zip(pins.nodes.tolist(), pins.forces)}
-        found = []
-        for grasp in self.present(now):
-            forces = np.array([by_node[tuple(node)] for node in grasp.nodes.tolist()])
-            arms = positions[tuple(grasp.nodes.T)].astype(float) - np.array(grasp.pose.position)
-            found.append(GraspForce(
-                grasp.name, forces.sum(axis=0), np.cross(arms, forces).sum(axis=0)))
-        return tuple(found)
 
 
 class GraspRequests:

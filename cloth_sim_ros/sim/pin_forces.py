@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-"""The forces that hold the pinned nodes, by the tension of the edges and by bending."""
+"""What edges and bending pull nodes with at one moment, and what a pin feels."""
 
 from dataclasses import dataclass
 from functools import lru_cache
@@ -75,7 +75,7 @@ def _brake(
     return (part - place * skew) * speed * across
 
 
-# The forces that hold the pinned nodes, by the tension of the edges.
+# What edges pull nodes with, by their tension.
 
 # As in spring_law.glsl: two nodes in one place are this far apart [m].
 _LEAST_LENGTH = 1e-10
@@ -136,45 +136,31 @@ def _pull(
 @dataclass(frozen=True)
 class PinForces:
     """
-    The reaction force at each pinned node, row by row.
+    The force of the cloth on what holds each pinned node, row by row.
 
     :param nodes: its row and column, (pins, 2) int
-    :param forces: the force on the cloth [N], (pins, 3) float64; a gripper feels the opposite
+    :param forces: the mean over the last step of dt, or over a frame [N], (pins, 3) float64
+    :param peaks: the force in the substep in which it was strongest [N], (pins, 3) float64
     """
 
     nodes: np.ndarray
     forces: np.ndarray
-
-
-def pin_forces(
-        scene: Scene, positions: np.ndarray, tension: np.ndarray, nodes: np.ndarray,
-        accelerations: np.ndarray | None = None, loads: np.ndarray | None = None,
-        velocities: np.ndarray | None = None) -> PinForces:
-    """
-    Return R = m (a - g) - (what edges and bending pull a node with) for each of ``nodes``.
-
-    Other loads count with gravity.
-
-    The work grows with the nodes given, not with the cloth.
-
-    :param positions: (rows, cols, 3) [m]
-    :param tension: of every edge with an end in ``nodes`` [N], (rows, cols, 6) as in Snapshot
-    :param nodes: rows and columns of the pinned nodes, (pins, 2) int
-    :param accelerations: of the pinned nodes [m/s2], (pins, 3); by default they hold still
-    :param loads: what accelerates them, gravity too [m/s2], (pins, 3); gravity alone by default
-    :param velocities: (rows, cols, 3) [m/s], which damp bending; by default, the cloth is at rest
-    """
-    applied = np.array(scene['gravity']) if loads is None else loads
-    own = -applied if accelerations is None else accelerations - applied
-    return PinForces(
-        nodes,
-        scene.node_mass * own - edge_pulls(scene, positions, velocities, tension, nodes))
+    peaks: np.ndarray
 
 
 def edge_pulls(
         scene: Scene, positions: np.ndarray, velocities: np.ndarray | None,
         tension: np.ndarray, nodes: np.ndarray) -> np.ndarray:
-    """Return what edges and bending pull each of ``nodes`` with [N], (n, 3); as in pin_forces."""
+    """
+    Return what edges and bending pull each of ``nodes`` with at this moment [N], (n, 3).
+
+    The work grows with the nodes given, not with the cloth.
+
+    :param positions: (rows, cols, 3) [m]
+    :param velocities: (rows, cols, 3) [m/s], which damp bending; None for a cloth at rest
+    :param tension: of every edge with an end in ``nodes`` [N], (rows, cols, 6) as in Snapshot
+    :param nodes: rows and columns, (n, 2) int
+    """
     pulls = (
         bending_pulls(scene, positions, velocities, nodes) if scene.has_rigidity
         else np.zeros((len(nodes), 3)))

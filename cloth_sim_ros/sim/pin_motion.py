@@ -22,11 +22,10 @@ _NOTHING = 1e-9
 _REST = np.zeros(3)
 
 Node = tuple[int, int]
-# The moves to come, the ways under way, and the velocities on the device, of the last step, and of
-# the one before.
+# The moves to come, the ways under way, the velocities on the device, and those of nodes that were
+# pinned since the last step.
 KeptMotion = tuple[
-    list[PinMove], dict[Node, Way], dict[Node, np.ndarray], dict[Node, np.ndarray],
-    dict[Node, np.ndarray]]
+    list[PinMove], dict[Node, Way], dict[Node, np.ndarray], dict[Node, np.ndarray]]
 
 
 class PinMotion:
@@ -45,10 +44,10 @@ class PinMotion:
         self._state = state
         self._waiting = sorted(scene.timed_pin_moves(), key=lambda move: move.start)
         self._paths: dict[Node, Way] = {}
-        # What the state has now, and what pins had in the last step and in the one before.
+        # What the state has now.
         self._on_device: dict[Node, np.ndarray] = {}
-        self._latest: dict[Node, np.ndarray] = {}
-        self._earlier: dict[Node, np.ndarray] = {}
+        # What nodes had that were free when they were pinned, since the last step.
+        self.caught: dict[Node, np.ndarray] = {}
         self._stalled = 0
 
     @property
@@ -62,6 +61,11 @@ class PinMotion:
         return list(self._own_paths())
 
     @property
+    def velocities(self) -> dict[Node, np.ndarray]:
+        """Return the velocities of pins now [m/s], those at rest left out or 0."""
+        return self._on_device
+
+    @property
     def stalled(self) -> int:
         """Return how many pins stood still in the last step, as they were pulled too hard."""
         return self._stalled
@@ -69,13 +73,15 @@ class PinMotion:
     def hold(self, row: int, col: int) -> None:
         """Pin the node (row, col) where it is, at rest; a pin that moves stops."""
         self.check_node(row, col)
+        if not self._state.pinned[row, col]:
+            self.caught[row, col] = self._state.read_velocity(row, col)
         self._stop((row, col))
         self._state.set_pinned(row, col, True)
 
     def release(self, row: int, col: int) -> None:
         """Let the node (row, col) go, with the velocity its pin has."""
         self.check_node(row, col)
-        for entries in (self._paths, self._on_device, self._latest, self._earlier):
+        for entries in (self._paths, self._on_device, self.caught):
             entries.pop((row, col), None)
         self._state.set_pinned(row, col, False)
 
@@ -118,7 +124,7 @@ class PinMotion:
 
     def drop(self) -> None:
         """Forget the moves under way: the state was replaced, and its pins are at rest."""
-        for entries in (self._paths, self._on_device, self._latest, self._earlier):
+        for entries in (self._paths, self._on_device, self.caught):
             entries.clear()
 
     def leave_out_before(self, now: float) -> None:
@@ -132,8 +138,7 @@ class PinMotion:
         return max(self._waiting[0].start, now) if self._waiting else math.inf
 
     def rest(self) -> None:
-        """Note that no pin has moved in the last step, nor in the one before."""
-        self._latest = self._earlier = {}
+        """Note that no pin has moved in the last step."""
         self._stalled = 0
 
     def begin_step(self, begin: float, end: float, too_hard: Collection[Node] = ()) -> None:
@@ -143,10 +148,8 @@ class PinMotion:
         :param too_hard: of ``moving``, the pins that are pulled too hard to go on: they stand
             still, and their way is made that much later
         """
-        self._earlier = self._latest
         self._stalled = len(too_hard)
         if not (self._paths or self._waiting):
-            self._latest = {}
             return
         own = self._own_paths()
         for node in too_hard:
@@ -156,11 +159,9 @@ class PinMotion:
             move = self._waiting.pop(0)
             if self._state.pinned[move.node]:
                 self._start(move)
-        self._latest = {
-            node: path.velocity(begin, end, places.get(node, path.position(path.begin)))
-            for node, path in self._paths.items()}
-        for node, velocity in self._latest.items():
-            self._set_velocity(node, velocity)
+        for node, path in self._paths.items():
+            at_begin = places.get(node, path.position(path.begin))
+            self._set_velocity(node, path.velocity(begin, end, at_begin))
 
     def end_step(self, begin: float, end: float) -> None:
         """Put the pins where they are at ``end`` [s]; those at their target come to rest."""
@@ -175,32 +176,18 @@ class PinMotion:
     def keep(self) -> KeptMotion:
         """Return what ``restore`` needs to come back to this moment."""
         return (
-            list(self._waiting), dict(self._paths), dict(self._on_device), dict(self._latest),
-            dict(self._earlier))
+            list(self._waiting), dict(self._paths), dict(self._on_device), dict(self.caught))
 
     def restore(self, kept: KeptMotion) -> None:
         """Go back to the moment of ``keep``, to which the state has gone back already."""
         given_since = self._on_device
-        waiting, paths, on_device, latest, earlier = kept
+        waiting, paths, on_device, caught = kept
         self._waiting = list(waiting)
         self._paths, self._on_device = dict(paths), dict(on_device)
-        self._latest, self._earlier = dict(latest), dict(earlier)
+        self.caught = dict(caught)
         # The first step after that moment gave its velocities to the state as it was then.
         for node in given_since:
             self._state.set_pin_velocity(*node, self._on_device.get(node, _REST))
-
-    def velocity_changes(self, nodes: np.ndarray) -> np.ndarray:
-        """
-        Return the velocity of pins in the last step less that in the step before [m/s].
-
-        :param nodes: their rows and columns, (pins, 2) int
-        :return: (pins, 3)
-        """
-        changes = np.zeros((len(nodes), 3))
-        if self._latest or self._earlier:
-            for change, node in zip(changes, map(tuple, nodes.tolist())):
-                change += self._latest.get(node, _REST) - self._earlier.get(node, _REST)
-        return changes
 
     def _checked(
             self, row: int, col: int, target: Sequence[float], speed: float | None,

@@ -16,22 +16,22 @@ import math
 
 from cloth_sim_ros.gl.context import Context
 from cloth_sim_ros.sim import modes
-from cloth_sim_ros.sim.contacts import ContactForce
 from cloth_sim_ros.sim.engine import Engines
 from cloth_sim_ros.sim.engine import Preparation
+from cloth_sim_ros.sim.force_readings import ForceReadings
+from cloth_sim_ros.sim.force_window import ForceWindows
 from cloth_sim_ros.sim.forces import lost_grasps
 from cloth_sim_ros.sim.forces import pulled_too_hard
 from cloth_sim_ros.sim.forces import with_forces
-from cloth_sim_ros.sim.grasps import GraspForce
 from cloth_sim_ros.sim.grasps import GraspRequests
 from cloth_sim_ros.sim.grasps import Grasps
 from cloth_sim_ros.sim.handling import Handling
 from cloth_sim_ros.sim.handling import InputListener
 from cloth_sim_ros.sim.handling import RESET
 from cloth_sim_ros.sim.handling import usual_reach
+from cloth_sim_ros.sim.held_impulses import HeldImpulses
 from cloth_sim_ros.sim.layout import choose_layout
 from cloth_sim_ros.sim.loads import Loads
-from cloth_sim_ros.sim.pin_forces import PinForces
 from cloth_sim_ros.sim.pin_motion import PinMotion
 from cloth_sim_ros.sim.pin_motion import PinRequests
 from cloth_sim_ros.sim.pose import Pose
@@ -40,7 +40,6 @@ from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.simulation_arguments import check_callable
 from cloth_sim_ros.sim.simulation_arguments import check_creation
 from cloth_sim_ros.sim.simulation_arguments import check_flags
-from cloth_sim_ros.sim.simulation_arguments import checked_forces
 from cloth_sim_ros.sim.simulation_arguments import checked_run
 from cloth_sim_ros.sim.snapshot import Measures
 from cloth_sim_ros.sim.snapshot import Snapshot
@@ -55,7 +54,7 @@ _ROUNDING = 1e-6
 _NONE_MOVED: Mapping[str, Pose] = {}
 
 
-class Simulation(Handling, AbstractContextManager['Simulation']):
+class Simulation(Handling, ForceReadings, AbstractContextManager['Simulation']):
     """
     A simulated cloth. Use it only on the thread that created it.
 
@@ -94,6 +93,8 @@ class Simulation(Handling, AbstractContextManager['Simulation']):
         self.device = context.device
         self.layout = choose_layout(scene, context, tuned=tuned)
         self._state = start_state(scene, self.layout)
+        self._impulses = self._state.impulses = HeldImpulses(scene, self.layout)
+        self._windows = ForceWindows()
         self.engines = Engines(
             scene, self.layout, self._state, context, check_stability=check_stability,
             stop_at_non_finite=stop_at_non_finite)
@@ -144,7 +145,8 @@ class Simulation(Handling, AbstractContextManager['Simulation']):
 
         def make_steps(first: int, count: int) -> Generator[None, None, None]:
             return engine.guard.make(
-                first, count, self._make_steps, engine.mode, self.loads, [self._pin_motion],
+                first, count, self._make_steps, engine.mode, self.loads,
+                [self._pin_motion, self._impulses, self._windows],
                 is_due=lambda: stepping.has_edits or is_due(), settle=stepping.settle)
 
         with closing(stepping.run(make_steps)) as pieces:
@@ -186,6 +188,8 @@ class Simulation(Handling, AbstractContextManager['Simulation']):
         positions, velocities = self._state.checked(positions, velocities)
         self.listener.new_state()
         self.engines.context.make_current()
+        self._settle_windows()
+        self._impulses.forget()
         self._state.write(positions, velocities)
         self._held.stop(self.time)
         self._pin_motion.drop()
@@ -257,8 +261,8 @@ class Simulation(Handling, AbstractContextManager['Simulation']):
         if tension or pin_forces:
             self.stepping.refuse_mid_step('forces')
             return with_forces(
-                snapshot, self.scene, self.engines.in_use.mode, self._pin_motion, self.loads,
-                every_edge=tension)
+                snapshot, self.engines.in_use.mode, self._impulses.of_last_step(),
+                self.scene.node_mass, every_edge=tension)
         return snapshot
 
     def begin_snapshot(self) -> Callable[[], Snapshot]:
@@ -282,32 +286,6 @@ class Simulation(Handling, AbstractContextManager['Simulation']):
 
         return finish
 
-    def pin_forces(self) -> PinForces:
-        """Return the present reaction force at each pinned node."""
-        forces = self.snapshot(pin_forces=True).pin_forces
-        assert forces is not None
-        return forces
-
-    def contact_forces(self) -> tuple[ContactForce, ...]:
-        """
-        Return the force of the cloth on each collider, in the order of ``colliders.names``.
-
-        It is the mean over the last step of dt.
-        """
-        self.stepping.refuse_mid_step('contact_forces')
-        contacts = self.loads.contacts
-        return () if contacts is None else contacts.forces(self.positions(), self.time)
-
-    def grasp_forces(self, snapshot: Snapshot | None = None) -> tuple[GraspForce, ...]:
-        """
-        Return the present force of the cloth on each grasp, and its torque.
-
-        :param snapshot: of this time, with the forces at pins; made here by default
-        """
-        seen = self.snapshot(pin_forces=True) if snapshot is None else snapshot
-        forces = checked_forces(seen, self.time, self.grasped_nodes())
-        return self._held.forces(forces, seen.positions, self.time)
-
     def finish(self) -> None:
         """Wait until the device has finished all work; for timing."""
         self.engines.context.finish()
@@ -318,6 +296,7 @@ class Simulation(Handling, AbstractContextManager['Simulation']):
             return
         self._is_closed = True
         self.engines.delete()
+        self._impulses.delete()
         self._state.delete()
         self.loads.delete()
         if self._owns_context:
@@ -325,6 +304,8 @@ class Simulation(Handling, AbstractContextManager['Simulation']):
 
     def _begin_run(self, steps: int = 0) -> None:
         self.stepping = Stepping(self.dt, steps)
+        self._impulses.forget()
+        self._windows.clear()
         self.loads.begin_run()
         for push in self.scene.timed_pushes():
             self.loads.pushes.add(push, -math.inf)
@@ -341,8 +322,10 @@ class Simulation(Handling, AbstractContextManager['Simulation']):
         if count > 1:
             begin = number * self.dt
             gravity = self.loads.forcing(self._state, begin, begin + self.dt)
+            self._begin_impulses(begin)
             made = self.engines.in_use.mode.step_ahead(self._state, gravity, int(count))
             if made:
+                self._end_impulses(made)
                 self.stepping.step_under_way = number + made - 1
                 self._pin_motion.rest()
                 yield
@@ -367,9 +350,11 @@ class Simulation(Handling, AbstractContextManager['Simulation']):
         pins.begin_step(begin, end, pulled_too_hard(self.scene, self._state, mode, pins))
         for name in lost_grasps(self.scene, self._state, mode, self._held, begin):
             self.stepping.at_end_of_step(partial(self._lose_grasp, name))
+        self._begin_impulses(begin)
         self.loads.begin_step(begin, end)
         yield from mode.step(self._state, begin, self.loads)
         pins.end_step(begin, end)
+        self._end_impulses(1)
 
     def _lose_grasp(self, name: str) -> None:
         if name in self._grasps.present():

@@ -82,23 +82,12 @@ def checked_run(
     return steps, pinned, checked
 
 
-def checked_forces(snapshot: Snapshot, time: float, held: np.ndarray) -> PinForces:
-    """
-    Return the forces at pins in ``snapshot``, which are those at all nodes of grasps.
-
-    :param time: present time [s], of which it has to be
-    :param held: nodes that grasps hold, (rows, cols) bool
-    """
-    way_out = 'make one with snapshot(pin_forces=True), or leave it out'
+def checked_snapshot(snapshot: Snapshot, time: float) -> Snapshot:
+    """Return ``snapshot``; ClothSimError where it is not one of the present ``time`` [s]."""
+    way_out = 'make one with snapshot(), or leave it out'
     instance(snapshot, Snapshot, 'the snapshot', way_out)
-    forces = snapshot.pin_forces
-    if forces is None or snapshot.time != time:
+    if snapshot.time != time:
         raise ClothSimError(
-            f'the forces at grasps need a snapshot of {time:g} s with forces at pins, got one of '
-            f'{snapshot.time:g} s {"without" if forces is None else "with"} them: {way_out}')
-    has_force = np.zeros_like(held)
-    has_force[tuple(forces.nodes.T)] = True
-    if np.any(held & ~has_force):
-        raise ClothSimError(
-            f'the snapshot was made before a grasp of the same time, {time:g} s: {way_out}')
-    return forces
+            f'the forces at grasps need a snapshot of {time:g} s, got one of {snapshot.time:g} s: '
+            f'{way_out}')
+    return snapshot

@@ -6,6 +6,7 @@
 from collections.abc import Iterator
 from collections.abc import Sequence
 from contextlib import contextmanager
+from typing import Protocol
 
 from cloth_sim_ros.gl.buffer import Buffer
 from cloth_sim_ros.gl.buffer import BufferRow
@@ -28,6 +29,23 @@ _PAIRS = 3
 _SPARE = {
     (now, kept): next(pair for pair in range(_PAIRS) if pair not in (now, kept))
     for now in range(_PAIRS) for kept in range(_PAIRS)}
+
+
+class HeldEntries(Protocol):
+    """Where substeps leave what pinned nodes are driven with, by held.glsl."""
+
+    @property
+    def is_recording(self) -> bool:
+        """Tell whether some node is held in the step under way."""
+
+    def reserve(self, substeps: int, place: int = bindings.HELD) -> tuple[int, int, int]:
+        """Return where the first of ``substeps`` leaves its entries, how many, how far apart."""
+
+    def bind(self, place: int = bindings.HELD) -> None:
+        """Let the next dispatches leave their entries."""
+
+    def expect_steps(self, substeps: int) -> None:
+        """Tell that so many ``substeps`` come before those of the last step of dt."""
 
 
 class State:
@@ -64,6 +82,8 @@ class State:
         self._next = 1
         self.edits = 0
         self._low = LowParts(layout.stored) if has_low_parts else None
+        # Where passes leave what pinned nodes are driven with; None where nobody asks.
+        self.impulses: HeldEntries | None = None
         self.write(positions, np.zeros_like(positions))
 
     @property
@@ -134,6 +154,12 @@ class State:
         self._positions[self._now].read_into(position, self._offset(row, col))
         return position.astype(float)
 
+    def read_velocity(self, row: int, col: int) -> np.ndarray:
+        """Return the velocity of the node (row, col) [m/s], (3,)."""
+        velocity = np.empty(3, dtype=np.float32)
+        self._velocities[self._now].read_into(velocity, self._offset(row, col))
+        return velocity
+
     def read_positions(self) -> np.ndarray:
         """Return all positions [m], (rows, cols, 3) float32."""
         return self._read(self._positions)
@@ -180,6 +206,12 @@ class State:
         """Let the next dispatch read the present positions, with the velocities to come."""
         self._bind(bindings.POSITION_IN, self._positions[self._now])
         self._bind(bindings.VELOCITY_IN, self._velocities[self._next])
+
+    def next_held_entry(self, place: int = bindings.HELD) -> int:
+        """Return where the next substep leaves its entries of held.glsl, bound; -1: nowhere."""
+        if self.impulses is None or not self.impulses.is_recording:
+            return -1
+        return self.impulses.reserve(1, place)[0]
 
     def swap(self) -> None:
         """Make what was written the present state."""

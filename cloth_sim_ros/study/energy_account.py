@@ -12,7 +12,7 @@ from cloth_sim_ros.sim.contacts import ContactForce
 from cloth_sim_ros.sim.edge_kinds import EDGE_KINDS
 from cloth_sim_ros.sim.edge_kinds import EdgeKind
 from cloth_sim_ros.sim.modes import AVAILABLE
-from cloth_sim_ros.sim.pin_forces import pin_forces
+from cloth_sim_ros.sim.pin_forces import edge_pulls
 from cloth_sim_ros.sim.pose import rotation_between
 from cloth_sim_ros.sim.push import Push
 from cloth_sim_ros.sim.scene import FAMILIES
@@ -166,7 +166,7 @@ class EnergyAccount:
             self._work += float(force @ way[nodes].mean(axis=0))
         if self._has_pin_moves and now.pin_forces is not None:
             rows, cols = now.pin_forces.nodes.T
-            self._work += float(np.sum(now.pin_forces.forces * moved[rows, cols]))
+            self._work -= float(np.sum(now.pin_forces.forces * moved[rows, cols]))
         if self._colliders:
             colliders = self._run.colliders
             self._work += contact_work(self._run.contact_forces(), self._colliders, colliders)
@@ -240,12 +240,10 @@ class EnergyAccount:
     def _forces(self, seen: Snapshot) -> tuple[np.ndarray, np.ndarray]:
         """Return the free nodes, (n, 2), and the forces of gravity and edges on them [N]."""
         free = np.argwhere(~self._run.pinned_nodes())
-        # What would hold a node still is the opposite of the force on it.
+        scene = self._run.scene
         assert seen.tension is not None  # the snapshots are taken with it
-        held = pin_forces(
-            self._run.scene, seen.positions, seen.tension, free, np.zeros((len(free), 3)),
-            velocities=seen.velocities)
-        return free, -held.forces
+        pulls = edge_pulls(scene, seen.positions, seen.velocities, seen.tension, free)
+        return free, pulls + scene.node_mass * np.array(scene['gravity'])
 
     def _rounding(self) -> float:
         scene = self._run.scene

@@ -62,7 +62,10 @@ class FrameMaker:
         if 'stats' in self._outputs:
             made.append(('stats', serialize_message(stats_message(snapshot, _FRAME_ID))))
         if self._has_wrenches:
-            made += [('wrenches', data) for data in self._wrenches.serialise(snapshot)]
+            pins = snapshot.pin_forces
+            assert pins is not None  # asked for above
+            made += [('wrenches', data) for data in self._wrenches.serialise(
+                pins.nodes, pins.forces, snapshot.time)]
         if self._recorder is not None:
             for key, data in made:
                 self._recorder.write(_TOPICS.get(key, key), data, snapshot.time)

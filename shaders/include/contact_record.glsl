@@ -19,6 +19,11 @@ void note_turn() { contacts[COLLIDERS * record_stride].z = decision; }
 // Leave a mark that a node touches a collider in this substep.
 void note_contact() { contacts[COLLIDERS * record_stride].x = serial; }
 
+// Add an impulse over the node mass, and leave as it is whether the node touches.
+void record_impulse(int collider, int index, vec3 change) {
+    contacts[collider * record_stride + index].xyz += change;
+}
+
 void record_contacts(int index, int kind) {
     for (int i = 0; i < touched_count; ++i) {
         if (given[i] != vec3(0.0) || pressed[i] > 0.0) {

@@ -145,6 +145,7 @@ vec3 towards(int at, int index, vec3 v) {
 bool may_touch(int at, int index, vec4 x, vec4 v) {
     store_vector(cloth_entry(BEGIN_POSITION, index), x.xyz);
     store_vector(cloth_entry(BEGIN_VELOCITY, index), v.xyz);
+    store_left_over(index, vec3(0.0));
     bool is_near = is_near_body(x.xyz, towards(at, index, v.xyz));
     if (v.w > 0.0 && !is_near) {
         if (guess == 0.0) {
@@ -289,7 +290,13 @@ void decide(int at, int index, inout vec4 x, inout vec4 v) {
     float was_grip = system_data[cloth_entry(GRIP, index)].w;
     vec3 begin = load_vector(cloth_entry(BEGIN_POSITION, index));
     vec3 reaction = load_vector(cloth_entry(REACTION, index));
+    // A node that was let go last, with no solve after it, still has what it had been given.
+    vec3 kept = was.w == float(FREE) ? -load_vector(cloth_entry(GIVEN, index)) : vec3(0.0);
+    touched[0] = -1;
     contact_at(begin, v.xyz, v.xyz - reaction, substep);
+    if (touched[0] >= 0 && kept != vec3(0.0)) {
+        record_impulse(touched[0], at, kept);
+    }
     if (touched_count == 0 && reaction != vec3(0.0)) {
         // What passes by without its reaction may come inside with it.
         find_surfaces(
@@ -301,7 +308,8 @@ void decide(int at, int index, inout vec4 x, inout vec4 v) {
     if (touched_count == 1) {
         given[0] = reaction;
     }
-    vec3 to = v.xyz;
+    vec3 before = v.xyz;
+    vec3 to = before;
     bool sticks = int(was.w) == STICKS;
     if (was.w > float(STICKS)) {
         Hold hold = Hold(int(was.w), was.xyz, vec3(0.0), 0.0, vec3(0.0), vec3(0.0));
@@ -314,14 +322,19 @@ void decide(int at, int index, inout vec4 x, inout vec4 v) {
         given[i] += change;
         to += change;
     }
-    if (to != v.xyz) {
-        store_vector(cloth_entry(REACTION, index), reaction + (to - v.xyz));
+    if (to != before) {
+        store_vector(cloth_entry(REACTION, index), reaction + (to - before));
 #if HAS_LOW_PARTS
-        x.xyz = changed_position(at, x.xyz, substep * (to - v.xyz));
+        x.xyz = changed_position(at, x.xyz, substep * (to - before));
 #else
         x.xyz = begin + substep * to;
 #endif
         v.xyz = to;
+    }
+    if (touched_count == 1) {
+        // With friction at rest. A reaction counts what solves leave to later ones as given, and
+        // what they find of earlier ones. Of several surfaces the law shares it out.
+        given[0] = reaction + (to - before) + load_left_over(index);
     }
     x.xyz = moved_out(x.xyz, substep);
     vectors[cloth_entry(REACTION, index)].w = sticks ? STUCK : 0.0;

@@ -12,6 +12,8 @@
 
 layout(local_size_x = LOCAL_X, local_size_y = LOCAL_Y) in;
 
+uniform float left_share;  // of LEFT, that the solve has begun with
+
 void main() {
     ivec2 first = first_of_block();
     if (!in_cloth(first)) {
@@ -33,6 +35,9 @@ void main() {
             vec3 reaction = load_vector(cloth_entry(REACTION, index));
             vec3 right = load_vector(cloth_entry(RIGHT, index));
             store_vector(cloth_entry(REACTION, index), reaction + product[row][col] - right);
+            vec3 left_over = load_left_over(index) + load_vector(cloth_entry(RESIDUAL, index));
+            store_left_over(
+                index, left_over - left_share * load_vector(cloth_entry(LEFT, index)));
         }
     }
 }

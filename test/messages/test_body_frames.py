@@ -44,7 +44,8 @@ def test_each_body_has_its_frame():
 
 @pytest.mark.parametrize(('make', 'body', 'felt', 'frame'), [
     (grasp_wrenches, GRASP,
-     GraspForce('hand', np.array([0.0, 2.0, 1.0]), np.array([3.0, 0.0, 0.0])), 'arm_grasp_hand'),
+     GraspForce('hand', np.array([0.0, 2.0, 1.0]), np.array([3.0, 0.0, 0.0]), np.zeros(3)),
+     'arm_grasp_hand'),
     (collider_wrenches, BALL,
      ContactForce('ball', np.array([0.0, 2.0, 1.0]), np.array([3.0, 0.0, 0.0]), 1, 0),
      'arm_collider_ball')])

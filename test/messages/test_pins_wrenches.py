@@ -6,23 +6,21 @@
 from cloth_sim_ros.messages.pins import MOST_PINS
 from cloth_sim_ros.messages.pins import too_many_pins
 from cloth_sim_ros.messages.pins import WrenchMessages
-from cloth_sim_ros.sim.pin_forces import PinForces
 from geometry_msgs.msg import WrenchStamped
-from made_snapshot import make_snapshot
 import numpy as np
 import pytest
 from rclpy.serialization import deserialize_message
 
 
 def decode(nodes, forces):
-    """Return the messages of a snapshot with these forces at these nodes."""
-    held = PinForces(np.array(nodes, dtype=int).reshape(-1, 2), np.reshape(forces, (-1, 3)))
+    """Return the messages of a frame with these forces at these nodes."""
+    nodes, forces = np.array(nodes, dtype=int).reshape(-1, 2), np.reshape(forces, (-1, 3))
     messages = WrenchMessages('/arm/cloth')
     # Whatever was sent before must not be left in them.
-    messages.serialise(make_snapshot(3, 4, pin_forces=PinForces(held.nodes, 7.0 + held.forces)))
+    messages.serialise(nodes, 7.0 + forces, 0.0)
     return [
         deserialize_message(data, WrenchStamped)
-        for data in messages.serialise(make_snapshot(3, 4, pin_forces=held))]
+        for data in messages.serialise(nodes, forces, 1.25)]
 
 
 def test_each_pin_has_its_own_message():
@@ -34,21 +32,12 @@ def test_each_pin_has_its_own_message():
             for message in messages} == {(1, 250000000)}
 
 
-def test_a_holder_feels_the_opposite_of_what_it_holds_with():
+def test_the_force_is_sent_as_it_is():
     """A gripper that holds a weight would feel itself pulled up."""
-    message, = decode([(1, 1)], [[0.5, -0.25, 9.81]])
+    message, = decode([(1, 1)], [[0.5, -0.25, -9.81]])
     force, torque = message.wrench.force, message.wrench.torque
-    assert (force.x, force.y, force.z) == (-0.5, 0.25, -9.81)
+    assert (force.x, force.y, force.z) == (0.5, -0.25, -9.81)
     assert (torque.x, torque.y, torque.z) == (0.0, 0.0, 0.0)
-
-
-def test_nodes_of_a_grasp_have_no_wrench_of_a_pin():
-    """The force on a gripper would be counted twice."""
-    pins = PinForces(np.array([(0, 0), (2, 3)]), np.ones((2, 3)))
-    held = np.zeros((3, 4), dtype=bool)
-    held[2, 3] = True
-    data, = WrenchMessages('/arm/cloth').serialise(make_snapshot(3, 4, pin_forces=pins), held)
-    assert deserialize_message(data, WrenchStamped).header.frame_id == 'arm_cloth_pin_0_0'
 
 
 def test_a_cloth_without_pins_has_no_messages():

@@ -60,23 +60,23 @@ def wait_for_wrenches(cloth, *, steps, count):
     return of_then()
 
 
-def expected_forces(simulation):
-    """Return the force that each holder of the simulation's cloth feels, by its frame."""
-    held = simulation.snapshot(pin_forces=True).pin_forces
+def expected_forces(forces):
+    """Return the force that each holder of a frame feels, by its frame."""
     return {
-        PIN.format(row, col): tuple(-part for part in force)
-        for (row, col), force in zip(held.nodes.tolist(), held.forces.tolist())}
+        PIN.format(row, col): tuple(force)
+        for (row, col), force in zip(forces.pins.nodes.tolist(), forces.pins.forces.tolist())}
 
 
 def test_each_holder_feels_its_pin(cloth, simulation):
     """A gripper would read another force than it holds with, or one of another time."""
     assert cloth.call(SetPin, 'set_pin', row=3, col=4).success
     assert cloth.call(Step, 'step', steps=20).success
+    window = simulation.open_force_window()
     simulation.pin(3, 4)
     simulation.step(20)
     told = forces_of(wait_for_wrenches(cloth, steps=20, count=3))
     assert set(told) == {PIN.format(0, 0), PIN.format(0, 9), PIN.format(3, 4)}
-    assert told == expected_forces(simulation)
+    assert told == expected_forces(simulation.frame_forces(window))
 
 
 def test_every_wrench_has_its_frame(cloth, simulation):
@@ -179,19 +179,24 @@ def test_bodies_feel_the_cloth_in_their_own_frames(handled, twin):
     orientation = Quaternion(x=0.0, y=0.6, z=0.0, w=0.8)
     here = Pose(position=Point(x=-0.5, y=-0.3, z=1.0), orientation=orientation)
     assert handled.call(Grasp, 'grasp', name='hand', pose=here, radius=0.2).success
+    window = twin.open_force_window()
     twin.grasp('hand', (-0.5, -0.3, 1.0), (0.0, 0.6, 0.0, 0.8), radius=0.2)
     to = Pose(position=Point(x=0.0, y=0.0, z=1.0), orientation=orientation)
     assert handled.call(MoveFrame, 'move_collider', name='ball', pose=to).success
     twin.move_collider('ball', (0.0, 0.0, 1.0), (0.0, 0.6, 0.0, 0.8))
     assert handled.call(Step, 'step', steps=60).success
     twin.step(60)
-    (felt,), (grasp,) = twin.grasp_forces(), twin.grasps
+    forces = twin.frame_forces(window)
+    (felt,), (grasp,) = forces.grasps, twin.grasps
+    peak = at_step(handled, 'grasps/peak_wrenches', 60)[FRAME.format('grasp_hand')]
+    np.testing.assert_array_equal(parts(peak.force), grasp.pose.axes @ felt.peak)
+    assert not parts(peak.torque).any()
     wrench = at_step(handled, 'grasps/wrenches', 60)[FRAME.format('grasp_hand')]
     np.testing.assert_array_equal(parts(wrench.force), grasp.pose.axes @ felt.force)
     np.testing.assert_array_equal(parts(wrench.torque), grasp.pose.axes @ felt.torque)
     assert np.linalg.norm(felt.torque) > 1e-3
     wrenches = at_step(handled, 'colliders/wrenches', 60)
-    contacts = dict(zip(twin.colliders, twin.contact_forces()))
+    contacts = dict(zip(twin.colliders, forces.contacts))
     assert len(wrenches) == len(contacts) == 2
     for collider, contact in contacts.items():
         wrench = wrenches[FRAME.format(f'collider_{collider.name}')]

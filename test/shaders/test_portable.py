@@ -69,6 +69,7 @@ _FORMS = {
     'place_pins.comp': {'PINS_LOCAL': 32},
     'paper_force.comp': {},
     'paper_update.comp': {'UPDATE_LOCAL': 1024},
+    'fold_held.comp': {'FOLD_LOCAL': 32},
     **{f'paper_solver/{name}.comp': paper_solver_defines(150, 63) for name in (
         'constraint', 'direction', 'dot', 'scalars', 'spmm', 'spmv', 'update')},
     'rigid_sums.comp': {'STRIP': 16},

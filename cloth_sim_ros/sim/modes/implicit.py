@@ -130,6 +130,8 @@ class ImplicitStep(ABC):
         self._energies = Observer(scene, layout, set(families))
         # The law of the last substep, and what it was asked for.
         self._law: tuple[tuple[float, float], EdgeLaw] | None = None
+        # Where the substep under way leaves its entries of held.glsl; below 0: nowhere.
+        self._held_at = -1
         self.forget()
 
     @staticmethod
@@ -172,6 +174,7 @@ class ImplicitStep(ABC):
             self._account_for_settling(state)
             self._solver.set_law(self._present_law(length))
             start = begin + substep * length
+            self._held_at = state.next_held_entry()
             # A velocity belongs to the middle of its substep, so forces act from there to the
             # next.
             kick = 0.5 * ((self.last_length or length) + length)
@@ -213,6 +216,7 @@ class ImplicitStep(ABC):
             yield
         self._free_motion.aim_at(state, still, still, self._dt)
         yield
+        self._held_at = state.next_held_entry()
         yield from self._substep(state, lambda: still, self._dt)
         # Hard edges of a cloth that comes stretched have limits for a while, too.
         self._solver.run_search(state)
@@ -365,6 +369,9 @@ class ImplicitStep(ABC):
             if not self._solver.move_start(state, is_last=is_last):
                 break
             self._unsettled += is_last
+        self._solver.record_held(
+            state, forcing_of(), how['kick'], self._held_at,
+            is_further=how.get('is_further', False))
         self._solver.find_tensions()
         return True
 

@@ -40,6 +40,9 @@ class OnePass:
         self._step = SceneProgram(
             'mass_spring_step.comp', scene, layout, {'STRAIN_LIMIT': strain_limit})
         self._groups = layout.groups
+        # Where the last substep has left its entries of held.glsl; below 0: nowhere.
+        self.held_at = -1
+        self._held_set: int | None = None
         self._step.use()
 
     def substep(
@@ -55,31 +58,44 @@ class OnePass:
 
     def substeps(self, state: State, forcing: Forcing, length: float, count: int) -> None:
         """Step ``state`` on ``count`` times by ``length`` [s], under the same forcing."""
-        step = self._begin(forcing, length, length)
-        for _ in range(count):
-            self._make(state, step, forcing)
-            state.swap()
+        impulses = state.impulses
+        made = 0
+        while made < count:
+            held_at, some, apart = (
+                (-1, count, 0) if impulses is None or not impulses.is_recording
+                else impulses.reserve(count - made))
+            step = self._begin(forcing, length, length)
+            for entry in range(held_at, held_at + some * apart, apart) if apart else (-1,) * some:
+                self._make(state, step, forcing, entry)
+                state.swap()
+            made += some
 
     def run(
             self, state: State, forcing: Forcing, length: float,
             kick: float | None = None) -> None:
         """Write the state after ``length`` [s], without making it the present one."""
+        self.held_at = state.next_held_entry()
         step = self._begin(forcing, length, length if kick is None else kick)
-        self._make(state, step, forcing)
+        self._make(state, step, forcing, self.held_at)
 
     def _begin(self, forcing: Forcing, length: float, kick: float) -> Program:
         step = self._step.use_for_step(forcing, length, kick)
         if forcing.touch is not None:
             forcing.touch.begin_explicit(step, length)
+            step.use()
         return step
 
-    def _make(self, state: State, step: Program, forcing: Forcing) -> None:
+    def _make(self, state: State, step: Program, forcing: Forcing, held_at: int) -> None:
         state.bind_in()
         state.bind_out()
         touch = forcing.touch
         if touch is not None:
             touch.list_none()
             step.use()
+        # A uniform costs as much as a small dispatch.
+        if held_at != self._held_set:
+            step.set_int('held_at', held_at)
+            self._held_set = held_at
         step.dispatch(*self._groups)
         if touch is None:
             shader_writes_visible()
@@ -117,6 +133,7 @@ class TwoPass:
 
     def substep(self, state: State, forcing: Forcing, length: float) -> None:
         """Step ``state`` on by ``length`` [s], in place."""
+        held_at = state.next_held_entry()
         state.bind_in()
         self._forces.bind_storage(bindings.FORCE)
         self._masses.bind_storage(bindings.MASS)
@@ -125,6 +142,7 @@ class TwoPass:
         shader_writes_visible()
         state.bind_low_parts()
         update = self._update.use_for_step(forcing, length)
+        update.set_int('held_at', held_at)
         update.dispatch(self._update_groups)
         shader_writes_visible()
 
@@ -208,6 +226,8 @@ class MassSpring:
     def step_ahead(self, state: State, gravity: Forcing, most: int) -> int:
         """Make up to ``most`` steps at once under gravity alone; return how many."""
         count = min(most, self._most_at_once // self.substeps)
+        if state.impulses is not None and count:
+            state.impulses.expect_steps((count - 1) * self.substeps)
         self._substeps(state, gravity, count * self.substeps)
         return count
 

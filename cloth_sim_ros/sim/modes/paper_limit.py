@@ -73,12 +73,18 @@ class PaperSweeps:
                 sweep.dispatch(*self._groups)
                 shader_writes_visible()
 
-    def finish(self, state: State, length: float) -> None:
-        """Move the nodes of the substep of ``length`` [s] that ``run`` was told of."""
+    def finish(self, state: State, length: float, kick: float, held_at: int) -> None:
+        """
+        Move the nodes of the substep of ``length`` [s] that ``run`` was told of.
+
+        :param held_at: where its entries of held.glsl are
+        """
         if self._layout.texture_loads:
             state.bind_in()
         finish = self._finish.use()
         finish.set_float('substep', length)
+        finish.set_float('kick', kick)
+        finish.set_int('held_at', held_at)
         finish.dispatch(*self._node_groups)
         shader_writes_visible()
         state.swap()
@@ -177,7 +183,7 @@ class PaperLimit:
         self._sweeps.clear()
         self._springs.run(state, forcing, length, kick)
         self._sweeps.run(state, _SWEEPS, length, kick)
-        self._sweeps.finish(state, length)
+        self._sweeps.finish(state, length, kick, self._springs.held_at)
 
     def tension(
             self, positions: np.ndarray, velocities: np.ndarray,

@@ -4,9 +4,11 @@
 """The solves of a substep: how each begins, and which limits and contacts are in force."""
 
 from dataclasses import dataclass
+from dataclasses import replace
 
 from cloth_sim_ros.gl.buffer import shader_writes_visible
 from cloth_sim_ros.gl.program import Program
+from cloth_sim_ros.sim import bindings
 from cloth_sim_ros.sim.forcing import Forcing
 from cloth_sim_ros.sim.forcing import touch_of
 from cloth_sim_ros.sim.layout import Layout
@@ -80,6 +82,43 @@ class RightSide:
             self._law_in = law
         start.set_in(program)
         program.set_float('to_come', float(not is_further))
+        program.dispatch(*self._groups)
+        shader_writes_visible()
+
+    def delete(self) -> None:
+        """Give the program back."""
+        self._program.delete()
+
+
+class HeldPass:
+    """Runs held.comp: what a solve drives pinned nodes with."""
+
+    def __init__(
+            self, scene: Scene, state: Layout, programs: SolverPrograms, levels: Levels) -> None:
+        """Prepare; nothing is compiled yet."""
+        self._program = SceneProgram('solver/held.comp', scene, state, {
+            **programs.defines, 'BLOCK': 1, 'HELD_BINDING': bindings.SOLVER_HELD})
+        self._programs = programs
+        # Few nodes are pinned: a block of one is compiled in a tenth of the time.
+        self._groups = replace(levels.cloth, block=1).groups
+        self._law_in: EdgeLaw | None = None
+
+    def run(
+            self, law: EdgeLaw, forcing: Forcing, kick: float, held_at: int, *,
+            is_further: bool) -> None:
+        """
+        Leave it at ``held_at``; as RightSide.run, after the solve.
+
+        :param is_further: True to add to what the solves before it have left
+        """
+        program = self._program.use_for_step(forcing, law.length, kick)
+        if self._law_in != law:
+            self._programs.set_sizes(program)
+            set_law(program, law)
+            program.set_floats('damping_weight', law.damping_weights)
+            self._law_in = law
+        program.set_float('to_come', float(not is_further))
+        program.set_int('held_at', held_at)
         program.dispatch(*self._groups)
         shader_writes_visible()
 
@@ -270,9 +309,14 @@ class SolverContacts:
 
     def after_solve(
             self, state: State, forcing: Forcing, length: float, *, is_last: bool,
-            ends_turns: bool) -> None:
-        """Decide anew once a solve is applied; once more with ``is_last`` to end the substep."""
+            ends_turns: bool, left_share: float) -> None:
+        """
+        Decide anew once a solve is applied; once more with ``is_last`` to end the substep.
+
+        :param left_share: of the residual of the solve before it, that the solve has taken over
+        """
         if not is_last:
+            self._react.set_float('left_share', left_share)
             self._react.run()
         touch_of(forcing).begin_decision()
         program = self._use('END' if is_last else 'AGAIN', forcing, length, length)

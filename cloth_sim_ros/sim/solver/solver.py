@@ -6,12 +6,14 @@
 from collections.abc import Generator
 from dataclasses import replace
 
+from cloth_sim_ros.sim import bindings
 from cloth_sim_ros.sim.edge_kinds import EDGE_KINDS
 from cloth_sim_ros.sim.forcing import Forcing
 from cloth_sim_ros.sim.layout import Layout
 from cloth_sim_ros.sim.low_parts import needs_low_parts
 from cloth_sim_ros.sim.scene import FAMILIES
 from cloth_sim_ros.sim.scene import Scene
+from cloth_sim_ros.sim.solver.active_set import HeldPass
 from cloth_sim_ros.sim.solver.active_set import LimitSearch
 from cloth_sim_ros.sim.solver.active_set import RightSide
 from cloth_sim_ros.sim.solver.active_set import SolverContacts
@@ -96,6 +98,7 @@ class Solver:
         parts = scene, state, self._programs, levels
         self._right_side = RightSide(*parts, foresees_turn=foresees_turn)
         self._search = LimitSearch(*parts, foresees_turn=foresees_turn)
+        self._held = HeldPass(*parts)
         self._tally = Tally(self._programs)
         self._contacts = SolverContacts(
             scene, state, self._programs, levels.cloth.node_groups,
@@ -158,7 +161,8 @@ class Solver:
         assert self._contacts is not None
         self._buffers.bind()
         self._contacts.after_solve(
-            state, forcing, self._law.length, is_last=is_last, ends_turns=ends_turns)
+            state, forcing, self._law.length, is_last=is_last, ends_turns=ends_turns,
+            left_share=self._left_share)
 
     def prepare(
             self, state: State, forcing: Forcing, *, kick: float | None = None,
@@ -236,6 +240,18 @@ class Solver:
     def solve_in_pieces(self) -> Generator[None, bool | None, None]:
         """Find the solution, and yield where the device may do something else; as Mode.step."""
         yield from self._iterations.solve()
+
+    def record_held(
+            self, state: State, forcing: Forcing, kick: float, held_at: int, *,
+            is_further: bool = False) -> None:
+        """Record what a solution drives pins with, before find_tensions, where held_at >= 0."""
+        if held_at < 0:
+            return
+        assert state.impulses is not None  # it has given held_at
+        self._buffers.bind()
+        state.bind_in()
+        state.impulses.bind(bindings.SOLVER_HELD)
+        self._held.run(self._law, forcing, kick, held_at, is_further=is_further)
 
     def find_tensions(self) -> None:
         """Find what edges pull with by the solution; later steps go by it."""
@@ -353,6 +369,7 @@ class Solver:
         self._programs.delete()
         self._right_side.delete()
         self._search.delete()
+        self._held.delete()
         if self._contacts is not None:
             self._contacts.delete()
 

@@ -92,7 +92,7 @@ def test_its_force_is_that_of_its_nodes_as_pins(simulate, any_mode):
         each.advance(0.5)
     np.testing.assert_array_equal(simulation.positions(), pinned.positions())
     pins = pinned.pin_forces()
-    forces = {tuple(node): -force for node, force in zip(pins.nodes.tolist(), pins.forces)}
+    forces = {tuple(node): force for node, force in zip(pins.nodes.tolist(), pins.forces)}
     left, right = simulation.grasp_forces()
     np.testing.assert_allclose(
         left.force, sum(forces[tuple(node)] for node in grasp.nodes.tolist()), rtol=1e-9)

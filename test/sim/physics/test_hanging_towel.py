@@ -38,7 +38,7 @@ def _check_rest(simulation, within, speed):
     weight = TOWEL['areal_density'] * TOWEL['width'] * TOWEL['height'] * 9.81
     within('largest speed [m/s]', np.linalg.norm(snapshot.velocities, axis=-1).max(), speed)
     within('forces at the pins over the weight, less 1',
-           abs(snapshot.pin_forces.forces.sum(axis=0)[2] / weight - 1.0), 1e-3)
+           abs(snapshot.pin_forces.forces.sum(axis=0)[2] / weight + 1.0), 1e-3)
 
 
 @pytest.mark.parametrize(('mode', 'share', 'pins'), FORMS)
