@@ -34,7 +34,8 @@ def main() -> None:
     if 'pins/wrenches' in recording.keys():
         forces = recording.arrays('pins/wrenches')
         last = forces['time'] == forces['time'][-1]
-        print(f'force on all pins at the end: {forces["wrench.force"][last].sum(axis=0)} N')
+        total = [forces[f'wrench.force.{axis}'][last].sum() for axis in 'xyz']
+        print(f'force of the cloth on all pins at the end: {np.array(total)} N')
 
     stats = {name: recording.arrays('stats')[name] for name in COLUMNS}
     table = np.column_stack(list(stats.values()))

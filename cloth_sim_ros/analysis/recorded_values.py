@@ -36,9 +36,12 @@ _NEEDED: dict[str, dict[str, Any]] = {
         **_STAMP, 'height': int, 'width': int, 'point_step': int, 'is_bigendian': int,
         'data': np.ndarray},
     'stats': _STAMP,
-    'pins/wrenches': {
-        **_STAMP, 'header.frame_id': str,
-        **{f'wrench.force.{axis}': _NUMBER for axis in _POINT}},
+    **dict.fromkeys(
+        ('pins/wrenches', 'pins/peak_wrenches', 'grasps/wrenches', 'grasps/peak_wrenches',
+         'colliders/wrenches'),
+        {**_STAMP, 'header.frame_id': str,
+         **{f'wrench.{part}.{axis}': _NUMBER for part in ('force', 'torque')
+            for axis in _POINT}}),
     'state': {**_STAMP, 'rows': int, 'cols': int, 'mode': str, 'device': str, 'run_state': str},
     'inputs/push': {
         **_STAMP, 'region': str, 'start': _NUMBER, 'duration': _NUMBER, 'radius': _NUMBER,

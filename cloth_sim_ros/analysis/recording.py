@@ -11,10 +11,12 @@ from dataclasses import is_dataclass
 from functools import cached_property
 from pathlib import Path
 from typing import Any
+from typing import TYPE_CHECKING
 
 from cloth_sim_ros.analysis.frame import Frame
 from cloth_sim_ros.analysis.recorded_values import check_message
 from cloth_sim_ros.files.errors import cut
+from cloth_sim_ros.messages.frame_names import name_of_body
 from cloth_sim_ros.messages.frame_names import node_of_pin
 from cloth_sim_ros.recording.bag_messages import BagTopic
 from cloth_sim_ros.recording.bag_messages import RawMessage
@@ -25,6 +27,9 @@ from cloth_sim_ros.sim.arguments import path as checked_path
 from cloth_sim_ros.sim.arguments import word
 from cloth_sim_ros.sim.errors import ClothSimError
 import numpy as np
+
+if TYPE_CHECKING:
+    import pandas
 
 
 @dataclass(frozen=True)
@@ -53,7 +58,7 @@ _VECTORS = {
 
 def arrays_of(key: str, entries: Iterable[Entry]) -> dict[str, np.ndarray]:
     """Return the arrays of ``entries``, all of the topic ``key``; Recording.arrays tells more."""
-    return (_of_points if key == 'points' else _of_messages)(entries)
+    return _of_points(entries) if key == 'points' else _of_messages(key, entries)
 
 
 def _of_points(entries: Iterable[Entry]) -> dict[str, np.ndarray]:
@@ -82,17 +87,17 @@ def _of_points(entries: Iterable[Entry]) -> dict[str, np.ndarray]:
     return arrays
 
 
-def _of_messages(entries: Iterable[Entry]) -> dict[str, np.ndarray]:
+def _of_messages(key: str, entries: Iterable[Entry]) -> dict[str, np.ndarray]:
     columns: dict[str, list[Any]] = {'time': [], 'resets': []}
     for entry in entries:
         columns['time'].append(entry.time)
         columns['resets'].append(entry.resets)
-        for name, value in _values(entry.message):
+        for name, value in _values(key, entry.message):
             columns.setdefault(name, []).append(value)
     return {name: np.array(values) for name, values in columns.items()}
 
 
-def _values(message: Any, prefix: str = '') -> Iterator[tuple[str, Any]]:
+def _values(key: str, message: Any, prefix: str = '') -> Iterator[tuple[str, Any]]:
     """Yield what a column can hold; the stamp is the time already, and lists have no one shape."""
     for field in fields(message):
         # Constants of the message, and its type.
@@ -103,17 +108,37 @@ def _values(message: Any, prefix: str = '') -> Iterator[tuple[str, Any]]:
         if name == 'stamp':
             continue
         if name == 'header':
-            pin = node_of_pin(value.frame_id)
-            if pin is not None:
-                yield from zip(('row', 'col'), pin)
+            yield from _of_frame(key, value.frame_id)
         elif isinstance(value, (bool, int, float, str)):
             yield name, value
         elif is_dataclass(value):
-            parts = [getattr(value, axis, None) for axis in 'xyz']
-            if None in parts:
-                yield from _values(value, f'{name}.')
-            else:
-                yield name, parts
+            yield from _values(key, value, f'{name}.')
+
+
+def _of_frame(key: str, frame: str) -> Iterator[tuple[str, Any]]:
+    """Yield the frame of a message of the topic ``key``, and what it is named after."""
+    yield 'frame_id', frame
+    topic, _, is_wrench = key.partition('/')
+    if is_wrench and topic == 'pins':
+        yield from zip(('row', 'col'), node_of_pin(frame) or (-1, -1))
+    elif is_wrench and topic in ('grasps', 'colliders'):
+        yield 'name', name_of_body(frame, topic[:-1])
+
+
+def table_of(arrays: dict[str, np.ndarray]) -> dict[str, np.ndarray]:
+    """Return what ``arrays_of`` returns as columns, a row for each message or frame and node."""
+    if 'positions' not in arrays and 'strain' not in arrays:
+        return arrays
+    shape = next(values.shape[:3] for values in arrays.values() if values.ndim > 2)
+    frame, row, col = (each.ravel() for each in np.indices(shape))
+    columns = {
+        'time': arrays['time'][frame], 'resets': arrays['resets'][frame], 'row': row, 'col': col}
+    for name, values in arrays.items():
+        if name in _VECTORS:
+            columns.update(zip(_VECTORS[name], values.reshape(-1, 3).T))
+        elif values.ndim == 3:
+            columns[name] = values.ravel()
+    return columns
 
 
 # A recording to read: messages of one node, from first to last, one in memory at a time.
@@ -127,7 +152,9 @@ TYPES = {
     'topology': 'shape_msgs/msg/Mesh',
     'stats': f'{_OWN}ClothStats',
     'pins/wrenches': 'geometry_msgs/msg/WrenchStamped',
+    'pins/peak_wrenches': 'geometry_msgs/msg/WrenchStamped',
     'grasps/wrenches': 'geometry_msgs/msg/WrenchStamped',
+    'grasps/peak_wrenches': 'geometry_msgs/msg/WrenchStamped',
     'colliders/wrenches': 'geometry_msgs/msg/WrenchStamped',
     'state': f'{_OWN}ClothState',
     'inputs/push': f'{_OWN}Push',
@@ -292,9 +319,10 @@ class Recording:
         All have ``time`` [s], simulated and continuing across resets, and
         ``resets`` before the message. ``points`` has positions [m], velocities [m/s] and normals,
         (frames, rows, cols, 3), strain and flags, (frames, rows, cols), of the type recorded.
-        ``stats`` has a column for each figure of ClothStats. ``pins/wrenches`` has row, col and
-        ``wrench.force`` [N], (messages, 3). Others have a column for each number, text or vector
-        of their messages.
+        Others have a column for each number or text of their messages, such as
+        ``wrench.force.x`` [N], and ``frame_id`` where they have a header: ``pandas.DataFrame``
+        takes them as they are. Wrenches of pins have row and col, those of grasps and colliders
+        name.
 
         :raises ClothSimError: when the recording has no such topic, or a message makes no sense
         """
@@ -303,6 +331,23 @@ class Recording:
                 f'{cut(self.path)} holds no topic {cut(key)} of the node {self.node}: choose one '
                 f'of {", ".join(sorted(self.keys()))}')
         return arrays_of(key, self.entries(key))
+
+    def frame(self, key: str) -> 'pandas.DataFrame':
+        """
+        Return the topic ``key`` as a pandas.DataFrame with the columns of ``arrays``.
+
+        It has a row for each message. ``points`` has one for each frame and node, with time,
+        resets, row, col, x, y, z, vx and so on.
+
+        :raises ClothSimError: as ``arrays`` does, and where pandas is not installed
+        """
+        try:
+            import pandas
+        except ImportError:
+            raise ClothSimError(
+                'Recording.frame makes tables of pandas, which is not installed: run `pip install '
+                'pandas`, or take Recording.arrays') from None
+        return pandas.DataFrame(table_of(self.arrays(key)))
 
     def raw_messages(self) -> Iterator[RawMessage]:
         """Yield all messages of all topics as they were recorded, of other nodes too."""

@@ -19,6 +19,7 @@ from cloth_sim_ros.analysis.input_history import PUSH_KEYS as PUSH_KEYS
 from cloth_sim_ros.analysis.input_history import PushHistory
 from cloth_sim_ros.analysis.recording import Entry
 from cloth_sim_ros.analysis.recording import Recording
+from cloth_sim_ros.messages.frame_names import name_of_body
 from cloth_sim_ros.messages.frame_names import node_of_pin
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.push import Push
@@ -73,10 +74,49 @@ class PinColumns:
         return dict(zip(names, values.T.copy()))
 
 
+BODY_KEYS = {'grasps/wrenches': 'grasp', 'colliders/wrenches': 'collider'}
+
+
+class BodyColumns:
+    """Collects the force of the cloth on each grasp and collider [N], in the axes of its frame."""
+
+    def __init__(self) -> None:
+        """Begin without forces."""
+        self._forces: dict[str, dict[tuple[int, float], tuple[float, float, float]]] = {}
+
+    def read(self, entry: Entry) -> None:
+        """Take a message of one of BODY_KEYS."""
+        kind = BODY_KEYS[entry.key]
+        name = name_of_body(entry.message.header.frame_id, kind)
+        if name:
+            force = entry.message.wrench.force
+            self._forces.setdefault(f'{kind}_{name}', {})[entry.resets, entry.time] = (
+                force.x, force.y, force.z)
+
+    def times(self, kind: str) -> dict[str, tuple[float, float]]:
+        """Return when each grasp or collider is told of first and last [s], by its name."""
+        return {
+            body.removeprefix(f'{kind}_'): (
+                min(time for _, time in forces), max(time for _, time in forces))
+            for body, forces in self._forces.items() if body.startswith(f'{kind}_')}
+
+    def columns(self, moments: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:
+        """Return ``grasp_NAME_force_x``, ``collider_NAME_force_x`` ..., nan where unknown."""
+        columns: dict[str, np.ndarray] = {}
+        at = list(zip(moments['resets'].tolist(), moments['time'].tolist()))
+        unknown = (np.nan,) * 3
+        for body, forces in sorted(self._forces.items()):
+            values = np.array([forces.get(moment, unknown) for moment in at]).reshape(-1, 3)
+            columns.update(
+                (f'{body}_force_{axis}', part) for axis, part in zip('xyz', values.T.copy()))
+        return columns
+
+
 # ClothState.STOPPED: a recording is read without the interfaces.
 _STOPPED = 'stopped'
 _FIGURES = ('points', 'stats')
-KEYS = (*_FIGURES, KEY, 'state', 'inputs/mode', 'inputs/pin', *PUSH_KEYS)
+KEYS = (
+    *_FIGURES, KEY, *BODY_KEYS, 'state', 'inputs/mode', 'inputs/pin', 'inputs/grasp', *PUSH_KEYS)
 
 # Without a message on another topic nothing was done to the cloth.
 _TELLING = (*_FIGURES, 'state', 'inputs/mode')
@@ -116,12 +156,15 @@ class Run:
         self._modes = ModeHistory()
         self._table = FrameTable()
         self._pins = PinColumns()
+        self._bodies = BodyColumns()
+        self._grasps: dict[str, tuple[float, float]] = {}
         for entry in watch(recording.entries(*KEYS), recording.count(*KEYS)):
             self._read(entry)
         if not len(self._table):
             raise ClothSimError(self._unusable) if self._unusable else recording.no_frame()
         self.columns = self._table.columns()
         self.columns.update(self._pins.columns(self.columns))
+        self.columns.update(self._bodies.columns(self.columns))
         self.is_whole = not recording.problems
         self.problems = [*recording.problems, *self._said()]
 
@@ -135,6 +178,15 @@ class Run:
         """Get the pushes, with ``start`` in the time of the recording."""
         return self._pushes.pushes
 
+    @property
+    def grasps(self) -> dict[str, tuple[float, float]]:
+        """Get when each grasp has held nodes first and last [s], as far as it was recorded."""
+        spans = self._bodies.times('grasp')
+        for name, (begin, end) in self._grasps.items():
+            first, last = spans.get(name, (begin, end))
+            spans[name] = min(first, begin), max(last, end)
+        return spans
+
     def has(self, column: str) -> bool:
         """Tell whether any frame has a figure in ``column``."""
         return bool(np.isfinite(self.columns[column]).any())
@@ -147,6 +199,10 @@ class Run:
             self._read_stats(entry)
         elif key == KEY:
             self._pins.read(entry)
+        elif key in BODY_KEYS:
+            self._bodies.read(entry)
+        elif key == 'inputs/grasp':
+            self._read_grasp(entry)
         elif key in PUSH_KEYS:
             self.counts['pushes'] += key == 'inputs/push'
             self.counts['resets'] += getattr(message, 'command', '') == 'reset'
@@ -160,6 +216,11 @@ class Run:
             self.stopped |= message.run_state == _STOPPED
         if key in MODE_KEYS:
             self._modes.read(entry)
+
+    def _read_grasp(self, entry: Entry) -> None:
+        name, now = entry.message.name, entry.time
+        begin, end = self._grasps.get(name, (now, now))
+        self._grasps[name] = min(begin, now), max(end, now)
 
     def _read_points(self, entry: Entry) -> None:
         if self._unusable:

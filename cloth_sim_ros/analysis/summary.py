@@ -183,6 +183,7 @@ class Summary:
     pins: int
     releases: int
     resets: int
+    grasps: dict[str, tuple[float, float]]
     gaps: list[tuple[float, float]]
     missing: list[str]
     is_whole: bool
@@ -222,7 +223,7 @@ class Summary:
             settling_work=told.largest('settling_work'),
             stalled=int(np.count_nonzero(columns['stalled_pins'] > 0.0)),
             **{name: run.counts[name] for name in ('pushes', 'pins', 'releases', 'resets')},
-            gaps=find_gaps(columns['time'], columns['resets']),
+            grasps=run.grasps, gaps=find_gaps(columns['time'], columns['resets']),
             missing=run.missing, is_whole=run.is_whole, problems=run.problems)
 
 
@@ -302,6 +303,10 @@ def summary_lines(summary: Summary) -> dict[str, str]:
             'work')
     if summary.stalled:
         lines['stalled pins'] = f'in {summary.stalled} frames'
+    if summary.grasps:
+        lines['grasps'] = _listed([
+            f'{name} from {begin:.6g} to {end:.6g} s'
+            for name, (begin, end) in sorted(summary.grasps.items())])
     if summary.switches:
         lines['mode switches'] = _listed([
             f'{mode} at {time:.6g} s' for time, _, mode in summary.switches])

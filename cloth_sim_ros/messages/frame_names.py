@@ -16,6 +16,15 @@ def collider_frame(node_name: str, name: str) -> str:
     return f'{frame_prefix(node_name)}_collider_{name}'
 
 
+def name_of_body(frame: str, kind: str) -> str:
+    """
+    Return the name of the grasp or collider that ``frame`` is named after; '' when of none.
+
+    :param kind: grasp or collider
+    """
+    return frame.partition(f'_{kind}_')[2]
+
+
 def frame_prefix(node_name: str) -> str:
     """Return what all frames of a node begin with; unlike names of nodes they have no slashes."""
     return node_name.strip('/').replace('/', '_')
