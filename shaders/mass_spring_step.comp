@@ -8,6 +8,7 @@
 // NO_LIMIT
 // RIGID_LIMIT: springs beyond the limit give no force, and only the velocities are updated:
 //     paper_sweep.comp has the last word on them.
+// HAS_HELD 1: the pass records what pinned nodes are driven with.
 
 #include "lattice.glsl"
 #include "state_in.glsl"
@@ -16,7 +17,6 @@
 #include "strain_limit.glsl"
 #include "applied_acceleration.glsl"
 #include "symplectic_euler.glsl"
-#include "held.glsl"
 #if HAS_RIGIDITY
 #include "block_bending.glsl"
 
@@ -28,7 +28,10 @@ uniform float bending[2];  // [N/m] along a row, along a column
 uniform float bending_damping;  // [s]
 #endif
 
+#if HAS_HELD
+#include "held.glsl"
 #include "node_force.glsl"
+#endif
 #if HAS_CONTACT
 #include "block_bound.glsl"
 #endif
@@ -129,13 +132,17 @@ void main() {
         }
     }
 #endif
+#if HAS_HELD
     uint pins = 0u;  // a bit for each node of the block
+#endif
     for (int row = HALO; row < HALO + BLOCK; ++row) {
         for (int col = HALO; col < HALO + BLOCK; ++col) {
             int index = node_index(first.y + row - HALO, first.x + col - HALO);
             vec4 v = load_velocity(index);
+#if HAS_HELD
             uint bit = 1u << uint((row - HALO) * BLOCK + col - HALO);
             pins |= is_held_by_pin(position[row][col], v) ? bit : 0u;
+#endif
             v.xyz = next_velocity(
                 index, v, force[row][col], applied_acceleration(index));
             // Both w stand in every pair of buffers; software devices store number by number.
@@ -151,12 +158,14 @@ void main() {
 #if HAS_CONTACT
     list_if_near(bound, first);
 #endif
+#if HAS_HELD
     // Their force is found anew: kept for all nodes until here, it takes a fifth of the pass.
     // As in solver/contact.comp, software would run the body of a branch for every block.
-    for (uint asks = held_at >= 0 ? pins : 0u; asks != 0u; asks &= asks - 1u) {
+    for (uint asks = pins; asks != 0u; asks &= asks - 1u) {
         int place = findLSB(asks);
         int index = node_index(first.y + place / BLOCK, first.x + place % BLOCK);
         vec3 driven = applied_acceleration(index) + inverse_mass * node_force(index);
         held[held_entry(index)] = vec4(kick * driven, kick);
     }
+#endif
 }

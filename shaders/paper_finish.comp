@@ -3,21 +3,27 @@
 
 #version 430 core
 // End a substep of the paper's adaptive scheme, whose velocities the sweeps have settled: move the
-// nodes, and add to what pinned ones are driven with what the sweeps have pulled them with.
+// nodes. With HAS_HELD, add to what pinned ones are driven with what the sweeps have pulled them
+// with.
 
 #include "lattice.glsl"
 #include "state_in.glsl"
 #include "low_parts.glsl"
+#if HAS_HELD
 #include "spring_law.glsl"
 #include "held.glsl"
+#endif
 
 layout(local_size_x = LOCAL_X, local_size_y = LOCAL_Y) in;
 
 layout(std430, binding = POSITION_OUT) writeonly buffer PositionOut { vec4 position_out[]; };
 layout(std430, binding = VELOCITY_OUT) readonly buffer Velocity { vec4 velocity_out[]; };
+#if HAS_HELD
 layout(std430, binding = TENSION) readonly buffer Tension { vec4 tension_in[]; };
+#endif
 
-uniform float substep;       // [s]
+uniform float substep;  // [s]
+#if HAS_HELD
 uniform float kick;          // [s] what tensions act for
 uniform float inverse_mass;  // [1/kg]
 
@@ -26,6 +32,7 @@ vec3 pull(int from, int to, float tension) {
     vec3 d = load_position(to).xyz - load_position(from).xyz;
     return load_velocity(to).w * tension * length_and_inverse(d).y * d;
 }
+#endif
 
 void main() {
     int col = int(gl_GlobalInvocationID.x);
@@ -37,7 +44,8 @@ void main() {
     vec4 x = load_position(index);
     position_out[index] = vec4(
         changed_position(index, x.xyz, substep * velocity_out[index].xyz), x.w);
-    if (held_at >= 0 && is_held_by_pin(x, load_velocity(index))) {
+#if HAS_HELD
+    if (is_held_by_pin(x, load_velocity(index))) {
         // Ghosts have no tension, and no part.
         vec4 here = tension_in[index];
         vec3 total = vec3(0.0);
@@ -56,4 +64,5 @@ void main() {
 #endif
         held[held_entry(index)].xyz += kick * inverse_mass * total;
     }
+#endif
 }

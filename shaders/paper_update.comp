@@ -8,7 +8,9 @@
 #include "lattice.glsl"
 #include "applied_acceleration.glsl"
 #include "low_parts.glsl"
+#if HAS_HELD
 #include "held.glsl"
+#endif
 
 layout(local_size_x = UPDATE_LOCAL) in;
 
@@ -29,7 +31,9 @@ void main() {
     velocity[i].xyz = changed_velocity(i, velocity[i].xyz, velocity[i].w * substep * a);
     position[i].xyz = changed_position(i, position[i].xyz, substep * velocity[i].xyz);
     force[i] = vec4(0.0);
-    if (held_at >= 0 && is_held_by_pin(position[i], velocity[i])) {
+#if HAS_HELD
+    if (is_held_by_pin(position[i], velocity[i])) {
         held[held_entry(i)] = vec4(substep * a, substep);
     }
+#endif
 }

@@ -99,7 +99,7 @@ class CarryCloth(gymnasium.Env[Observation, np.ndarray]):
         self._observer = Observer(
             observation, start.shape[:2], np.concatenate([start, self._goal]).reshape(-1, 3),
             camera, picture_size)
-        self._simulation = Simulation(scene)
+        self._simulation = Simulation(scene, records_forces=False)
         self._steps = max(round(frame / scene['dt']), 1)
         self._reach = speed * self._steps * scene['dt']
         self._jitter = jitter * min(length for length in scene.spacing if length > 0.0)

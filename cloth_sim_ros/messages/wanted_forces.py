@@ -13,7 +13,7 @@ class WantedForces:
     """
     Means over frames of the forces of the cloth on pins, grasps and colliders.
 
-    The first frame in which they are wanted has those of the last step of dt.
+    The first frame in which they are wanted has those of the last step of dt, if they are known.
     """
 
     def __init__(self, simulation: Simulation) -> None:
@@ -21,10 +21,16 @@ class WantedForces:
         self._simulation = simulation
         self._window: ForceWindow | None = None
 
-    def of(self, snapshot: Snapshot) -> FrameForces:
-        """Return those of the frame that ends with ``snapshot``, which is of this time."""
+    def of(self, snapshot: Snapshot) -> FrameForces | None:
+        """
+        Return those of the frame that ends with ``snapshot``, which is of this time.
+
+        None where the last step was cut short before anybody wanted them.
+        """
         if self._window is None:
             self._window = self._simulation.open_force_window()
+        if not self._simulation.knows_forces:
+            return None
         return self._simulation.frame_forces(self._window, snapshot)
 
     def leave_out(self) -> None:

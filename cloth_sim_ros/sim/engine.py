@@ -114,9 +114,11 @@ class Engine:
             if loads.air is not None:
                 loads.air.fastest_rate(state, 0.0, scene['dt'])
                 yield
-            impulses.begin_step(state.pinned, (), {}, {})
             yield from self.mode.run_all_passes(state, loads)
-            impulses.end_step({})
+            if state.pinned.any():
+                impulses.begin_step(state.pinned, (), {}, {})
+                yield from self.mode.run_all_passes(state, loads)
+                impulses.end_step({})
         finally:
             impulses.delete()
             loads.delete()

@@ -7,6 +7,7 @@ from abc import ABC
 from abc import abstractmethod
 
 from cloth_sim_ros.sim.contacts import ContactForce
+from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.force_window import forces_at
 from cloth_sim_ros.sim.force_window import ForceWindow
 from cloth_sim_ros.sim.force_window import ForceWindows
@@ -15,6 +16,7 @@ from cloth_sim_ros.sim.force_window import grasp_forces
 from cloth_sim_ros.sim.grasps import GraspForce
 from cloth_sim_ros.sim.grasps import Grasps
 from cloth_sim_ros.sim.held_impulses import HeldImpulses
+from cloth_sim_ros.sim.held_impulses import Impulses
 from cloth_sim_ros.sim.pin_forces import PinForces
 from cloth_sim_ros.sim.pin_motion import PinMotion
 from cloth_sim_ros.sim.scene import Scene
@@ -40,6 +42,9 @@ class ForceReadings(RunStatus, ABC):
     _windows: ForceWindows
     _held: Grasps
     _pin_motion: PinMotion
+    _records_forces: bool
+    # How many steps have been made, those too that were undone.
+    _furthest: int
 
     @abstractmethod
     def positions(self) -> np.ndarray:
@@ -53,11 +58,23 @@ class ForceReadings(RunStatus, ABC):
     def grasped_nodes(self) -> np.ndarray:
         """Return which nodes grasps hold, (rows, cols) bool."""
 
+    @property
+    def knows_forces(self) -> bool:
+        """
+        Tell whether the forces on pins and grasps in the last step of dt are known.
+
+        They are recorded in the last step of each call of ``step`` and ``advance``, unless
+        ``records_forces`` is False, and in all steps while a force window is open.
+        """
+        return self._impulses.knows_last_step
+
     def pin_forces(self) -> PinForces:
         """
         Return the force of the cloth on what holds each pinned node.
 
         It is the mean over the last step of dt, with the strongest of its substeps beside it.
+
+        :raises ClothSimError: when that was not recorded, see ``knows_forces``
         """
         forces = self.snapshot(pin_forces=True).pin_forces
         assert forces is not None
@@ -86,7 +103,7 @@ class ForceReadings(RunStatus, ABC):
             self.positions() if snapshot is None
             else checked_snapshot(snapshot, self.time).positions)
         return grasp_forces(
-            self._impulses.of_last_step(), self._held.present(self.time), positions,
+            self._last_impulses(), self._held.present(self.time), positions,
             self.scene.node_mass, self.dt)
 
     def open_force_window(self) -> ForceWindow:
@@ -124,7 +141,7 @@ class ForceReadings(RunStatus, ABC):
         contacts = self.contact_forces()
         if not window.steps:
             nodes = np.argwhere(self._state.pinned & ~self.grasped_nodes())
-            last, mass = self._impulses.of_last_step(), self.scene.node_mass
+            last, mass = self._last_impulses(), self.scene.node_mass
             return FrameForces(
                 self.dt, forces_at(last, nodes, mass, self.dt),
                 grasp_forces(last, present, snapshot.positions, mass, self.dt), contacts)
@@ -137,13 +154,33 @@ class ForceReadings(RunStatus, ABC):
         window.latest = found
         return found
 
-    def _begin_impulses(self, begin: float) -> None:
+    def _last_impulses(self) -> Impulses | None:
+        if not self.knows_forces:
+            raise ClothSimError(
+                'the forces on pins and grasps in the last step were not recorded: make the '
+                'Simulation with records_forces=True and end a call of step or advance, or open '
+                'a force window before the step')
+        return self._impulses.of_last_step()
+
+    def _records(self, number: int) -> bool:
+        """Tell whether somebody can read the forces of the step of that ``number``."""
+        if self._windows.open:
+            return True
+        # Steps that are made again may end at any of them.
+        return self._records_forces and (
+            self.stepping.is_last(number) or number < self._furthest)
+
+    def _begin_impulses(self, begin: float, *, records: bool) -> None:
+        if not records:
+            self._impulses.leave_out_step(self._state.pinned)
+            return
         self._take_contacts(begin)
         self._windows.add(self._impulses.begin_step(
             self._state.pinned, self._held.present(begin), self._pin_motion.velocities,
             self._pin_motion.caught))
 
-    def _end_impulses(self, steps: int) -> None:
+    def _end_impulses(self, number: int, steps: int) -> None:
+        self._furthest = max(self._furthest, number + steps)
         self._impulses.end_step(self._pin_motion.velocities)
         self._pin_motion.caught.clear()
         self._windows.count(steps)

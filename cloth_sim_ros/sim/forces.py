@@ -21,12 +21,13 @@ import numpy as np
 
 def with_forces(
         snapshot: Snapshot, mode: Mode, impulses: Impulses | None, node_mass: float, *,
-        every_edge: bool) -> Snapshot:
+        every_edge: bool, has_forces: bool) -> Snapshot:
     """
     Return ``snapshot`` with the forces on its pins, means over the last step of dt.
 
     :param mode: that made its last step
     :param impulses: of that step
+    :param has_forces: False where they are not known, which leaves out the forces
     :param every_edge: True to add the tension of every edge too, at a cost that grows with the
         cloth
     """
@@ -38,7 +39,8 @@ def with_forces(
     nodes = np.argwhere(snapshot.flags & FLAG_PINNED)
     return replace(
         snapshot, tension=tension,
-        pin_forces=forces_at(impulses, nodes, node_mass, snapshot.dt))
+        pin_forces=(
+            forces_at(impulses, nodes, node_mass, snapshot.dt) if has_forces else None))
 
 
 def pulled_too_hard(scene: Scene, state: State, mode: Mode, pins: PinMotion) -> list[Node]:

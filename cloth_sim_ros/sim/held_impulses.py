@@ -106,11 +106,11 @@ class HeldImpulses:
     leave the first of these for each node and substep, by held.glsl.
     """
 
-    def __init__(self, scene: Scene, layout: Layout) -> None:
+    def __init__(self, scene: Scene, layout: Layout, *, compiles: bool = True) -> None:
         """Prepare; where the scene holds no node, nothing is compiled before one is held."""
         self._layout = layout
         self._fold = SceneProgram('fold_held.comp', scene, layout, {'FOLD_LOCAL': _LOCAL})
-        if scene.pinned_nodes().any():
+        if compiles and scene.pinned_nodes().any():
             self._fold.use()
         self._header = -(-layout.stored // 4)
         self._buffer: Buffer | None = None
@@ -141,6 +141,9 @@ class HeldImpulses:
         self._goes_on = False
         self._has_frame = False
         self._last: Impulses | None = None
+        self._was_recorded = False
+        # Whether the last step was recorded, or held no node.
+        self.knows_last_step = True
 
     @property
     def is_recording(self) -> bool:
@@ -166,11 +169,18 @@ class HeldImpulses:
             before = self.take() if self._has_frame else None
             self._rebuild(pinned, grasps)
         self._is_within_step, self._begins, self._until_last = True, True, 0
+        self._was_recorded = self.knows_last_step = True
         if self._holders is not None:
             self._has_own_begin = self._note_changes(
                 0, {**self._velocities, **caught}, velocities)
         self._within = dict(velocities)
         return before
+
+    def leave_out_step(self, pinned: np.ndarray) -> None:
+        """Begin a step of dt, or several, that nobody asks for; as ``begin_step``."""
+        self._is_within_step = self._was_recorded = False
+        self._last = None
+        self.knows_last_step = not pinned.any()
 
     def expect_steps(self, substeps: int) -> None:
         """Tell that so many ``substeps`` come before those of the last step of dt."""
@@ -182,7 +192,7 @@ class HeldImpulses:
 
         :param velocities: of pins that still move [m/s]
         """
-        if self._holders is not None:
+        if self.is_recording and self._holders is not None:
             ends = self._note_changes(len(self._holders.nodes), self._within, velocities)
             self._add_up(ends=ends)
         self._velocities = dict(velocities)
@@ -211,7 +221,13 @@ class HeldImpulses:
             self._buffer.bind_storage(place)
 
     def of_last_step(self) -> Impulses | None:
-        """Return the impulses of the last step of dt; None where no node was held in it."""
+        """
+        Return the impulses of the last step of dt; None where no node was held in it.
+
+        To be asked only if ``knows_last_step``.
+        """
+        if not self._was_recorded:
+            return None
         if self._last is None and self._holders is not None:
             self._last = self._impulses(0)
         return self._last
@@ -227,6 +243,7 @@ class HeldImpulses:
     def forget(self) -> None:
         """Take the next state as it comes: it is not the one that the last step has left."""
         self._holders = self._pinned = self._last = None
+        self.knows_last_step = True
         self._grasped = ()
         self._velocities = {}
         self._has_frame = self._goes_on = False
@@ -239,14 +256,15 @@ class HeldImpulses:
         self._kept = self._now
         return (
             self._sums, self._holders, self._pinned, self._grasped, dict(self._velocities),
-            self._goes_on, self._has_frame, self._last)
+            self._goes_on, self._has_frame, self._last, self._was_recorded,
+            self.knows_last_step)
 
     def restore(self, kept: Any) -> None:
         """Go back to the moment of ``keep``, the latest one."""
         if self._sums is not kept[0] and self._sums is not None:
             self._sums.delete()
         (self._sums, self._holders, self._pinned, self._grasped, velocities, self._goes_on,
-         self._has_frame, self._last) = kept
+         self._has_frame, self._last, self._was_recorded, self.knows_last_step) = kept
         self._replaced = None
         self._velocities = dict(velocities)
         self._now = self._kept

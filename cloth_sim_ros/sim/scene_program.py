@@ -84,6 +84,7 @@ def scene_defines(scene: Scene) -> dict[str, object]:
     return {
         'STRAIN_LIMIT': 'NO_LIMIT',
         'MOST_MAGNITUDE': f'{MOST_MAGNITUDE:e}',
+        'HAS_HELD': 0,
         'HAS_DAMPING': int(has_damping),
         'HAS_RIGIDITY': int(scene.has_rigidity),
         'HAS_BENDING_DAMPING': int(scene.has_bending_damping),

@@ -72,6 +72,8 @@ class Simulation(Handling, ForceReadings, AbstractContextManager['Simulation']):
     :param compiles: False leaves it to ``engines``, without which nothing can be advanced or
         measured
     :param tuned: False leaves out what `cloth_sim tune` has found for the device
+    :param records_forces: False leaves out the forces on pins and grasps, which take time in the
+        last step of each call, except while a force window is open
     :raises ClothSimError: when the scene can't be run as it asks
     :raises DeviceError: when there is no device for it
     """
@@ -79,7 +81,7 @@ class Simulation(Handling, ForceReadings, AbstractContextManager['Simulation']):
     def __init__(
             self, scene: Scene, *, context: Context | None = None,
             check_stability: bool = True, stop_at_non_finite: bool = True,
-            compiles: bool = True, tuned: bool = True) -> None:
+            compiles: bool = True, tuned: bool = True, records_forces: bool = True) -> None:
         """Compile, allocate and take up the start pose."""
         check_creation(
             scene, context, check_stability=check_stability, compiles=compiles, tuned=tuned,
@@ -93,8 +95,10 @@ class Simulation(Handling, ForceReadings, AbstractContextManager['Simulation']):
         self.device = context.device
         self.layout = choose_layout(scene, context, tuned=tuned)
         self._state = start_state(scene, self.layout)
-        self._impulses = self._state.impulses = HeldImpulses(scene, self.layout)
+        self._impulses = self._state.impulses = HeldImpulses(
+            scene, self.layout, compiles=records_forces)
         self._windows = ForceWindows()
+        self._records_forces = records_forces
         self.engines = Engines(
             scene, self.layout, self._state, context, check_stability=check_stability,
             stop_at_non_finite=stop_at_non_finite)
@@ -251,6 +255,7 @@ class Simulation(Handling, ForceReadings, AbstractContextManager['Simulation']):
         Return the complete state at this time.
 
         :param tension: True to have the tension of every edge in it, and the forces at the pins
+            if they are known
         :param pin_forces: True to have these forces alone, which costs less on a large cloth
         """
         check_flags(tension=tension, pin_forces=pin_forces)
@@ -260,9 +265,10 @@ class Simulation(Handling, ForceReadings, AbstractContextManager['Simulation']):
             snapshot = self.loads.contacts.with_contacts(snapshot)
         if tension or pin_forces:
             self.stepping.refuse_mid_step('forces')
+            impulses = self._last_impulses() if pin_forces else self._impulses.of_last_step()
             return with_forces(
-                snapshot, self.engines.in_use.mode, self._impulses.of_last_step(),
-                self.scene.node_mass, every_edge=tension)
+                snapshot, self.engines.in_use.mode, impulses, self.scene.node_mass,
+                every_edge=tension, has_forces=self.knows_forces)
         return snapshot
 
     def begin_snapshot(self) -> Callable[[], Snapshot]:
@@ -306,6 +312,7 @@ class Simulation(Handling, ForceReadings, AbstractContextManager['Simulation']):
         self.stepping = Stepping(self.dt, steps)
         self._impulses.forget()
         self._windows.clear()
+        self._furthest = steps
         self.loads.begin_run()
         for push in self.scene.timed_pushes():
             self.loads.pushes.add(push, -math.inf)
@@ -318,14 +325,16 @@ class Simulation(Handling, ForceReadings, AbstractContextManager['Simulation']):
             self._grasps.timed_edits(self.scene, self._state.read_positions))
 
     def _make_steps(self, number: int, most: int) -> modes.Steps:
-        count = min(most, self._quiet_steps(number)) if most > 1 else 1
+        count = int(min(most, self._quiet_steps(number))) if most > 1 else 1
+        if count > 1 and not self._windows.open and self._records(number + count - 1):
+            count -= 1  # the last one by itself, with its forces
         if count > 1:
             begin = number * self.dt
             gravity = self.loads.forcing(self._state, begin, begin + self.dt)
-            self._begin_impulses(begin)
-            made = self.engines.in_use.mode.step_ahead(self._state, gravity, int(count))
+            self._begin_impulses(begin, records=self._records(number))
+            made = self.engines.in_use.mode.step_ahead(self._state, gravity, count)
             if made:
-                self._end_impulses(made)
+                self._end_impulses(number, made)
                 self.stepping.step_under_way = number + made - 1
                 self._pin_motion.rest()
                 yield
@@ -350,11 +359,11 @@ class Simulation(Handling, ForceReadings, AbstractContextManager['Simulation']):
         pins.begin_step(begin, end, pulled_too_hard(self.scene, self._state, mode, pins))
         for name in lost_grasps(self.scene, self._state, mode, self._held, begin):
             self.stepping.at_end_of_step(partial(self._lose_grasp, name))
-        self._begin_impulses(begin)
+        self._begin_impulses(begin, records=self._records(number))
         self.loads.begin_step(begin, end)
         yield from mode.step(self._state, begin, self.loads)
         pins.end_step(begin, end)
-        self._end_impulses(1)
+        self._end_impulses(number, 1)
 
     def _lose_grasp(self, name: str) -> None:
         if name in self._grasps.present():

@@ -15,7 +15,6 @@ from cloth_sim_ros.sim.arguments import instance
 from cloth_sim_ros.sim.arguments import iterable
 from cloth_sim_ros.sim.arguments import mapping
 from cloth_sim_ros.sim.errors import ClothSimError
-from cloth_sim_ros.sim.pin_forces import PinForces
 from cloth_sim_ros.sim.pose import checked_position
 from cloth_sim_ros.sim.pose import Pose
 from cloth_sim_ros.sim.pose import unit_quaternion

@@ -82,6 +82,10 @@ class Stepping:
         return bool(self._edits) or any(
             step == self.step_under_way + 1 for step, _ in self._timed)
 
+    def is_last(self, number: int) -> bool:
+        """Tell whether the aim is reached with the step of that ``number``."""
+        return number + 1 == self._goal
+
     def aim(self, seconds: float) -> None:
         """Go on for ``seconds`` more; what is no whole dt is carried over."""
         carried = self._carried + self.checked_seconds(seconds)

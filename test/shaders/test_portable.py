@@ -64,11 +64,14 @@ _COUNTING = {
 _FORMS = {
     'bounds_check.comp': {'STRIP': 16},
     'mass_spring_step.comp': {'STRAIN_LIMIT': 'RIGID_LIMIT'},
+    'mass_spring_step.comp, recording': {'STRAIN_LIMIT': 'RIGID_LIMIT', 'HAS_HELD': 1},
     'mass_spring_tile.comp': {'TILE_SIDE': 32},
     'observe.comp': {'RECORDS_WANTED': 1, 'STRIP': 16},
     'place_pins.comp': {'PINS_LOCAL': 32},
     'paper_force.comp': {},
     'paper_update.comp': {'UPDATE_LOCAL': 1024},
+    'paper_finish.comp, recording': {'HAS_HELD': 1},
+    'paper_update.comp, recording': {'UPDATE_LOCAL': 1024, 'HAS_HELD': 1},
     'fold_held.comp': {'FOLD_LOCAL': 32},
     **{f'paper_solver/{name}.comp': paper_solver_defines(150, 63) for name in (
         'constraint', 'direction', 'dot', 'scalars', 'spmm', 'spmv', 'update')},

@@ -5,6 +5,9 @@
 
 from contextlib import closing
 
+from cloth_sim_ros.gl.inventory import take_inventory
+from cloth_sim_ros.sim.errors import ClothSimError
+from cloth_sim_ros.sim.errors import NonFiniteStateError
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.simulation import Simulation
 import numpy as np
@@ -13,6 +16,7 @@ import pytest
 SCENE = {
     'rows': 8, 'cols': 8, 'dt': 0.002, 'pins': ['0,0'], 'start.z': 0.05, 'air.density': 0.0,
     'colliders.names': ['floor'], 'colliders.floor.shape': 'plane'}
+HUNG = {name: value for name, value in SCENE.items() if not name.startswith('colliders')}
 MODES = ('mass_spring', 'constraint', 'adaptive')
 
 
@@ -161,3 +165,96 @@ def test_steps_that_are_undone_leave_no_impulse(context):
             run.frame_forces(window) for run, window in zip((simulation, twin), windows)]
         assert np.array_equal(frames[0].pins.forces, frames[1].pins.forces)
         assert np.array_equal(frames[0].pins.peaks, frames[1].pins.peaks)
+
+
+# Scenes whose pins are recorded by programs of their own.
+RECORDED = {
+    **{mode: {**SCENE, 'mode': mode} for mode in MODES},
+    'two passes': {**HUNG, 'mode': 'mass_spring', 'layout': 'paper'},
+    'paper limit': {**HUNG, 'mode': 'adaptive', 'adaptive.scheme': 'paper'},
+    'bending': {
+        **HUNG, 'mode': 'mass_spring', 'bending.rigidity': 1e-4, 'bending.damping': 0.01,
+        'stiffness.bend': 0.0},
+    'low parts': {
+        **HUNG, 'mode': 'mass_spring', 'dt': 1e-6, 'start.z': 5.0}}
+
+
+@pytest.mark.parametrize('name', RECORDED)
+def test_recording_leaves_the_state_as_it_is(context, name):
+    """Who looks at forces would see another motion, by other programs."""
+    scene, found = Scene(RECORDED[name]), []
+    for records in (False, True):
+        with closing(Simulation(scene, context=context, records_forces=False)) as simulation:
+            if records:
+                simulation.open_force_window()
+            simulation.step(40)
+            simulation.move_pin(0, 0, (0.0, 0.0, 0.3), speed=1.0)
+            simulation.step(60)
+            assert simulation.knows_forces == records
+            found.append((simulation.positions(), simulation.velocities()))
+    assert np.abs(found[0][1]).max() > 0.0
+    assert all(np.array_equal(one, two) for one, two in zip(*found))
+
+
+@pytest.mark.parametrize('mode', MODES)
+def test_the_last_step_is_recorded_in_any_call(context, mode):
+    """A force would be one of an earlier step, or none, after many steps in a call."""
+    scene = Scene({**SCENE, 'mode': mode, 'pins': ['top_edge']})
+    found = []
+    for calls in ((70,), (1,) * 70, (33, 37), (69, 1)):
+        with closing(Simulation(scene, context=context)) as simulation:
+            for count in calls:
+                simulation.step(count)
+            pins = simulation.pin_forces()
+            found.append((pins.forces, pins.peaks))
+            assert np.abs(pins.forces).max() > 0.0
+    for other in found[1:]:
+        assert all(np.array_equal(one, two) for one, two in zip(found[0], other))
+
+
+def test_forces_that_were_not_recorded_are_refused(context):
+    """A force of 0 would be told where nobody has recorded one."""
+    with closing(Simulation(
+            Scene(SCENE), context=context, records_forces=False)) as simulation:
+        assert not simulation.pin_forces().forces.any()
+        simulation.step(3)
+        window = simulation.open_force_window()
+        for read in (
+                simulation.pin_forces, simulation.grasp_forces,
+                lambda: simulation.frame_forces(window)):
+            with pytest.raises(ClothSimError, match='records_forces=True'):
+                read()
+        snapshot = simulation.snapshot(tension=True)
+        assert snapshot.tension is not None and snapshot.pin_forces is None
+        simulation.step(2)
+        frame, last = simulation.frame_forces(window), simulation.pin_forces()
+        assert frame.seconds == pytest.approx(2 * simulation.dt)
+        assert frame.pins.forces.any() and last.forces.any()
+        simulation.close_force_window(window)
+        simulation.step()
+        assert not simulation.knows_forces
+
+
+def test_steps_that_nobody_can_read_record_nothing(context):
+    """All steps would take the time that recording takes, for the last one's sake."""
+    scene = Scene({**HUNG, 'mode': 'mass_spring'})
+    with take_inventory() as inventory, closing(
+            Simulation(scene, context=context)) as simulation:
+        simulation.step(50)
+        substeps = simulation.substeps
+    runs = {
+        program.source.used_defines['HAS_HELD']: program.dispatches
+        for program in inventory.programs if program.name == 'mass_spring_step.comp'}
+    assert runs == {0: 49 * substeps, 1: substeps}
+
+
+def test_forces_of_steps_made_again_are_known(context):
+    """After a blow-up, the forces of the last finite step would be lost with the others."""
+    values = {
+        **HUNG, 'mode': 'mass_spring', 'auto_substeps': False, 'substeps': 1}
+    with closing(Simulation(
+            Scene(values), context=context, check_stability=False)) as simulation:
+        with pytest.raises(NonFiniteStateError):
+            simulation.step(2000)
+        assert simulation.steps > 1
+        assert simulation.pin_forces().forces.any()

@@ -37,8 +37,11 @@ class OnePass:
 
     def __init__(self, scene: Scene, layout: Layout, strain_limit: str = 'NO_LIMIT') -> None:
         """Compile the pass."""
-        self._step = SceneProgram(
-            'mass_spring_step.comp', scene, layout, {'STRAIN_LIMIT': strain_limit})
+        defines = {'STRAIN_LIMIT': strain_limit}
+        self._step = SceneProgram('mass_spring_step.comp', scene, layout, defines)
+        # Leaves entries of held.glsl, and costs more. Both make the same state, to the bit.
+        self._recording_step = SceneProgram(
+            'mass_spring_step.comp', scene, layout, {**defines, 'HAS_HELD': 1})
         self._groups = layout.groups
         # Where the last substep has left its entries of held.glsl; below 0: nowhere.
         self.held_at = -1
@@ -64,7 +67,7 @@ class OnePass:
             held_at, some, apart = (
                 (-1, count, 0) if impulses is None or not impulses.is_recording
                 else impulses.reserve(count - made))
-            step = self._begin(forcing, length, length)
+            step = self._begin(forcing, length, length, records=apart > 0)
             for entry in range(held_at, held_at + some * apart, apart) if apart else (-1,) * some:
                 self._make(state, step, forcing, entry)
                 state.swap()
@@ -75,11 +78,14 @@ class OnePass:
             kick: float | None = None) -> None:
         """Write the state after ``length`` [s], without making it the present one."""
         self.held_at = state.next_held_entry()
-        step = self._begin(forcing, length, length if kick is None else kick)
+        step = self._begin(
+            forcing, length, length if kick is None else kick, records=self.held_at >= 0)
         self._make(state, step, forcing, self.held_at)
 
-    def _begin(self, forcing: Forcing, length: float, kick: float) -> Program:
-        step = self._step.use_for_step(forcing, length, kick)
+    def _begin(
+            self, forcing: Forcing, length: float, kick: float, *, records: bool) -> Program:
+        program = self._recording_step if records else self._step
+        step = program.use_for_step(forcing, length, kick)
         if forcing.touch is not None:
             forcing.touch.begin_explicit(step, length)
             step.use()
@@ -93,7 +99,7 @@ class OnePass:
             touch.list_none()
             step.use()
         # A uniform costs as much as a small dispatch.
-        if held_at != self._held_set:
+        if held_at not in (-1, self._held_set):
             step.set_int('held_at', held_at)
             self._held_set = held_at
         step.dispatch(*self._groups)
@@ -105,6 +111,8 @@ class OnePass:
     def delete(self) -> None:
         """Give the pass back."""
         self._step.delete()
+        self._recording_step.delete()
+        self._held_set = None
 
 
 _UPDATE_LOCAL = 1024
@@ -119,6 +127,8 @@ class TwoPass:
         self._force = SceneProgram('paper_force.comp', scene, layout)
         self._update = SceneProgram(
             'paper_update.comp', scene, layout, {'UPDATE_LOCAL': _UPDATE_LOCAL})
+        self._recording_update = SceneProgram(
+            'paper_update.comp', scene, layout, {'UPDATE_LOCAL': _UPDATE_LOCAL, 'HAS_HELD': 1})
         self._forces = Buffer(layout.stored * _FORCE_BYTES)
         self._masses = Buffer(np.full(layout.stored, scene.node_mass, dtype=np.float32))
         self._force_groups = layout.groups
@@ -141,8 +151,11 @@ class TwoPass:
         force.dispatch(*self._force_groups)
         shader_writes_visible()
         state.bind_low_parts()
-        update = self._update.use_for_step(forcing, length)
-        update.set_int('held_at', held_at)
+        if held_at < 0:
+            update = self._update.use_for_step(forcing, length)
+        else:
+            update = self._recording_update.use_for_step(forcing, length)
+            update.set_int('held_at', held_at)
         update.dispatch(self._update_groups)
         shader_writes_visible()
 
@@ -150,6 +163,7 @@ class TwoPass:
         """Give the passes and their buffers back."""
         self._force.delete()
         self._update.delete()
+        self._recording_update.delete()
         self._forces.delete()
         self._masses.delete()
 
@@ -234,7 +248,9 @@ class MassSpring:
     def _substeps(self, state: State, forcing: Forcing, count: int) -> None:
         """Step ``state`` on ``count`` times by a substep, under the same forcing."""
         acts_by_node = forcing.has_regions or forcing.touch is not None
-        passes = self._passes if self._tiles is None or acts_by_node else self._tiles
+        is_recorded = state.impulses is not None and state.impulses.is_recording
+        tiles = None if acts_by_node or is_recorded else self._tiles
+        passes = self._passes if tiles is None else tiles
         passes.substeps(state, forcing, self._length, count)
 
     def _alike(self, start: float, loads: Loads) -> int:

@@ -44,6 +44,8 @@ class PaperSweeps:
         self._layout = layout
         self._sweep = SceneProgram('paper_sweep.comp', scene, layout, _DEFINES)
         self._finish = SceneProgram('paper_finish.comp', scene, layout, _DEFINES)
+        self._recording_finish = SceneProgram(
+            'paper_finish.comp', scene, layout, {**_DEFINES, 'HAS_HELD': 1})
         # Cells of a colour lie in every other column and row.
         self._groups = tuple(
             -(-nodes // (2 * local)) for nodes, local in zip((layout.cols, layout.rows), _LOCAL))
@@ -77,14 +79,15 @@ class PaperSweeps:
         """
         Move the nodes of the substep of ``length`` [s] that ``run`` was told of.
 
-        :param held_at: where its entries of held.glsl are
+        :param held_at: where its entries of held.glsl are; below 0: nowhere
         """
         if self._layout.texture_loads:
             state.bind_in()
-        finish = self._finish.use()
+        finish = (self._finish if held_at < 0 else self._recording_finish).use()
         finish.set_float('substep', length)
-        finish.set_float('kick', kick)
-        finish.set_int('held_at', held_at)
+        if held_at >= 0:
+            finish.set_float('kick', kick)
+            finish.set_int('held_at', held_at)
         finish.dispatch(*self._node_groups)
         shader_writes_visible()
         state.swap()
@@ -109,6 +112,7 @@ class PaperSweeps:
         self.tensions.delete()
         self._sweep.delete()
         self._finish.delete()
+        self._recording_finish.delete()
 
 
 class PaperLimit:
