@@ -66,7 +66,7 @@ class ForceReadings(RunStatus, ABC):
         They are recorded in the last step of each call of ``step`` and ``advance``, unless
         ``records_forces`` is False, and in all steps while a force window is open.
         """
-        return self._impulses.knows_last_step
+        return self._impulses.knows_last_step or not self._state.pinned.any()
 
     def pin_forces(self) -> PinForces:
         """
@@ -172,18 +172,23 @@ class ForceReadings(RunStatus, ABC):
 
     def _begin_impulses(self, begin: float, *, records: bool) -> None:
         if not records:
-            self._impulses.leave_out_step(self._state.pinned)
+            # A small cloth makes a step in the time of some hundred of these lines.
+            if self._impulses.knows_last_step:
+                self._impulses.leave_out_step()
             return
         self._take_contacts(begin)
         self._windows.add(self._impulses.begin_step(
             self._state.pinned, self._held.present(begin), self._pin_motion.velocities,
-            self._pin_motion.caught))
+            self._pin_motion.caught, edits=self._state.edits))
 
     def _end_impulses(self, number: int, steps: int) -> None:
         self._furthest = max(self._furthest, number + steps)
-        self._impulses.end_step(self._pin_motion.velocities)
-        self._pin_motion.caught.clear()
-        self._windows.count(steps)
+        pins, impulses = self._pin_motion, self._impulses
+        if impulses.is_within_step or pins.velocities or impulses.velocities:
+            impulses.end_step(pins.velocities)
+        pins.caught.clear()
+        if self._windows.open:
+            self._windows.count(steps)
 
     def _settle_windows(self) -> None:
         self._windows.add(self._impulses.take())

@@ -120,6 +120,7 @@ class HeldImpulses:
         self._own: Buffer | None = None
         self._pinned: np.ndarray | None = None
         self._grasped: tuple[HoldsNodes, ...] = ()
+        self._edits = 0
         self._holders: Holders | None = None
         self._capacity = 0
         self._entries = 0
@@ -128,10 +129,11 @@ class HeldImpulses:
         self._how: tuple[int, ...] = ()
         # Where the sums are now, and where they were when they were kept.
         self._now = self._kept = 0
-        self._is_within_step = False
+        # Whether a step is under way that is recorded.
+        self.is_within_step = False
         self._until_last = 0
         # Velocities that pins had as the last step ended, those that rest left out.
-        self._velocities: dict[Node, np.ndarray] = {}
+        self.velocities: dict[Node, np.ndarray] = {}
         # And those that they have in the step under way.
         self._within: dict[Node, np.ndarray] = {}
         self._own_values = np.zeros((0, 4), dtype=np.float32)
@@ -142,18 +144,18 @@ class HeldImpulses:
         self._has_frame = False
         self._last: Impulses | None = None
         self._was_recorded = False
-        # Whether the last step was recorded, or held no node.
+        # Whether the last step was recorded, or there was none.
         self.knows_last_step = True
 
     @property
     def is_recording(self) -> bool:
         """Return whether some node is held in the step under way."""
-        return self._is_within_step and self._holders is not None
+        return self.is_within_step and self._holders is not None
 
     def begin_step(
             self, pinned: np.ndarray, grasps: Sequence[HoldsNodes],
             velocities: Mapping[Node, np.ndarray],
-            caught: Mapping[Node, np.ndarray]) -> Impulses | None:
+            caught: Mapping[Node, np.ndarray], *, edits: int = 0) -> Impulses | None:
         """
         Begin a step of dt, or several at once.
 
@@ -162,25 +164,26 @@ class HeldImpulses:
         :param velocities: of pins that move in it [m/s]
         :param caught: velocities of nodes that were free when they were pinned, since the last
             step
+        :param edits: State.edits; equal ones tell that the same nodes are pinned
         :return: impulses since ``take`` that are not to be had any more, as other nodes are held
         """
         before = None
-        if not self._holds_the_same(pinned, grasps):
+        if not self._holds_the_same(pinned, grasps, edits):
             before = self.take() if self._has_frame else None
             self._rebuild(pinned, grasps)
-        self._is_within_step, self._begins, self._until_last = True, True, 0
+        self._edits = edits
+        self.is_within_step, self._begins, self._until_last = True, True, 0
         self._was_recorded = self.knows_last_step = True
         if self._holders is not None:
             self._has_own_begin = self._note_changes(
-                0, {**self._velocities, **caught}, velocities)
+                0, {**self.velocities, **caught}, velocities)
         self._within = dict(velocities)
         return before
 
-    def leave_out_step(self, pinned: np.ndarray) -> None:
+    def leave_out_step(self) -> None:
         """Begin a step of dt, or several, that nobody asks for; as ``begin_step``."""
-        self._is_within_step = self._was_recorded = False
+        self.is_within_step = self._was_recorded = self.knows_last_step = False
         self._last = None
-        self.knows_last_step = not pinned.any()
 
     def expect_steps(self, substeps: int) -> None:
         """Tell that so many ``substeps`` come before those of the last step of dt."""
@@ -195,8 +198,8 @@ class HeldImpulses:
         if self.is_recording and self._holders is not None:
             ends = self._note_changes(len(self._holders.nodes), self._within, velocities)
             self._add_up(ends=ends)
-        self._velocities = dict(velocities)
-        self._is_within_step = False
+        self.velocities = dict(velocities)
+        self.is_within_step = False
 
     def reserve(self, substeps: int, place: int = bindings.HELD) -> tuple[int, int, int]:
         """
@@ -245,7 +248,7 @@ class HeldImpulses:
         self._holders = self._pinned = self._last = None
         self.knows_last_step = True
         self._grasped = ()
-        self._velocities = {}
+        self.velocities = {}
         self._has_frame = self._goes_on = False
 
     def keep(self) -> Any:
@@ -255,7 +258,7 @@ class HeldImpulses:
             self._replaced = None
         self._kept = self._now
         return (
-            self._sums, self._holders, self._pinned, self._grasped, dict(self._velocities),
+            self._sums, self._holders, self._pinned, self._grasped, dict(self.velocities),
             self._goes_on, self._has_frame, self._last, self._was_recorded,
             self.knows_last_step)
 
@@ -266,9 +269,9 @@ class HeldImpulses:
         (self._sums, self._holders, self._pinned, self._grasped, velocities, self._goes_on,
          self._has_frame, self._last, self._was_recorded, self.knows_last_step) = kept
         self._replaced = None
-        self._velocities = dict(velocities)
+        self.velocities = dict(velocities)
         self._now = self._kept
-        self._entries, self._is_within_step, self._read = 0, False, None
+        self._entries, self.is_within_step, self._read = 0, False, None
         if self._holders is not None:
             self._place(self._holders)
 
@@ -280,9 +283,11 @@ class HeldImpulses:
         self._buffer = self._sums = self._own = self._replaced = None
         self._fold.delete()
 
-    def _holds_the_same(self, pinned: np.ndarray, grasps: Sequence[HoldsNodes]) -> bool:
+    def _holds_the_same(
+            self, pinned: np.ndarray, grasps: Sequence[HoldsNodes], edits: int) -> bool:
         return (
-            self._pinned is not None and np.array_equal(pinned, self._pinned)
+            self._pinned is not None
+            and (edits == self._edits > 0 or np.array_equal(pinned, self._pinned))
             and [(grasp.name, id(grasp.nodes)) for grasp in grasps]
             == [(grasp.name, id(grasp.nodes)) for grasp in self._grasped])
 
