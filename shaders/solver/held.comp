@@ -39,11 +39,11 @@ void pull(int row, int col, int drow, int dcol, int edge, int family, int rest) 
     float moves = is_held_together(node[row][col], node[row + drow][col + dcol]);
 #if HAS_BEND
     vec2 tensions = edge >= EDGE_TWO_ROW
-        ? vec2(bend_tension[row][col][max(edge - EDGE_TWO_ROW, 0) + 2],
-               bend_tension[row][col][max(edge - EDGE_TWO_ROW, 0)])
-        : vec2(begun[row][col][min(edge, 3)], found[row][col][min(edge, 3)]);
+        ? vec2(bend_tension[row][col][LONG_SLOT(edge) + 2],
+               bend_tension[row][col][LONG_SLOT(edge)])
+        : vec2(begun[row][col][SHORT_SLOT(edge)], found[row][col][SHORT_SLOT(edge)]);
 #else
-    vec2 tensions = vec2(begun[row][col][edge], found[row][col][edge]);
+    vec2 tensions = vec2(begun[row][col][SHORT_SLOT(edge)], found[row][col][SHORT_SLOT(edge)]);
 #endif
     vec3 impulse = moves * substep * (tensions.x - (1.0 - to_come) * tensions.y) * n;
     product[row][col] += impulse;
