@@ -6,6 +6,7 @@
 from abc import ABC
 from abc import abstractmethod
 
+from cloth_sim_ros.files.errors import shown
 from cloth_sim_ros.sim.contacts import ContactForce
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.force_window import forces_at
@@ -121,6 +122,7 @@ class ForceReadings(RunStatus, ABC):
 
     def close_force_window(self, window: ForceWindow) -> None:
         """Add up nothing in ``window`` any more."""
+        self._check_open(window)
         self._windows.open.remove(window)
 
     def frame_forces(
@@ -133,6 +135,9 @@ class ForceReadings(RunStatus, ABC):
         :param snapshot: of this time; made here by default
         """
         self.stepping.refuse_mid_step('forces')
+        self._check_open(window)
+        if snapshot is not None:
+            checked_snapshot(snapshot, self.time)
         if not window.steps and window.latest is not None:
             return window.latest
         snapshot = snapshot or self.snapshot(pin_forces=True)
@@ -169,6 +174,12 @@ class ForceReadings(RunStatus, ABC):
         # Steps that are made again may end at any of them.
         return self._records_forces and (
             self.stepping.is_last(number) or number < self._furthest)
+
+    def _check_open(self, window: ForceWindow) -> None:
+        if not any(window is each for each in self._windows.open):
+            raise ClothSimError(
+                'the window must be an open one of open_force_window, got '
+                f'{shown(window)}: open one first')
 
     def _begin_impulses(self, begin: float, *, records: bool) -> None:
         if not records:

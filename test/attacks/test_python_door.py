@@ -23,6 +23,7 @@ from cloth_sim_ros import Simulation
 from cloth_sim_ros import SimulationRecorder
 from cloth_sim_ros.gl.context import Context
 from cloth_sim_ros.gym import CarryCloth
+from cloth_sim_ros.sim.force_window import ForceWindow
 from hostile_values import HOSTILE
 from hostile_values import hostile
 import numpy as np
@@ -52,7 +53,9 @@ OF_SIMULATION: dict[str, dict[str, Any]] = {
         'pushes': [Push((0.0, 0.0, 1.0), 0.0, 1.0)], 'colliders': {'ball': Pose(CENTER)}},
     'reset': {}, 'measure': {}, 'snapshot': {'tension': False, 'pin_forces': False},
     'begin_snapshot': {}, 'pin_forces': {}, 'contact_forces': {}, 'grasp_forces': {
-        'snapshot': None}, 'finish': {},
+        'snapshot': None}, 'finish': {}, 'open_force_window': {},
+    'close_force_window': {'window': ForceWindow()},
+    'frame_forces': {'window': ForceWindow(), 'snapshot': None},
     'push': {'force': CENTER, 'duration': 0.1, 'region': 'sphere', 'center': CENTER,
              'radius': 9.0, 'start': 5.0},
     'clear_pushes': {}, 'set_wind': {'velocity': CENTER}, 'pin': {'row': 3, 'col': 3},
@@ -185,8 +188,9 @@ def context() -> Iterator[Context]:
 
 def test_simulation_takes_or_refuses_anything(context):
     """step(1.5) never returned, pin(1.5, 0) was an IndexError, a masked array a TypeError."""
+    from cloth_sim_ros.sim.force_readings import ForceReadings
     from cloth_sim_ros.sim.handling import Handling
-    assert set(OF_SIMULATION) == methods_of(Simulation, (Handling,))
+    assert set(OF_SIMULATION) == methods_of(Simulation, (Handling, ForceReadings))
     with Simulation(Scene(TOUCHING), context=context) as cloth:
         start = cloth.positions(), cloth.velocities()
 
