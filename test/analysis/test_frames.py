@@ -61,8 +61,8 @@ def test_moves_of_the_scene_are_followed():
         assert place_of(history, time) == pytest.approx((x, 1.0, 0.0)), time
 
 
-def test_recorded_targets_replace_them_and_a_reset_brings_them_back():
-    """What a service or a stream has moved would stand still, or stay away after a reset."""
+def test_recorded_targets_until_reset():
+    """A collider moved by a service or stream would stand still, or stay moved after a reset."""
     history = opened()
     move = FrameMove.checked(
         name='ball', target=(0.4, 2.0, 0.0), orientation=None, speed=0.5, angular_speed=1.0,
@@ -76,7 +76,7 @@ def test_recorded_targets_replace_them_and_a_reset_brings_them_back():
     assert place_of(history, 0.1) == pytest.approx((0.0, 1.0, 0.0))
 
 
-def test_a_recording_from_the_middle_of_a_run_says_where_they_are():
+def test_collider_poses_in_a_late_recording():
     """A ball that was moved before the recording began would be drawn elsewhere."""
     history = opened()
     place = place_message('ball', Pose((3.0, 3.0, 3.0)), 4.0, 'world')
@@ -91,7 +91,7 @@ def test_a_run_without_colliders_has_none():
     assert history.at(stamp(1.0)) == () and history.problem == ''
 
 
-def test_what_this_version_does_not_know_is_left_out_and_told():
+def test_unknown_colliders_are_skipped_with_a_note():
     """A recording of a later version could not be drawn at all."""
     message = parameters_message(
         Scene(VALUES).values, fields_with_colliders(VALUES), 0.0, 'cloth_sim')

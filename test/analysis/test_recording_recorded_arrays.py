@@ -76,7 +76,7 @@ def test_inputs_have_their_vectors_and_words(recording):
     assert recording.arrays('inputs/mode')['mode'][0] == 'mass_spring'
 
 
-def test_a_topic_that_is_not_there_is_told_with_those_that_are(recording):
+def test_missing_topic_error_lists_the_topics(recording):
     """A misspelt topic would give empty arrays."""
     with pytest.raises(ClothSimError, match='no topic point .*: choose one of .*points'):
         recording.arrays('point')

@@ -63,8 +63,8 @@ def test_a_recording_without_frames_is_refused(tmp_path):
         Run(Recording(tmp_path / 'empty'))
 
 
-def test_the_table_says_what_is_beyond_the_limit_of_a_method():
-    """Springs would be held to a limit they don't have, or a limit of 10 % taken for a fault."""
+def test_table_marks_strain_beyond_the_limit():
+    """Springs would be held to a limit they lack, or a strain of 10 % at its limit be a fault."""
     outcome = RunOutcome(end=0.3, dt=0.01, substeps=2.0, max_strain=0.105, stopped=True)
     _, _, springs, hard, limited = outcome_table([
         ('springs', outcome, None), ('hard', outcome, 0.0), ('limited', outcome, 0.1),

@@ -63,7 +63,7 @@ BALL = {
     'colliders.ball.position': [0.0, 0.0, 0.5]}
 
 
-def test_markers_are_recorded_with_every_frame_where_they_are_asked_for(tmp_path):
+def test_markers_are_recorded_on_request(tmp_path):
     """A viewer of the recording would show a cloth that bends around nothing."""
     with Simulation(Scene({**SMALL, **BALL})) as simulation:
         with SimulationRecorder(
@@ -88,8 +88,8 @@ def test_markers_are_recorded_with_every_frame_where_they_are_asked_for(tmp_path
     assert resimulate(tmp_path / 'run').frames.equal == 5
 
 
-def test_every_input_is_recorded_and_the_run_can_be_made_again(cloth, tmp_path):
-    """What a program did to the cloth would be lost, and its run with it."""
+def test_recorded_inputs_resimulate_to_the_bit(cloth, tmp_path):
+    """The inputs of a program would be missing, and its run could not be repeated."""
     with SimulationRecorder(cloth, tmp_path, 'run') as recorder:
         cloth.push((0.0, 0.5, 1.0), duration=0.1)
         recorder.advance(0.1)
@@ -178,8 +178,8 @@ def test_a_limit_ends_the_recording_whole(tmp_path):
     assert 0 < Recording(recorder.path).count('points') < 100
 
 
-def test_a_lost_state_ends_the_recording_at_the_last_finite_one(tmp_path):
-    """The frames before a blow-up, which tell why it came, would be lost."""
+def test_recording_ends_at_the_last_finite_state(tmp_path):
+    """The frames before a blow-up, which show its cause, would be lost."""
     scene = Scene({
         **SPRINGS, **SMALL, 'auto_substeps': False, 'dt': 0.05, 'stiffness.structural': 1e5})
     with Simulation(scene, check_stability=False) as wild:

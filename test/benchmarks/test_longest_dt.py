@@ -35,7 +35,7 @@ def test_the_cloth_is_that_of_the_scene_file():
 
 
 @pytest.mark.parametrize('stiffness', [1000.0, STIFF])
-def test_springs_without_substeps_blow_up_above_their_limit_and_not_below(stiffness):
+def test_mass_spring_stability_limit(stiffness):
     """The limit of stability.py is not what makes the paper's mass-spring cloth blow up."""
     changes = springs(stiffness)
     limit = stability_limit(Scene({**CLOTH, **changes}))
@@ -59,7 +59,7 @@ def test_the_project_holds_where_the_papers_schemes_do_not():
         assert not holds(run_at(CLOTH, theirs, 0.02, SECONDS), allowed, short)
 
 
-def test_the_papers_adaptive_scheme_fails_at_short_steps_too():
+def test_paper_adaptive_fails_at_short_steps():
     """docs/notes/paper.md: a shorter step makes it worse, since edges come back faster."""
     long, short = (
         run_at(CLOTH, PAPER_ADAPTIVE, dt, SECONDS).peak_kinetic_energy for dt in (0.01, 0.005))

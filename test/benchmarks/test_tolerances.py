@@ -10,7 +10,7 @@ from tolerances import run
 from tolerances import TIMES
 
 
-def test_a_loose_tolerance_moves_a_cloth_and_a_tight_one_costs_iterations():
+def test_tolerance_trades_accuracy_for_iterations():
     """The study would compare a run with itself, or another scene with it."""
     loose = run(8, **{'solver.tolerance': 0.1})
     tight = run(8, **{'solver.tolerance': 1e-4})

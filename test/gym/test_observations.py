@@ -40,7 +40,7 @@ def test_a_depth_picture_shows_the_cloth_where_it_hangs(make):
     np.testing.assert_allclose(seen[covered], np.median(seen[covered]), rtol=1e-3)
 
 
-def test_a_depth_picture_shows_what_is_in_front_of_the_cloth(make):
+def test_depth_image_shows_occluders(make):
     """A policy would see through a table."""
     wall = {
         'colliders.names': ['wall'], 'colliders.wall.shape': 'box',

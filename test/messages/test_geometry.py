@@ -30,7 +30,7 @@ def test_only_pushes_that_act_are_shown():
     assert shown == [0, 1, 1, 0]
 
 
-def test_arrows_stand_in_their_region_and_point_along_the_force():
+def test_push_arrow_positions_and_directions():
     """A push would show somewhere else, in another direction or strength."""
     everywhere = Push.checked(force=(0.0, 0.0, -4.0), start=0.0, duration=1.0)
     sphere = Push.checked(

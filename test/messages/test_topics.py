@@ -60,7 +60,7 @@ def test_all_inputs_are_recorded():
     assert TOPICS['pins/wrenches'].recorded and TOPICS['tf'].recorded
 
 
-def test_only_topics_that_all_nodes_have_in_common_are_global():
+def test_only_shared_topics_are_global():
     """Topics of two nodes would run into each other."""
     assert {key for key, topic in TOPICS.items() if topic.is_global} == {
         'clock', 'diagnostics', 'tf'}

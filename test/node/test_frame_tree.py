@@ -102,8 +102,8 @@ def history_of(*times, parent='base'):
     return history
 
 
-def test_between_samples_it_is_on_the_straight_line_and_the_shortest_turn():
-    """An input would be taken from where its frame never was."""
+def test_interpolation_between_samples():
+    """Positions are interpolated linearly, rotations along the shortest arc."""
     generator = np.random.default_rng(5)
     for _ in range(200):
         places = generator.normal(size=(2, 3))
@@ -129,8 +129,8 @@ def test_at_a_sample_it_has_the_bits_of_the_sample():
     assert history.at(2).pose is pose
 
 
-def test_nothing_is_known_before_the_first_and_after_the_last():
-    """A frame would be guessed to be where it was long ago, or is yet to come."""
+def test_no_extrapolation_beyond_the_samples():
+    """A pose would be extrapolated to times before the first or after the last sample."""
     history = history_of(5, 9)
     assert history.at(4) is None and history.at(10) is None
     assert history.at(5).pose.position[0] == 0.0 and history.at(9).pose.position[0] == 1.0
@@ -139,8 +139,8 @@ def test_nothing_is_known_before_the_first_and_after_the_last():
     assert alone.at(4) is None and alone.at(6) is None and alone.at(5) is not None
 
 
-def test_samples_need_not_come_in_order_and_the_first_of_a_time_counts():
-    """A late message would be lost, or two publishers make a frame jump to and fro."""
+def test_samples_out_of_order_and_duplicate_stamps():
+    """A late message would be lost, or a frame jump between two publishers; the first wins."""
     history = history_of(10, 30, 20, 20)
     assert [history.at(time).pose.position[0] for time in (10, 15, 20, 25, 30)] == [
         0.0, 1.0, 2.0, 1.5, 1.0]
@@ -236,7 +236,7 @@ def test_the_way_between_any_two_frames(is_fixed):
                 np.testing.assert_allclose(found.axes.T, expected[:3, :3], atol=1e-12)
 
 
-def test_without_a_stamp_it_is_the_latest_time_that_all_have():
+def test_no_stamp_uses_the_latest_common_time():
     """Frames of different times would be chained: a hand at one time on an arm at another."""
     tree = empty_tree()
     for time in range(1, 6):
@@ -251,8 +251,8 @@ def test_without_a_stamp_it_is_the_latest_time_that_all_have():
     assert tree.pose('tip', 'world', 2 * SECOND).position == (2.0, 2.0, 0.5)
 
 
-def test_a_stamp_outside_what_is_known_is_refused_with_the_times():
-    """A frame would be guessed, or a user not know by how much a clock is off."""
+def test_stamp_out_of_range_error_gives_the_range():
+    """A pose would be extrapolated, or the error not show how far the clocks differ."""
     tree = tree_of(('tool0', 'arm'), time=2 * SECOND)
     for time in (SECOND, 5 * SECOND // 2):
         tree.add('arm', Sample(time, 'world', HERE), is_fixed=False)

@@ -205,8 +205,8 @@ def test_bodies_feel_the_cloth_in_their_own_frames(handled, twin):
     assert contacts[twin.colliders[0]].force[2] < -0.1
 
 
-def test_every_wrench_has_its_frame_and_held_nodes_have_no_other(handled, twin):
-    """A viewer could not draw a wrench, or would count the force of a held node twice."""
+def test_wrench_frames_of_held_nodes(handled, twin):
+    """A viewer could not draw a wrench, or would count the force on a held node twice."""
     here = Pose(position=Point(x=-0.45, y=-0.35, z=1.0))
     assert handled.call(Grasp, 'grasp', name='hand', pose=here, radius=0.12).success
     assert handled.call(Step, 'step', steps=34).success

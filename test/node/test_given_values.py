@@ -17,7 +17,7 @@ GIVEN = {
     'dt': 0.005, 'start_paused': True}
 
 
-def test_a_cloth_by_weight_and_points_shows_in_parameters_and_pins(client, tmp_path):
+def test_weight_and_points_in_parameters_and_pins(client, tmp_path):
     """The node would add the default weight or pins, which the commands leave out."""
     with NodeProcess(tmp_path, GIVEN, '-r', '__ns:=/given'):
         cloth = ClothUnderTest(client, GIVEN, '/given/cloth_sim')

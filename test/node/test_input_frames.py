@@ -178,8 +178,8 @@ def test_a_moving_frame_is_taken_at_the_stamp(handled, teller):
         'between, or 0 for the latest')
 
 
-def test_an_input_in_a_frame_that_is_not_known_changes_nothing(handled, teller, twin):
-    """A bad input would be half taken: pushed in the wrong direction, or pinned at no place."""
+def test_input_in_an_unknown_frame_is_refused(handled, teller, twin):
+    """A refused input would be applied in part: a push in a wrong direction, or a pin at NaN."""
     teller.tell(transform('lonely', 'island', CAMERA), transform('arm', 'world', CAMERA))
     for frame, rule in (
             ('tool0', "its frame 'tool0' is not known: publish it on /tf or /tf_static"),

@@ -35,9 +35,9 @@ MANY = 100000
 
 @pytest.mark.parametrize('mode', [
     'constraint', pytest.param('adaptive', marks=pytest.mark.long)])
-def test_what_is_asked_within_steps_is_made_again_to_the_bit(
+def test_requests_within_steps_replay_to_the_bit(
         client: GraphClient, tmp_path: Path, mode: str):
-    """A change would be made within a step, or be recorded with the time of another one."""
+    """A change would be applied within a step, or be recorded with the time of another step."""
     values = {**SLOW, 'mode': mode}
     with NodeProcess(tmp_path, values, '-r', f'__ns:=/slow_{mode}'):
         cloth = ClothUnderTest(client, values, f'/slow_{mode}/cloth_sim')

@@ -84,7 +84,7 @@ def test_measures_the_factor_achieved():
 
 
 @pytest.mark.parametrize('factor', [0.5, 1.0, 2.0])
-def test_a_run_that_keeps_up_has_its_factor_from_the_first_frame(factor):
+def test_real_time_factor_from_the_first_frame(factor):
     """Plots would begin at ten times real time, since the first frame waits for nothing."""
     pacing = Pacing(factor)
     pacing.restart(10.0)
@@ -154,7 +154,7 @@ def test_a_run_that_keeps_up_again_says_so(run):
     assert text == '1 x real time: the run keeps up again'
 
 
-def test_a_run_that_comes_and_goes_is_warned_of_once_a_minute(run):
+def test_slow_run_warning_once_a_minute(run):
     """Two lines would come every few seconds."""
     log = run(*[(10.0, 0.5), (10.0, 1.0)] * 30)
     warnings = [time for time, level, _ in log if level == 'warning']

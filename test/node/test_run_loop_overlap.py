@@ -152,8 +152,8 @@ def test_requests_between_leave_the_frames_in_order(run, change: Callable[[Run],
         assert part.tolist() == list(range(STEPS, STEPS * len(part) + 1, STEPS))
 
 
-def test_steps_that_a_caller_waits_for_are_sent_before_the_answer(run):
-    """Who has asked for steps would go on before the frame that shows them."""
+def test_requested_steps_are_published_before_the_reply(run):
+    """A caller would continue before the frame of its steps is published."""
     stepped = run(0.0)
     stepped.until(2)
     stepped.loop.pause()

@@ -175,7 +175,7 @@ def test_the_node_warns(points, client, tmp_path):
     assert told == points, node.output
 
 
-def test_the_profile_for_one_machine_listens_on_loopback_alone(client, tmp_path):
+def test_local_profile_listens_on_loopback_only(client, tmp_path):
     """A host that knows the address would reach a node that was meant for this machine."""
     profile = shared_directory('config') / 'fastdds_localhost.xml'
     with NodeProcess(tmp_path, {'rows': 4, 'cols': 4}, '-r', '__ns:=/closed', environment={

@@ -75,8 +75,8 @@ print(*received)
 """
 
 
-def test_a_reader_that_is_held_up_for_a_while_gets_every_stamp(client):
-    """A node with use_sim_time would see time leap where its machine was busy."""
+def test_delayed_reader_gets_every_clock_stamp(client):
+    """A node with use_sim_time would see time jump where its machine was busy."""
     with subprocess.Popen(
             [sys.executable, '-c', READER], stdout=subprocess.PIPE, text=True) as reader:
         try:
@@ -347,7 +347,7 @@ def test_a_long_gap_is_told(client, player, tmp_path):
     assert process.problems.count('the next message') == 1
 
 
-def test_the_clock_never_goes_back_where_a_split_recording_goes_on(client, player, tmp_path):
+def test_clock_is_monotonic_across_split_files(client, player, tmp_path):
     """Nodes with use_sim_time would forget all that they know at each new file."""
     recorder = Recorder(
         tmp_path, 'run', options=RecordingOptions(max_bagfile_duration=1.0))

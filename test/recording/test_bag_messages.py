@@ -85,7 +85,7 @@ def topic(type_name, text, kind=MessageDefinitionFormat.MSG):
     return BagTopic('/topic', type_name, (), 1, MessageDefinition(kind, text))
 
 
-def test_types_without_a_definition_are_those_of_the_packages():
+def test_missing_definitions_come_from_the_packages():
     """Bags of older ROS, which hold no definitions, could not be read."""
     decoder = MessageDecoder([topic(STATS, '', MessageDefinitionFormat.NONE)])
     read = decoder.decode(raw(ClothStats(steps=7, max_strain=0.25, solver_reached=True), STATS))

@@ -122,7 +122,7 @@ def test_whole_recordings_have_no_problem(recorded):
     assert reader.problems == []
 
 
-def test_a_file_cut_anywhere_gives_what_is_whole_or_a_reason(recorded, tmp_path, expected):
+def test_truncated_file_is_read_or_refused(recorded, tmp_path, expected):
     """The recording of a killed run would be lost, or read with messages it never held."""
     file, = recorded.glob('*.mcap')
     content = file.read_bytes()
@@ -170,7 +170,7 @@ def test_a_cut_sqlite3_file_is_told_with_the_way_out(recorded, tmp_path):
             contents(BagReader(folder))
 
 
-def test_a_split_recording_without_its_end_is_read_up_to_there(recorded, tmp_path, expected):
+def test_split_recording_without_its_last_file(recorded, tmp_path, expected):
     """All of a long run would be lost with its last file."""
     folder = copy_bag(recorded, tmp_path / 'bag', split=3)
     last = folder / 'bag_2.mcap'

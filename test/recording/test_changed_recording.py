@@ -106,8 +106,8 @@ CHANGES = {
 
 
 @pytest.mark.parametrize('change', CHANGES)
-def test_a_change_is_reported_though_nothing_more_is_written(recorder, change):
-    """A run of hours would record into a file that nobody can find."""
+def test_change_is_reported_without_a_write(recorder, change):
+    """A run of hours would record into a file that was moved or removed."""
     change(recorder.path / 'run_0.mcap')
     reason = end_of(recorder)
     assert CHANGES[change] in reason

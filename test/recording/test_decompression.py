@@ -38,7 +38,7 @@ def test_bombs_are_refused(name):
         decompress(data, compression, size)
 
 
-def test_messages_and_files_of_older_bags_are_bounded_as_well(tmp_path):
+def test_decompressed_size_limit_in_older_bags(tmp_path):
     """A compressed bag would fill the memory or the disk."""
     assert decompress_message(PACKED['zstd']) == TEXT
     (tmp_path / 'packed').write_bytes(PACKED['zstd'])

@@ -86,7 +86,7 @@ def test_interrupts_while_closing_lose_nothing(start, tmp_path):
             step * 20_000_000 for step in range(12)]
 
 
-def test_a_program_that_never_closes_leaves_a_complete_recording(start, tmp_path):
+def test_recording_is_complete_without_close(start, tmp_path):
     """A fault elsewhere in the node would leave a recording without an index."""
     program = start('forgetful')
     _, errors = program.communicate()

@@ -71,7 +71,7 @@ def scale_color(strain):
 
 
 @pytest.mark.parametrize('detail', [1, 2])
-def test_a_flat_cloth_covers_the_pixels_that_the_projection_says(flat, rendered, detail):
+def test_flat_cloth_pixel_coverage(flat, rendered, detail):
     """The cloth would be shifted, stretched, mirrored or cut off."""
     image, renderer = rendered(flat(), detail=detail)
     (left, top), (right, bottom) = renderer.view.project(

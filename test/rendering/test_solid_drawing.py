@@ -153,7 +153,7 @@ def test_cloth_that_lies_on_a_body_hides_it(flat, rendered, camera):
     assert not is_body(image)[pixels[:, 1], pixels[:, 0]].any()
 
 
-def test_a_tilted_plane_is_a_square_that_hides_what_is_below(flat, rendered):
+def test_tilted_plane_hides_what_is_below(flat, rendered):
     """A slope would not be seen, or cover the cloth that lies on it."""
     slope = body('plane', (), (0.0, 0.0, -0.05), unit_quaternion((0.0, 0.25, 0.0, 1.0), 'a turn'))
     frame = with_body(cloth(flat), slope)

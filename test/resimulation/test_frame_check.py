@@ -55,7 +55,7 @@ def test_sees_every_bit_of_every_field(records, name, value):
     assert (check.first.node, check.first.distance, check.first.fields) == ((1, 2), 0.0, (name,))
 
 
-def test_other_layouts_and_missing_fields_are_compared_by_value(records):
+def test_other_point_layouts_are_compared_by_value(records):
     """Points of another version, or of the other byte order, would be no frame of this cloth."""
     kinds = [(name, POINT_DTYPE[name].newbyteorder('>')) for name in POINT_DTYPE.names
              if name != 'strain']

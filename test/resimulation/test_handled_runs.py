@@ -102,7 +102,7 @@ def test_a_recording_that_begins_late_has_grasps_and_places(tmp_path):
     assert_same(recorder.path)
 
 
-def test_a_move_of_the_scene_that_is_under_way_has_the_same_bits(tmp_path):
+def test_collider_move_under_way_has_the_same_bits(tmp_path):
     """A recording would forget where a scene's own collider set off."""
     with Simulation(Scene({**TIMED, 'grasps.start': [], 'grasps.name': [], 'grasps.position': [],
                            'grasps.radius': [], 'grasps.release': [], 'grasp_moves.start': [],

@@ -76,7 +76,7 @@ def test_grasps_and_moves_that_make_no_sense_are_named(tmp_path):
         assert rerun.check.equal == 3
 
 
-def test_a_recording_that_was_cut_off_is_made_again_as_far_as_it_goes(tmp_path):
+def test_truncated_recording_resimulates(tmp_path):
     """A run that crashed could not be made again."""
     with Director(tmp_path, {'rows': 64, 'cols': 64, 'pushes.start': (0.01,),
                              'pushes.duration': (0.02,), 'pushes.force': (0, 0, 1)}) as director:

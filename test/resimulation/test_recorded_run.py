@@ -113,7 +113,7 @@ def test_what_is_unknown_is_named():
     assert scene.scene().values == Scene().values
 
 
-def test_a_value_of_another_version_is_named_and_can_be_replaced():
+def test_value_of_another_version_can_be_replaced():
     """A user would not learn what to do about it."""
     scene = recorded(mode='rigid')
     with pytest.raises(ClothSimError, match=r"'rigid'; replace it with --set mode="):

@@ -119,7 +119,7 @@ def test_a_beginning_before_zero_is_refused(tmp_path):
     assert 'begins at -5 s, before 0' in refusal_of(recorder.path)
 
 
-def test_a_pin_outside_the_cloth_is_refused_at_the_beginning(tmp_path):
+def test_pin_outside_the_cloth_is_refused(tmp_path):
     """A recording from the middle of a run would end as a traceback."""
     with Director(tmp_path, {'rows': 8, 'cols': 9}, lambda cloth: cloth.step(3)) as director:
         pass
@@ -203,7 +203,7 @@ def test_a_run_in_the_wind_is_made_again(tmp_path, mode):
     assert_same(director.path, director.frames)
 
 
-def test_a_recording_from_the_middle_of_a_run_has_the_wind_that_was_set(tmp_path):
+def test_late_recording_keeps_the_set_wind(tmp_path):
     """The wind of the parameters would blow again."""
     def before(cloth):
         cloth.set_wind((0.0, -4.0, 1.0))
@@ -233,8 +233,8 @@ def test_what_was_done_before_the_first_step_counts_once(tmp_path, before):
     assert_same(director.path, 6)
 
 
-def test_a_recording_from_the_middle_of_a_run_has_the_same_bits_in_mass_spring(tmp_path):
-    """The scene's pushes and moves that are over would come again, or those to come not."""
+def test_late_recording_has_the_same_bits_in_mass_spring(tmp_path):
+    """Finished pushes and moves of the scene would repeat, or scheduled ones be lost."""
     def before(cloth):
         cloth.push((0.3, 0.0, 1.0), duration=0.5)
         cloth.step(18)  # the first move is over, the second push and move are to come

@@ -174,7 +174,7 @@ _NAMES = range(1, 2000)
 
 
 @pytest.mark.parametrize('scheme', ('constraint', 'paper'))
-def test_a_simulation_leaves_its_programs_to_the_next_and_no_buffers(scheme):
+def test_programs_are_shared_and_buffers_released(scheme):
     """A long process that makes one cloth after another would fill up with compiled shaders."""
     context = Context(single_thread=True)
     try:

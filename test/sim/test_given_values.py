@@ -94,8 +94,8 @@ def test_what_is_given_wins(preset):
 
 @pytest.mark.parametrize('preset', PRESETS)
 @pytest.mark.parametrize('mode', ['mass_spring', 'constraint', 'adaptive'])
-def test_a_mode_that_is_given_has_the_edges_it_has_without_a_preset(preset, mode):
-    """A preset of implicit springs would make springs of edges that were to be hard."""
+def test_given_mode_keeps_its_edges_with_a_preset(preset, mode):
+    """A preset of implicit springs would make the hard edges of the given mode elastic."""
     scene, without = Scene({'preset': preset, 'mode': mode}), Scene({'mode': mode})
     for name in ('mode', 'constraint.hard', 'constraint.springs'):
         assert scene[name] == without[name]
@@ -134,7 +134,7 @@ def test_refine_multiplies_the_substeps(context, mode):
     assert counts[1] == 3 * counts[0]
 
 
-def test_a_cloth_that_is_given_nothing_of_its_kind_is_of_the_default_fabric():
+def test_default_fabric():
     """The first cloth of a user would stretch like rubber, or whip without air."""
     fabric = FABRICS['trousers']
     scene = Scene({'rows': 12, 'damping.shear': 0.02})

@@ -69,7 +69,7 @@ def test_blocks_on_software_leave_no_half_workgroup_idle(rows: int, cols: int, b
     assert choose_layout(scene, device()).block == 1
 
 
-def test_a_cloth_beyond_the_buffers_is_refused_with_the_limit():
+def test_cloth_beyond_the_buffer_limit_is_refused():
     """The device would cut the cloth off, or crash."""
     with pytest.raises(DeviceError) as caught:
         choose_layout(Scene({**SPRINGS, 'rows': 4000, 'cols': 4000}), device(device='tiny'))

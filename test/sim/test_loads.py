@@ -112,8 +112,8 @@ def test_the_same_substep_has_the_same_air(make):
     np.testing.assert_array_equal(loads.at_nodes(nodes), air)
 
 
-def test_a_substep_that_is_asked_for_again_has_the_pushes_there_are(make):
-    """A push that was dropped since would act, or one that was looked at in between."""
+def test_repeated_substep_uses_the_current_pushes(make):
+    """A push removed since would act, or one that was queried in between."""
     loads, state = make(SMALL)
     push = Push.checked(force=(0.0, 0.0, 7.2), start=0.0, duration=1.0)
     loads.pushes.add(push, 0.0)

@@ -61,9 +61,9 @@ def test_overlaps_add_up_to_the_duration(start: float, duration: float, dt: floa
 @given(
     number=strategies.integers(0, 10**6), substeps=strategies.integers(1, 200),
     dt=strategies.floats(1e-4, 0.1))
-def test_what_begins_with_the_next_step_has_no_part_in_this_one(
+def test_push_at_the_next_step_does_not_act_in_this_one(
         number: int, substeps: int, dt: float):
-    """A push given within a step would act in it or not, by rounding, and no run come again."""
+    """A push would act in this step or not by rounding, and runs would not be repeatable."""
     push = Push.checked(force=(0.0, 0.0, 1.0), start=(number + 1) * dt, duration=1.0)
     length = dt / substeps
     last = number * dt + (substeps - 1) * length

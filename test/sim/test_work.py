@@ -210,7 +210,7 @@ def test_work_ends_when_it_is_due_and_goes_on_to_its_aim(simulate):
     assert simulation.steps == 6
 
 
-def test_changes_are_made_at_the_end_of_their_step_where_several_are_checked_together(context):
+def test_changes_apply_at_the_end_of_their_step(context):
     """A recorded change would have the time of an earlier step than the one that it ended."""
     asked = Simulation(Scene({**SPRINGS, **_SCENE, 'mode': 'mass_spring'}), context=context)
     plain = Simulation(Scene({**SPRINGS, **_SCENE, 'mode': 'mass_spring'}), context=context)

@@ -51,8 +51,8 @@ def test_the_edge_is_within_5_percent_of_the_closed_form(name, mode):
 
 
 @pytest.mark.parametrize('shape', [(12, 1), (8, 8)])
-def test_hard_edges_by_one_solve_have_the_limit_of_their_tensions(shape):
-    """The limit of mode constraint is not where a hanging cloth blows up."""
+def test_one_solve_constraint_stability_limit(shape):
+    """With one solve, hard edges have the stability limit of their tensions."""
     rows, cols = shape
     found = run_edge(
         {'rows': rows, 'cols': cols, 'mode': 'constraint', 'constraint.newton_iterations': 1},

@@ -52,8 +52,8 @@ def test_it_writes_its_results_and_a_choice_that_holds(folder, capsys):
     assert json.loads(capsys.readouterr().out)['dt'] == 0.02
 
 
-def test_a_strain_budget_names_the_cheapest_setting_that_keeps_to_it(folder, capsys):
-    """A user who bounds the stretch would get a setting that stretches more, or a dear one."""
+def test_cheapest_setting_within_a_strain_budget(folder, capsys):
+    """A user who bounds the strain would get a setting above the bound, or a slow one."""
     hard = {'model': 'hard', 'over': {'dt': [0.02, 0.01]},
             'set': {'mode': 'constraint', 'auto_substeps': True}}
     (folder / 'modes.yaml').write_text(yaml.safe_dump(

@@ -197,7 +197,7 @@ def outcome(path, capsys):
     return reason
 
 
-def test_a_bag_cut_at_fifty_places_gives_a_report_or_a_reason(swinging, tmp_path, capsys):
+def test_bag_truncated_at_fifty_places(swinging, tmp_path, capsys):
     """The recording of a crashed run would end in a traceback."""
     file, = swinging.glob('*.mcap')
     content = file.read_bytes()
@@ -216,7 +216,7 @@ def test_a_bag_cut_at_fifty_places_gives_a_report_or_a_reason(swinging, tmp_path
     assert frames == sorted(frames) and frames[0] < frames[-1]
 
 
-def test_cut_metadata_and_databases_give_a_report_or_a_reason(swinging, tmp_path, capsys):
+def test_truncated_metadata_and_databases(swinging, tmp_path, capsys):
     """A bag of ros2 bag record that was killed would end in a traceback."""
     bag = shutil.copytree(swinging, tmp_path / 'bag')
     content = (swinging / 'metadata.yaml').read_bytes()
@@ -280,7 +280,7 @@ def test_other_types_on_our_topics_are_left_out(tmp_path, capsys):
     assert '1.25 J at the end' in shown and 'not recorded       points, state' in shown
 
 
-def test_stats_of_another_version_are_read_as_far_as_they_go(tmp_path, capsys):
+def test_stats_of_another_version(tmp_path, capsys):
     """A recording of last year would be lost."""
     stats = made(
         'cloth_sim_interfaces/msg/ClothStats',

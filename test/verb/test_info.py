@@ -58,9 +58,9 @@ def test_a_recording_cut_off_in_its_first_chunk_is_told_so(
 
 @pytest.mark.parametrize('verb', ['info', 'analyze', 'render', 'resimulate', 'play', 'recover'])
 @pytest.mark.parametrize('left', [(), ('metadata.yaml.new',), ('small_0.mcap',)])
-def test_the_folder_of_a_recording_that_never_got_anything_is_told_so(
+def test_empty_recording_folder_is_named_as_such(
         tmp_path, monkeypatch, capsys, left, verb):
-    """A run killed at its start would be said to be of another program."""
+    """The folder of a run killed at its start would be attributed to another program."""
     monkeypatch.chdir(tmp_path)
     (tmp_path / 'small').mkdir()
     for name in left:

@@ -67,7 +67,7 @@ def test_the_sheet_has_a_row_for_each_run(made):
     assert 200 < per_row < heights['fig10'] / rows['fig10']
 
 
-def test_the_run_beyond_the_limit_stops_and_the_others_do_not(made, stats):
+def test_only_the_run_beyond_the_limit_stops(made, stats):
     """A blow-up would be passed off as a run, or a run as a blow-up."""
     for (figure, name), messages in stats.items():
         states = Recorded(made[figure] / name).messages('state')

@@ -95,7 +95,7 @@ def test_sizes_that_hold_nothing_are_refused(tmp_path, capsys):
     assert not (tmp_path / 'bags').exists()
 
 
-def test_a_lost_recording_is_a_failure_that_keeps_the_result(tmp_path):
+def test_lost_recording_fails_but_keeps_the_result(tmp_path):
     """A script would believe that a run is recorded, or lose the result with the recording."""
     folder = tmp_path / 'bags'
     process = subprocess.Popen(

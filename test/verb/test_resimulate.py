@@ -144,8 +144,8 @@ def test_a_running_node_is_made_again(cloth, recorded, factor):
     assert_same(recorded(), node=cloth.name)
 
 
-def test_a_recording_that_begins_late_in_mass_spring_has_the_same_bits(cloth):
-    """Only runs recorded from their start could be held to their bits."""
+def test_late_mass_spring_recording_has_the_same_bits(cloth):
+    """Only runs recorded from their start could be compared bit by bit."""
     cloth.call(SetPin, 'set_pin', row=4, col=4)
     cloth.call(SetPin, 'set_pin', row=0, col=9, release=True)
     step(cloth, 30)

@@ -125,7 +125,7 @@ def test_both_runs_are_compared(bag, again, tmp_path):
     assert set(tmp_path.rglob('*')) == before
 
 
-def test_clouds_of_other_sizes_are_compared_by_their_figures(bag, again):
+def test_clouds_of_other_sizes_compare_by_figures(bag, again):
     """A comparison of two resolutions would end as an error, or compare other nodes."""
     code, lines, _ = again(bag, '--set', 'rows=9', '--compare')
     assert code == 0

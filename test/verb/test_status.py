@@ -47,7 +47,7 @@ def test_prints_json(verb, cloth):
     assert content['stats']['steps'] == 40
 
 
-def test_what_the_middleware_prints_is_no_part_of_the_answer(cloth, tmp_path):
+def test_middleware_output_is_not_in_the_answer(cloth, tmp_path):
     """A script would read an error of Fast DDS, which it prints to stdout, for the answer."""
     profiles = tmp_path / 'profiles.xml'
     profiles.write_text('<unfinished')

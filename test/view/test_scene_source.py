@@ -89,7 +89,7 @@ def test_what_cannot_be_done_is_told_and_changes_nothing(source: SceneSource, as
     source.step(1)
 
 
-def test_a_run_that_is_lost_stops_with_the_reason_and_can_begin_again():
+def test_lost_run_stops_with_the_reason_and_restarts():
     """The view would stand still without a word."""
     # So light and pushed so hard that squared distances leave the range of float32.
     scene = Scene({

@@ -29,7 +29,7 @@ def frame_of(rows: int, cols: int, strain: np.ndarray | float) -> Frame:
     return Frame(0.0, records)
 
 
-def test_every_triangle_is_drawn_once_in_the_band_of_its_strain():
+def test_triangles_are_drawn_once_by_strain_band():
     """The cloth would have holes, or a colour that stands for another strain."""
     strain = np.random.default_rng(3).uniform(0.0, 0.3, (7, 6)).astype(np.float32)
     frame = frame_of(7, 6, strain)

@@ -124,8 +124,8 @@ def test_what_is_locked_is_installed(tmp_path):
     assert (tmp_path / 'in' / 'towel.py').exists()
 
 
-def test_a_set_up_that_is_killed_while_it_starts_anew_can_be_run_again(tmp_path):
-    """A .venv that was half removed would be taken for somebody else's, and never be mended."""
+def test_setup_after_a_kill_during_a_fresh_start(tmp_path):
+    """A half removed .venv would be taken for the user's own, and never be repaired."""
     venv = tmp_path / '.venv'
     (venv / '.setup').mkdir(parents=True)
     for name in ('a', 'lib', 'z'):

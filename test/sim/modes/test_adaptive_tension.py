@@ -43,8 +43,8 @@ def paper_pull(scene, before, after):
     return np.where(held, after.tension, springs_of(scene, before))
 
 
-def test_tensions_of_the_papers_scheme_are_what_moves_the_nodes(context):
-    """A tension would be told of another edge than the one that is held, or be another force."""
+def test_paper_tensions_match_the_motion(context):
+    """A tension would be reported for the wrong edge, or differ from the force applied."""
     scene = Scene({**SCENE, 'adaptive.scheme': 'paper'})
     with closing(Simulation(scene, context=context)) as simulation:
         simulation.advance(0.35)
@@ -66,8 +66,8 @@ def test_tensions_of_the_papers_scheme_are_what_moves_the_nodes(context):
 
 
 @pytest.mark.parametrize('scheme', ['constraint', 'paper'])
-def test_a_cloth_within_its_limit_has_the_tension_of_its_springs(context, scheme):
-    """What held an edge long ago would still be told, or what another mode left."""
+def test_tension_within_the_limit_is_the_springs(context, scheme):
+    """A past limit force, or one of the mode before, would still be reported."""
     scene = Scene({**SCENE, 'adaptive.scheme': scheme})
     with closing(Simulation(scene, context=context)) as simulation:
         simulation.advance(0.1)

@@ -18,8 +18,8 @@ def _distance_to_border(positions, push):
     return np.abs(away - push.radius).min()
 
 
-def test_spheres_take_the_nodes_that_are_there_when_they_begin(simulate, within, mode, layout):
-    """A push in a sphere takes the nodes of the start pose, or other pushes' nodes."""
+def test_sphere_push_selects_nodes_at_its_start(simulate, within, mode, layout):
+    """A push in a sphere would act on the nodes of the start pose, or of other pushes."""
     pushes = [
         Push((0.0, 0.3, 1.0), 0.2, 0.1, 'sphere', (0.1, 0.3, 0.85), 0.323),
         Push((0.2, 0.0, -0.5), 0.215, 0.2, 'sphere', (-0.3, 0.2, 0.9), 0.305),

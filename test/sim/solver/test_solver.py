@@ -88,8 +88,8 @@ def test_apply_moves_the_cloth(make_case, kind):
     assert np.array_equal(positions[~case.free[..., 0]], case.positions[~case.free[..., 0]])
 
 
-def test_apply_after_a_further_solve_moves_by_what_that_adds(make_case, kind):
-    """Nodes would move for two steps in one, or their velocities not with them."""
+def test_second_apply_adds_only_the_difference(make_case, kind):
+    """Nodes would move twice in one step, or their velocities not match."""
     case = make_case({'rows': 9, 'cols': 6}, kind=kind, foresees_turn=True, **FINE)
     case.solve()
     case.apply()

@@ -59,7 +59,7 @@ def test_buffers_hold_all_fields_and_no_more(shape, has_bend, of_cloth):
 
 @pytest.mark.parametrize('texture', [True, False])
 @pytest.mark.parametrize(('side', 'has_bend'), [(890, False), (815, True)])
-def test_eight_hundred_thousand_nodes_fit_into_the_common_limit(side, has_bend, texture):
+def test_800000_nodes_fit_the_common_buffer_limit(side, has_bend, texture):
     """A cloth that this solver is meant for would be refused."""
     # A field of a level has a quarter of the nodes above: 10 fields of all coarse ones are 3 1/3.
     fields = (9 if has_bend else 7) + 10 / 3
@@ -68,7 +68,7 @@ def test_eight_hundred_thousand_nodes_fit_into_the_common_limit(side, has_bend, 
 
 
 @pytest.mark.parametrize('has_bend', [False, True])
-def test_a_cloth_beyond_the_buffers_is_refused_with_the_limit(has_bend):
+def test_cloth_beyond_the_buffer_limit_is_refused(has_bend):
     """The device would cut the system off, and the cloth would fly apart."""
     with pytest.raises(DeviceError, match='rows 2000 x cols 2000.*use up to about') as refused:
         refuse_too_large(levels_of(2000, 2000, has_bend=has_bend), COMMON_LIMIT)

@@ -32,8 +32,8 @@ def test_a_residual_is_told_over_the_change_of_velocity(make_case, kind, iterati
 
 
 @pytest.mark.parametrize('kick', [0.01, 0.04])
-def test_a_small_change_is_measured_by_what_gravity_would_make(make_case, kick):
-    """A cloth at rest would be solved to the last digit, for nothing."""
+def test_tolerance_is_relative_to_gravity(make_case, kick):
+    """A cloth at rest would be solved to rounding, although the result does not change."""
     case = make_case(CLOTH, kick=kick, tolerance=1e-2, max_iterations=100, **PLAIN)
     right = 1e-6 * case.random_vector(3)
     found = case.solve_for(right)
@@ -44,8 +44,8 @@ def test_a_small_change_is_measured_by_what_gravity_would_make(make_case, kick):
         case.system.jacobi_norm(right) / case.least_change(kick), rel=1e-3)
 
 
-def test_a_further_solve_is_measured_by_the_change_of_the_step(make_case):
-    """A second solve would find digits that the first has not, and take as long."""
+def test_second_solve_tolerance_is_relative_to_the_step(make_case):
+    """A second solve would refine below the tolerance of the first, and cost as much."""
     case = make_case(CLOTH, tolerance=1e-5, max_iterations=1000, **PLAIN)
     change = float(np.linalg.norm(case.solve()))
     case.apply()
@@ -74,7 +74,7 @@ def test_the_error_is_about_the_residual(make_case, kind, geometric):
 
 
 @pytest.mark.parametrize('tolerance', [3e-2, 5e-3])
-def test_in_a_falling_cloth_no_solve_is_told_to_be_much_better_than_it_is(
+def test_residual_is_not_optimistic(
         make_case, context, tolerance):
     """
     A run would report that its solves are accurate, and stop each before it is.

@@ -99,8 +99,8 @@ def test_right_side(make_case, shape, kind, foresees_turn, kick):
 
 
 @pytest.mark.parametrize('kind', ['springs', 'limited'])
-def test_a_spring_that_turns_over_meets_no_limit_at_no_length(make_case, kind):
-    """Two nodes that fly through one another would be thrown apart by a limit nobody asked for."""
+def test_no_limit_force_when_a_spring_inverts(make_case, kind):
+    """Two nodes that pass through each other would be repelled by a limit that is not set."""
     positions = np.array([[(0.0, 0.0, 1.0), (0.1, 0.0, 1.0), (0.2, 0.0, 1.0)]])
     velocities = np.array([[(0.0, 0.0, 0.0), (0.0, 0.0, 0.0), (-30.0, 0.0, 0.0)]])
     case = make_case(

@@ -33,8 +33,8 @@ def test_what_is_left_of_nothing_was_not_reached():
     assert not report_of(0.0, 1.0, 1, 0.5).reached
 
 
-def test_one_iteration_without_gravity_is_not_told_as_reached(make_case, preconditioner):
-    """A solve that has just begun would pass as done: nothing has changed, nor would gravity."""
+def test_not_converged_after_one_iteration_without_gravity(make_case, preconditioner):
+    """A solve would be reported as converged: neither a change nor gravity gives a scale."""
     case = make_case(
         {'rows': 12, 'cols': 9}, preconditioner=preconditioner, tolerance=1e-4, max_iterations=1)
     case.solver.clear_tally()
