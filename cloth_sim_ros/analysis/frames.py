@@ -31,13 +31,13 @@ import numpy as np
 _PARAMETERS, _TARGETS, _COMMANDS = (
     'inputs/parameters', 'inputs/collider_target', 'inputs/command')
 COLLIDER_KEYS = (_PARAMETERS, _TARGETS, _COMMANDS)
-# The parameters that tell what the colliders are, and how the scene moves them.
+# Parameter groups of the colliders and of their scheduled motion.
 _GROUPS = ('colliders', 'collider_moves', 'motion')
 
 
 class ColliderHistory:
     """
-    Takes up the messages of the topics COLLIDER_KEYS one after the other.
+    The colliders of a recorded run, from the messages of the topics COLLIDER_KEYS in order.
 
     The scene's moves and the recorded targets are what the run itself has followed, so that no
     frame of /tf is needed. ``problem`` says why there are none though the scene has some; it is
@@ -51,7 +51,7 @@ class ColliderHistory:
         self._paths = FramePaths({})
 
     def read(self, entry: Entry) -> None:
-        """Take up one message."""
+        """Apply one message."""
         if entry.key == _PARAMETERS and entry.message.new_parameters:
             self._begin(entry.message.new_parameters)
         elif entry.key == _TARGETS:

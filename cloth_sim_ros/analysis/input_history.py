@@ -15,7 +15,7 @@ PUSH_KEYS = ('inputs/push', 'inputs/command')
 
 class PushHistory:
     """
-    Takes up the messages of the topics PUSH_KEYS one after the other.
+    The pushes of a recorded run, from the messages of the topics PUSH_KEYS in order.
 
     ``pushes`` are those known so far; one that was ended early has the duration it had.
     """
@@ -25,7 +25,7 @@ class PushHistory:
         self.pushes: list[Push] = []
 
     def read(self, entry: Entry) -> None:
-        """Take up one message."""
+        """Apply one message."""
         if entry.key == 'inputs/push':
             self.pushes.append(_push(entry))
         else:
@@ -69,10 +69,10 @@ class ModeSwitch:
 
 class ModeHistory:
     """
-    Takes up the messages of the topics MODE_KEYS one after the other.
+    The modes of a recorded run, from the messages of the topics MODE_KEYS in order.
 
-    ``switches`` are those while it was recorded; ``first`` is the mode before them, empty where
-    nothing tells it.
+    ``switches`` are those while it was recorded; ``first`` is the mode before them, empty if the
+    recording does not contain it.
     """
 
     def __init__(self) -> None:
@@ -81,10 +81,10 @@ class ModeHistory:
         self.switches: list[ModeSwitch] = []
 
     def read(self, entry: Entry) -> None:
-        """Take up one message."""
+        """Apply one message."""
         mode = entry.message.mode
         if not self._last and not self.switches:
-            # A recording that was begun late may hold a switch from what it does not tell.
+            # A late recording may begin with a switch, whose previous mode is then the first.
             self.first = getattr(entry.message, 'previous_mode', '') or mode
         if mode != self._last:
             self.switches.append(ModeSwitch(entry.time, self._last, mode))

@@ -60,7 +60,7 @@ _NEEDED: dict[str, dict[str, Any]] = {
     'inputs/command': {**_STAMP, 'command': str},
     'inputs/parameters': {'stamp.sec': int, 'stamp.nanosec': int},
 }
-# Of lists in them, what each element has.
+# Fields of the elements of list fields.
 _ELEMENTS: dict[str, dict[str, dict[str, Any]]] = {
     'points': {'fields': {'name': str, 'datatype': int, 'offset': int}},
     'inputs/parameters': {'new_parameters': _PARAMETER, 'changed_parameters': _PARAMETER},

@@ -317,7 +317,7 @@ def _warn(sentence: str) -> None:
 
 
 class _RecordedInputs(Inputs, InputListener):
-    """Records what a simulation hears of."""
+    """Records the inputs that a simulation is notified of."""
 
     def __init__(
             self, recording: RunRecording, simulation: Simulation, frame_id: str,

@@ -8,16 +8,17 @@ class ClothSimError(ValueError):
     """A request that cannot be carried out; it has changed nothing."""
 
 
-# What a message repeats of the input: enough to find it again, however long it is.
+# Inputs quoted in error messages, shortened.
 
+# Max. length of a quoted input [characters]: enough to find it again.
 MOST_SHOWN = 200
-# Of what is cut, so many times as much is looked at: blanks and line ends are left out.
+# Characters read per character shown [1]; blanks and line ends among them are dropped.
 _SPARE = 4
 
 
 def shown(value: object) -> str:
     """Return ``value`` as Python writes it, cut after MOST_SHOWN characters."""
-    # The whole of it may be so large that writing it takes seconds.
+    # repr() of a large value takes seconds.
     part, length = value, 0
     if isinstance(value, (str, bytes, list, tuple)):
         part, length = value[:MOST_SHOWN + 1], len(value)

@@ -7,5 +7,5 @@ import os
 
 # PyOpenGL picks its platform when it is first imported. No other has contexts without a window.
 os.environ['PYOPENGL_PLATFORM'] = 'egl'
-# What Mesa warns of on the way to a device is no news: the refusal tells it, or there is a device.
+# Warnings of Mesa while it looks for a device are not shown: DeviceError reports a failure.
 os.environ.setdefault('EGL_LOG_LEVEL', 'fatal')

@@ -163,7 +163,7 @@ class Buffer:
         refuse_lost_context()
 
     def delete(self) -> None:
-        """Give the memory back."""
+        """Free the memory."""
         if self._texture is not None:
             GL.glDeleteTextures(1, [self._texture])
         GL.glDeleteBuffers(1, [self.name])

@@ -60,7 +60,7 @@ def refuse_lost_context() -> None:
 
 @contextmanager
 def loss_noticed() -> Iterator[None]:
-    """Raise DeviceError in place of what GL calls give in a context that was lost."""
+    """Raise DeviceError instead of the GL errors of a lost context."""
     try:
         yield
     except error.GLError:
@@ -86,8 +86,8 @@ _CORE = (
     EGL.EGL_CONTEXT_MAJOR_VERSION, VERSION[0],
     EGL.EGL_CONTEXT_MINOR_VERSION, VERSION[1],
     EGL.EGL_CONTEXT_OPENGL_PROFILE_MASK, EGL.EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT)
-# Where a driver tells of a reset, context_loss notices it.
-_TELLS_RESETS = (
+# With these attributes the driver reports a reset, which context_loss detects.
+_REPORTS_RESETS = (
     *_CORE, EGL.EGL_CONTEXT_OPENGL_RESET_NOTIFICATION_STRATEGY, EGL.EGL_LOSE_CONTEXT_ON_RESET)
 _ANY: tuple[int, ...] = ()
 
@@ -216,7 +216,7 @@ def _report(display: EGL.EGLDisplay) -> DeviceReport | None:
 
 def _make_core_context(
         display: EGL.EGLDisplay) -> tuple[EGL.EGLDisplay, EGL.EGLContext, tuple[int, ...]] | None:
-    for attributes in (_TELLS_RESETS, _CORE):
+    for attributes in (_REPORTS_RESETS, _CORE):
         context = _make_context(display, attributes)
         if context is not None:
             return display, context, attributes

@@ -68,7 +68,7 @@ _CHOICES = (
 @dataclass(frozen=True)
 class DeviceReport:
     """
-    What a context tells of its device.
+    What a context reports about its device.
 
     :param version: of OpenGL, as the driver writes it
     :param language: version of the shading language

@@ -144,7 +144,7 @@ class DepthBuffer:
         return np.ascontiguousarray(depths[::-1])
 
     def delete(self) -> None:
-        """Give the memory back."""
+        """Free the memory."""
         GL.glDeleteFramebuffers(1, [self._framebuffer])
         GL.glDeleteRenderbuffers(1, [self._buffer])
 
@@ -200,7 +200,7 @@ class DepthTexture:
         GL.glBindTexture(GL.GL_TEXTURE_2D, self._texture)
 
     def delete(self) -> None:
-        """Give the memory back."""
+        """Free the memory."""
         GL.glDeleteFramebuffers(1, [self._framebuffer])
         GL.glDeleteTextures(1, [self._texture])
 

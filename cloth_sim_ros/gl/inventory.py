@@ -13,7 +13,7 @@ from cloth_sim_ros.gl.shader_source import ShaderSource
 
 class Compiled(Protocol):
     """
-    A program, as far as an inventory tells of it.
+    The attributes of a program that an inventory reports.
 
     ``name`` is that of its shader, ``dispatches`` counts its runs.
     """
@@ -24,14 +24,14 @@ class Compiled(Protocol):
 
 
 class Allocated(Protocol):
-    """A buffer, as far as an inventory tells of it."""
+    """The attribute of a buffer that an inventory reports."""
 
     bytes: int  # noqa: A003
 
 
 class Inventory:
     """
-    The programs compiled, and the buffers allocated and not given back, while it was taken.
+    The programs compiled, and the buffers allocated and not freed, while it was taken.
 
     It takes note of the thread it was taken on.
     """

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-"""Read buffers in two parts, between which the device goes on with other work."""
+"""Read buffers asynchronously: begin a read, let the device do other work, finish the read."""
 
 from collections.abc import Callable
 from collections.abc import Sequence
@@ -50,7 +50,7 @@ class ReadBack:
         return self._pending.finish
 
     def delete(self) -> None:
-        """Give the memory back, after what was begun has been finished."""
+        """Finish a pending read, then free the memory."""
         self._settle()
         if self._staging is not None:
             self._staging.delete()

@@ -114,7 +114,7 @@ class CarryCloth(gymnasium.Env[Observation, np.ndarray]):
         """
         Put the cloth back to its start.
 
-        :param seed: of the offsets; None goes on with the random numbers of the last one
+        :param seed: of the offsets; None continues the random numbers of the last seed
         :param options: none are known
         :return: observation and info
         """
@@ -165,7 +165,7 @@ class CarryCloth(gymnasium.Env[Observation, np.ndarray]):
             info)
 
     def close(self) -> None:
-        """Give the device back."""
+        """Release the device."""
         self._simulation.close()
         self._observer.close()
 

@@ -37,7 +37,7 @@ class Part(ABC):
         """Return the array at this time."""
 
     def close(self) -> None:
-        """Give back what it holds on the device."""
+        """Free its memory on the device."""
 
 
 class Positions(Part):
@@ -90,7 +90,7 @@ class Depth(Part):
         return self._camera.draw(simulation.positions(), simulation.colliders)
 
     def close(self) -> None:
-        """Give back what it holds on the device."""
+        """Free its memory on the device."""
         self._camera.close()
 
 
@@ -136,7 +136,7 @@ class Observer:
         return next(iter(seen.values())) if self._is_one else seen
 
     def close(self) -> None:
-        """Give back what it holds on the device."""
+        """Free its memory on the device."""
         for part in self._parts.values():
             part.close()
 

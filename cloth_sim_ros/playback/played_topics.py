@@ -36,7 +36,7 @@ from rosbags.interfaces import QosHistory
 from rosbags.interfaces import QosReliability
 from rosidl_generator_py.import_type_support_impl import UnsupportedTypeSupport
 
-# Of the 4 bytes before a serialised message the second says how its numbers are laid out.
+# Length of the header of a serialised message [bytes]; its second byte gives the byte order.
 _ENCAPSULATION = 4
 _STAMP = 8
 _DEPTH = 10
@@ -103,7 +103,7 @@ class PlayedTopic:
 
     :param name: in the graph, with its namespace
     :param kept: how many of its messages still hold for those who come late
-    :param patience: for a reader to take what it has been sent [s]
+    :param patience: timeout for a reader to acknowledge its messages [s]
     """
 
     def __init__(
@@ -140,7 +140,7 @@ class PlayedTopic:
         return True
 
     def settle(self, patience: float) -> bool:
-        """Wait up to ``patience`` [s] until all readers have all of it; tell whether they have."""
+        """Wait up to ``patience`` [s] for all readers; return whether they have all messages."""
         deadline = time.monotonic() + patience
         done = self._is_taken(0.0)
         while not done and time.monotonic() < deadline:
@@ -280,7 +280,7 @@ def _open(node: Node, topic: BagTopic, options: PlayOptions) -> PlayedTopic:
 
 def _kept(topic: BagTopic, quality: QoSProfile) -> int:
     """Return how many messages from before a late start are to be sent all the same."""
-    # Each tells of some parameters only: all of them together hold.
+    # Each message has some parameters only; a late reader needs them all.
     if topic.name.endswith(f'/{_PARAMETERS.key}') and topic.type_name == _PARAMETERS.type_name:
         return sys.maxsize
     return quality.depth if quality.durability == DurabilityPolicy.TRANSIENT_LOCAL else 0

@@ -93,9 +93,9 @@ class SimulatedClock:
     """
     Publish the stamp of each frame ahead of it, as a node with publish.clock does.
 
-    ``topic`` is what it is published on, which waits for its readers as the others do.
+    ``topic`` is the topic of the clock, which waits for its readers as the others do.
 
-    :param patience: for a reader to take what it has been sent [s]
+    :param patience: timeout for a reader to acknowledge its messages [s]
     """
 
     def __init__(self, node: Node, patience: float = PATIENCE) -> None:
@@ -107,7 +107,7 @@ class SimulatedClock:
         self._latest: Time | None = None
 
     def read(self, message_class: type, data: bytes) -> None:
-        """Take up the stamp of a serialised message of the cloth, if it has one."""
+        """Publish the stamp of a serialised message of the cloth, if it has a new one."""
         if not has_header(message_class):
             return
         stamp = header_stamp(data)

@@ -28,9 +28,9 @@ def project_version() -> str:
         return ''
 
 
-# What a bag states of a topic: its type, the definition of that, and its quality of service.
+# Metadata of a topic in a bag: its type, the definition of that, and its quality of service.
 
-# Of a channel and of its schema, besides their texts.
+# Upper bound of the size of a channel and its schema without their texts [bytes].
 _RECORD_BYTES = 128
 
 
@@ -88,9 +88,9 @@ def yaml_text(content: Any) -> str:
 
 def folder_metadata(folder: Path) -> Mapping[str, Any]:
     """
-    Return what rosbag2 has written of the bag in ``folder``.
+    Return the metadata that rosbag2 has written for the bag in ``folder``.
 
-    It is empty when metadata.yaml is missing, broken or hostile: files tell the same.
+    It is empty when metadata.yaml is missing, broken or hostile: the files have the same data.
     """
     try:
         content = load_yaml(folder / METADATA_NAME)

@@ -20,7 +20,7 @@ from cloth_sim_ros.recording.recording_faults import WatchedFile
 from mcap.writer import CompressionType
 from mcap.writer import Writer
 
-# Of the records of the format, with opcode and length [bytes].
+# Size of the records of the format, with opcode and length [bytes].
 _MESSAGE = 31            # without its data
 _MESSAGE_INDEX = 15      # of a channel in a chunk
 _MESSAGE_INDEX_ENTRY = 16
@@ -76,7 +76,7 @@ class McapSize:
 # One mcap file as rosbag2 writes it.
 
 CHUNK_BYTES = 1024 * 1024
-# Of a metadata record, besides its text.
+# Upper bound of the size of a metadata record without its text [bytes].
 _METADATA_BYTES = 128
 
 

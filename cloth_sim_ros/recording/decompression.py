@@ -10,16 +10,16 @@ from typing import BinaryIO
 from cloth_sim_ros.files.errors import shown
 from cloth_sim_ros.files.regular_file import open_regular
 
-# What is decompressed may have this over what it is made from: [bytes], and times its size. A
-# cloth at rest is recorded with the same bits over and over, and comes near to a hundred.
+# Max. decompressed size: _SPARE [bytes] plus _GAIN [1] times the compressed size. A cloth at rest
+# has the same bits in each frame and reaches a ratio of nearly 100.
 _SPARE = 64 << 20
 _GAIN = 256
-_WINDOW = 1 << 27  # [bytes] that zstd itself allows without being asked for more
+_WINDOW = 1 << 27  # max. window [bytes]; the default limit of zstd
 _BLOCK = 1 << 20
 
 
 def most_bytes(compressed: int) -> int:
-    """Return how many bytes may come of ``compressed`` ones."""
+    """Return the max. decompressed size of ``compressed`` bytes [bytes]."""
     return _SPARE + _GAIN * compressed
 
 

@@ -127,7 +127,7 @@ def _check_chunks(chunks: list[ChunkIndex], end: int) -> None:
             raise ValueError('one of its chunks declares too many bytes')
     if place > end:
         raise ValueError('one of its chunks is beyond its end')
-    # Of two at one moment, the end comes after the begin.
+    # Begins sort before ends at the same time.
     edges = sorted(
         edge for chunk in chunks for edge in (
             (chunk.message_start_time, 0, chunk.uncompressed_size),

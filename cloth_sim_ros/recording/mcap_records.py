@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-"""The records of an mcap file, and what they have said of its topics so far."""
+"""The records of an mcap file, and the topics that they have declared so far."""
 
 from collections.abc import Collection
 from collections.abc import Iterator
@@ -104,7 +104,7 @@ class McapChannels:
         self._channels: dict[int, Channel] = {}
 
     def read(self, record: McapRecord) -> None:
-        """Take up a schema or a channel; any other record is passed over."""
+        """Store a schema or a channel; ignore any other record."""
         if isinstance(record, Schema):
             self._schemas[record.id] = record
         elif isinstance(record, Channel):

@@ -103,7 +103,7 @@ class Recorder:
             on_end: Callable[[], None] | None = None) -> None:
         """Open the recording."""
         try:
-            # Read now, and kept: what is missing is told before anything is recorded.
+            # Definitions are read now, so that a missing one is reported before a run.
             self._channels = {
                 key: topic_channel(topic, node_name) for key, topic in TOPICS.items()
                 if topic.recorded or (key == 'markers' and options.markers)}

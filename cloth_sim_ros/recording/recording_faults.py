@@ -104,7 +104,7 @@ def nothing_flushed(path: Path, finding: str) -> ClothSimError:
     """
     Return the error of the bag or file ``path``.
 
-    :param finding: what is there in place of a recording, behind the path
+    :param finding: state of the file instead of a recording; follows the path in the message
     """
     return ClothSimError(
         f'{path} {finding}: its writer was killed before the first flush, or messages were '

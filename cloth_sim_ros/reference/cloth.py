@@ -55,7 +55,7 @@ def gravitational_energy(
     return -node_mass * float(np.sum(positions @ gravity))
 
 
-# Of a time: what sums of substeps may be off by.
+# Relative tolerance of times [1]: rounding of a sum of substeps.
 _ROUNDED = 1e-12
 
 

@@ -25,13 +25,13 @@ import numpy as np
 
 # The weight is that on the ground: a scene without gravity has the same E.
 STANDARD_GRAVITY = 9.81
-# Of the strain of one edge that carries the whole cloth: what a cloth that hangs by a whole edge,
-# and so from all its lines, stretches by at most.
+# Max. strain of a cloth that hangs by a whole edge, over that of one edge that carries the whole
+# weight [1]. A cloth of few lines, which share the load, has a smaller E for it.
 WHOLE_EDGE = 0.03
-# Bend springs may bend as far as they like: it is not a strain of the cloth.
+# Families with a strain limit. The length of a bend spring is not a strain of the cloth.
 LIMITED = ('structural', 'shear')
-# What an edge that carries the whole cloth is beyond its limit: of the limit, and as a strain. As
-# long before it, it comes into force.
+# Strain beyond the limit of an edge that carries the whole cloth: as a fraction of the limit, and
+# at most [1]. The transition below the limit is as wide.
 BEYOND_LIMIT = 0.1
 MOST_BEYOND = 0.002
 
@@ -71,7 +71,7 @@ class EdgeLaw:
         return lengths - np.clip(lengths, self.shortest, self.longest)
 
     def pull(self, lengths: np.ndarray) -> np.ndarray:
-        """Return what limits pull with, over 1 / E: what is beyond, but for the transition [m]."""
+        """Return the limit tensions times E [m]: excess lengths, smoothed by the transition."""
         return (_past(lengths - self.longest, self.transition)
                 - _past(self.shortest - lengths, self.transition))
 

@@ -133,7 +133,7 @@ class PaperAdaptiveReference(ReferenceCloth):
             self._applied_accelerations(begin, end)
             + (self.inverse_masses[:, None] * forces).reshape(self.positions.shape))
         if active.any():
-            # Of Phi = |d|^2 - L0^2, over |J| = 2 l: the paper's constraint, with unit rows.
+            # The paper's constraint Phi = |d|^2 - L0^2, divided by |J| = 2 l to have unit rows.
             squares = (lengths[active]**2 - edges.rest_length[active]**2) / (
                 2.0 * lengths[active])
             jacobian = edges.jacobian(directions, len(start))[active]

@@ -122,7 +122,7 @@ class Bending:
         dx, dy = scene.spacing
         rigidity = scene['bending.rigidity']
         self.damping: float = scene['bending.damping']  # [s]
-        # Of each line of three nodes, along rows and then along columns.
+        # Second differences and chords of all lines of three nodes, along rows, then columns.
         self._differences, self._chords = (
             sparse.vstack((
                 sparse.kron(sparse.identity(scene.rows), _of_lines(parts, scene.cols)),

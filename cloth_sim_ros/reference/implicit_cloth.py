@@ -21,8 +21,8 @@ from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.scene import Scene
 import numpy as np
 
-# Of the length of an edge that turns in one substep, (omega h)^2 / 2: in the mean over all edges,
-# weighted with the energy that they lose by it; and for any.
+# Max. relative change of an edge's length by its rotation in one substep, (omega h)^2 / 2 [1]: the
+# mean over all edges, weighted with the energy that each loses by it, and the largest.
 MEAN_TURN = 0.002
 LARGEST_TURN = 0.0075
 
@@ -49,8 +49,8 @@ def turn_substep(edges: Edges, positions: np.ndarray, velocities: np.ndarray) ->
         turns.max() / LARGEST_TURN, np.average(turns, weights=squares * turns) / MEAN_TURN))
 
 
-# Of a substep: rounding that is no reason for another one.
-_NOTHING = 1e-9
+# Fraction of a substep that is taken for rounding [1]: no further substep is made for it.
+_SUBSTEP_ROUNDING = 1e-9
 
 
 @dataclass(frozen=True)
@@ -104,7 +104,7 @@ class ImplicitCloth(ReferenceCloth):
             self.law, self.free.ravel(), scene.node_mass, passes or passes_of(scene),
             self.bending)
         self._asked = np.zeros_like(self.positions)
-        # Of the last substep, 0 before the first [s].
+        # Length of the last substep [s]; 0 before the first.
         self._before = 0.0
 
     def move_pin(self, row: int, col: int, velocity: np.ndarray) -> None:
@@ -148,7 +148,7 @@ class ImplicitCloth(ReferenceCloth):
         foreseen = np.where(self.free[..., None], self._foreseen_velocities(), self._asked)
         longest = turn_substep(
             self.law.edges, self.positions.reshape(-1, 3), foreseen.reshape(-1, 3))
-        wanted = max(math.ceil(self.dt / longest - _NOTHING), 1)
+        wanted = max(math.ceil(self.dt / longest - _SUBSTEP_ROUNDING), 1)
         return min(self.scene['refine'] * wanted, self.scene['constraint.max_substeps'])
 
     def _hold(self, now: float, h: float) -> tuple[Step, np.ndarray, int]:

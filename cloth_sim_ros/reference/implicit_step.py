@@ -111,14 +111,14 @@ class EdgeMatrix:
         return change
 
 
-# Of the matrix of bending, over the square of the step: with what acts at its start, the force is
-# that of the mean of the positions before and after, which is stable at any length and takes no
-# energy.
+# Weight of the bending matrix in the system, over h^2 [1]. With the force at the start of the step
+# it gives the force at the midpoint, which is stable at any h and conserves energy.
 _BENDING = 0.5
 
 
-# Of the kinetic energy of what is solved for: what Newton's last step gains by.
-_NOTHING = 1e-22
+# Newton's method ends when the energy of its step is below this fraction of the kinetic energy of
+# the solution [1].
+_CONVERGED = 1e-22
 
 
 @dataclass(frozen=True)
@@ -231,7 +231,7 @@ class ImplicitStep:
             before: np.ndarray | None, h: float,
             damping: sparse.csr_matrix | None = None) -> Step:
         """
-        Return what a step of ``h`` [s] makes of a state.
+        Return the state after a step of ``h`` [s].
 
         :param positions: (nodes, 3) [m]
         :param velocities: (nodes, 3) [m/s]
@@ -314,7 +314,7 @@ class ImplicitStep:
         pull = one.h * self._law(one, change + added)
         scale = self._mass * float(np.sum(one.driven**2) + np.sum(change**2)) + (
             float(np.sum(pull**2)) / self._mass)
-        return float(np.sum(right * added)) <= _NOTHING * scale
+        return float(np.sum(right * added)) <= _CONVERGED * scale
 
     def _share(self, one: _Pass, change: np.ndarray, added: np.ndarray) -> float:
         """Return which share of ``added`` to take: up to the minimum along it, 1 at most."""

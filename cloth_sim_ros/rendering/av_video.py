@@ -51,7 +51,7 @@ class AvVideo:
         if codec != 'libx264':
             stream.bit_rate = round(_BITS * size[0] * size[1] * fps)
         self._stream = stream
-        # What can't be written is told now, not after the first images.
+        # Fails now if the file can't be written, not after the first images.
         self._container.start_encoding()
 
     def write(self, image: np.ndarray) -> None:

@@ -265,5 +265,5 @@ class DepthCamera:
         self._surface.draw_strips(2 * cols, rows - 1)
 
     def close(self) -> None:
-        """Give the device back."""
+        """Release the device."""
         self._context.close()

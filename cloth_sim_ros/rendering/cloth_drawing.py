@@ -34,7 +34,7 @@ CLOTH_DEFINES = {
 LIMIT_DEFINES = {
     **CLOTH_DEFINES, 'HAS_LIMITS': 1, 'FLAG_AT_LIMIT': FLAG_AT_LIMIT,
     # Radius of a dot on a node at its limit, over the shorter side of a cell, with its rim and
-    # without; the grey of the rim; the tint that dots make where they can't be told apart.
+    # without; the grey of the rim; the tint where dots are too small to be seen one by one.
     'DOT_RADIUS': 0.33, 'DOT_INSIDE': 0.22, 'DOT_RIM': 0.1, 'DOT_TINT': 0.3}
 
 

@@ -72,7 +72,7 @@ _STEPS = (1.0, 2.0, 5.0)
 
 
 class StrainRange:
-    """Counts strains by size, so that a share of them can be told without keeping them."""
+    """A histogram of strains, which gives percentiles without the strains being kept."""
 
     def __init__(self) -> None:
         """Begin with no strain."""
@@ -86,7 +86,7 @@ class StrainRange:
         return not math.isnan(self.largest)
 
     def add(self, strain: np.ndarray) -> None:
-        """Take up the strains of a frame, of any shape; those that are no number are left out."""
+        """Add the strains of a frame, of any shape; those that are not finite are ignored."""
         known = strain[np.isfinite(strain)]
         if known.size:
             self.largest = float(np.fmax(self.largest, known.max()))

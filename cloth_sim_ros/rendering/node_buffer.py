@@ -27,10 +27,10 @@ class NodeBuffer:
 
     def load(self, frame: Frame, middle: np.ndarray) -> None:
         """
-        Take up ``frame`` and let shaders read it.
+        Upload ``frame`` for the shaders.
 
-        :param middle: that the shaders' positions are relative to [m]: far from the origin,
-            single precision would be too coarse
+        :param middle: origin of the shaders' positions [m]: far from the world's origin, single
+            precision would be too coarse
         :raises DeviceError: when the cloth is too large for the device
         """
         packed = np.empty((*frame.records.shape, _WORDS), np.float32)
@@ -42,7 +42,7 @@ class NodeBuffer:
 
     def load_points(self, points: np.ndarray, middle: np.ndarray) -> None:
         """
-        Take up places without strain or flags: of a line, (n, 3) [m], or of a cloth.
+        Upload positions without strain or flags: of a line, (n, 3) [m], or of a cloth.
 
         :raises DeviceError: when they are too many for the device
         """
@@ -52,7 +52,7 @@ class NodeBuffer:
 
     def load_surface(self, points: np.ndarray, normals: np.ndarray, middle: np.ndarray) -> None:
         """
-        Take up a surface without strain or flags.
+        Upload a surface without strain or flags.
 
         :param points: (rows, cols, 3) [m]
         :param normals: (rows, cols, 3)

@@ -51,7 +51,7 @@ def write_picture(
     """
     if times is None:
         count = DEFAULT_PANELS if len(sources) == 1 else _DEFAULT_COLUMNS
-        # Of several, that with the most to show is asked.
+        # The source with the most panels sets the times of all.
         times = max((source.default_times(count) for source in sources), key=len)
     picture = draw_picture(sources, [source.frames_at(times) for source in sources], style)
     try:
@@ -108,8 +108,8 @@ def write_run_sheet(
     """
     Draw ``runs`` at ``times`` [s] and write the picture to ``path``.
 
-    A panel later than the end of a run that stopped has words in place of a cloth. What a torn
-    cloth throws out of the view of the others is not seen.
+    A panel later than the end of a run that stopped shows text instead of a cloth. The view fits
+    the runs that did not blow up; nodes of the others outside it are not drawn.
 
     :param runs: label, recording and outcome of each
     :raises ClothSimError: when the file can't be written

@@ -34,7 +34,7 @@ def main(sides: Sequence[int] = SIDES, rounds: int = 9) -> None:
             begin, busy = time.perf_counter(), time.process_time()
             renderer.draw(frame)
             walls[key].append(time.perf_counter() - begin)
-            # Of all threads of this process: of a software device, this is nearly all work.
+            # Time of all threads of this process, which includes a software device.
             processor[key].append(time.process_time() - busy)
     base = next(iter(walls.values()))
     print(f'{next(iter(renderers.values()))[0].device}, {_SIZE[0]} x {_SIZE[1]} pixels')

@@ -245,7 +245,7 @@ class Stage:
             headings)
 
     def close(self) -> None:
-        """Give the device back."""
+        """Release the device."""
         self._renderer.close()
 
 

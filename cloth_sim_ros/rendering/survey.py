@@ -56,7 +56,7 @@ class Extent:
         return float(np.max(self.high - self.low))
 
     def add(self, points: np.ndarray) -> None:
-        """Take up ``points``, (..., 3) [m]; those that are not finite are left out."""
+        """Add ``points``, (..., 3) [m]; those that are not finite are ignored."""
         flat = points.reshape(-1, 3)
         flat = flat[np.isfinite(flat).all(axis=1)]
         if not len(flat):
@@ -68,7 +68,7 @@ class Extent:
         self._farthest[farther] = flat[best[farther]]
 
     def add_nodes(self, positions: np.ndarray) -> None:
-        """Take up a cloth, (rows, cols, 3) [m]; of a fine one, evenly chosen nodes."""
+        """Add a cloth, (rows, cols, 3) [m]; of a fine one, an even selection of nodes."""
         rows, cols = (_chosen(count) for count in positions.shape[:2])
         self.add(positions[np.ix_(rows, cols)])
 
@@ -106,7 +106,7 @@ class Survey:
     Looks at all frames that will be shown, one after the other.
 
     ``shows_pins``, ``shows_grasps``, ``shows_limits``, ``shows_pushes`` and ``shows_colliders``
-    tell what there is to explain.
+    say what a legend has to explain.
     """
 
     def __init__(self) -> None:

@@ -62,7 +62,7 @@ class FfmpegVideo:
         try:
             self._process.stdin.write(np.ascontiguousarray(image).data)
         except BrokenPipeError:
-            # What went wrong is told on closing.
+            # close() raises the error of the program.
             self.close()
 
     def close(self) -> None:

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-"""Give a simulation the inputs of a recording, and tell a listener of it."""
+"""Apply the inputs of a recording to a simulation, and notify a listener of each."""
 
 import math
 from typing import Any
@@ -18,11 +18,11 @@ from cloth_sim_ros.sim.simulation import Simulation
 
 class Listener(InputListener):
     """
-    Hears inputs as they are given, and frames, in the order of the recording.
+    Base class of listeners to the inputs and frames of a replay, in the recorded order; a no-op.
 
-    The simulation is at the moment they belong to. To be derived from; does nothing by itself.
+    On each call the simulation is at the time of the input or frame.
 
-    ``path`` is where what was heard is kept; empty where it is not.
+    ``path`` is where the listener writes them; empty if it does not.
     """
 
     path = ''
@@ -257,7 +257,7 @@ def _frame_move(message: Any) -> tuple[Any, ...]:
 
 class _Losses(InputListener):
     """
-    Hears of grasps that are lost in this run.
+    Is notified of grasps that are lost in this run.
 
     :param times: is given when [s], by the names of the grasps
     """

@@ -58,7 +58,7 @@ class RerunLimits:
         """
         Refuse a ``scene`` whose rows and cols nobody asked for and no cloud shows.
 
-        :param changes: parameters given in place of recorded ones
+        :param changes: parameters that replace recorded ones
         :raises ClothSimError: when it is so
         """
         size, shown = (scene.rows, scene.cols), self._run.shown_size
@@ -109,11 +109,11 @@ class Rerun:
     It makes as many steps of dt between them as the recorded run did, and is compared with it at
     each recorded frame.
 
-    ``changed`` names the parameters that are not as recorded, ``check`` tells of the frames,
-    ``inputs`` counts what was done to the cloth, ``problem`` says why the run has stopped and is
+    ``changed`` names the parameters that are not as recorded, ``check`` is the comparison of the
+    frames, ``inputs`` counts the inputs by kind, ``problem`` says why the run has stopped and is
     empty when it has not.
 
-    :param changes: parameters of the scene in place of the recorded ones, by name; a mode holds
+    :param changes: parameters of the scene that replace the recorded ones, by name; a mode holds
         for the whole run
     :raises ClothSimError: when it can't be made
     :raises DeviceError: when there is no GL device for it
@@ -206,7 +206,7 @@ class Rerun:
             listener.stop()
 
     def close(self) -> None:
-        """Give everything on the device back."""
+        """Free everything on the device."""
         self.simulation.close()
 
     def _advance_to(self, entry: Entry) -> None:
@@ -227,7 +227,7 @@ class Rerun:
             self._worked += time.perf_counter() - begin
 
     def _show(self, entry: Entry, listener: Listener) -> bool:
-        """Compare and tell of a frame; return whether it is a new one."""
+        """Compare a frame and notify the listener; return whether it is a new one."""
         if entry.key == 'stats' and self._has_cloud:
             # It belongs to the cloud before it.
             self._has_cloud = False
@@ -257,7 +257,7 @@ class Rerun:
         if recorded.shape != (scene.rows, scene.cols):
             self.check.other_grids += 1
             return
-        # A run that goes on from a recorded state has no step before it in which nodes touched.
+        # A run that starts from a recorded state has no previous step, so no contact flags.
         unknown_flags = FLAG_TOUCHING if self._now() == self._first and self._first[1] else 0
         self.check.compare(
             entry.time, recorded, self.simulation.snapshot().records, unknown_flags)

@@ -29,8 +29,8 @@ class RunStart:
     """
     The beginning of a recording: that of its run, or a moment in the middle of it.
 
-    ``unknown`` tells what the recording lacks of the time before, which leaves the bits open;
-    ``refused`` which of the recorded inputs can't be given in this run.
+    ``unknown`` lists the state before the recording that it lacks, so that frames may differ in
+    their bits; ``refused`` the recorded inputs that can't be applied in this run.
 
     :param recorded: the scene as it was recorded
     :param simulation: of the same scene, or of a changed one

@@ -122,11 +122,11 @@ def version_lines(
         missing: tuple[Field, ...], unknown: tuple[str, ...],
         changes: frozenset[str]) -> list[str]:
     """
-    Return what a recording of another version has less and more than this one.
+    Return the lines on parameters that only this version, or only that of the recording, has.
 
     :param missing: parameters of this version that were not recorded
     :param unknown: names of recorded parameters that this version lacks
-    :param changes: names given in place of recorded ones
+    :param changes: names of the parameters that replace recorded ones
     """
     lines = [
         f'not recorded, so the default is used: {field.name} {shown(field.default)}'
