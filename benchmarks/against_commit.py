@@ -63,7 +63,7 @@ for line in sys.stdin:
 @dataclass
 class Contestant:
     """
-    A process that advances a scene when it is told to.
+    A process that advances a scene on request.
 
     :param name: of the code, and of what is changed of its scene
     :param root: of the checkout whose code it runs

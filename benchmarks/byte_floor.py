@@ -88,7 +88,7 @@ TRAFFIC = {
         _INVERSE | {'PRECONDITIONED', 'PRODUCT', 'SOLUTION', 'RESIDUAL', 'DIRECTION', 'IMAGE'},
         frozenset({'DIRECTION', 'IMAGE', 'SOLUTION', 'RESIDUAL', 'PRODUCT'})),
 }
-# Of the solver; the smoothed residual has the place of the product (levels.glsl).
+# Fields of the solver; the smoothed residual shares that of the product (levels.glsl).
 VECTOR_FIELDS = (
     'RESIDUAL', 'PRODUCT', 'PRECONDITIONED', 'DIRECTION', 'IMAGE', 'SOLUTION', 'CHANGE', 'START')
 SYSTEM_FIELDS = (
@@ -146,7 +146,7 @@ class SolverPasses:
         self.state.bind_in()
 
     def delete(self) -> None:
-        """Give everything back."""
+        """Free all resources."""
         self._programs.delete()
         self._right_side.delete()
         self.buffers.delete()

@@ -48,7 +48,7 @@ class CompileTime:
 
 
 def compile_times(values: Mapping[str, Any]) -> tuple[dict[str, CompileTime], float]:
-    """Return the times of all shaders by file, dearest first, and what a first step takes [s]."""
+    """Return the times of all shaders by file, slowest first, and that of a first step [s]."""
     found: defaultdict[str, CompileTime] = defaultdict(CompileTime)
     names: dict[int, str] = {}
     in_use = 0

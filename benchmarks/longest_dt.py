@@ -52,7 +52,7 @@ def pushed_cloth(nodes: int, push: float) -> dict[str, Any]:
 def run_at(
         values: Mapping[str, Any], changes: Mapping[str, Any], dt: float,
         seconds: float) -> LimitRun:
-    """Run the scene by one method at one dt, whatever becomes of it."""
+    """Run the scene by one method at one dt, without the stability check or a stop at NaN."""
     return limit_run(
         {**values, **changes, 'dt': dt}, seconds, check_stability=False,
         stop_at_non_finite=False)

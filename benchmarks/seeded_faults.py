@@ -33,7 +33,7 @@ from cloth_sim_ros.files.checked_yaml import load_yaml
 
 ROOT = Path(__file__).resolve().parents[1]
 FAULTS = Path(__file__).with_suffix('.yaml')
-# Of what is in none of the folders of the package.
+# Test folders of the sources outside the package.
 _PARTS = {'shaders': ('test/sim', 'test/reference', 'test/study', 'test/rendering')}
 # A test that never ends has found something, too [s]: of those named, and of all of a part.
 _PATIENCE = (600.0, 7200.0)
@@ -120,7 +120,7 @@ def seeded(fault: Fault) -> Iterator[None]:
 
 def first_failure(tests: Sequence[str], options: Sequence[str], patience: float) -> str:
     """Return the first of ``tests`` that fails in ``patience`` [s]; empty where all pass."""
-    # Compiled files are told apart by whole seconds, and a fault may be gone within one.
+    # Python dates compiled files in whole seconds, and a fault may last less than one.
     environment = {**os.environ, 'PYTHONDONTWRITEBYTECODE': '1'}
     command = [sys.executable, '-m', 'pytest', '-x', '-q', '-rfE', '--tb=no', *options, *tests]
     process = subprocess.Popen(

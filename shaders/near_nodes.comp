@@ -26,7 +26,7 @@ void main() {
     int inside = int(gl_GlobalInvocationID.x % uint(BLOCK * BLOCK));
     int index = int(block.index) + inside / BLOCK * PITCH + inside % BLOCK;
     vec4 v = velocity_out[index];
-    // Written so that what is no number goes far.
+    // NaN fails the comparison and counts as fast, so that the node is listed.
     float square = dot(v.xyz, v.xyz);
     float way = substep * sqrt(square < 1e30 ? square : 1e30);
     uint bodies = v.w > 0.0 ? near_among(block.bodies, load_position(index).xyz, way) : 0u;

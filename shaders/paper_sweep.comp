@@ -31,7 +31,7 @@ uniform float substep;       // [s]
 uniform float kick;          // [s] what tensions act for, as the springs' forces
 uniform float inverse_mass;  // [1/kg]
 
-// Of constraints that share nodes, the sum grows without it.
+// Compliance of the constraints: without it the sum of those that share nodes diverges.
 #define COMPLIANCE 1e-3
 
 struct Node {

@@ -2,9 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 
 #version 430 core
-// What tells the motion of the cloth as a whole, for each invocation, which adds up STRIP nodes of
-// a column: of velocities or impulses u and positions r, the sums of u, r, r x u and of the
-// products of r.
+// Partial sums for the rigid motion of the cloth. Each invocation sums STRIP nodes of a column:
+// u, r, r x u and the products of r, for velocities or impulses u and positions r.
 
 #include "lattice.glsl"
 #include "state_in.glsl"

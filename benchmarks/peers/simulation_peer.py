@@ -32,5 +32,5 @@ class SimulatedCloth:
         return self._run.positions()
 
     def close(self) -> None:
-        """Give the device's memory back."""
+        """Free the memory on the device."""
         self._run.close()

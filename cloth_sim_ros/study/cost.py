@@ -105,7 +105,7 @@ def _differences(whole: Mapping[str, Any], other: Mapping[str, Any]) -> str:
     for shader, what in gone:
         others = [set(choices.split(', ')) for name, choices in come if name == shader]
         choices = set(what.split(', '))
-        # Of several forms of a shader, the one that is nearest.
+        # A shader can have several variants; the one with most defines in common is compared.
         nearest = max(others, key=lambda each: len(each & choices), default=None)
         words = 'gone' if nearest is None else ', '.join(
             [f'without {name}' for name in sorted(choices - nearest)]

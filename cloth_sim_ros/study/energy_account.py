@@ -23,9 +23,9 @@ from cloth_sim_ros.sim.solver.edge_law import EdgeLaw
 from cloth_sim_ros.sim.solver.edge_law import FAR
 import numpy as np
 
-# Of the cosine between two normals: surfaces below it face each other, as in contact.glsl.
+# Max. cosine between the normals of surfaces that face each other [1], as in contact.glsl.
 _FACING = -0.9
-# Of a derivative [m].
+# Step of finite differences [m].
 _STEP = 1e-5
 
 
@@ -81,8 +81,7 @@ def _normals(body: Collider, positions: np.ndarray) -> np.ndarray:
 
 # What float32 rounds of a number, twice.
 _ROUNDING = 2e-7
-# Of a step: times that are sums of dt are rounded, and a push that acts in all of it does not act
-# in less by that.
+# Fraction of a step that counts as the whole step [1]: times are sums of dt, and rounded.
 _WHOLE = 1.0 - 1e-9
 
 

@@ -27,10 +27,10 @@ Start = Callable[[np.ndarray, np.random.Generator], np.ndarray]
 @dataclass(frozen=True)
 class Extreme:
     """
-    A scene at the end of what can be asked for.
+    A scene at the limits of its parameters.
 
     :param values: scene parameters besides the mode; 8 x 8 nodes where nothing is said
-    :param group: of scenes that are told together
+    :param group: of scenes that are reported together
     :param modes: it is run in
     :param steps: of dt that are made
     :param push: arguments of ``Simulation.push`` before the first step

@@ -48,15 +48,15 @@ from cloth_sim_ros.study.workers import process_context
 from cloth_sim_ros.study.workers import workers_of
 import numpy as np
 
-# Of the most kinetic and elastic energy: gained from nothing.
+# Max. energy gained without work, over the largest kinetic and elastic energy [1].
 MOST_GAIN = 0.1
-# Of hard edges, and of edges at a limit, over the limit (docs/explanation/adaptive.md).
+# Max. strain of hard edges [1]; max. strain over the limit [1] (docs/explanation/adaptive.md).
 _MOST_HARD_STRAIN = 0.05
 _MOST_OVER_LIMIT = 1.5
 _NORMAL_ERROR = 1e-4
-# Of the distance fallen: what float32 and the solver leave of it.
+# Max. error of a free fall, over the distance [1]: float32 and the tolerance of the solver.
 _FALL_ERROR = 1e-2
-# What a way out begins with.
+# First words of the advice in an error message.
 WAYS_OUT = ('set ', 'take ', 'push ', 'stretch ', 'give ', 'use ', 'go on ')
 
 
@@ -148,11 +148,11 @@ def _wrong_fall(run: Simulation, seen: Snapshot, begin: Snapshot) -> list[str]:
     reach = np.abs(begin.positions).max()
     error = np.linalg.norm(moved - fallen)
     if error > _FALL_ERROR * np.linalg.norm(fallen) + 1e-6 * reach:
-        return [f'falls {np.linalg.norm(moved):.3g} m in place of {np.linalg.norm(fallen):.3g} m']
+        return [f'falls {np.linalg.norm(moved):.3g} m instead of {np.linalg.norm(fallen):.3g} m']
     return []
 
 
-# Run an extreme scene, and look for what is nonsense in what comes out.
+# Run an extreme scene, and check that its result is plausible.
 
 _SEED = 3
 

@@ -32,7 +32,7 @@ _DAMPING, _MODE = 'damping', 'mode'
 _AIR, _PUSHES, _PIN_MOVES = 'air', 'pushes', 'pins that move'
 _RIGIDITY = 'bending rigidity'
 SCENE_FEATURES = (_BEND, _RIGIDITY, _SHEAR, _DAMPING, _MODE, _AIR, _PUSHES, _PIN_MOVES)
-# Of the parameters that a feature is left out with.
+# Prefixes of the parameters that are removed to disable a feature.
 _PREFIXES = {_AIR: ('air.', 'gusts.'), _PUSHES: ('pushes.',), _PIN_MOVES: ('pin_moves.',)}
 
 

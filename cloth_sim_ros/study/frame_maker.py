@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-"""Make what a node makes of each frame, without a node: messages, and a recording of them."""
+"""Convert frames to messages and record them, as a node does, but without a node."""
 
 from collections.abc import Collection
 from pathlib import Path

@@ -31,7 +31,7 @@ ROUNDS = 5
 LEAST_GAIN = 1.03
 _CANDIDATES = tuple(Choice(loads, block) for loads, block in product(
     ('texture', 'storage'), (1, 2, 4)))
-# Of a turn, tries of so much wall time [s], of which the fastest counts: other programs slow some
+# Repetitions per turn [1] and wall time of each [s]. The fastest counts: other programs slow some
 # of them down.
 _TRIES = 3
 _TRY = 0.015

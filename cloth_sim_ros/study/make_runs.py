@@ -90,11 +90,11 @@ class Forecast:
     def __init__(self, runs: Iterable[Run]) -> None:
         """Begin with all runs to be made."""
         self._left = {run.key: (_kind(run), _work(run)) for run in runs}
-        # Of each kind: seconds and work of the runs that have ended.
+        # Time [s] and work of the finished runs, by kind.
         self._ended: dict[_Kind, list[tuple[float, float]]] = {}
 
     def end(self, result: Result) -> None:
-        """Take account of a run that has ended."""
+        """Record a finished run."""
         kind, work = self._left.pop(result.key)
         self._ended.setdefault(kind, []).append((result.wall_seconds, work))
 

@@ -29,7 +29,7 @@ from cloth_sim_ros.study.mode_runs import TimedRun
 import numpy as np
 import OpenGL
 
-# Of what is asked for: more is a slip of the keyboard.
+# Max. simulated time [s] and rounds [1] that are accepted; more is taken for a typing error.
 _MOST_SECONDS = 3600.0
 _MOST_ROUNDS = 1000
 

@@ -85,14 +85,14 @@ CONTENDERS = {contender.name: contender for contender in (
         'mode': 'adaptive', 'adaptive.threshold': _STRAIN_LIMIT, 'dt': 0.02,
         'solver.tolerance': 0.04,
         'stiffness.structural': 1e3, 'stiffness.shear': 1e3},
-        # A limit holds springs where it finds them, which may be somewhat beyond it.
+        # A limit engages beyond its strain and holds the edge there, hence the margins.
         StretchBound(peak=2.0 * _STRAIN_LIMIT, percentile=1.2 * _STRAIN_LIMIT)),
 )}
 
 
 # How far the edges of a cloth stretch in a run.
 
-# Of the edges that are measured. Bend springs may stretch: they only stand for bending.
+# Families of the edges that are measured. Bend springs may stretch: they only model bending.
 STRETCHED_FAMILIES = ('structural', 'shear')
 _PERCENTILE = 95.0
 
@@ -276,7 +276,7 @@ class TimedRun:
             self.failure = str(error)
 
     def close(self) -> None:
-        """Give everything on the device back."""
+        """Free everything on the device."""
         self._run.close()
 
     def _time_step(self) -> None:

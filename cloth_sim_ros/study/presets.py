@@ -34,8 +34,8 @@ TAKES_SCENE = True
 
 # Each is the fastest setting within an error, over the side of the cloth.
 BUDGETS = {name: ErrorBudget(error) for name, error in zip(PRESETS, (1e-2, 1e-4, 5e-5, 5e-3))}
-# Those of any scene. On stiff light cloth, which buckles at once, no errors of 0.01 % can be told:
-# a preset that is made for it has a bound of its own.
+# Presets for any scene. Stiff light cloth buckles at once, so that an error of 0.01 % can't be
+# resolved: its preset has its own bound.
 _USUAL = tuple(name for name in PRESETS if name != 'stiff')
 
 

@@ -25,7 +25,7 @@ from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.scene import Scene
 import numpy as np
 
-# Of a source file.
+# Max. size of a source file [bytes].
 _MOST_BYTES = 1 << 24
 
 

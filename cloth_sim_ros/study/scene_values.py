@@ -11,10 +11,10 @@ from cloth_sim_ros.sim.scene import Scene
 
 def given_values(scene: Scene) -> dict[str, Any]:
     """
-    Return what makes ``scene`` again, as plain values: what differs from the defaults.
+    Return the plain values that reproduce ``scene``: those that differ from the defaults.
 
-    What a preset has set is told value by value, so that another one in its place is taken. The
-    material is always told: without one default springs would be left out, and a fabric made.
+    Values set by a preset are written one by one, so that a later preset can override them. The
+    material is always written: without it the default fabric would replace default springs.
     """
     values = {
         field.name: scene[field.name] for field in fields_with_colliders(scene.values)

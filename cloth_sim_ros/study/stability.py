@@ -43,7 +43,7 @@ DTS = (1e-5, 1e-1)
 SIZES = {'rest': (8, 16, 32, 64), 'hanging': (8, 16, 32)}
 DAMPING_FACTORS = (0.0, 1.0, 10.0, 100.0)
 MASS_FACTORS = (1e-2, 1.0, 1e2)
-# Of the cloth's weight; the push acts from 0.05 to 0.15 s.
+# Forces of the push [weights of the cloth]; it acts from 0.05 to 0.15 s.
 PUSHES = (0.0, 1.0, 5.0, 20.0)
 _PUSH_START, _PUSH_SECONDS = 0.05, 0.1
 
@@ -117,7 +117,7 @@ def _heavier(values: Mapping[str, Any], factor: float) -> dict[str, Any]:
 
 
 def _pushed(values: Mapping[str, Any], push: float) -> dict[str, Any]:
-    """Return the scene with one push, upward, in units of the weight, in place of its own."""
+    """Return the scene with one upward push [weights of the cloth] instead of its own pushes."""
     scene = Scene(values)
     weight = _GRAVITY * scene.node_mass * int((~scene.pinned_nodes()).sum())
     alone = {name: value for name, value in values.items() if not name.startswith('pushes.')}

@@ -115,7 +115,7 @@ def _draw_line(
     stiffness = np.geomspace(least, most, _LINE_POINTS)
     mode = scene['mode']
     if AVAILABLE[mode].is_implicit:
-        # Of hard edges: no stiffness is in it.
+        # The limit of hard edges does not depend on a stiffness.
         limits = np.full(_LINE_POINTS, predicted_limit(scene, mode))
     else:
         limits = np.array([

@@ -27,8 +27,8 @@ STABLE = 'stable'
 UNSTABLE = 'unstable'
 REFUSED = 'refused'
 
-# Of the amplitude at the start. A wave that is stable at 0.999 of its limit reaches 22 times what
-# it begins with; at 1.001 of it, a wave grows by 1.09 in each step.
+# Amplitude over that at the start [1] from which a run is unstable. At 0.999 of the limit a stable
+# wave reaches 22; at 1.001 it grows by a factor of 1.09 per step.
 GROWN = 30.0
 
 
@@ -55,7 +55,7 @@ class ProbeOutcome:
 
 def grown(growth: float, substeps: int, detail: str = '') -> ProbeOutcome:
     """Return the outcome of a run whose amplitude has become ``growth`` times that at first."""
-    # Written so that what is no number is unstable.
+    # NaN fails the comparison, and is unstable.
     return ProbeOutcome(STABLE if growth < GROWN else UNSTABLE, growth, substeps, detail)
 
 
@@ -110,7 +110,8 @@ def _energy(run: Simulation) -> float:
 
 # Whether a scene keeps its energy as it moves, in any mode, at one dt.
 
-# Of the most kinetic and elastic energy: gained from nothing, more than the scheme's own error.
+# Max. energy gained without work, over the largest kinetic and elastic energy [1]; above the error
+# of the scheme.
 MOST_GAIN = 0.1
 _MOVING_LOOKS = 25
 
@@ -151,10 +152,11 @@ def moving_probe(
 # A cloth that hangs from its top edge: at rest, and whether it stays in its plane.
 
 _GRAVITY = 9.81
-# Of the stiffness of hard edges: what holds a cloth without shear, whose rows may slide.
+# Stiffness added to the diagonal, over that of hard edges [1]: the rows of a cloth without shear
+# can slide, which makes the matrix singular.
 _HOLD = 1e-9
 _DENSE = 64
-# Of the spacing, out of the plane: edges get longer by its square only.
+# Initial displacement out of the plane, over the spacing [1]; edges lengthen by its square only.
 _OFFSET = 1e-5
 _HANGING_STEPS = 200
 _HANGING_LOOKS = 20

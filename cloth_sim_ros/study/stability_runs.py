@@ -42,7 +42,7 @@ _FACTOR = 2.0
 _MOST_WIDENINGS = 8
 _DENSE = 64
 _TOLERANCE = 1e-4
-# Of a scene that moves: enough for its first fall, and for what grows to be seen.
+# Simulated time of a moving scene [s]: long enough for its first fall and for an instability.
 MOVING_SECONDS = 0.5
 _MOST_STEPS, _MOST_IMPLICIT_STEPS = 2000, 300
 _LONGEST_DT = 1.0

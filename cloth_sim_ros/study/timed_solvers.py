@@ -129,7 +129,7 @@ class PaperSolver:
         return change.reshape(self._shape)
 
     def delete(self) -> None:
-        """Give the buffers back."""
+        """Free the buffers."""
         for buffer in self._buffers.values():
             buffer.delete()
 
@@ -206,7 +206,7 @@ class Step:
     """
     A step to solve.
 
-    :param hard: edges that keep their length, in place of springs
+    :param hard: whether edges are inextensible, instead of springs
     :param dt: its length [s]
     """
 
@@ -250,7 +250,7 @@ class TimedSolver(Protocol):
         """Return dv [m/s], (rows, cols, 3)."""
 
     def delete(self) -> None:
-        """Give the buffers back."""
+        """Free the buffers."""
 
 
 class _SolverStep:
@@ -283,7 +283,7 @@ class _SolverStep:
         self._solver.solve()
 
     def delete(self) -> None:
-        """Give the buffers back."""
+        """Free the buffers."""
         self._solver.delete()
         self._state.delete()
 

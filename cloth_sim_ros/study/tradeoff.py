@@ -77,7 +77,7 @@ def add_arguments(parser: ArgumentParser) -> None:
 
 
 def main(args: Namespace) -> int:
-    """Make the runs and tell what came out."""
+    """Make the runs and print the results."""
     budget = _budget(args)
     grid = load_grid(args.grid or default_grid_path())
     if args.quick:

@@ -31,8 +31,8 @@ float bending_speed(BentLine line, vec3 behind, vec3 here, vec3 ahead) {
     return dot(line.across, ((behind - here) + (ahead - here)) - line.skew * (ahead - behind));
 }
 
-// Of a line by its positions and velocities, over c and the damping time: what it resists along
-// its bend, in xyz; and its skew, in w.
+// Damping force of a line along its bend, over c and the damping time, from its positions and
+// velocities (xyz); its skew (w).
 vec4 line_brake(
         vec4 behind, vec4 here, vec4 ahead, vec3 behind_speed, vec3 here_speed, vec3 ahead_speed) {
     BentLine line = bent_line(behind, here, ahead);

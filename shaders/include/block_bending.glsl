@@ -5,8 +5,8 @@
 
 #include "bending.glsl"
 
-// Of a tile OF with two nodes on each side of the block, and nodes in the tile NODE whose w is 0
-// for a ghost.
+// Second difference in a tile OF with two nodes on each side of the block; NODE is the tile of the
+// nodes, whose w is 0 for a ghost.
 #define BENT(OF, NODE, ROW, COL, DROW, DCOL) second_difference( \
     NODE[ROW - DROW][COL - DCOL].w * NODE[ROW][COL].w * NODE[ROW + DROW][COL + DCOL].w, \
     OF[ROW - DROW][COL - DCOL].xyz, OF[ROW][COL].xyz, OF[ROW + DROW][COL + DCOL].xyz)

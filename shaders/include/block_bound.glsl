@@ -25,7 +25,7 @@ void add_place(inout Bound bound, vec4 x) {
 
 void add_speed(inout Bound bound, vec3 v) {
     float square = dot(v, v);
-    // What is no number goes far.
+    // NaN counts as fast, so that the block is listed.
     bound.fastest = square <= bound.fastest ? bound.fastest : square < 1e30 ? square : 1e30;
 }
 

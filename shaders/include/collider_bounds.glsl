@@ -15,7 +15,7 @@ uniform vec3 collider_centre[COLLIDERS];    // [m] as the substep begins
 uniform float near_limit[COLLIDERS];        // [m] from the centre that a node at rest is near
 uniform float near_share[COLLIDERS];        // of that distance, with what it turns by
 
-// How far at least what is not farther than radius from x has to go to come near to a collider.
+// Min. distance that a point within radius of x has to travel to come near to a collider [m].
 float least_way(int collider, vec3 x, float radius) {
     vec3 arm = x - collider_centre[collider];
     float l = length(arm);
@@ -27,7 +27,8 @@ float least_way(int collider, vec3 x, float radius) {
     return away - (2.0 - near_share[collider]) * radius - near_limit[collider];
 }
 
-// The colliders that it may come near to on such a way, one bit each; all if that is no number.
+// The colliders that such a point may come near to within the distance way [m], one bit each; all
+// if it is NaN.
 uint near_bodies(vec3 x, float radius, float way) {
     uint bodies = 0u;
     for (int collider = 0; collider < COLLIDERS; ++collider) {

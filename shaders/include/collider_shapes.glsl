@@ -14,7 +14,8 @@ vec4 distance_to_core(vec3 p, float radius) {
     return vec4(l > 0.0 ? p / l : vec3(0.0, 0.0, 1.0), l - radius);
 }
 
-// Of q, distances from the surfaces whose normals are x, y and z, negative inside.
+// Normal and distance of a corner; q: distances from its surfaces, whose normals are x, y and z
+// [m], negative inside.
 vec4 distance_to_corner(vec3 q) {
     vec3 outside = max(q, 0.0);
     float l = length(outside);
@@ -27,7 +28,7 @@ vec4 distance_to_corner(vec3 q) {
     return q.y > q.z ? vec4(0.0, 1.0, 0.0, q.y) : vec4(0.0, 0.0, 1.0, q.z);
 }
 
-// Of p, 1 or -1 along each axis.
+// Sign of p along each axis, 1 or -1.
 vec3 side_of(vec3 p) { return mix(vec3(1.0), vec3(-1.0), lessThan(p, vec3(0.0))); }
 
 vec4 distance_to_shape(int shape, vec3 size, vec3 p) {

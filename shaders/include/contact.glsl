@@ -37,8 +37,8 @@ struct Contact {
     int kind;
 };
 
-// Of the last node that was asked for: which colliders it touches, and the change of velocity that
-// each of them makes.
+// Contacts of the last node passed to find_surfaces: the colliders it touches, and the change of
+// velocity by each of them.
 int touched_count;
 int touched[MOST_TOUCHED];
 vec4 surface[MOST_TOUCHED];  // normal, and distance less the clearance [m]
@@ -173,7 +173,7 @@ float lacking(int i, vec3 x, vec3 v, float h) {
     return least - dot(surface[i].xyz, v - carried[i]);
 }
 
-// What the surface i makes of the velocity w relative to it.
+// The velocity w relative to the surface i after contact and friction.
 vec3 held(int i, vec3 w, float closest, float h, out int kind) {
     vec4 near = surface[i];
     float friction = collider_friction[touched[i]];
@@ -294,8 +294,8 @@ void act_together(vec3 x, vec3 v, float h, float change, inout Contact found) {
 }
 #endif
 
-// The velocity of a node at x in the next h seconds, v without these bodies. It comes as far as the
-// velocity towards takes it: what edges pull with, and a surface holds, takes it nowhere.
+// The velocity of a node at x in the next h seconds, v without these bodies. Contact is decided by
+// the displacement h * towards: the part of v that a surface balances moves the node nowhere.
 Contact contact_with(uint bodies, vec3 x, vec3 towards, vec3 v, float h) {
     find_surfaces(bodies, x, towards, v, h);
     Contact found = Contact(v, vec3(0.0), FREE);

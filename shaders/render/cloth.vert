@@ -30,7 +30,7 @@ void main() {
     int node = node_index(row, col);
     vec4 found = position_and_strain(node);
 #ifdef SHADOW
-    // Of a lamp straight above.
+    // Shadow of a lamp straight above.
     gl_Position = seen(vec3(found.xy, floor_z));
 #else
     normal = normal_and_flags(node).xyz;

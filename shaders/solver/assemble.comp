@@ -59,7 +59,7 @@ void main() {
         vec4 grip = load_grip(index);
         diagonal += grip.w * (scaled_identity(1.0) - outer_square(grip.xyz));
         inverse_block = moves * inverse_above(diagonal, 1.0);
-        // Of the block along the surface, or the line, that the node slides on.
+        // Inverse of the block along the surface, or the line, that the node slides on.
         vec3 image = times(inverse_block, contact.xyz);
         Symmetric in_surface =
             inverse_block - outer_square(image) / max(dot(contact.xyz, image), 1e-30);

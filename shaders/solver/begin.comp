@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 
 #version 430 core
-// Before the first iteration: where the solution starts, what that leaves of the right side and of what
-// the pass before has left, and its first smoothing.
+// Before the first iteration: the initial solution, its residual by the right side and by the
+// residual of the previous pass, and the first smoothing.
 
 #include "solver/levels.glsl"
 #include "solver/vectors.glsl"
@@ -13,9 +13,9 @@
 
 layout(local_size_x = LOCAL_X, local_size_y = LOCAL_Y) in;
 
-uniform int start_field;  // where the solution starts, of which
-uniform float guess;      // this share
-uniform float left_share; // of what the pass before has left: 1, or 0 where there was none
+uniform int start_field;  // field of the initial solution
+uniform float guess;      // factor of start_field [1]
+uniform float left_share; // factor of the residual of the previous pass: 1, or 0 without one
 
 void main() {
     ivec2 first = first_of_block();

@@ -112,7 +112,7 @@ float slowest(vec3 x) { return rounding(x, touched[0]) / substep; }
 // Whether what slides goes farther than a node may without another solve.
 bool is_fast(float speed) { return substep * speed > most_unsolved; }
 
-// Have friction resist in the solve, by most at this speed; done is what it has given before.
+// Let friction act in the solve as a drag of coefficient most / speed; done: its impulse so far.
 void hold_fast(inout Hold hold, float most, float speed, vec3 slid, vec3 done) {
     hold.grip = most / speed;
     hold.impulse = -hold.grip * slid - done;
@@ -187,17 +187,17 @@ void decide(int at, int index, inout vec4 x, inout vec4 v) {
         hold.impulse = friction * min(most / max(length(friction), 1e-30), 1.0);
     }
     keep(index, hold, hold.change);
-    // What the solve starts with: nothing where the node can't go, and where no change is known,
-    // what the law makes of it without its neighbours.
+    // Initial solution: zero along directions the node can't move in; without a previous change,
+    // the contact law applied to the node alone.
     vec3 start = guess > 0.0 ? last
         : hold.kind == FREE ? vec3(0.0) : contact.velocity - v.xyz;
     store_vector(
         cloth_entry(CHANGE, index), hold.kind == FREE ? start : along_surface(hold, start));
 }
 #elif STAGE == AGAIN
-// Let friction hold a node or have it slide, by its velocity v after a solve.
-void rub(inout Hold hold, Contact contact, vec3 v, vec3 x, vec3 reaction, int was,
-         float was_grip, inout float turns) {
+// Decide whether friction makes a node stick or slide, by its velocity v after a solve.
+void apply_friction(inout Hold hold, Contact contact, vec3 v, vec3 x, vec3 reaction, int was,
+                    float was_grip, inout float turns) {
     vec3 slid = sliding(hold, v);
     vec3 done = along_surface(hold, reaction);
     float most = most_friction();
@@ -246,7 +246,7 @@ void decide(int at, int index, inout vec4 x, inout vec4 v) {
     }
     Hold hold = hold_of(contact, v.xyz);
     if (contact.kind == FREE && turns >= LET_GO) {
-        // What was let go once goes on to touch.
+        // A node that was released once stays in contact, so that the turns end.
         hold.kind = was;
         hold.normal = system_data[cloth_entry(CONTACT, index)].xyz;
         hold.grip = was_grip;
@@ -254,7 +254,8 @@ void decide(int at, int index, inout vec4 x, inout vec4 v) {
         hold.impulse = -reaction;
         turns = LET_GO;
     } else if (hold.kind != STICKS) {
-        rub(hold, contact, v.xyz + hold.change, begin, reaction, was, was_grip, turns);
+        apply_friction(
+            hold, contact, v.xyz + hold.change, begin, reaction, was, was_grip, turns);
     }
     vectors[cloth_entry(REACTION, index)].w = turns;
     if (substep * max(length(hold.change), length(hold.impulse)) > most_unsolved) {

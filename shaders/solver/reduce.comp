@@ -29,7 +29,8 @@ layout(std430, binding = SOLVER_SUMS) readonly buffer PartialSums { vec4 partial
 #define LOAD_SUMS(i) partial_sums[i].xyz
 #endif
 
-// Of the measure, which is a square: later steps leave 0.3 to 0.6 of its root.
+// Min. ratio of the measure by one step [1]. It is a square; steps after the first reduce its root
+// by a factor of 0.3 to 0.6.
 #define LEAST_KEPT 0.25
 
 uniform int groups_count;
@@ -47,7 +48,7 @@ void decide(float now, float curvature, float size) {
     float bent = first ? curvature : curvature - keep * now / step_length;
     bool sound = now > 0.0 && bent > 0.0;
     step_length = sound ? now / bent : 0.0;
-    // A system without a solution is not passed over: the nodes are lost, and that is seen.
+    // NaN in the system is passed on to the nodes, so that it is detected.
     if (!is_number(now) || !is_number(bent)) {
         step_length = uintBitsToFloat(0x7fc00000u);
         sound = false;
@@ -55,10 +56,10 @@ void decide(float now, float curvature, float size) {
     measure = now;
     measure_start = start;
     iterations += first && !sound ? 0.0 : 1.0;
-    // The step just found is made, and reduces the measure as the last one did, but no more than
-    // LEAST_KEPT: the first step takes ten or thirty times as much off, and is no guide. What is not
-    // sound makes no step, and stays what it is: a NaN, for one. Below zero is no small residual,
-    // but a preconditioner that is wrong.
+    // Estimate of the measure after this step: reduced by the same factor as by the last step, at
+    // most by LEAST_KEPT. The first step reduces it 10 to 30 times as much, which does not predict
+    // the next. An unsound measure makes no step and is kept: a NaN, or a negative one, which is
+    // not a small residual but an indefinite preconditioner.
     measure_after = first || !sound ? abs(now) : now * clamp(keep, LEAST_KEPT, 1.0);
     if (sets_scale) {
         scale = max(size, least_scale);

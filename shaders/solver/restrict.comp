@@ -15,7 +15,7 @@ layout(local_size_x = LOCAL_X, local_size_y = LOCAL_Y) in;
 #define COARSE_BLOCK 2  // nodes along each side of an invocation
 #define FINER_TILE (2 * COARSE_BLOCK + 2)
 
-// Of the four finer nodes around a coarse one along a side of the level.
+// Weights of the four finer nodes around a coarse one along a side of the level.
 vec4 shares(int at, int count) {
     return vec4(
         at > 0 ? 0.25 : 0.0, at > 0 ? 0.75 : 1.0,

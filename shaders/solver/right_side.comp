@@ -55,9 +55,9 @@ float rounding_of_length(vec3 from, vec3 to) {
 }
 
 #if HAS_CONTACT
-// Where both ends of an edge touch a surface, its tension stays as it was found last, within what its
-// length is rounded by: a hard edge would pull by that as weak friction does, and have nodes stick
-// or slide as it comes.
+// If both ends of an edge touch a surface, its tension is kept while its length changes by less
+// than rounding: in a hard edge, the tension by rounding is as large as weak friction and would
+// make nodes stick or slide at random.
 float touches[TILE][TILE];  // 1 where a node does, else 0
 #endif
 

@@ -18,7 +18,7 @@ layout(std430, binding = SOLVER_TALLY) buffer Tally {
 };
 
 uniform float tolerance_square;
-uniform bool is_final;  // false where another solve goes on from there
+uniform bool is_final;  // false if another solve continues this one
 
 void main() {
     most_iterations = max(most_iterations, iterations);
@@ -26,7 +26,7 @@ void main() {
     all_iterations += iterations;
     // Rounding alone makes it negative.
     float residual = abs(scale > 0.0 ? measure_after / scale : measure_after);
-    // Written so that what is no number counts as not reached, and stays.
+    // NaN fails the comparisons: it counts as not reached, and is stored in worst_residual.
     bool reached = scale >= 0.0 && residual <= tolerance_square;
     if (is_final) {
         unreached += reached ? 0.0 : 1.0;

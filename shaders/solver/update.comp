@@ -33,7 +33,7 @@ void main() {
             direction += kept * load(DIRECTION, index);
             image += kept * load(IMAGE, index);
         }
-        // Also where it is no number.
+        // A NaN is applied, too, so that it is detected.
         if (!(length == 0.0)) {
             solution += length * direction;
             residual -= length * image;

@@ -26,8 +26,8 @@ _STIFFNESS = 100.0
 _DAMPING_TIME = 1e-4  # [s]
 _BEND_SHARE = 0.1
 _DRAPE_SECONDS = 0.5
-# A finer cloth in mode adaptive takes up what one as coarse as this has come to, which takes
-# seconds in place of minutes; then it makes some steps of its own.
+# Nodes per side of the coarse cloth whose draped state a finer one in mode adaptive starts from,
+# which takes seconds instead of minutes; _OWN_STEPS steps follow.
 _COARSE = 32
 # Springs cost the same in any state.
 _MOST_STEPS = {'constraint': 20, 'adaptive': 5}
@@ -132,7 +132,7 @@ def square(method: str, side: int, families: tuple[str, ...] = FAMILIES) -> Pape
 
 
 TWO_FAMILIES = ('structural', 'shear')
-# Of what prints 10 rows, in its order; 147,456 nodes are 384 x 384.
+# Cloths of the paper's table with 10 rows, in its order; 147,456 nodes are 384 x 384.
 TABLE_10 = (
     *(square('mass_spring', side) for side in (384, 512, 640, 768, 896)),
     *(square('constraint', side) for side in (12, 14, 16, 18, 20)))

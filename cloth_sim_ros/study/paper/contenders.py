@@ -40,7 +40,7 @@ class Program(Protocol):
         """Return when all steps are done."""
 
     def close(self) -> None:
-        """Give everything back."""
+        """Free all resources."""
 
 
 @dataclass(frozen=True)
@@ -106,7 +106,7 @@ class PaperConstraintCloth:
         """Do nothing: the host has waited for the solution."""
 
     def close(self) -> None:
-        """Give the buffers back."""
+        """Free the buffers."""
         self._solver.delete()
 
 

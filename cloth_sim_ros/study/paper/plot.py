@@ -20,7 +20,7 @@ from matplotlib.ticker import NullFormatter
 
 _SIZE = (11.0, 5.4)
 _DPI = 110
-# Serial programs in greys, shaders in colours that are told apart without colour vision.
+# Serial programs in greys, shaders in colours that are distinct without colour vision.
 _COLOURS = {
     'serial': '#606060', "serial, the paper's matrix": '#606060', 'serial, no matrix': '#a0a0a0',
     "GLSL, the paper's two passes": '#d55e00', "GLSL, the paper's solver": '#d55e00',

@@ -46,7 +46,7 @@ class SerialCloth(Protocol):
         """Return when all steps are done."""
 
     def close(self) -> None:
-        """Give everything back."""
+        """Free all resources."""
 
 
 def serial_cloth(

@@ -33,7 +33,7 @@ from cloth_sim_ros.study.paper.serial import CompiledCloth
 from cloth_sim_ros.study.paper.serial_model import NumpyCloth
 from cloth_sim_ros.study.workers import Workers
 
-# Of the bound of a row: what takes longer for one step is timed once, and not again in rounds.
+# Step time over the bound of a row [1] above which a program is timed once, not in rounds.
 _LONG_STEP = 0.1
 
 
@@ -46,7 +46,7 @@ class Speed:
     :param rounds: of each round; a single one where a step takes long
     :param ratios: to the serial program of the paper in each round
     :param plain_ratios: to the serial program without a matrix, where there is one, in each round
-    :param detail: what it is, or how much it had to solve
+    :param detail: description of the program, or size of the system it solved
     :param reason: why it was not run
     """
 
@@ -90,8 +90,8 @@ def time_alone(
     """
     Return what ``time_cloth`` finds in a process of its own.
 
-    A process keeps the worker threads that its first context was made with, and a large cloth
-    gives all memory back.
+    A process keeps the worker threads that its first context was made with, and its end frees all
+    memory of a large cloth.
     """
     try:
         with Workers(jobs=1).executor(1) as (executor, _):
@@ -182,7 +182,7 @@ class _Run:
         self._detail = _Detail()
 
     def start(self, state: State, turn_seconds: float) -> None:
-        """Compile, and make the first step, which tells how many make a turn."""
+        """Compile, and time the first step, which gives the number of steps in a turn."""
         least = self.contender.least_seconds(self._cloth, self._context)
         if least > self._bound:
             self.reason = (

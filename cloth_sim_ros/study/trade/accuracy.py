@@ -79,10 +79,10 @@ class Reference:
 
 def extrapolated(results: Sequence[Result], refine: Sequence[int]) -> Reference:
     """
-    Return the reference that runs of first order point to.
+    Return the reference by Richardson extrapolation of first order.
 
-    With errors of first order in the substep, the last two runs tell where an endless refinement
-    leads; the two before them do, too, and the difference is what the last step changed.
+    With errors of first order in the substep, the last two runs give the limit of refinement. So
+    do the two before them, and the difference is the change by the last refinement.
 
     :param results: coarse to fine, all done
     :param refine: how fine each is

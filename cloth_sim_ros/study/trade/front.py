@@ -12,7 +12,7 @@ from cloth_sim_ros.study.trade.accuracy import Errors
 from cloth_sim_ros.study.trade.grid import Setting
 from cloth_sim_ros.study.trade.grid import Variant
 
-# Of the side: what is off by more shows another motion, and is no choice at any cost.
+# Max. error over the side of the cloth [1]; above it the motion is another one.
 WORST_ERROR = 0.1
 
 

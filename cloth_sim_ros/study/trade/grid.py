@@ -95,13 +95,13 @@ _PARTS = ('times', 'frame', 'variants', 'reference', 'cost', 'methods')
 @dataclass(frozen=True)
 class Setting:
     """
-    Scene parameters that say how to step, and what they are a way to step.
+    Scene parameters of a way to step, and the method that they belong to.
 
     :param method: its name in the grid
     :param model: what finer and finer settings of the method converge to: springs, hard edges or
         springs with a limit
     :param fixed: parameters that all settings of the method have
-    :param chosen: parameters that tell this setting from the others
+    :param chosen: parameters that differ between the settings of the method
     """
 
     method: str
@@ -125,7 +125,7 @@ class Setting:
 @dataclass(frozen=True)
 class Grid:
     """
-    What is measured; the file that ships with the project tells what each part is.
+    The runs of a trade-off study; the grid file of the project documents each part.
 
     :param converged: what the reference may change by, over the side, where a time counts
     :param loosely_converged: the same for variants of the scene, and for a scene whose reference

@@ -220,7 +220,7 @@ def _name(row: Row) -> tuple[Variant, str, str]:
     return row.variant, row.setting.method, row.setting.label
 
 
-# Measure a choice again, and tell whether it keeps to its budget.
+# Measure a choice again, and report whether it stays within its budget.
 
 
 def check(

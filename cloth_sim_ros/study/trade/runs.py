@@ -16,7 +16,7 @@ from cloth_sim_ros.sim.simulation import Simulation
 from cloth_sim_ros.sim.simulation import SINGLE_THREAD_NODES
 import numpy as np
 
-# Of the springs of the cloth in an iteration of each solver: the product, and the cycle.
+# Passes over the springs of the cloth per iteration [1]: the product, and the multigrid cycle.
 _PASSES = {'multigrid': 6, 'block_jacobi': 1}
 ENERGIES = ('kinetic_energy', 'elastic_energy', 'gravitational_energy')
 

@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 // SPDX-License-Identifier: Apache-2.0
 
-// What an edge of the cloth resists, as a tensor, from where right_side.comp has left it.
+// Stiffness tensor of an edge of the cloth, from the entries that right_side.comp has stored.
 
 #include "solver/edge_slots.glsl"
 
 vec4 load_node(ivec2 at) { return load_system(cloth_entry(NODE, node_index(at.x, at.y))); }
 
-// Of the edge from the node at (row, column) to the one by away.
+// Tensor of the edge between the nodes at and at + by.
 Symmetric edge_block(ivec2 at, ivec2 by, int edge) {
     int index = node_index(at.x, at.y);
     vec3 d = load_node(at).xyz - load_node(at + by).xyz;

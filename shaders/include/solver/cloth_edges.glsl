@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 // SPDX-License-Identifier: Apache-2.0
 
-// How much the edges of a tile resist, as right_side.comp has left it.
+// Stiffness of the edges of a tile, from the entries that right_side.comp has stored.
 
 #include "solver/edge_slots.glsl"
 

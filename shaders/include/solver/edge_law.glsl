@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 // SPDX-License-Identifier: Apache-2.0
 
-// How hard an edge pulls, over the node mass: see sim/solver/edge_law.py.
+// Tension of an edge over the node mass: see sim/solver/edge_law.py.
 
 // Structural, shear, bend:
 uniform float shortest[3];         // [rest lengths] below which the lower limit pulls
@@ -11,14 +11,14 @@ uniform float edge_stiffness[5];   // [1/s2]
 uniform float edge_damping[5];     // [1/s]
 uniform float limit_stiffness[5];  // [1/s2]
 uniform float rest_length[5];      // [m]
-uniform float transition;          // [rest lengths] within which of a limit it comes into force
+uniform float transition;          // [rest lengths] half width of the onset of a limit
 uniform bool judges_by_tension;
 
-// In rest lengths, no limit at all.
+// Length that stands for no limit [rest lengths].
 #define NO_LIMIT 1e29
 
-// The energy of a limit over its stiffness where a length is d past it. It comes into force from w
-// before it to w past it, so that Newton's method meets no kinks.
+// Energy of a limit over its stiffness at a length d past it [m2]. The onset is from -w to w, so
+// that the tension has no kink for Newton's method.
 float energy_past(float d, float w) {
     float part = clamp((d + w) * (0.5 / max(w, 1e-30)), 0.0, 1.0);
     float further = max(d - w, 0.0);
@@ -35,20 +35,20 @@ float stored_energy(float l, int family, int rest) {
             + energy_past(shortest[family] * rest_l - l, width));
 }
 
-// How far past its limits an edge counts [m], above 0 if too long, and how much more so for each
-// metre more of length: times limit_stiffness that is what they pull with.
+// Length beyond the limits [m], positive if too long, and its derivative by the length [1]. Times
+// limit_stiffness they are the tension of the limits and its slope.
 struct Past {
     float amount;
     float slope;
 };
 
-// Of an edge of length l, by the straight line that touches the law at the length judged. No more
-// than one limit is in force there: they are further apart than their transitions are wide.
+// Length beyond the limits of an edge of length l, linearised at the length judged. At most one
+// limit acts there: their distance exceeds the width of their transitions.
 Past past_limits(float l, float judged, int family, int rest) {
     float rest_l = rest_length[rest];
     float least = shortest[family] * rest_l;
     float most = longest[family] * rest_l;
-    // A hard edge pulls and pushes at any length: all of its limit is always in force.
+    // The limits of a hard edge coincide, and act at any length.
     bool is_hard = shortest[family] == longest[family];
     float width = is_hard ? 0.0 : transition * rest_l;
     float rise = is_hard ? 0.0 : 0.5 / max(width, 1e-30);
@@ -60,7 +60,7 @@ Past past_limits(float l, float judged, int family, int rest) {
         side * (width * slope * slope + max(beyond - width, 0.0)) + slope * (l - judged), slope);
 }
 
-// The pull of an edge [m/s2], and how much more it is for each metre more of length [1/s2].
+// Tension of an edge over the node mass [m/s2], and its derivative by the length [1/s2].
 struct Pull {
     float tension;
     float slope;

@@ -19,13 +19,13 @@ uniform int level;
 #define SMOOTHED_TWICE 2  // after the second
 #define DEFECT 1          // what that left of RESIDUAL
 #define CORRECTED 1       // with the correction of the level below, and smoothed again
-#define PRECONDITIONED 2  // smoothed a last time: what the preconditioner makes of RESIDUAL
+#define PRECONDITIONED 2  // smoothed a last time: the preconditioner applied to RESIDUAL
 #define PRODUCT 1         // level 0: the matrix times PRECONDITIONED
 #define DIRECTION 3       // level 0 only, as those that follow
 #define IMAGE 4           // the matrix times DIRECTION
 #define SOLUTION 5
 #define CHANGE 6          // of the velocity in the whole step
-#define START 7           // of a solve that goes on from another
+#define START 7           // initial solution of a solve that continues another
 #define LEFT 8            // of RESIDUAL, by the pass before
 #define BEGIN_POSITION 9  // with contact, as those that follow: where the substep began
 #define BEGIN_VELOCITY 10 // and with which velocity
