@@ -57,7 +57,7 @@ def ground(colliders: tuple[Collider, ...]) -> float | None:
 
 
 def is_ground(collider: Collider) -> bool:
-    """Tell whether it is a plane that is level and carries cloth."""
+    """Return whether it is a plane that is level and carries cloth."""
     return collider.shape == 'plane' and float(collider.axes[2, 2]) > 1.0 - _LEVEL
 
 

@@ -50,7 +50,7 @@ class Comparison:
 
     @property
     def identical(self) -> bool:
-        """Tell whether every node is at the same place in every matched frame, bit for bit."""
+        """Return whether every node is at the same place in every matched frame, bit for bit."""
         return bool(np.all(self.max_distance == 0.0))
 
 

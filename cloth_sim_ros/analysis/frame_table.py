@@ -7,7 +7,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
-# What is taken from ~/stats, under its own names.
+# Columns from ~/stats, named as there.
 STATS = (
     'dt', 'substeps', 'stability_margin', 'kinetic_energy', 'elastic_energy',
     'gravitational_energy', 'total_energy', 'max_strain', 'solver_iterations',
@@ -15,7 +15,7 @@ STATS = (
     'constraint_switches', 'lengths_are_held', 'settling', 'settling_work', 'stalled_pins',
     'air_margin', 'sticking_nodes', 'sliding_nodes', 'deepest_node', 'step_wall_time',
     'real_time_factor')
-# What is computed from ~/points.
+# Columns computed from ~/points.
 POINTS = ('mean_strain', 'mean_height')
 COLUMNS = ('time', 'resets', *STATS, *POINTS)
 _BEGIN = 1024  # rows

@@ -39,7 +39,7 @@ def _push(entry: Entry) -> Push:
     stamp = message.header.stamp
     return Push(
         force=parts(message.force),
-        # From the time of the run, which a reset puts back, to the time of the recording.
+        # Convert the time of the run, which a reset sets to 0, to the time of the recording.
         start=message.start + entry.time - (stamp.sec + 1e-9 * stamp.nanosec),
         duration=message.duration, region=message.region, center=parts(message.center),
         radius=message.radius)

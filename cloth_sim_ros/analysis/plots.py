@@ -231,7 +231,7 @@ _PLOTS = {
         Panel('real-time factor', (
             Line('real_time_factor', 'simulated / wall', above_zero=True),), 'auto'))),
 }
-# What shows by being above 0 that a run has it.
+# Columns that are above 0 if a run has the feature.
 _SIGNS = {
     'constraints': 'active_constraints', 'solver': 'solver_iterations', 'pace': 'step_wall_time'}
 

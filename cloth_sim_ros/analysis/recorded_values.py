@@ -65,7 +65,7 @@ _ELEMENTS: dict[str, dict[str, dict[str, Any]]] = {
     'points': {'fields': {'name': str, 'datatype': int, 'offset': int}},
     'inputs/parameters': {'new_parameters': _PARAMETER, 'changed_parameters': _PARAMETER},
 }
-# What messages of some versions lack.
+# Fields that messages of some versions lack.
 _OPTIONAL: dict[str, dict[str, Any]] = {
     'inputs/mode': {'previous_mode': str}, 'stats': dict.fromkeys(STATS, _NUMBER)}
 

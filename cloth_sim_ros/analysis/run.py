@@ -188,7 +188,7 @@ class Run:
         return spans
 
     def has(self, column: str) -> bool:
-        """Tell whether any frame has a figure in ``column``."""
+        """Return whether any frame has a figure in ``column``."""
         return bool(np.isfinite(self.columns[column]).any())
 
     def _read(self, entry: Entry) -> None:

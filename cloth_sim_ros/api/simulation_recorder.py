@@ -131,7 +131,7 @@ class RunRecording:
             self.send_message(key, message, snapshot.time)
 
     def wanted(self, key: str, *, by_recording: bool = True) -> bool:
-        """Tell whether messages of the topic ``key`` are written now."""
+        """Return whether messages of the topic ``key`` are written now."""
         return by_recording and self._session.active
 
     def send_message(self, key: str, message: Any, sim_time: float) -> None:

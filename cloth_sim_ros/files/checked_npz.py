@@ -19,7 +19,7 @@ from cloth_sim_ros.files.regular_file import open_regular
 import numpy as np
 
 MOST_ARRAYS = 64
-# What is declared may have this over the size of the file: [bytes], and times that size.
+# Max. declared size of all arrays: _SPARE [bytes] plus _GAIN [1] times the size of the file.
 _SPARE = 64 << 20
 _GAIN = 64
 
@@ -27,8 +27,8 @@ _KINDS = 'biufSU'
 _BLOCK = 1 << 20
 _HEADERS = {
     (1, 0): np.lib.format.read_array_header_1_0, (2, 0): np.lib.format.read_array_header_2_0}
-# What numpy, zipfile and zlib raise on damaged files; NotImplementedError is zipfile's, of parts
-# that it does not know.
+# Exceptions of numpy, zipfile and zlib on damaged files; zipfile raises NotImplementedError on
+# unknown features.
 _BROKEN = (
     EOFError, KeyError, NotImplementedError, OverflowError, RuntimeError, SyntaxError, TypeError,
     ValueError, MemoryError, struct.error, tokenize.TokenError, zipfile.BadZipFile, zlib.error)

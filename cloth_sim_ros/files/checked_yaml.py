@@ -75,7 +75,7 @@ def tagged_value(text: str, tag: str) -> Any:
 
 
 def is_collection_tag(tag: str | None, kind: str) -> bool:
-    """Tell whether a collection of ``kind``, seq or map, may have ``tag``."""
+    """Return whether a collection of ``kind``, seq or map, may have ``tag``."""
     return tag in (None, '!', f'{_TAG}{kind}')
 
 
@@ -90,7 +90,7 @@ def _number(text: str) -> int | float:
     if digits[:2] in ('0x', '0b'):
         return sign * int(digits, 0)
     if digits[0] == '0' and digits != '0':
-        # What begins with 0 is octal, if it can be.
+        # A leading 0 means octal if all digits allow it.
         return float(text) if set(digits) & set('89') else sign * int(digits, 8)
     return int(text)
 
@@ -131,7 +131,7 @@ def parse_yaml(text: str, name: str) -> Any:
     :raises ClothSimError: when it is no YAML, beyond MOST_DEPTH or MOST_VALUES, or has a key twice
     """
     try:
-        # What the type stubs take for an iterator is a generator.
+        # The type stubs declare an iterator; it is a generator.
         parsed = cast(Generator[yaml.Event, None, None], yaml.parse(text, Loader=_LOADER))
         with closing(parsed) as events:
             return _Document().read(events)

@@ -14,8 +14,8 @@ _MOST_EDITS = 3
 
 
 def close_name(name: str, known: Iterable[str]) -> str | None:
-    """Return the one of ``known`` that is few slips from ``name``; None where none is."""
-    # What is longer than what is shown is like nothing, which takes long to find.
+    """Return the closest of ``known`` within a few edits of ``name``; None if there is none."""
+    # A name longer than a message shows is not a typing error, and takes long to compare.
     if len(name) > MOST_SHOWN:
         return None
     most = min(1 + len(name) // _FOR_EACH, _MOST_EDITS)

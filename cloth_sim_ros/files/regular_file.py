@@ -61,7 +61,7 @@ def read_regular(path: str | Path, limit: int) -> bytes:
 
 
 def is_regular(path: str | Path) -> bool:
-    """Tell whether there is a regular file at ``path``; it need not be a name at all."""
+    """Return whether there is a regular file at ``path``; it need not be a name at all."""
     try:
         return stat.S_ISREG(os.stat(path).st_mode)
     except (OSError, ValueError):
@@ -69,7 +69,7 @@ def is_regular(path: str | Path) -> bool:
 
 
 def is_folder(path: str | Path) -> bool:
-    """Tell whether there is a folder at ``path``; it need not be a name at all."""
+    """Return whether there is a folder at ``path``; it need not be a name at all."""
     try:
         return stat.S_ISDIR(os.stat(path).st_mode)
     except (OSError, ValueError):

@@ -32,9 +32,9 @@ from cloth_sim_ros.gl.program_pool import ProgramPool
 from cloth_sim_ros.gl.program_pool import set_current_pool
 from OpenGL.GL.ARB.robustness import glGetGraphicsResetStatusARB
 
-# A GL context that was lost: the GPU was reset, or its driver taken away.
+# A GL context that was lost: the GPU was reset, or its driver removed.
 #
-# From then on GL calls do nothing, and what was read from the device means nothing.
+# Afterwards GL calls have no effect, and data read from the device are undefined.
 
 _REASONS = {
     GL.GL_GUILTY_CONTEXT_RESET: 'because of this process',
@@ -126,7 +126,7 @@ class Context:
                                   'the run begins')
         self._addresses = (_address(self._display), 0, 0, _address(self._context))
         self.make_current()
-        _tell_extensions()
+        _set_extensions()
         self.device = GL.glGetString(GL.GL_RENDERER).decode()
         self.version = GL.glGetString(GL.GL_VERSION).decode()
         self.is_software = is_software(self.device)
@@ -243,12 +243,12 @@ def _make_context(
     return context or None
 
 
-def _tell_extensions() -> None:
+def _set_extensions() -> None:
     """
-    Tell PyOpenGL which extensions the current context has, where it has found none.
+    Set the extensions of the current context in PyOpenGL if it has found none.
 
-    It takes to the way of asking that a core profile has after an error of the older one, which a
-    context without errors (MESA_NO_ERROR) does not give.
+    PyOpenGL uses the query of a core profile only after an error of the older query, which a
+    context without errors (MESA_NO_ERROR) does not raise.
     """
     if not GLQuerier.getExtensions():
         implied = [

@@ -46,7 +46,7 @@ def _device_platforms() -> list[tuple[int, EGLDeviceEXT]]:
     return [(EGL_PLATFORM_DEVICE_EXT, devices[i]) for i in range(count.value)]
 
 
-# What a GL device is and has, and why no device of this machine will do.
+# Properties of a GL device, and the reasons why a machine has no suitable one.
 
 VERSION = (4, 3)
 TEXTURE_BUFFERS = 'GL_ARB_texture_buffer_object'
@@ -58,7 +58,7 @@ _PARTS = (
     'GL_ARB_texture_buffer_object_rgb32', 'GL_ARB_texture_buffer_range', 'GL_ARB_texture_view',
     'GL_ARB_shader_image_size', 'GL_ARB_vertex_attrib_binding')
 _MOST_NAMED = 4
-# What chooses device or version, and so can be the reason.
+# Environment variables that choose the device or version, and can be the reason.
 _CHOICES = (
     'GALLIUM_DRIVER', 'LIBGL_ALWAYS_SOFTWARE', 'LIBGL_DRIVERS_PATH', 'MESA_LOADER_DRIVER_OVERRIDE',
     'MESA_GL_VERSION_OVERRIDE', 'MESA_GLSL_VERSION_OVERRIDE', 'MESA_EXTENSION_OVERRIDE',
@@ -90,7 +90,7 @@ class DeviceReport:
     @property
     def has_core_profile(self) -> bool:
         """
-        Tell whether to ask the driver for a core profile.
+        Return whether to ask the driver for a core profile.
 
         Mesa crashes when it has none, which is where it comes to no more than OpenGL 3.0 for lack
         of texture buffers.

@@ -205,25 +205,25 @@ class DepthTexture:
         GL.glDeleteTextures(1, [self._texture])
 
 
-# What decides whether a drawn pixel is seen: what is there already, and on which side it is.
+# State that decides whether a drawn pixel is visible: depth test, blending and face culling.
 
 
 def blend_by_opacity() -> None:
-    """Let colours cover what is there by their fourth part."""
+    """Blend colours over the image by their alpha."""
     GL.glEnable(GL.GL_BLEND)
     GL.glBlendFunc(GL.GL_SRC_ALPHA, GL.GL_ONE_MINUS_SRC_ALPHA)
 
 
 def draw_over_all() -> None:
-    """Draw over what is there, however near it is, and hide nothing that comes."""
+    """Draw over the image without depth test, and do not write depths."""
     GL.glDisable(GL.GL_DEPTH_TEST)
 
 
 def draw_nearest(*, hides: bool = True) -> None:
     """
-    Draw what no other part hides.
+    Draw pixels that are not hidden.
 
-    :param hides: hide what comes later and is farther away
+    :param hides: whether to write depths, so that later and farther pixels are hidden
     """
     GL.glEnable(GL.GL_DEPTH_TEST)
     GL.glDepthFunc(GL.GL_LEQUAL)
@@ -231,14 +231,14 @@ def draw_nearest(*, hides: bool = True) -> None:
 
 
 def draw_hidden() -> None:
-    """Draw what other parts hide, and nothing else."""
+    """Draw only pixels that other parts hide."""
     GL.glEnable(GL.GL_DEPTH_TEST)
     GL.glDepthFunc(GL.GL_GREATER)
     GL.glDepthMask(False)
 
 
 def draw_clockwise_only(is_on: bool) -> None:
-    """Leave out triangles that run counter-clockwise in the picture, or no longer do."""
+    """Cull triangles that are counter-clockwise in the image, or stop culling."""
     if is_on:
         GL.glEnable(GL.GL_CULL_FACE)
         GL.glCullFace(GL.GL_FRONT)

@@ -43,7 +43,7 @@ class LinkedProgram:
             self._lent = PooledProgram(_linked(stages))
         self._program = self._lent.name
         self._locations = self._lent.locations
-        # What arrays were last set to: most are the same in every frame.
+        # Values last set, by name of the array: most are the same in every frame.
         self._arrays: dict[str, bytes] = {}
 
     def delete(self) -> None:
@@ -76,7 +76,7 @@ class LinkedProgram:
     def set_floats(self, name: str, values: Sequence[float]) -> None:
         """Set the first floats of an array uniform of the program in use."""
         flat = np.ascontiguousarray(values, dtype=np.float32)
-        if self._is_news(name, flat):
+        if self._changed(name, flat):
             quick_calls.set_uniform_floats(self._location(name), len(flat), flat.ctypes.data)
 
     def set_pair(self, name: str, values: Sequence[float]) -> None:
@@ -88,7 +88,7 @@ class LinkedProgram:
             vectors: Sequence[float] | Sequence[Sequence[float]] | np.ndarray) -> None:
         """Set a vec3 uniform, or the first of an array of them, of the program in use."""
         flat = np.ascontiguousarray(vectors, dtype=np.float32).reshape(-1, 3)
-        if self._is_news(name, flat):
+        if self._changed(name, flat):
             quick_calls.set_uniform_vec3s(self._location(name), len(flat), flat.ctypes.data)
 
     def set_int_vectors(self, name: str, vectors: np.ndarray) -> None:
@@ -102,8 +102,8 @@ class LinkedProgram:
         flat = np.ascontiguousarray(matrix, dtype=np.float32)
         GL.glUniformMatrix4fv(self._location(name), 1, GL.GL_TRUE, flat)
 
-    def _is_news(self, name: str, values: np.ndarray) -> bool:
-        """Return whether the array ``name`` is not ``values`` yet, and note that it will be."""
+    def _changed(self, name: str, values: np.ndarray) -> bool:
+        """Return whether ``values`` differ from those set last for ``name``, and store them."""
         data = values.tobytes()
         if self._arrays.get(name) == data:
             return False

@@ -48,7 +48,7 @@ _SLICE = 0.01
 
 
 def has_header(message_class: Any) -> bool:
-    """Tell whether messages of this class begin with a std_msgs/Header."""
+    """Return whether messages of this class begin with a std_msgs/Header."""
     fields = message_class.get_fields_and_field_types()
     return next(iter(fields.items()), None) == ('header', 'std_msgs/Header')
 

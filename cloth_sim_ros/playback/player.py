@@ -286,7 +286,7 @@ class Player:
         if self._bag.problem_of(message):
             topic.damaged += 1
             return
-        # What is kept for late subscribers can be older: files of a split bag begin with it.
+        # Messages kept for late subscribers can be older: files of a split bag begin with them.
         is_timely = self._is_of_the_cloth(message.topic) and not topic.kept
         if self._simulated_clock is not None and is_timely:
             self._simulated_clock.read(topic.message_class, message.data)

@@ -93,7 +93,7 @@ class PlayClock:
 
     @property
     def paused(self) -> bool:
-        """Tell whether nothing is due."""
+        """Return whether nothing is due."""
         return self._paused_at is not None
 
     def pause(self, wall: float) -> None:

@@ -163,7 +163,7 @@ def _check_arrays(types: Typesdict) -> None:
             f'its arrays of fixed length have {elements} elements, the maximum is {MOST_ELEMENTS}')
 
 
-# From CDR to messages, by the definitions that a bag holds.
+# Decoding of CDR by the definitions in a bag.
 
 _TOO_LONG = 'size mismatch'
 

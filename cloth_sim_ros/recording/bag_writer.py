@@ -191,7 +191,7 @@ class BagFile:
 
 
 _NANOSECONDS = 1e9
-# What metadata can grow by as its numbers do, for each file and in all [bytes].
+# Spare size of metadata for numbers that grow, per file and in total [bytes].
 _MORE_DIGITS = 512
 _EMPTY_FILE = 4096
 

@@ -81,7 +81,7 @@ def chunk_records(chunk: Chunk) -> Iterator[McapRecord]:
 
 
 def is_read(opcode: int) -> bool:
-    """Tell whether records of this kind are of use here."""
+    """Return whether records of this kind are of use here."""
     return opcode == Opcode.MESSAGE or opcode in _READ
 
 
@@ -111,7 +111,7 @@ class McapChannels:
             self._channels[record.id] = record
 
     def __contains__(self, number: int) -> bool:
-        """Tell whether the channel ``number`` is known."""
+        """Return whether the channel ``number`` is known."""
         return number in self._channels
 
     def name(self, number: int) -> tuple[str, str]:

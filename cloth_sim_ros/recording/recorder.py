@@ -131,7 +131,7 @@ class Recorder:
             raise refusal(self.path, error, setting) from error
 
     def takes(self, key: str) -> bool:
-        """Tell whether messages of the topic ``key`` are recorded."""
+        """Return whether messages of the topic ``key`` are recorded."""
         return TOPICS[key].key in self._channels
 
     def write(self, key: str, data: bytes, sim_time: float) -> None:
@@ -171,7 +171,7 @@ class Recorder:
         self._closed = True
         self._queue.put(None)
         interrupted = False
-        # Not Thread.join: before Python 3.13 an interrupt in it takes the thread for ended.
+        # Not Thread.join: before Python 3.13, after an interrupt in it the thread counts as ended.
         while not self._ended:
             try:
                 time.sleep(POLL)
@@ -210,7 +210,7 @@ class Recorder:
             try:
                 entry = self._queue.get_nowait()
             except Empty:
-                # Not woken for each message: two threads that take turns slow each other down.
+                # No wake-up per message: two threads that alternate slow each other down.
                 time.sleep(GATHER)
                 # A program that ends without closing still leaves a complete recording.
                 if self._queue.empty() and not threading.main_thread().is_alive():

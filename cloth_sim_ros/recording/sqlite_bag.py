@@ -128,7 +128,7 @@ def _columns(database: sqlite3.Connection, table: str) -> set[str]:
     if kind is None:
         return set()
     columns = list(database.execute(f'PRAGMA table_xinfo({table})'))
-    # What is computed, in a view or a column, can be larger than the file by any factor.
+    # A computed view or column can be larger than the file by any factor.
     if kind[0] != 'table' or str(kind[1]).upper().startswith('CREATE VIRTUAL') or any(
             column[6] for column in columns):
         raise ValueError(f'{table} is computed, and no plain table')

@@ -74,7 +74,7 @@ class ReferenceCloth(ABC):
         self.dt: float = scene['dt']
         self.springs = spring_sets(scene)
         self.bending = Bending(scene)
-        # Those that hold elastic energy: a mode that holds edges otherwise takes them out.
+        # Springs with elastic energy; a mode that constrains edges removes those.
         self.elastic_springs = self.springs
         self.gravity = np.array(scene['gravity'])
         self.free = ~scene.pinned_nodes()

@@ -77,7 +77,7 @@ class View:
         return self.distance - (device - offset) / (slope + device / self.distance)
 
     def sees(self, collider: Collider) -> bool:
-        """Tell whether it is no plane, or the camera is on the side of it that cloth is on."""
+        """Return whether it is no plane, or the camera is on the side of it that cloth is on."""
         if collider.shape != 'plane':
             return True
         normal = collider.axes[2]

@@ -22,7 +22,7 @@ from cloth_sim_ros.rendering.node_buffer import NodeBuffer
 from cloth_sim_ros.rendering.survey import Survey
 import numpy as np
 
-# What a cloth can be drawn as: coloured by its strain, or as one of the fabrics.
+# Looks of a cloth: coloured by its strain, or one of the fabrics.
 STRAIN = 'strain'
 FABRICS = ('plain', 'checked')
 LOOKS = (STRAIN, *FABRICS)

@@ -82,7 +82,7 @@ class StrainRange:
 
     @property
     def is_known(self) -> bool:
-        """Tell whether some strain was given."""
+        """Return whether some strain was given."""
         return not math.isnan(self.largest)
 
     def add(self, strain: np.ndarray) -> None:
@@ -121,7 +121,7 @@ class StrainScale:
 
     @property
     def is_exceeded(self) -> bool:
-        """Tell whether some node has more strain than the last colour stands for."""
+        """Return whether some node has more strain than the last colour stands for."""
         return self.largest > self.full
 
     @property

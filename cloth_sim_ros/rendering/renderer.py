@@ -250,7 +250,7 @@ class Stage:
 
 
 def has_bar(scale: StrainScale, style: Style) -> bool:
-    """Tell whether a picture shows strains, and needs a colour bar."""
+    """Return whether a picture shows strains, and needs a colour bar."""
     return scale.is_known and style.look == STRAIN
 
 

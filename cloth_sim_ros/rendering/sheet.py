@@ -271,7 +271,7 @@ class Sheet:
         axes.set_ylim(-1.1, 1.9)
         axes.axis('off')
         for name, direction in zip('xyz', view.axes[:2].T):
-            # What points to the camera has no arrow.
+            # A direction towards the camera has no arrow.
             if np.linalg.norm(direction) > 0.1:
                 axes.annotate('', direction, (0.0, 0.0), arrowprops={
                     'arrowstyle': '->', 'color': _INK, 'shrinkA': 0.0, 'shrinkB': 0.0,

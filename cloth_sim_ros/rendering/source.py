@@ -26,7 +26,7 @@ from cloth_sim_ros.sim.snapshot import POINT_DTYPE
 import numpy as np
 
 _WRITE_IT_ANEW = 'write it with `cloth_sim run --out`'
-# From there on a run counts as lost, and squares leave the range of float32 [m].
+# Coordinate from which a run counts as blown up [m]; its square is beyond float32 not far above.
 _FARTHEST = 1e12
 
 
@@ -98,17 +98,17 @@ class RecordingSource(Source):
     @property
     def modes(self) -> list[str]:
         """Get the simulation modes, in the order they came; none when that is not known."""
-        return self._told[0]
+        return self._metadata[0]
 
     @property
     def device(self) -> str:
         """Name the device that simulated it; empty when that is not known."""
-        return self._told[1]
+        return self._metadata[1]
 
     @property
     def missing(self) -> list[str]:
         """Name what can't be drawn: colliders that this version does not know."""
-        return ['colliders'] if self._told[2] else []
+        return ['colliders'] if self._metadata[2] else []
 
     def frames(self) -> Iterator[Frame]:
         """Yield every frame; ClothSimError when there is none."""
@@ -128,8 +128,8 @@ class RecordingSource(Source):
         return default_times(self._recording, count)
 
     @cached_property
-    def _told(self) -> tuple[list[str], str, str]:
-        """Get the modes, the device, and what is wrong with the colliders."""
+    def _metadata(self) -> tuple[list[str], str, str]:
+        """Get the modes, the device, and the problem with the colliders, empty if none."""
         modes: list[str] = []
         device = ''
         colliders = ColliderHistory()

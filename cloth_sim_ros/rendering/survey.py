@@ -126,7 +126,7 @@ class Survey:
 
     @property
     def shows_pushes(self) -> bool:
-        """Tell whether a push acts in some frame."""
+        """Return whether a push acts in some frame."""
         return bool(self._arrows)
 
     @property

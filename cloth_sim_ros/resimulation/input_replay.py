@@ -176,7 +176,7 @@ class InputReplay:
         self._listener.pin_target(path.move)
 
     def _grasp(self, message: Any) -> None:
-        # What is lost by force is lost again, by itself.
+        # The rerun itself repeats the loss of a grasp by force.
         if message.by_force:
             return
         if not message.grasped:

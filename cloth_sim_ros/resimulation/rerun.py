@@ -27,9 +27,9 @@ from cloth_sim_ros.sim.simulation import Simulation
 from cloth_sim_ros.sim.snapshot import FLAG_TOUCHING
 from cloth_sim_ros.sim.tuning import BUILT_IN
 
-# Without a cloud to see it by, a larger cloth has to be asked for.
+# Max. nodes [1] of a scene without a recorded point cloud that would confirm its size.
 MOST_UNSEEN_NODES = 1_000_000
-# From a message to the next: frames by what publish.rate says, and steps of dt in any case.
+# Max. number between two messages: of frames at publish.rate, and of steps of dt.
 MOST_FRAMES = 100
 MOST_STEPS = 10_000_000
 
@@ -136,10 +136,10 @@ class Rerun:
             raise ClothSimError(
                 f'the recording begins at {self._clock.recorded_time(run.begin):.6g} s, before 0: '
                 're-simulate the recording as it was written')
-        # What was recorded beyond the stability limit is made again as it was.
+        # A run recorded beyond the stability limit is repeated without a refusal.
         self._limits = RerunLimits(run, recorded['dt'])
         self._limits.check_size(scene, changes)
-        # What an older recording left open was the built-in choice.
+        # Recordings without a tuned layout used the built-in one.
         self.simulation = Simulation(
             scene, check_stability=bool(self.changed), tuned=False)
         self.start = RunStart(run, recorded, self.simulation)
@@ -176,7 +176,7 @@ class Rerun:
 
     @property
     def has_recorded_stop(self) -> bool:
-        """Tell whether the recording ends stopped."""
+        """Return whether the recording ends stopped."""
         return self._is_at_stop
 
     def make(self, listener: Listener) -> Iterator[float]:

@@ -60,12 +60,12 @@ class RunStart:
         :raises ClothSimError: when the recording does not hold the state in the middle of a run
         """
         if steps:
-            self._go_on(steps)
+            self._continue(steps)
         else:
             self._begin()
 
     def _begin(self) -> None:
-        # What the scene holds from the start may have been let go, or be held otherwise.
+        # The scene's initial grasps may have been released or changed before the recording.
         recorded = {entry.message.name: entry.message for entry in self._opening('inputs/grasp')}
         for grasp in self._simulation.grasps:
             message = recorded.get(grasp.name)
@@ -86,7 +86,7 @@ class RunStart:
         for entry in self._push_entries[own:]:
             self._replay.take(entry.key, entry.message)
 
-    def _go_on(self, steps: int) -> None:
+    def _continue(self, steps: int) -> None:
         simulation = self._simulation
         now = steps * simulation.dt
         records = self._records(now)

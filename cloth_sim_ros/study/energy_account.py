@@ -79,7 +79,7 @@ def _normals(body: Collider, positions: np.ndarray) -> np.ndarray:
     return slopes / np.maximum(np.linalg.norm(slopes, axis=-1, keepdims=True), 1e-30)
 
 
-# What float32 rounds of a number, twice.
+# Relative rounding of float32 [1], of two operations.
 _ROUNDING = 2e-7
 # Fraction of a step that counts as the whole step [1]: times are sums of dt, and rounded.
 _WHOLE = 1.0 - 1e-9
@@ -126,7 +126,7 @@ class EnergyAccount:
     @property
     def gained(self) -> float:
         """Return the most energy from nothing so far, over the most that moved or was elastic."""
-        # What rounding alone may add is no gain.
+        # A gain within rounding is not counted.
         excess = self._gain - self._rounding()
         return excess / self._most if excess > 0.0 else 0.0
 
@@ -224,8 +224,8 @@ class EnergyAccount:
             kind.everywhere(*size) for kind in EDGE_KINDS)]
 
     def _uncertain(self, seen: Snapshot) -> float:
-        """Return the energy [J] that the state at the start may have besides what it tells."""
-        # What is set as the velocity now is taken as that of half a substep ago.
+        """Return the uncertainty of the energy at the start [J]."""
+        # The initial velocities are used as those of half a substep before.
         free, forces = self._forces(seen)
         kick = 0.5 * self._run.dt / self._run.substeps / self._run.scene.node_mass
         return 0.5 * self._run.scene.node_mass * kick**2 * float(np.sum(forces**2))
@@ -253,13 +253,13 @@ class EnergyAccount:
             stiffest += max(law.limit_stiffness)
         energy = 12.0 * stiffest * scene.node_count * reach**2
         if self._is_symplectic:
-            # Without damping, what each substep rounds adds up like a random walk.
+            # Without damping, the rounding of each substep adds up like a random walk.
             energy *= 1.0 + 0.01 * self._substeps
         else:
-            # What float32 rounds of a length, a substep of hard edges takes back.
+            # A substep of hard edges corrects the rounding of lengths, at this speed.
             speed = reach * self._run.substeps / scene['dt']
             energy += 0.5 * scene.node_mass * scene.node_count * speed**2
-        # What a node moves by in a short substep can be less than its coordinates are rounded to.
+        # In a short substep the displacement of a node can be below float32 rounding.
         weight = scene.node_mass * scene.node_count * float(np.linalg.norm(scene['gravity']))
         energy += 0.3 * reach * weight * self._substeps
         return energy + 1e-6 * abs(self.begin.gravitational_energy)

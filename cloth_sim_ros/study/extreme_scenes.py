@@ -20,7 +20,7 @@ REFUSED = 'refused'
 STOPS = 'stops'
 OUTCOMES = (RUNS, REFUSED, STOPS)
 
-# From rest positions and a random generator to positions, (rows, cols, 3) [m].
+# Function of the rest positions and a random generator; returns positions (rows, cols, 3) [m].
 Start = Callable[[np.ndarray, np.random.Generator], np.ndarray]
 
 

@@ -25,7 +25,7 @@ from cloth_sim_ros.sim.simulation import Simulation
 from cloth_sim_ros.study.workers import process_context
 import numpy as np
 
-# What a frame makes for others, besides the steps.
+# Outputs of a frame besides the steps.
 OUTPUTS = ('points', 'markers', 'stats', 'wrenches', 'recording')
 _BEND, _SHEAR = 'bend springs', 'shear springs'
 _DAMPING, _MODE = 'damping', 'mode'
@@ -268,7 +268,7 @@ def _turn(
             maker.make()
     run.finish()
     if maker is not None:
-        # What a recording writes beside the steps belongs to this turn.
+        # The recorder writes in another thread; its time belongs to this turn.
         maker.close()
     return time.perf_counter() - begin, time.process_time() - begin_processor
 

@@ -30,7 +30,7 @@ from cloth_sim_ros.sim.simulation import Simulation
 
 RATE = 50.0
 _TARGET = 'cloth_sim_node_cost'
-# What the listener prints once every topic has had a message.
+# Line that the listener prints after the first message on every topic.
 READY = 'ready'
 _PATIENCE = 60.0
 # Discovery and the first messages are not measured [s].
@@ -42,7 +42,7 @@ _SPRINGS = {
     'stiffness.structural': 1000.0, 'stiffness.shear': 200.0, 'stiffness.bend': 10.0,
     'damping.structural': 0.04, 'damping.shear': 0.04, 'damping.bend': 0.01}
 _ALL = 'recording'
-# What is subscribed to as the parts are added, one after another.
+# Topics subscribed to as each part is added.
 _ADDED: dict[str, tuple[str, ...]] = {
     'node': (), 'points': ('points',), 'markers': ('markers',),
     'wrenches': ('pins/wrenches', 'tf'), 'stats': ('stats', 'diagnostics'), _ALL: ()}

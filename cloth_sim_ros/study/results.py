@@ -76,7 +76,7 @@ def _digest(values: Any) -> str:
     return hashlib.sha256(text.encode()).hexdigest()
 
 
-# What became of a run: one line of JSON, and arrays beside it.
+# Result of a run: one line of JSON, and a file of arrays.
 
 DONE = 'done'
 REFUSED = 'refused'

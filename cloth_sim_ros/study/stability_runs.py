@@ -223,7 +223,7 @@ def _is_implicit(values: Mapping[str, Any]) -> bool:
 
 
 def _is_refused(values: Mapping[str, Any], dt: float) -> bool:
-    """Tell whether the scene is refused with ``dt``, one step a dt, when nobody insists."""
+    """Return whether the scene is refused with ``dt``, one step a dt, when nobody insists."""
     if _is_implicit(values):
         return False
     try:

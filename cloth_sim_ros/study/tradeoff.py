@@ -142,7 +142,7 @@ def _budget(args: Namespace) -> Budget | None:
 
 
 def _wanted(budget: Budget | None) -> Callable[[Sequence[Row]], Sequence[Row]]:
-    # What is cheap within a strain may be far from the exact settings, which are timed anyway.
+    # A cheap setting within a strain may be far from the exact ones, which are timed anyway.
     if isinstance(budget, StrainBudget):
         return lambda rows: within_strain(rows, budget.limit)
     return lambda rows: ()

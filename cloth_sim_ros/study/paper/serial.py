@@ -19,7 +19,7 @@ import numpy as np
 
 _SOURCE = Path(__file__).with_name('serial_cloth.c')
 _COMPILERS = ('cc', 'gcc', 'clang')
-# What any C program gets: no instructions beyond the base of the architecture, no fast math.
+# Default flags of a C program: instructions of the base architecture only, no fast math.
 _FLAGS = ('-O2', '-shared', '-fPIC')
 _COMPILE_SECONDS = 60.0
 

@@ -152,7 +152,7 @@ def growths(cloths: Sequence[TimedCloth]) -> dict[str, Growth]:
         if printed is not None and printed.source == TABLE:
             # Section 5 has limits, not measured rates.
             rates |= {'printed CPU': printed.cpu_fps, 'printed GPU': printed.gpu_fps}
-        # What is printed comes first.
+        # The rates printed in the paper come first.
         for name, fps in sorted(rates.items(), key=lambda rate: 'printed' not in rate[0]):
             if fps:
                 points.setdefault(name + without_bend(cloth), []).append((cloth.nodes, 1.0 / fps))
@@ -225,7 +225,7 @@ class _Run:
         for _ in range(passes):
             program.set_state(*state)
             if self.is_quick:
-                # What a mode keeps from step to step is there again after one.
+                # One step restores the state that a mode keeps between steps.
                 program.step()
             program.finish()
             begin = time.perf_counter()

@@ -41,7 +41,7 @@ class Budget(Protocol):
         """Return the setting to take; ClothSimError when none is within the bound."""
 
     def holds(self, row: Row) -> bool:
-        """Tell whether what was measured keeps to the bound."""
+        """Return whether the measured run is within the bound."""
 
     def in_words(self) -> str:
         """Return what was chosen by."""
@@ -63,7 +63,7 @@ class ErrorBudget:
         return fastest_within(rows, self.limit)
 
     def holds(self, row: Row) -> bool:
-        """Tell whether the error is within the bound."""
+        """Return whether the error is within the bound."""
         return row.scene_errors.position <= self.limit
 
     def in_words(self) -> str:
@@ -87,7 +87,7 @@ class SpeedBudget:
         return most_accurate_at(rows, self.limit)
 
     def holds(self, row: Row) -> bool:
-        """Tell whether the setting is fast enough."""
+        """Return whether the setting is fast enough."""
         return 1.0 / row.cost >= self.limit
 
     def in_words(self) -> str:
@@ -111,7 +111,7 @@ class StrainBudget:
         return cheapest_within_strain(rows, self.limit)
 
     def holds(self, row: Row) -> bool:
-        """Tell whether the largest strain is within the bound."""
+        """Return whether the largest strain is within the bound."""
         return row.peak_strain <= self.limit
 
     def in_words(self) -> str:

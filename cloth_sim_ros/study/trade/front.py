@@ -61,7 +61,7 @@ class Row:
 
     @property
     def shows_its_model(self) -> bool:
-        """Tell whether the run was made and is near to the finest of its own model, or is that."""
+        """Return whether the run was made and is near to the finest of its model, or is it."""
         return self.run.is_done and (self.own is None or self.own.position <= WORST_ERROR)
 
     def error(self, of_scene: bool) -> float | None:
@@ -89,7 +89,7 @@ class Row:
 
     def is_useful(self, of_scene: bool) -> bool:
         """
-        Tell whether it shows the same motion, and may be compared with the other rows.
+        Return whether it shows the same motion, and may be compared with the other rows.
 
         Errors against a scene's own model are compared where the model is that of springs.
         """
@@ -98,7 +98,7 @@ class Row:
             of_scene or self.setting.model == 'springs')
 
     def is_choice(self, of_scene: bool) -> bool:
-        """Tell whether it is useful, and was timed."""
+        """Return whether it is useful, and was timed."""
         return self.is_useful(of_scene) and bool(self.rounds)
 
     def as_dict(self) -> dict[str, object]:

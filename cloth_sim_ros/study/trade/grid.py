@@ -39,7 +39,7 @@ class Variant:
 
     @property
     def is_scene(self) -> bool:
-        """Tell whether nothing was changed."""
+        """Return whether nothing was changed."""
         return self == Variant()
 
     @property
@@ -82,7 +82,7 @@ def _moved(node: str, scene: Scene, rows: int, cols: int) -> str:
         for place, old, new in ((row, scene.rows, rows), (col, scene.cols, cols)))
 
 
-# What a study of the trade measures, read from a YAML file.
+# The runs of a trade-off study, read from a YAML file.
 
 _SHORT = {
     'refine': 'refine {}', 'dt': 'dt {:g} s', 'solver.tolerance': 'tolerance {:g}',

@@ -178,7 +178,7 @@ def _timed(
         if all(is_software(row.run.device) for row in rows if row.run.is_done):
             near = near_front(rows, measured.grid.margin, of_scene=of_scene)
         else:
-            # What runs on a GPU is not seen in the processor's time.
+            # Processor time does not include work on a GPU.
             near = [row for row in rows if row.is_useful(of_scene)]
         names = {_name(row) for row in (
             *near, *cheapest_of_each(rows), *(wanted(rows) if of_scene else ()))}

@@ -105,7 +105,8 @@ def _speeds(measured: Measured) -> str:
     for speed in _SPEEDS:
         fitting = [row for row in timed if 1.0 / row.cost >= speed]
         best = min(fitting, key=lambda row: row.known_error(True), default=None)
-        rows.append((f'{speed:g}', *(_told(best) if best else ('nothing is as fast', '', '', ''))))
+        rows.append(
+            (f'{speed:g}', *(_texts(best) if best else ('nothing is as fast', '', '', ''))))
     return _table(
         ('real-time factor', 'most exact setting', 'error', 'largest strain', 'cost [s]'), rows)
 
@@ -208,7 +209,7 @@ def _ends(measured: Measured) -> str:
         [(*key, str(count)) for key, count in ended.items()])
 
 
-def _told(row: Row) -> tuple[str, str, str, str]:
+def _texts(row: Row) -> tuple[str, str, str, str]:
     return (
         f'{row.setting.method}, {row.setting.label}', f'{row.scene_errors.position:.1e}',
         f'{row.scene_errors.peak_strain:.3f}', _cost(row))

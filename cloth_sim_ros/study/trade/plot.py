@@ -60,7 +60,7 @@ def _draw(
         panel.annotate(
             str(number), (row.cost, row.known_error(variant.is_scene)), fontsize=8,
             xytext=(3, 4), textcoords='offset points')
-    # Beside the panel: along the front there is no room for names of settings that are alike.
+    # Beside the panel: names of similar settings would overlap along the front.
     panel.text(
         1.02, 1.0, '\n'.join(
             f'{number}  {row.setting.method}, {row.setting.label}'
