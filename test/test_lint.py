@@ -233,7 +233,7 @@ def test_each_declared_linter_runs():
 
 
 def test_every_test_says_what_it_shows():
-    """A failing test would not tell what is wrong."""
+    """A failing test would not say what is wrong."""
     silent = [
         f'{path.relative_to(ROOT)}: {node.name}'
         for path in PYTHON_FILES if path.name.startswith('test_')

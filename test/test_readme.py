@@ -142,7 +142,7 @@ def test_programs_print_what_the_page_shows(program, printed):
 
 
 def words(text):
-    """Return what is not a number: devices round differently."""
+    """Return the text without its numbers: devices round differently."""
     return NUMBER.sub('', text).split()
 
 

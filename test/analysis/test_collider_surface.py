@@ -53,7 +53,7 @@ def test_it_is_closed_and_every_side_is_outside(shape, size, area):
     outward = normals[:-1, :-1] + normals[1:, 1:] + normals[1:, :-1] + normals[:-1, 1:]
     assert (faces * outward).sum(axis=-1).min() > -1e-12
     if shape != 'plane':
-        # Of a closed surface all areas add up to none.
+        # The area vectors of a closed surface add up to 0.
         np.testing.assert_allclose(faces.sum(axis=(0, 1, 2)), 0.0, atol=1e-9)
 
 

@@ -126,6 +126,6 @@ def test_nothing_overlaps(figures):
 
 
 def test_parts_that_a_run_has_not_are_left_out(known):
-    """A plot of zeros would tell of a solver that was never there."""
+    """A plot of zeros would show a solver that the run did not use."""
     assert {name for name, _ in run_plots(Run(Recording(known.folder)))} == {
         'energies', 'strain', 'pace', 'strain_histogram'}

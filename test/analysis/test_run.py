@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-"""All that a recording tells of its run, read once from first to last."""
+"""The data of a recorded run, read in one pass."""
 
 import tracemalloc
 from types import SimpleNamespace

@@ -54,7 +54,7 @@ def test_blow_up_does_not_change_the_view(recorded, tmp_path):
     alone = drawn(tmp_path / 'alone.png', [calm, calm])
     both = drawn(tmp_path / 'both.png', [calm, torn])
     assert alone.shape == both.shape
-    # The first row, without its label and the colour bar, which tells of the larger strain.
+    # The first row, without its label and the colour bar, which shows the larger strain.
     upper, right = alone.shape[0] // 3, alone.shape[1] * 4 // 5
     assert np.array_equal(alone[:upper, :right], both[:upper, :right])
 

@@ -42,7 +42,7 @@ def test_whole_runs_have_none(times, resets):
 
 
 def test_everything_is_counted(known):
-    """The demo and its reader would be told of another run."""
+    """The demo would print the figures of another run."""
     summary = summarise(Recording(known.folder))
     assert (summary.rows, summary.cols, summary.frames) == (5, 4, 26)
     assert summary.device == 'a device'

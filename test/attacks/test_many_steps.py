@@ -28,7 +28,7 @@ def test_time_and_conserved_quantities_stay(steps):
     start = simulation.snapshot()
     energy = start.total_energy
     center = start.positions.astype(float).mean(axis=(0, 1))
-    # Of all nodes together [m/s]. Each step rounds each velocity by up to half its last digit, one
+    # Sum over all nodes [m/s]. Each step rounds each velocity by up to half its last digit, one
     # way or the other: a random walk, here with four times its standard deviation.
     speed = np.sqrt(2.0 * energy / (mass * scene.node_count))
     drift = 4.0 * 2.0**-24 * speed * np.sqrt(scene.node_count * steps)

@@ -64,7 +64,7 @@ def file_truncated(_: NodeProcess, path: Path) -> None:
 
 
 def file_replaced(_: NodeProcess, path: Path) -> None:
-    """Put a copy in place of the mcap file."""
+    """Replace the mcap file by a copy."""
     shutil.copy(mcap(path), path / 'copy')
     (path / 'copy').replace(mcap(path))
 
@@ -176,7 +176,7 @@ def is_told(cloth: ClothUnderTest, node: NodeProcess, path: Path, reason: str) -
 
 @pytest.mark.parametrize('fault', [file_removed, file_truncated])
 def test_stopping_at_once_is_refused_with_the_reason(cloth, node, fault):
-    """A script would be told that its recording is closed, where there is none."""
+    """A script would get success for closing a recording that does not exist."""
     path = record(cloth)
     fault(node, path)
     answer = cloth.call(Trigger, 'stop_recording')

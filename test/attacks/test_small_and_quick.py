@@ -7,7 +7,7 @@ from cloth_sim_interfaces.msg import ClothStats
 from node_process import NodeProcess
 import pytest
 
-# Of each of four sizes at two paces: 100,000 in all.
+# Number for each of four sizes at two paces: 100,000 in all.
 FRAMES = 12_500
 # So that a frame every 0.5 ms is asked for where time keeps to the wall clock.
 QUICK = {'publish.rate': 2000.0, 'dt': 0.0005}

@@ -9,7 +9,7 @@ from compile_times import compile_times
 
 
 def test_every_shader_of_a_mode_has_its_times():
-    """A shader that takes seconds to compile would not be among them, or be told as another."""
+    """A shader that takes seconds to compile would be missing, or have another name."""
     before = program._linked, quick_calls.use_program, quick_calls.dispatch
     found, whole = compile_times({'mode': 'constraint', 'rows': 20, 'cols': 20})
     assert before == (program._linked, quick_calls.use_program, quick_calls.dispatch)

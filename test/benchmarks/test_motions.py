@@ -79,7 +79,7 @@ def test_jitter_is_that_of_the_authors():
 
 
 def test_strain_is_told_apart():
-    """The page would tell a change of angle as a stretch of threads, or miss a stretch."""
+    """The page would report a shear as a stretch of threads, or miss a stretch."""
     rows, cols = np.mgrid[0:4, 0:3].astype(float)
     flat = np.stack([0.1 * cols, 0.2 * rows, 0.0 * rows], axis=-1)
     assert strains(flat, 0.2, 0.6) == pytest.approx((0.0, 0.0), abs=1e-12)

@@ -67,7 +67,7 @@ def test_the_grippers_close_in_and_stay_level(path):
 
 
 def test_the_scene_has_the_fling():
-    """The scene that ships would show another motion than the page tells of."""
+    """The shipped scene would show another motion than the page describes."""
     given = load_parameters(SCENE_FILE)
     for name, values in timed_moves(FLING, CORNERS, 10.0).items():
         assert given[f'pin_moves.{name}'] == values

@@ -35,7 +35,7 @@ def test_what_is_short_is_shown_as_it_is(value):
     ['x' * LONG] * 10, {'a': 'x' * LONG}, 10**4000, 10**5000, b'\xff' * LONG, float('1e300')],
     ids=lambda value: type(value).__name__)
 def test_what_is_long_is_cut(value):
-    """A request could fill the log, and the answer to it, with what it was made of."""
+    """A request could fill the log, and its response, with its own content."""
     text = shown(value)
     assert len(text) < MOST_SHOWN + 40
     assert len(text) <= MOST_SHOWN or '... (a length of ' in text
@@ -80,7 +80,7 @@ def test_no_parameter_is_repeated_at_length(value):
                    'pin_moves.target': [0.0, 0.0, 0.0]}).timed_pin_moves(),
     lambda: Push.checked(force=(1, 0, 0), start=0.0, duration=1.0, region='x' * LONG)])
 def test_no_request_is_repeated_at_length(make):
-    """A request could fill the log with what it was made of."""
+    """A request could fill the log with its own content."""
     assert len(refusal(make)) < MOST
 
 

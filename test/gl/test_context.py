@@ -73,7 +73,7 @@ def test_what_gl_says_of_a_lost_context_is_told_as_such(monkeypatch):
 
 
 def test_other_errors_stay_as_they_are():
-    """A fault of the program would be told as a reset."""
+    """A fault of the program would be reported as a reset."""
     Context(single_thread=True)
     with pytest.raises(GLError), gl_context.loss_noticed():
         raise GLError(GL.GL_INVALID_VALUE)

@@ -91,7 +91,7 @@ def test_all_modes_run_without_texture_buffers(mode, tmp_path):
     ({'__EGL_VENDOR_LIBRARY_DIRS': '/nonexistent'}, (
         'install the GPU driver', 'or unset __EGL_VENDOR_LIBRARY_DIRS'))], ids=str)
 def test_what_cannot_run_says_what_is_lacking(environment, reasons, tmp_path):
-    """A user with Mesa would be told to install Mesa, or get a traceback or a crash."""
+    """A user with Mesa would be advised to install Mesa, or get a traceback or a crash."""
     result, positions = run(tmp_path, environment)
     assert positions is None
     assert result.returncode == 1, (result.returncode, result.stderr)

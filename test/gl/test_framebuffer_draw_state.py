@@ -65,7 +65,7 @@ def test_what_does_not_hide_is_covered_by_what_comes(drawn):
 
 
 def test_what_is_hidden_can_be_drawn_alone(drawn):
-    """A pin behind the cloth would not be told from one before it."""
+    """A pin behind the cloth would look like one in front of it."""
     gl_framebuffer.draw_nearest()
     drawn(MIDDLE, 0.2)
     gl_framebuffer.draw_hidden()

@@ -63,7 +63,7 @@ def name_of(program: Program) -> int:
 
 
 def sums(program: Program) -> list[float]:
-    """Return what the program makes of its uniforms."""
+    """Return the output of the program for its uniforms."""
     out = Buffer(np.full(8, -1.0, dtype=np.float32))
     out.bind_storage(0)
     program.use()

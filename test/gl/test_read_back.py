@@ -22,7 +22,7 @@ def context() -> Iterator[Context]:
 
 
 def values(count: int, first: int = 0) -> np.ndarray:
-    """Return numbers that tell where they have come from."""
+    """Return numbers that identify their source."""
     return np.arange(first, first + count, dtype=np.float32)
 
 

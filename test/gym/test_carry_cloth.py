@@ -48,7 +48,7 @@ def test_pins_go_where_the_action_says(make):
 
 
 def test_the_reward_is_the_mean_distance_from_the_goal(make):
-    """A policy would be paid for something else than it is told."""
+    """The reward would differ from the documented one."""
     environment = make(goal=(0.3, 0.0, 0.4), jitter=0.0)
     environment.reset()
     seen, reward, terminated, truncated, info = environment.step(np.zeros((2, 3), np.float32))

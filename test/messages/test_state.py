@@ -121,7 +121,7 @@ def test_a_healthy_run_is_ok_in_all_parts():
     ('program', WARN, '2 unexpected errors', {}, {'faults': 2, 'latest_fault': '~/reset: E'}),
 ])
 def test_what_is_wrong_is_told(part, level, text, state, run):
-    """A fault would go unnoticed, or be told without a way out."""
+    """A fault would go unnoticed, or be reported without advice."""
     status = diagnose(make_snapshot(2, 2, **state), **run)[part]
     assert status.level == level
     assert text in status.message

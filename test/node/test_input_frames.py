@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-"""Inputs that are given in other frames than that of the cloth, with a node that hears of tf."""
+"""Inputs in other frames than that of the cloth, with a node that receives tf."""
 
 from collections.abc import Iterator
 from pathlib import Path
@@ -35,7 +35,7 @@ from transform_teller import Teller
 from transform_teller import transform
 
 OWN = 'handled_cloth_sim_{}'
-# Of a camera that looks at the cloth.
+# Pose of a camera that looks at the cloth.
 TURN = Rotation.from_euler('xyz', (0.4, -1.1, 2.0))
 PLACE = np.array([0.3, -0.2, 1.7])
 CAMERA = Pose(tuple(PLACE.tolist()), tuple(TURN.as_quat().tolist()))

@@ -37,7 +37,7 @@ BAD = {
 
 
 def test_tells_nodes_and_impulse(cloth):
-    """A caller could not tell what the push acts on."""
+    """A caller could not see which nodes the push acts on."""
     response = cloth.call(ApplyPush, 'apply_push', force=Vector3(x=1.0, z=-2.0), duration=0.25)
     assert response.success
     assert response.nodes == 8 * 10 - 2, 'every node but the two pins; no region means all'
@@ -57,7 +57,7 @@ def test_is_told_as_an_input(cloth):
 
 @pytest.mark.parametrize('case', BAD)
 def test_refuses_nonsense(cloth, case):
-    """A bad push would be taken, and end as a cloth that is no number."""
+    """A bad push would be accepted, and make the cloth NaN."""
     change, reason = BAD[case]
     response = cloth.call(ApplyPush, 'apply_push', **{**GOOD, **change})
     assert not response.success

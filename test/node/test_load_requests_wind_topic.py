@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-"""The wind as it is told on ~/wind."""
+"""The wind as published on ~/wind."""
 
 from collections.abc import Iterator
 import math

@@ -108,7 +108,7 @@ def test_the_mode_asked_for_last_wins(client: GraphClient, tmp_path: Path):
 
 
 def test_a_new_node_answers_before_its_first_mode_is_ready(client: GraphClient, tmp_path: Path):
-    """A node in mode constraint would not be there for seconds, or lose what it is asked."""
+    """A node in mode constraint would not respond for seconds, or lose requests."""
     values = {**SCENE, 'mode': 'constraint', 'start_paused': True}
     with NodeProcess(tmp_path, values, '-r', '__ns:=/early', environment=NO_CACHE):
         cloth = ClothUnderTest(client, values, '/early/cloth_sim')

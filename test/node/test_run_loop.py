@@ -98,7 +98,7 @@ def test_real_time_factor_from_the_first_frame(factor):
 
 @pytest.mark.parametrize('frame_time, too_slow', [(0.04, True), (0.02, False)])
 def test_tells_when_it_is_too_slow(frame_time, too_slow):
-    """A slow machine would not be told of, or a fast enough one would."""
+    """A slow machine would give no warning, or a fast enough one would."""
     pacing = Pacing(1.0)
     pacing.restart(0.0)
     pacing.delay(frame_time, 0.02)

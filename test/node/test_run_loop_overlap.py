@@ -168,7 +168,7 @@ def test_requested_steps_are_published_before_the_reply(run):
 
 
 def test_a_frame_is_sent_before_the_run_stops_at_the_next(run, monkeypatch: pytest.MonkeyPatch):
-    """The last frame before a failure would be lost, or come after the news of it."""
+    """The last frame before a failure would be lost, or come after its report."""
     monkeypatch.setattr('cloth_sim_ros.sim.stepping.LATEST', 2 * FRAME)
     ends = run(0.0)
     ends.until(9)

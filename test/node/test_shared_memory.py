@@ -82,7 +82,7 @@ def test_takes_the_profile_that_fits(side, free, mebibytes):
 
 
 def test_the_profiles_differ_in_their_memory_alone():
-    """What is mended in one would be left in the others."""
+    """A fix in one of them would be missing in the others."""
     texts = set()
     for side in (1, 64, 128, 256):
         environment = {}

@@ -107,7 +107,7 @@ def test_refuses_what_is_not_held(handled):
 
 
 def test_a_grasp_that_is_lost_is_told(handled, twin):
-    """A robot would go on with empty hands and not know."""
+    """A robot would continue with an empty gripper and not know."""
     log = handled.client.watch(Log, '/rosout')
     grasp_corner(handled, max_force=0.3)
     handled.call(MoveFrame, 'move_grasp', name='hand', pose=Pose(position=Point(x=-0.9, z=1.2)))

@@ -89,7 +89,7 @@ def test_refuses_a_node_outside(cloth, row, col):
 
 @pytest.mark.parametrize('value', [float('nan'), float('inf')])
 def test_refuses_a_point_that_is_none(cloth, value):
-    """A point that is no number would pin the first node."""
+    """A NaN point would pin the first node."""
     response = cloth.call(SetPin, 'set_pin', use_point=True, point=Point(y=value))
     assert not response.success
     assert 'finite' in response.message
@@ -128,7 +128,7 @@ def test_takes_the_usual_speed_and_the_nearest_pin(cloth):
 
 @pytest.mark.parametrize('case', BAD)
 def test_refuses_nonsense(cloth, case):
-    """A bad target would be taken, and end as a cloth that is no number."""
+    """A bad target would be accepted, and make the cloth NaN."""
     change, reason = BAD[case]
     response = cloth.call(
         MovePin, 'move_pin', **{'row': 0, 'col': 0, 'target': TARGET, 'speed': 1.0, **change})

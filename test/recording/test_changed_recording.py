@@ -73,7 +73,7 @@ def extend(file):
 
 
 def replace(file):
-    """Put a copy in place of the file."""
+    """Replace the file by a copy."""
     shutil.copy(file, file.with_name('copy'))
     file.with_name('copy').replace(file)
 
@@ -84,7 +84,7 @@ def remove_folder(file):
 
 
 def replace_linked(file):
-    """Put a copy in place of the file, which keeps another name."""
+    """Replace the file by a copy; the file keeps another name."""
     os.link(file, file.with_name('linked'))
     replace(file)
 
@@ -147,7 +147,7 @@ def test_a_message_of_another_program_is_cut_off(recorder):
 
 
 def test_nobody_elses_file_is_touched(recorder):
-    """A file that was put in place of the recording would be cut."""
+    """A file that replaced the recording would be cut."""
     file = recorder.path / 'run_0.mcap'
     file.unlink()
     file.write_bytes(bytes(100_000))

@@ -90,7 +90,7 @@ def test_a_stretched_sheet_has_its_own_area():
 
 
 def test_a_cloth_without_area_feels_nothing():
-    """Triangles that have collapsed would give what is no number."""
+    """Collapsed triangles would give NaN."""
     scene = Scene(AIR)
     forces = air_forces(
         scene, np.zeros((6, 9, 3)), np.zeros((6, 9, 3)), np.array((3.0, 2.0, 1.0)))

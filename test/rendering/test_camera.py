@@ -220,7 +220,7 @@ def test_the_nearer_of_two_layers_is_seen(camera):
 
 
 def test_a_picture_says_nothing_of_the_one_before(camera):
-    """A cloth that has left would still be seen."""
+    """A cloth that moved out of view would still be drawn."""
     cloth = plane((-0.5, 0.0, 0.4), (1.0, 0.0, 0.0), (0.0, 0.0, -0.8))
     eye = camera(cloth)
     first = eye.draw(cloth)

@@ -47,7 +47,7 @@ def test_each_time_has_its_panel(source, hanging, frames, rows, columns):
 
 
 def test_several_recordings_have_a_row_each(source, hanging):
-    """The rows could not be told apart, or would be mixed."""
+    """The rows would have no labels, or be mixed."""
     near, far = hanging(), hanging()
     near.records['strain'], far.records['strain'] = 0.04, 0.0
     style = Style(panel=(120, 90), labels=('stiff', 'soft'))

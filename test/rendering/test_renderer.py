@@ -342,7 +342,7 @@ def sources(known, tmp_path, flat):
 
 
 def test_the_title_tells_size_and_modes(sources, flat):
-    """A picture could not be told from that of another run."""
+    """A picture would not show which run it is of."""
     assert title_of(sources[:1], [flat(4, 5)]) == '4 x 5 nodes, mass_spring'
     assert title_of(sources, [flat(4, 5)]) == '4 x 5 nodes'
     assert title_of(sources, [flat(4, 5), flat(6, 5)]) == ''

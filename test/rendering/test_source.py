@@ -55,7 +55,7 @@ def test_a_recording_without_frames_is_refused(tmp_path):
 
 @pytest.mark.parametrize('shape', ['sphere', 'torus'])
 def test_colliders_that_are_not_known_are_named(tmp_path, shape):
-    """A cloth would hang in the air, and nobody be told what it lies on."""
+    """A cloth would hang in the air without a note on what it lies on."""
     values = {
         'colliders.names': ['ball'], 'colliders.ball.shape': 'sphere',
         'colliders.ball.size': [0.1]}

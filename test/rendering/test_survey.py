@@ -82,7 +82,7 @@ def push(*force, start=0.0, **region):
 
 
 def test_it_tells_what_has_to_be_explained(hanging):
-    """The legend would tell of marks that are nowhere, or not of some that are."""
+    """The legend would have marks that are not drawn, or lack some that are."""
     frame = hanging()
     survey = survey_of(frame)
     assert survey.shows_pins and not survey.shows_limits and not survey.shows_pushes

@@ -68,7 +68,7 @@ def test_other_point_layouts_are_compared_by_value(records):
 
 
 def test_flags_that_can_not_be_known_do_not_count(records):
-    """A run that goes on from a recording would differ in what the step before it touched."""
+    """A run that starts from a recording would differ in the contact flags of its first frame."""
     other = records.copy()
     other['flags'][1, 2] = 8 | 1
     records['flags'][1, 2] = 1

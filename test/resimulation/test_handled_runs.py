@@ -13,7 +13,7 @@ from made_again import made_again
 import numpy as np
 import pytest
 
-# Of the scene: one grasp from the start, one later, each with a move, and a move of the ball.
+# Scene with one grasp from the start, one later, each with a move, and a move of the ball.
 TIMED = {
     **HANDLED, 'grasps.start': [0.0, 0.1], 'grasps.name': ['hand', 'other'],
     'grasps.position': [-0.45, -0.35, 1.0, 0.45, -0.35, 1.0], 'grasps.radius': [0.12, 0.2],

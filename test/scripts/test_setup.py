@@ -67,7 +67,7 @@ def test_what_cannot_be_installed_is_named(tmp_path):
 
 
 def test_a_missing_package_is_installed_only_by_root(tmp_path):
-    """A user without rights would get a failing apt-get in place of the command to ask for."""
+    """A user without rights would get a failing apt-get instead of the command to request."""
     path = path_without(tmp_path / 'bin', 'cmake', 'sudo')
     done = subprocess.run(
         ['bash', '-c', 'id() { echo 1000; }; export -f id; exec scripts/setup.sh'],

@@ -73,7 +73,7 @@ def test_a_lost_cloth_leaves_the_others_alone():
     scene = Scene({**_SMALL, **SPRINGS, 'pins': ['none']})
     with Batch(scene, 3) as batch, Simulation(scene) as alone:
         start = batch.positions()
-        # Beyond what float32 has squares of; what is not a number spreads along springs.
+        # Its square overflows float32; NaN then spreads along springs.
         far = np.where(np.arange(9)[None, :, None] % 2, 9e11, -9e11) + 0.0 * start[0]
         batch.set_state(far[None], np.full_like(far, 9e11)[None], [1])
         for _ in range(3):

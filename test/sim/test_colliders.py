@@ -51,7 +51,7 @@ def test_orientations_are_made_unit_quaternions():
     ('plane', []), ('sphere', [0.3]), ('capsule', [0.2, 0.5]), ('box', [0.3, 0.5, 0.7]),
     ('cylinder', [0.3, 0.5])])
 def test_distances(shape, size):
-    """What is told of the deepest node would be wrong."""
+    """The report of the deepest node would be wrong."""
     body = Scene({
         **SPRINGS,
         'colliders.names': ['body'], 'colliders.body.shape': shape, 'colliders.body.size': size,

@@ -22,7 +22,7 @@ def number_nodes(rows, cols):
 
 @pytest.mark.parametrize(('rows', 'cols'), SHAPES)
 def test_edges_are_the_springs_of_the_reference(rows, cols):
-    """A tension would be told of an edge that is not there, or of another one."""
+    """A tension would be reported for a missing edge, or for another one."""
     scene = Scene({**SPRINGS, 'rows': rows, 'cols': cols, 'width': 0.3, 'height': 0.5})
     nodes = number_nodes(rows, cols)
     springs = {

@@ -38,7 +38,7 @@ def simulation() -> Iterator[Simulation]:
 
 
 def run_beside(simulation: Simulation, preparation: Preparation) -> int:
-    """Let the cloth go on while another thread prepares a mode; return its steps meanwhile."""
+    """Advance the cloth while another thread prepares a mode; return the steps made."""
     thread = threading.Thread(target=preparation.run)
     first = simulation.steps
     thread.start()

@@ -28,7 +28,7 @@ def about_z(angle):
 
 
 def test_a_move_ends_at_its_target():
-    """A body would be elsewhere than its scene says, or go on for ever."""
+    """A body would not be where the scene says, or never stop."""
     paths = FramePaths({'ball': HERE}, [
         a_move((0.0, 0.0, 1.0), 1.0, speed=2.0), a_move((1.0, 0.0, 0.5), 1.25)])
     assert paths.quiet_until(0.0) == 1.0
@@ -74,7 +74,7 @@ def test_a_turn_takes_an_arm_to_where_it_ends():
 
 
 def test_one_added_on_the_way_begins_there():
-    """A new target would make a body jump, or drop the moves of the scene that are to come."""
+    """A new target would make a body jump, or drop the scheduled moves of the scene."""
     paths = FramePaths({'ball': HERE}, [
         a_move((1.0, 0.0, 0.0), 0.0), a_move((0.0, 0.0, 5.0), 3.0)])
     foreseen = paths.foresee(a_move((0.5, 1.0, 0.0), 0.5))

@@ -59,7 +59,7 @@ def test_a_parameter_that_stands_twice_is_refused(tmp_path: Path, text: str, rul
 
 # Presets say how to step, and leave what is given alone.
 
-# What a preset may set: how the scene is stepped, and not what it is.
+# Parameters that a preset may set: of the time stepping, not of the cloth.
 _STEPPING = {
     'mode', 'dt', 'auto_substeps', 'refine', 'substeps', 'constraint.hard', 'constraint.springs',
     'constraint.newton_iterations', 'solver.tolerance'}

@@ -138,7 +138,7 @@ def test_reset_after_a_stop_is_the_start_again(simulate, mode):
 
 
 def test_time_does_not_run_ahead_of_a_stop(simulate):
-    """The next advance would make all steps that a stop has left out."""
+    """The next advance would make up for all steps omitted by a stop."""
     simulation = simulate({})
     simulation.push(_ABSURD, start=0.06, duration=1.0)
     with pytest.raises(NonFiniteStateError):
@@ -166,9 +166,9 @@ def test_the_error_says_when_where_and_what_to_change(simulate, values, push, sa
     assert 'must stay below 1e+12 m and m/s' in message
     if push is None:
         offered = float(message.split('set dt <= ')[1].split(',')[0])
-        mended = simulate({**values, 'dt': offered}, check_stability=False)
-        mended.step(1000)
-        assert mended.measure().finite
+        stable = simulate({**values, 'dt': offered}, check_stability=False)
+        stable.step(1000)
+        assert stable.measure().finite
 
 
 _IMPLICIT = {
@@ -248,7 +248,7 @@ class _Remembering(MassSpring):
 
 
 def test_a_blow_up_by_memory_alone_is_told():
-    """A run that was mended by forgetting would go on as if nothing had happened."""
+    """A run whose failure was cleared would continue as if nothing had happened."""
     scene, context = Scene(_SMALL), Context(single_thread=True)
     layout = choose_layout(scene, context)
     state = State(layout, scene.start_positions(), scene.pinned_nodes())

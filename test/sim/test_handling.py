@@ -14,7 +14,7 @@ from springs import SPRINGS
 
 
 def test_tells_the_distance():
-    """A caller could not tell a node that was hit from one that was only the nearest."""
+    """A caller could not see whether a node was hit or only the nearest."""
     positions = np.zeros((2, 3, 3), np.float32)
     positions[..., 0] = np.arange(3)
     positions[..., 1] = np.arange(2)[:, None]

@@ -36,7 +36,7 @@ def test_nodes_are_stored_with_two_ghosts_around(block: int):
 
 @pytest.mark.parametrize(('rows', 'cols', 'block'), [(1, 2, 4), (5, 7, 1), (6, 3, 2)])
 def test_what_is_stored_comes_back_at_its_node(rows: int, cols: int, block: int):
-    """What was computed for a node would be told of another."""
+    """The results of a node would be reported for another."""
     layout = Layout(rows, cols, 'fused', True, block, (8, 4))
     values = np.random.default_rng(1).normal(size=(rows, cols, 4))
     stored = layout.store(values).reshape(layout.stored, 4)

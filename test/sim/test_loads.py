@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-"""What modes and watchers are told of the loads."""
+"""The loads as modes and observers see them."""
 
 import math
 
@@ -143,7 +143,7 @@ def test_looking_on_does_not_change_a_run(simulate):
 
 
 def test_another_wind_blows_from_the_end_of_the_step(simulate):
-    """A wind that is told would be lost, or outlive a reset."""
+    """A wind that is set would be lost, or outlive a reset."""
     run, other = simulate(AIR), simulate({**AIR, 'air.wind': [0.0, -6.0, 0.0]})
     run.set_wind((0.0, -6.0, 0.0))
     for each in (run, other):

@@ -20,7 +20,7 @@ def test_mass_is_shared_evenly():
 
 
 def test_the_cloth_weighs_its_total_mass():
-    """A towel of 0.3 kg would weigh what the default areal density makes of its size."""
+    """A towel of 0.3 kg would have the mass of the default areal density times its area."""
     scene = Scene({'rows': 7, 'cols': 9, 'width': 0.5, 'height': 0.9, 'total_mass': 0.3})
     assert scene.node_mass * scene.node_count == pytest.approx(0.3)
     # A finer lattice of the same cloth weighs as much.

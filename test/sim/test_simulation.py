@@ -50,7 +50,7 @@ def test_time_does_not_go_back(simulation: Simulation, seconds: float):
 
 
 def test_goes_on_from_the_middle_of_a_run():
-    """A run could not be taken up from its recorded state, or pushes would come twice."""
+    """A run could not continue from its recorded state, or pushes would act twice."""
     timed = {
         **_SMALL, 'pushes.start': (0.0, 0.1), 'pushes.duration': (0.05, 0.1),
         'pushes.force': (0.0, 0.0, 1.0, 0.5, 0.0, 0.0), 'pin_moves.start': (0.01, 0.09),

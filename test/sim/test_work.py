@@ -184,7 +184,7 @@ def test_a_stop_keeps_what_was_asked_for_meanwhile(simulate):
 
 
 def test_what_needs_a_whole_step_is_refused_within_one(simulate):
-    """The state would be replaced under a step that goes on with the old one."""
+    """The state would be replaced during a step that uses the old one."""
     simulation = simulate()
     work = into_a_step(simulation)
     for change in (simulation.reset, lambda: simulation.step(1),

@@ -9,7 +9,7 @@ import pytest
 
 @pytest.mark.parametrize(('is_controlled', 'rounds'), [(False, 1), (True, 2)])
 def test_both_ways_are_timed_in_each_round(is_controlled, rounds):
-    """A speed-up would be told from other rounds than it was measured in."""
+    """A speed-up would be computed from other rounds than it was measured in."""
     found = measure_batch(6, 3, is_controlled=is_controlled, frames=2, rounds=rounds)
     assert len(found.together) == len(found.one_by_one) == rounds
     assert found.ratios == [

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-"""What must never be told is found."""
+"""Implausible results of extreme scenes are found."""
 
 from dataclasses import replace
 
@@ -91,7 +91,7 @@ def test_edges_that_are_off(context):
 
 
 def test_the_table_tells_what_came_out():
-    """A row would be told otherwise than it came out, or not be counted."""
+    """A row would have another outcome than its run, or not be counted."""
     runs = [run for run in extreme_runs(with_long=False)
             if run.settings['name'] in ('2 x 2', '8000 x 8000', 'push 1e30 N')
             and run.scene['mode'] == 'mass_spring']

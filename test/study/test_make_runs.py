@@ -109,7 +109,7 @@ def test_work_is_spread(tmp_path):
 
 
 def test_a_run_is_made_once(tmp_path):
-    """A continued study would make again what it has."""
+    """A continued study would repeat finished runs."""
     calls = tmp_path / 'calls'
     calls.mkdir()
     make(squares(range(3), folder=str(calls)), tmp_path / 'study', ONE)

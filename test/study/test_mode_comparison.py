@@ -101,7 +101,7 @@ def test_the_strain_of_the_shader_is_the_same(plain_runs):
 
 
 def test_growth_is_the_exponent_of_wall_time():
-    """A mode would be told to grow otherwise with the grid than it does."""
+    """The cost of a mode would be reported with another growth with the grid."""
     speeds = [made_speed('cubic', grid, 1.0 / grid**3) for grid in (32, 64, 128)]
     speeds += [made_speed('bent', grid, factor)
                for grid, factor in ((32, 1.0), (64, 0.25), (128, 0.015625))]

@@ -111,7 +111,7 @@ def test_without_a_solver_there_are_no_iterations():
 
 
 def test_the_largest_rise_of_energy_counts():
-    """What was gained and lost again would not be told, or not over M g L."""
+    """Energy gained and lost again would not be reported, or not over M g L."""
     record = RunRecord(SCENE, energies(0.0, 0.0, 1.0))
     for snapshot in (energies(0.3, 0.1, 0.5), energies(0.5, 0.2, 0.4981),
                      energies(0.1, 0.1, 0.4)):

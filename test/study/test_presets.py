@@ -64,7 +64,7 @@ def test_a_preset_that_is_none_is_told(capsys):
 
 @pytest.mark.parametrize('name', PRESETS)
 def test_shipped_files_tell_the_budget_they_were_chosen_by(name):
-    """A preset would claim what it was not chosen for."""
+    """A preset would claim an accuracy that it was not chosen for."""
     assert read_choice(shipped(name)[0])[1] == BUDGETS[name]
 
 

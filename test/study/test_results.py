@@ -27,7 +27,7 @@ def other_shaders(tmp_path, monkeypatch):
 
 
 def test_a_shader_that_changed_makes_another_run(other_shaders):
-    """A study that is made again would tell of the code before."""
+    """A repeated study would report results of older code."""
     run = Run('study_runs:square', {}, {'number': 2})
     before = run.key
     code_digest.cache_clear()

@@ -30,7 +30,7 @@ def laws(scene: Scene) -> dict[str, EdgeLaw]:
 @pytest.mark.parametrize('shape', [(8, 9), (1, 7), (7, 1)])
 @pytest.mark.parametrize('is_held', [False, True])
 def test_two_ways_to_the_same_step(kind, shape, is_held):
-    """An error would be told that is none, or one would pass."""
+    """A correct result would be reported as an error, or an error pass."""
     rows, cols = shape
     # Two pins with an edge between them, and one apart.
     pins = ['0,0', '0,1' if cols > 1 else '1,0', 'bottom_right'] if is_held else ['none']

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-"""Measured edges are those of the closed forms, and points are told apart."""
+"""Measured stability limits match the closed forms, and points are distinguished."""
 
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.stability import stability_limit

@@ -28,7 +28,7 @@ def test_each_round_has_its_time(tmp_path: Path):
 
 
 def test_a_node_that_does_not_start_is_explained(tmp_path: Path):
-    """The user would wait a minute and be told nothing."""
+    """The user would wait a minute without a message."""
     scene = tmp_path / 'scene.yaml'
     scene.write_text('/**:\n  ros__parameters:\n    rows: 0\n')
     done = bench_start_up(scene)

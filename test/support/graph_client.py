@@ -85,7 +85,7 @@ class GraphClient:
     @contextmanager
     def passing(self) -> Iterator[None]:
         """
-        Give up at the end of the block what it has asked for, services and topics.
+        Remove its service clients and subscriptions at the end of the block.
 
         Each turn asks all that there are, so that what is left of the tests before would make it
         ever slower.

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-"""The processes of a session, which tell whether anything was left behind."""
+"""The processes of a session, to find any that were left behind."""
 
 from contextlib import suppress
 import os

@@ -58,7 +58,7 @@ class ViewPage:
 
     @property
     def text(self) -> str:
-        """Get what is told above the controls."""
+        """Get the text above the controls."""
         return next(
             (control['_markdown'] for control in self._by_uuid.values() if '_markdown' in control),
             '')

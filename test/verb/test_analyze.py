@@ -163,7 +163,7 @@ def test_a_bag_of_ros2_bag_gives_the_same_figures(swinging, tmp_path, storage, s
     ({'points'}, {'max_strain', 'mean_strain', 'mean_height'}, ['stats', 'state', 'inputs/mode']),
     ({'stats', 'state'}, set(STATS), ['points', 'inputs/mode'])])
 def test_what_was_recorded_is_enough(swinging, tmp_path, capsys, topics, has, missing):
-    """A bag with a part of the topics would be refused, or its gaps would not be told."""
+    """A bag with a part of the topics would be refused, or its gaps not reported."""
     bag = copy_bag(
         swinging, tmp_path / 'part', topics={f'/cloth_sim/{key}' for key in topics})
     whole, part = Run(Recording(swinging)), Run(Recording(bag))

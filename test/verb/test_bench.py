@@ -45,7 +45,7 @@ def test_variants_are_scene_parameters(capsys):
 
 
 def test_the_solver_is_measured_with_its_error(capsys):
-    """The speed of a solve would be told without what it is worth."""
+    """The speed of a solve would be reported without its accuracy."""
     device, *lines = bench(
         capsys, '--solver', '--rounds', '1', '--round-seconds', '0.001', '--sizes', '10')
     assert device.startswith('10 x 10 on ')
@@ -67,7 +67,7 @@ SHORT_MODES = ('--modes', '--seconds', '0.06', '--rounds', '2')
 
 
 def test_modes_are_compared_in_one_document(capsys):
-    """Programs could not read the comparison, or not on what it was made."""
+    """Programs could not read the comparison, or the machine it was made on."""
     found = json.loads(''.join(bench(capsys, *SHORT_MODES, '--grids', '6,10', '--json')))
     assert [(row['grid'], row['contender']) for row in found['speeds']] == [
         (grid, name) for grid in (6, 10) for name in (
@@ -105,7 +105,7 @@ def test_a_comparison_that_makes_no_sense_is_refused(arguments, reason, capsys):
 
 
 def test_colliders_are_compared_with_none(capsys):
-    """What contact costs would be told of other work, or not at all."""
+    """The cost of contact would be that of other work, or be missing."""
     found = [json.loads(line) for line in bench(
         capsys, '--contact', '--sizes', '6', '--seconds', '0.04', '--rounds', '1', '--json')]
     assert [each['mode'] for each in found] == ['mass_spring', 'constraint']

@@ -44,7 +44,7 @@ def recorded(tmp_path_factory) -> Path:
 @pytest.mark.parametrize('length', [0, 5, 8, 42, 538, 3000, 20000])
 def test_a_recording_cut_off_in_its_first_chunk_is_told_so(
         recorded, tmp_path, monkeypatch, capsys, length, arguments):
-    """A user would be told to record points, which were being recorded."""
+    """A user would be advised to record points, which were being recorded."""
     monkeypatch.chdir(tmp_path)
     content = recorded.read_bytes()
     assert len(content) > 20000

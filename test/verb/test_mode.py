@@ -11,7 +11,7 @@ def test_switches(verb):
 
 
 def test_tells_why_not(verb):
-    """A script would go on with another mode than it asked for."""
+    """A script would continue with another mode than it asked for."""
     result = verb('mode', 'fluid')
     assert (result.returncode, result.stdout) == (1, '')
     assert 'must be one of' in result.stderr

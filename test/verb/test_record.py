@@ -9,7 +9,7 @@ from recorded import Recorded
 
 
 def test_records(verb, verb_node):
-    """A recording could not be made from the command line, or its path would not be told."""
+    """A recording could not be made from the command line, or its path would not be printed."""
     started = verb('record', 'start', 'by_hand')
     assert started.returncode == 0, started.stderr
     path = Path(started.stdout.strip())

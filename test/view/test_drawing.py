@@ -42,7 +42,7 @@ def test_the_page_shows_the_colliders_and_moves_them():
 
 
 def test_the_page_tells_grasped_nodes_from_pins():
-    """Nobody could tell a gripper from a peg."""
+    """A gripper would look like a peg."""
     scene = Scene({
         'rows': 4, 'cols': 4, 'pins': ['top_left'], 'start.z': 3.0, 'grasps.start': [0.0],
         'grasps.name': ['hand'], 'grasps.position': [0.5, 0.0, 3.0], 'grasps.count': [1]})

@@ -67,7 +67,7 @@ def test_a_large_cloth_is_thinned_and_keeps_its_edges():
 
 
 def test_each_band_has_a_colour_of_its_own():
-    """Two strains could not be told apart."""
+    """Two strains would have the same colour."""
     assert len(set(band_colors())) == BANDS
 
 

@@ -94,7 +94,7 @@ def test_a_click_pins_and_releases(page: ViewPage):
     """The node beside the one that was clicked would be held."""
     page.give('Click', 'pins or releases')
     rest = SCENE.rest_positions()
-    # Settings and clicks are taken up side by side.
+    # Settings and clicks are processed side by side.
     page.wait_for(lambda: page.controls['Click'], 'the choice')
     above = tuple(rest[3, 2] + (0.01, 0.01, 1.0))
     _click_until(page, above, 3)

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-"""Record into files that can't grow beyond 4 MiB, and tell what became of it."""
+"""Record into files that can't grow beyond 4 MiB, and print the outcome."""
 
 import os
 import resource

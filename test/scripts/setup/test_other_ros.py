@@ -11,7 +11,7 @@ PARTS = Path(__file__).resolve().parents[3] / 'scripts' / 'setup'
 
 
 def environment_after_leaving(variables: dict[str, str]) -> dict[str, str]:
-    """Return the environment that leave_other_ros makes of this one."""
+    """Return this environment after leave_other_ros."""
     done = subprocess.run(
         ['bash', '-euc', f'. {shlex.quote(str(PARTS))}/other_ros.sh; '
          'leave_other_ros "$(ros_source)"; env -0'],

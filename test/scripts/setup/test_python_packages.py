@@ -105,7 +105,7 @@ def test_other_bytes_are_not_installed(tmp_path):
 
 
 def test_nothing_is_installed_without_a_hash(tmp_path):
-    """A requirement whose hash was forgotten would be taken as it comes."""
+    """A requirement without a hash would be installed unchecked."""
     right = wheel(tmp_path, 'setuptools', '79.0.1')
     wheel(tmp_path, 'towel', '1.0')
     code, output = install(

@@ -28,9 +28,9 @@ LONG_CASES = [
 LIMP = {'stiffness.structural': 5.0, 'stiffness.shear': 5.0, 'stiffness.bend': 0.5,
         'damping.structural': 1e-4, 'damping.shear': 1e-4, 'damping.bend': 1e-4}
 
-# Of a limit: what float32 can't tell apart.
+# Relative difference of limits that float32 does not resolve [1].
 NEARLY = 3e-5
-# Of the limit of 0.1: a strain of 0.002 before it, it comes into force.
+# Strain over the limit of 0.1 at which the limit engages [1]: 0.002 below it.
 ONSET = 0.98
 
 

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-"""What the constraint mode is told, and what it says of itself."""
+"""Settings and statistics of the constraint mode."""
 
 import math
 
@@ -98,7 +98,7 @@ def test_a_family_is_hard_or_a_spring():
 
 
 def test_no_step_is_too_long(simulate):
-    """A tight cloth would blow up in long steps, or not be told to be less exact in them."""
+    """A tight cloth would blow up in long steps, or not be reported as less exact in them."""
     simulation = simulate(**{'auto_substeps': False, 'dt': 0.05})
     simulation.push((0.0, 0.0, -30.0), duration=0.5)
     simulation.advance(2.0)

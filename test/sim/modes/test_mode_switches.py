@@ -28,7 +28,7 @@ LIMITED = ('adaptive', 'mass_spring')
     *(pytest.param(*pair, UNIT, id=f'{"-".join(pair)}-unit', marks=pytest.mark.long)
       for pair in PAIRS if pair != LIMITED)])
 def test_a_switch_keeps_the_state_and_its_energy(context, before, after, values):
-    """The switch moves nodes, or a mode goes on with what it remembers of another time."""
+    """The switch moves nodes, or a mode continues with an outdated state."""
     with closing(Simulation(Scene({**values, 'mode': before}), context=context)) as simulation:
         simulation.advance(0.6)
         # There, back after a while, and there again: a mode must not remember the first time.

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-"""What studies, recordings and accounts ask of a mode, in place of its name."""
+"""Properties of a mode that studies, recordings and accounts use instead of its name."""
 
 import math
 

@@ -199,7 +199,7 @@ def test_the_account_closes_at_any_fineness(start, any_mode, side):
      'pushes.force': [0.0, 0.0, 3.0], 'pushes.center': [0.0, 0.0, 0.9], 'pushes.radius': [0.4]}],
     ids=['still', 'wind', 'free', 'gust and push'])
 def test_the_account_of_energy_closes(start, any_mode, given):
-    """Energy would come from the air, or go, that its work does not tell of."""
+    """Energy would be gained from the air, or lost, without appearing in its work."""
     undamped = {name: 0.0 for name in LOOSE if name.startswith('damping')}
     run = start({'rows': 16, 'cols': 16, 'mode': any_mode, **AIR, 'dt': 0.002, **undamped,
                  **given})

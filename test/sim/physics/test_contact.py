@@ -41,7 +41,7 @@ class Slope:
     """A cloth that lies on a slope with friction, in one mode."""
 
     def __init__(self, simulate, mode, friction, **others):
-        """Allow mu to be off by what float32 makes of hard edges, or of springs."""
+        """Return the tolerance of mu: the rounding of hard edges, or of springs."""
         self._simulate, self._friction = simulate, friction
         self._scene = {**LYING, **FLOOR, 'mode': mode, **others}
         self.allowed = 1e-3 if mode == 'constraint' else 1e-4

@@ -122,7 +122,7 @@ def test_the_reference_counts_the_same(simulate, within, jitter):
 
 
 def test_a_falling_chain_gains_no_energy(simulate, within):
-    """Bend springs that the mode leaves out would be told as energy from nothing."""
+    """Bend springs that the mode omits would be reported as energy."""
     simulation = simulate({
         'rows': 10, 'cols': 1, 'mode': 'constraint', 'constraint.hard': ['structural'],
         'stiffness.bend': 1000.0, 'pins': ['top_left'], 'dt': 0.002})

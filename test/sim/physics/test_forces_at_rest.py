@@ -17,7 +17,7 @@ HANGING = {
 
 @pytest.mark.parametrize('cols', [pytest.param(1, marks=pytest.mark.long), 3])
 def test_edges_carry_the_weight_below_them(simulate, within, force_scene, cols):
-    """A tension is not the weight it carries, or is told of another edge."""
+    """A tension is not the weight it carries, or is reported for another edge."""
     rows = 8
     simulation = simulate(
         {**HANGING, 'rows': rows, 'cols': cols, 'pins': ['top_edge'], **force_scene})

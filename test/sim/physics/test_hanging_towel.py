@@ -43,14 +43,14 @@ def _check_rest(simulation, within, speed):
 
 @pytest.mark.parametrize(('mode', 'share', 'pins'), FORMS)
 def test_it_soon_hangs_still(towel, within, mode, share, pins):
-    """Ripples would go on for ever, or grow."""
+    """Ripples would not decay, or grow."""
     simulation = towel(mode, share, pins=pins)
     simulation.advance(4.0)
     _check_rest(simulation, within, 0.02)
 
 
 def test_ripples_of_a_fine_grid_fade(towel, within):
-    """Steps far longer than ripples take would feed them, while the solver tells of success."""
+    """Steps far longer than ripples would feed them, while the solver reports success."""
     simulation = towel('constraint', 1.0, pins=['top_edge'])
     simulation.advance(0.3)
     before = simulation.snapshot()

@@ -47,7 +47,7 @@ SCENE = {
     'auto_substeps': False, 'pushes.start': [0.0, 0.01], 'pushes.duration': [0.03, 0.05],
     'pushes.force': [0.2, 0.0, 3.0, 0.0, 1.0, 0.0],
     'pushes.center': [0.0, 0.0, 0.0, 0.0, 0.0, 1.0], 'pushes.radius': [0.0, 0.35]}
-# Of the limit: the strain of all edges at the start.
+# Strain of all edges at the start, over the limit [1].
 STRETCHED, PRESSED = 0.97, -0.97
 
 

@@ -187,7 +187,7 @@ def test_the_same_moves_give_the_same_bits(simulate, any_mode, layout):
 
 
 def test_a_sudden_move_keeps_the_limit(simulate, within):
-    """A mode that expects a calm cloth to stay calm does not see that a pin sets off."""
+    """A mode that expects a resting cloth to stay at rest would miss the start of a pin."""
     simulation = simulate({
         'mode': 'adaptive', 'adaptive.threshold': 0.05, 'rows': 12, 'cols': 12,
         'gravity': [0.0, 0.0, 0.0], 'pins': ['top_edge'], 'dt': 0.01})

@@ -133,7 +133,7 @@ def test_switches_and_pushes_at_fixed_times_too(hashes_of_two):
     'mass_spring', *(pytest.param(mode, marks=pytest.mark.long)
                      for mode in modes.AVAILABLE if mode != 'mass_spring')], indirect=True)
 def test_the_times_of_switches_count(any_mode):
-    """A switch would come at another time than it is told, and nobody would know."""
+    """A switch would happen at another time than reported."""
     first, second = _hashes_of_a_process(*(
         ({**LIMITED, 'mode': any_mode},
          [(seconds, any_mode), *((0.08, other) for other in modes.AVAILABLE)])

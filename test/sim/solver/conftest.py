@@ -59,7 +59,7 @@ class SolverCase:
 
     Where the law has the geometric mass term, a solve has been made before, for its tensions.
 
-    ``left`` is what the solve before has left of its right side (rows, cols, 3) [m/s].
+    ``left`` is the residual of the previous solve (rows, cols, 3) [m/s].
 
     :param kick: that gravity acts for [s]; None takes the length of the step
     :param is_new: leave that solve out
@@ -139,7 +139,7 @@ class SolverCase:
         return self.solve()
 
     def least_change(self, kick: float = 0.01) -> float:
-        """Return 0.001 of what gravity makes of all velocities in ``kick`` [s], as a norm."""
+        """Return 0.001 of the norm of all velocities that gravity adds in ``kick`` [s]."""
         return 1e-3 * kick * 9.81 * float(np.sqrt(np.count_nonzero(self.free)))
 
     def read_state(self) -> tuple[np.ndarray, np.ndarray]:
@@ -157,7 +157,7 @@ class SolverCase:
         return (random.normal(size=self.positions.shape) * self.free).astype(np.float32)
 
     def delete(self) -> None:
-        """Give the buffers back."""
+        """Free the buffers."""
         self.solver.delete()
         self.state.delete()
 

@@ -64,7 +64,7 @@ def test_iterations_and_error_at_a_hundredth(make_case, draped, nodes, time, kin
 @pytest.mark.parametrize('kind', ['springs', 'hard'])
 @pytest.mark.parametrize('nodes', [52, pytest.param(128, marks=pytest.mark.long)])
 def test_the_residual_foretold_is_about_what_is_left(make_case, draped, nodes, kind):
-    """A solve would be said to have reached what it has not."""
+    """A solve would be reported as converged although it is not."""
     options = {'kind': kind, 'dt': 0.01, 'state': draped(nodes, 0.5)}
     values = {'rows': nodes, 'cols': nodes}
     case = make_case(values, **options, tolerance=1e-2, max_iterations=100)

@@ -51,7 +51,7 @@ def test_the_law_belongs_to_the_scene():
 
 
 def test_hard_edges_have_no_spring_besides():
-    """An edge would be told harder than it is, or be damped where it should not be."""
+    """An edge would be reported stiffer than it is, or be damped where it should not be."""
     law = edge_law(Scene(CLOTH), 0.01, hard=['structural'], springs=['structural', 'bend'])
     assert law.stiffness == (0.0, 0.0, 0.0, *[pytest.approx(1000.0)] * 2)
     assert law.damping == (0.0, 0.0, 0.0, *[pytest.approx(15.0)] * 2)

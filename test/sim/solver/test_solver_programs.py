@@ -27,7 +27,7 @@ def around_a_node(law: EdgeLaw) -> float:
 
 
 def test_heavy_edges_are_smoothed_from_a_quarter_to_two():
-    """An error that no coarser level can mend would stay, or grow."""
+    """An error that no coarser level can correct would stay, or grow."""
     law = hard_edges(Scene({**SPRINGS}), 0.01)
     assert around_a_node(law) > 100.0
     steps = smoothing_steps(law)

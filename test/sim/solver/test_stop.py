@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 CLOTH = {'rows': 30, 'cols': 30}
-# What block-Jacobi makes of a residual is known exactly.
+# The result of block-Jacobi for a residual is known exactly.
 PLAIN = {'preconditioner': 'block_jacobi'}
 
 
@@ -176,7 +176,7 @@ def test_a_step_starts_from_the_change_of_the_one_before(make_case, precondition
 
 
 def test_the_change_of_a_step_is_that_of_all_its_solves(make_case):
-    """The next step would start from what the last solve has mended alone."""
+    """The next step would start from the correction by the last solve alone."""
     case = make_case(CLOTH, tolerance=1e-4, max_iterations=600)
     change = case.solve()
     case.apply()

@@ -14,7 +14,7 @@ import pytest
 @pytest.mark.parametrize(('scale', 'after', 'residual'), [
     (4.0, 1.0, 0.5), (4.0, 0.0, 0.0), (1.0, 4.0, 2.0), (0.0, 0.0, 0.0), (1.0, -1e-4, 1e-2)])
 def test_residual_is_the_root_of_the_quotient(scale, after, residual):
-    """A residual would be told that is none, or a rounded one would raise an error."""
+    """A NaN would be reported as a residual, or a rounded residual raise an error."""
     report = report_of(scale, after, 3, 0.5)
     assert (report.iterations, report.residual) == (3, pytest.approx(residual))
     assert report.reached == (residual <= 0.5)
@@ -80,7 +80,7 @@ def test_a_solver_gets_over_what_was_not_finite(make_case, preconditioner):
 
 
 def test_a_solve_that_gave_up_is_not_forgotten(make_case):
-    """A step would be told reached because its last solve was."""
+    """A step would be reported as converged because its last solve was."""
     case = make_case({'rows': 12, 'cols': 9}, tolerance=1e-4, max_iterations=1)
     case.solver.clear_tally()
     case.solve()

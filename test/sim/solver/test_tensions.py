@@ -61,7 +61,7 @@ def test_tensions_and_gravity_move_the_nodes(make_case, kind):
                 impulse[row, col] += pull
                 impulse[other] -= pull
     moved = case.scene.node_mass * change
-    # Both ends of an edge get what float32 makes of its tension, times the step.
+    # Both ends of an edge get its float32 tension times the step.
     allowed = 1e-6 * 0.01 * np.abs(tensions).max() + FLOAT32_ERROR * np.abs(moved).max()
     assert np.abs((moved - impulse) * case.free).max() < allowed
 

@@ -56,7 +56,7 @@ def state_of(cloth):
 
 
 def moved(program, state):
-    """Return where ``program`` has come to, and the largest way of a node [m]."""
+    """Return the positions of ``program``, and the largest displacement of a node [m]."""
     program.set_state(*state)
     for _ in range(STEPS):
         program.step()
@@ -87,7 +87,7 @@ def context():
 
 @pytest.mark.parametrize('cloth', CLOTHS, ids=name_of)
 def test_numpy_is_the_reference(cloth):
-    """The fallback would step something else than what it is compared with."""
+    """The fallback would compute another step than the program it is compared with."""
     reference = reference_of(cloth)
     reference.step(STEPS)
     model = serial_model(scene_of(cloth), tolerance=1e-10)
