@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-"""The controls of a page, and what is told beside the cloth."""
+"""The controls of a page, and the text beside the cloth."""
 
 from collections.abc import Callable
 from typing import Any

@@ -20,7 +20,7 @@ import viser
 
 _PIN_COLOR = (220, 40, 40)
 _GRASP_COLOR = (143, 51, 184)
-# Of the diagonal of the cloth.
+# Size of a pin's dot over the diagonal of the cloth [1].
 _PIN_SIZE = 0.012
 # Props of a mesh that shows nothing: viser takes no empty one.
 _NO_VERTICES = np.zeros((3, 3), np.float32)
@@ -166,9 +166,9 @@ class ColliderDrawing:
 
 # Handles by which pins are dragged.
 
-# More would hide the cloth; other pins are dots.
+# Max. number of handles [1]: more would hide the cloth; other pins are dots.
 MOST_HANDLES = 16
-# Of the diagonal of the cloth.
+# Size of a handle over the diagonal of the cloth [1].
 _SIZE = 0.12
 
 Node = tuple[int, int]

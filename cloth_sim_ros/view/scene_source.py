@@ -26,7 +26,7 @@ from cloth_sim_ros.view.source import Source
 from cloth_sim_ros.view.source import STOPPED
 
 _Request = tuple[Callable[[Simulation], Any], Future[None]]
-# Of wall time that was lost, what is caught up with [s]; the rest makes the view slower.
+# Max. delay that the view catches up with [s]; a longer one makes it slower than real time.
 _MOST_BEHIND = 0.1
 
 

@@ -60,7 +60,7 @@ class Source(ABC):
 
     @abstractmethod
     def close(self) -> None:
-        """Give everything back."""
+        """Free all resources."""
 
     # A page asks for these only where `span`, `modes` and `can_act` say that the source has them.
     def go_to(self, time: float) -> None:

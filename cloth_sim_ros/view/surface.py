@@ -53,7 +53,7 @@ class Surface:
         """
         points = self.points(frame)
         strain = self.strain(frame)[self.faces].mean(axis=1)
-        # What is not a number is drawn in the last colour.
+        # NaN is drawn in the last colour.
         band = np.fmin(np.nan_to_num(strain / full_strain, nan=1.0) * BANDS, BANDS - 1)
         band = band.astype(int)
         meshes: list[Mesh | None] = []

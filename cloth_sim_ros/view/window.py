@@ -60,7 +60,7 @@ class Window:
             self._controls.show(moment)
 
     def answer(self, client: viser.ClientHandle | None, action: Callable[[], Any]) -> None:
-        """Do ``action``; what is wrong with it is told on the page that asked for it."""
+        """Do ``action``; show its error on the page that requested it."""
         do_for(self._server, client, action)
 
     def _click(self, event: viser.SceneClickEvent) -> None:

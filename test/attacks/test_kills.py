@@ -51,7 +51,7 @@ class Kills:
         self._heard.clear()
 
     def kill(self, moment: str) -> None:
-        """Start the node, kill it around ``moment``, and check what it leaves."""
+        """Start the node, kill it around ``moment``, and check its recording."""
         before = self.recordings()
         self._forget()
         with WritersClock(self._folder) as clock, NodeProcess(
@@ -116,7 +116,7 @@ def check_recording(path: Path, safe: int, story: str) -> None:
             reader.decode(raw).steps for raw in reader.messages([f'{NODE}/stats'])]
         check_recovery(path, sum(1 for _ in reader.messages()))
     except ClothSimError as error:
-        assert 'truncated before the first flush' in str(error)
+        assert 'killed before the first flush' in str(error)
         found = []
     assert found == sorted(found)
     assert max(found, default=-1) >= safe, (

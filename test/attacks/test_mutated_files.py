@@ -21,7 +21,7 @@ CONFIG = Path(__file__).resolve().parents[2] / 'config'
 COUNTS = pytest.mark.parametrize('count', [20, pytest.param(1000, marks=pytest.mark.long)])
 SECONDS = 10.0
 MEMORY = 1 << 30  # [bytes]
-# Of a few nodes and steps, so that what is damaged where it does not matter is quickly made.
+# A scene of a few nodes and steps: with damage that has no effect, the run takes little time.
 SMALL = (
     '--set', 'rows=4', '--set', 'cols=5', '--set', 'pushes.start=[0.02]', '--set',
     'pushes.duration=[0.02]', '--set', 'pushes.force=[0.0, 0.0, 0.5]', '--set',

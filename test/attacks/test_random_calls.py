@@ -30,9 +30,9 @@ from std_srvs.srv import Trigger
 ALL_SERVICES = {
     **SERVICES, 'set_parameters': SetParameters, 'get_parameter_types': GetParameterTypes}
 TOPICS = {'~/push': Push, '~/pins/target': PinTarget, '/clicked_point': PointStamped}
-# Of a refusal: the rule and the value, then the way out.
+# Parts of a refusal that separate the rule and the value from the advice.
 WAYS_OUT = (': ', 'must be one of', 'must be true or false')
-# What is accepted is told on these topics as well.
+# Topics on which accepted requests are published, by service.
 TOLD = {
     'apply_push': 'inputs/push', 'set_pin': 'inputs/pin', 'move_pin': 'inputs/pin_target',
     'clear_pushes': 'inputs/command'}

@@ -27,7 +27,7 @@ from peers.numpy_peer import NumpyCloth
 import pytest
 
 BENCHMARKS = Path(mass_spring_peers.__file__).parent
-# Of a run that takes no time.
+# Arguments of a short run.
 QUICK = ['--sizes', '8', '9', '--rounds', '2', '--round-seconds', '0.001', '--json']
 
 

@@ -27,5 +27,5 @@ def test_limits_are_found_in_few_iterations():
     print(f'measured {iterations:.1f} of 25 allowed: iterations in a substep, in '
           f'{towel.solves:.1f} solves')
     assert towel.unreached == 0.0
-    # 31 where each pass begins with the limits that lengths tell of.
+    # It is 31 if each pass starts from the limits by the lengths.
     assert iterations <= 25.0

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-"""Buffers hold what they were given, in memory whose size asks for no other shader."""
+"""Buffers return their data, and their size does not require another shader."""
 
 from cloth_sim_ros.gl.buffer import Buffer
 from cloth_sim_ros.gl.context import Context

@@ -17,7 +17,7 @@ import pytest
 from rclpy.serialization import deserialize_message
 from tf2_msgs.msg import TFMessage
 
-# Of ROS 2 Jazzy's own tf2_msgs, as `ros2 topic info --verbose /tf` shows it.
+# Hash of TFMessage in ROS 2 Jazzy, as `ros2 topic info --verbose /tf` shows it.
 JAZZY_HASH = 'RIHS01_e369d0f05a23ae52508854b66f6aa0437f3449d652e8cbf22d5abe85d020f087'
 
 

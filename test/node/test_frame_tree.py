@@ -186,7 +186,7 @@ HERE = Pose((0.0, 0.0, 0.0))
 
 
 def empty_tree(own=None):
-    """Return a tree whose frames all have to be told, but those of ``own``."""
+    """Return a tree that has no frames but those of ``own``."""
     return FrameTree((own or {}).get, 'publish it')
 
 

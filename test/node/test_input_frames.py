@@ -69,7 +69,7 @@ def camera(teller):
 
 
 def publish(cloth, kind, topic, message, key):
-    """Publish ``message``, and return what the node tells of it."""
+    """Publish ``message``, and return the input that the node publishes for it."""
     publisher = cloth.client.node.create_publisher(kind, topic, 10)
     cloth.client.spin_until(publisher.get_subscription_count, 'the node listens')
     count = len(cloth[key])

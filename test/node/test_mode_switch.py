@@ -76,7 +76,7 @@ def test_the_cloth_goes_on_and_services_answer_meanwhile(cold: ClothUnderTest):
     assert took_over > first + 20
     for topic in ('inputs/push', 'inputs/pin'):
         assert all(cold.steps_of(message) < took_over for message in cold[topic])
-    # Of the mode that it has, as soon as the step under way is made.
+    # Setting the current mode is answered at the end of the current step.
     assert cold.call(SetMode, 'set_mode', mode='constraint', wait=True).message.startswith(
         'mode constraint, was')
 

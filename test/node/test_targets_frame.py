@@ -20,8 +20,8 @@ UP = Pose(position=Point(z=0.95))
 NO_TURN = Quaternion(x=0.0, y=0.0, z=0.0, w=0.0)
 BAD_POSES = {
     'no rotation at all': (Pose(orientation=NO_TURN), 'has no direction'),
-    'a rotation that is no number': (Pose(orientation=Quaternion(w=NAN)), '4 finite numbers'),
-    'a place that is no number': (Pose(position=Point(y=NAN)), '3 finite numbers'),
+    'a rotation NaN': (Pose(orientation=Quaternion(w=NAN)), '4 finite numbers'),
+    'a place NaN': (Pose(position=Point(y=NAN)), '3 finite numbers'),
     'an infinite place': (Pose(position=Point(y=-INF)), '3 finite numbers'),
     'a place far away': (Pose(position=Point(y=1e7)), 'at most 100000 m'),
 }
@@ -30,7 +30,7 @@ BAD = {
     'a collider that is not there': ({'name': 'bal'}, 'those of the scene, ball, floor'),
     'an absurd speed': ({'speed': 1e9}, 'the speed of ball must be from 1e-06 to 1000 m/s'),
     'a negative speed': ({'speed': -1.0}, 'the speed of ball must be from 1e-06'),
-    'a speed that is no number': ({'speed': NAN}, 'the speed of ball must be from 1e-06'),
+    'a speed NaN': ({'speed': NAN}, 'the speed of ball must be from 1e-06'),
     'an absurd rotation': ({'angular_speed': INF}, 'the angular_speed of ball must be from'),
 }
 

@@ -21,15 +21,15 @@ CORNER = Pose(position=Point(x=-0.45, y=-0.35, z=1.0))
 NO_TURN = Quaternion(x=0.0, y=0.0, z=0.0, w=0.0)
 BAD = {
     'a negative radius': ({'radius': -0.1}, 'radius of grasp hand must be from 0'),
-    'a radius that is no number': ({'radius': NAN}, 'radius of grasp hand must be from 0'),
+    'a radius NaN': ({'radius': NAN}, 'radius of grasp hand must be from 0'),
     'a negative force': ({'max_force': -1.0}, 'max_force of grasp hand must be from 0'),
     'a radius and a count': ({'radius': 0.1, 'count': 2}, 'give one of them'),
     'no name': ({'name': ''}, 'no name of a grasp'),
     'a name with a slash': ({'name': 'left/hand'}, 'no name of a grasp'),
-    'a place that is no number': ({'pose': Pose(position=Point(x=NAN))}, '3 finite numbers'),
+    'a place NaN': ({'pose': Pose(position=Point(x=NAN))}, '3 finite numbers'),
     'an infinite place': ({'pose': Pose(position=Point(x=INF))}, '3 finite numbers'),
     'no rotation at all': ({'pose': Pose(orientation=NO_TURN)}, 'has no direction'),
-    'a rotation that is no number': (
+    'a rotation NaN': (
         {'pose': Pose(orientation=Quaternion(x=NAN))}, '4 finite numbers'),
     'nothing near': ({'pose': Pose(position=Point(z=3.0))}, 'no free node within'),
 }

@@ -23,10 +23,10 @@ TARGET = Point(x=-0.4, y=0.35, z=1.2)
 BAD = {
     'a free node': ({'row': 5, 'col': 3}, 'node (5, 3) is free and only a pin can be moved'),
     'a node outside': ({'row': 2**32 - 1}, '0 to 7'),
-    'a target that is no number': ({'target': Point(x=NAN)}, '3 finite numbers'),
+    'a target NaN': ({'target': Point(x=NAN)}, '3 finite numbers'),
     'an infinite target': ({'target': Point(z=-INF)}, '3 finite numbers'),
     'a negative speed': ({'speed': -0.5}, 'speed of a pin must be from 1e-06'),
-    'a speed that is no number': ({'speed': NAN}, 'speed of a pin must be from 1e-06'),
+    'a speed NaN': ({'speed': NAN}, 'speed of a pin must be from 1e-06'),
     'an infinite speed': ({'speed': INF}, 'speed of a pin must be from 1e-06'),
 }
 

@@ -124,7 +124,7 @@ def test_a_depth_that_was_not_recorded_is_the_usual_one(name, key, depth):
 
 @pytest.fixture
 def reader():
-    """Run a process that prints what it has read, when it has the last message."""
+    """Run a process that prints the messages it read, after the last one."""
     process = subprocess.Popen([sys.executable, '-c', _READER], stdout=subprocess.PIPE, text=True)
     process.stdout.readline()
     yield process

@@ -191,11 +191,12 @@ def test_compressed_bags_of_rosbag2_are_read(recorded, tmp_path, expected, compr
 
 
 @pytest.mark.parametrize('content, reason', [
-    (b'', 'is empty'), (b'\x89MCAP', 'has 5 bytes, as it was truncated'),
-    (b'nothing of the kind', 'not an mcap file')])
+    (b'', 'is empty: its writer was killed before .*; give'),
+    (b'\x89MCAP', 'has 5 bytes: its writer was killed before .*; give'),
+    (b'nothing of the kind', 'not an mcap file.*: give')])
 def test_what_is_no_bag_is_refused(tmp_path, content, reason):
     """A wrong file would end in a traceback."""
     file = tmp_path / 'bag.mcap'
     file.write_bytes(content)
-    with pytest.raises(ClothSimError, match=f'{reason}.*: give'):
+    with pytest.raises(ClothSimError, match=reason):
         BagReader(file)

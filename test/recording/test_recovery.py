@@ -83,7 +83,7 @@ def test_cut_anywhere_all_whole_messages_are_kept(recorded, tmp_path):
         file.write_bytes(content[:size])
         expected = read_or_none(file)
         if not expected:
-            with pytest.raises(ClothSimError, match='truncated before the first flush'):
+            with pytest.raises(ClothSimError, match='killed before the first flush'):
                 Recovery(file)
             continue
         Recovery(file).write(tmp_path / f'whole_{number}', '--out')

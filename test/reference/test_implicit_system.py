@@ -94,7 +94,7 @@ def test_a_pass_solves_the_printed_system(kind, passes):
     h, mass = cloth.dt, cloth.scene.node_mass
     matrix = mass * np.eye(rows.shape[1]) + rows.T @ ((h * slopes)[:, None] * rows)
     for row, geometric in zip(rows, across):
-        # Of K_geo: (I - n n^T) between the two ends.
+        # The part of K_geo by this edge: (I - n n^T) between its ends.
         ends = [slice(3 * node, 3 * node + 3) for node in np.flatnonzero(
             row.reshape(-1, 3).any(axis=1))]
         n = row[ends[0]]

@@ -176,7 +176,7 @@ _IMPLICIT = {
     'constraint.strain': 1e-4, 'rows': 12, 'cols': 12, 'start.jitter': 0.01}
 
 
-@pytest.mark.parametrize(('values', 'cause', 'offered', 'mended'), [
+@pytest.mark.parametrize(('values', 'cause', 'offered', 'changes'), [
     ({'dt': 0.1, 'rows': 32, 'cols': 32, 'constraint.strain': 1e-5, 'auto_substeps': True,
       'constraint.newton_iterations': 2, 'solver.max_iterations': 1},
      'solves stopped at solver.max_iterations 1,', 'raise solver.max_iterations',
@@ -185,14 +185,14 @@ _IMPLICIT = {
      'constraint.newton_iterations: 2, or auto_substeps: true',
      {'auto_substeps': True, 'constraint.newton_iterations': 2}),
 ])
-def test_advice_fits_an_implicit_step(simulate, values, cause, offered, mended):
+def test_advice_fits_an_implicit_step(simulate, values, cause, offered, changes):
     """A blow-up in mode constraint was answered by "set auto_substeps", which was on."""
     values = {**_IMPLICIT, **values}
     message = str(_stop(simulate(values), 2000))
     assert cause in message and offered in message
     assert 'spring' not in message and 'stability limit' not in message
     assert values['auto_substeps'] != ('auto_substeps' in message)
-    simulation = simulate({**values, **mended})
+    simulation = simulate({**values, **changes})
     simulation.step(20)
     assert simulation.measure().finite
 

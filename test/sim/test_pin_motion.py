@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 
 
-"""Pins go where they are told, when they are told, and are left where they should be."""
+"""Pins reach their targets at the requested times, and stay there."""
 
 from collections.abc import Iterator
 from contextlib import closing

@@ -293,7 +293,7 @@ def test_pin_forces_are_those_of_the_snapshot(simulation: Simulation):
 
 
 class _Heard(InputListener):
-    """Keeps what it hears of, and refuses a new state when it should."""
+    """Stores the inputs it is notified of, and can refuse a new state."""
 
     def __init__(self) -> None:
         self.inputs: list[tuple] = []

@@ -76,7 +76,7 @@ def test_a_cloth_that_is_lifted_by_a_body_gains_nothing(mode):
     context.close()
 
 
-# Energy that was given is told from energy that came from nowhere.
+# Energy by external work is distinguished from spurious energy.
 
 MODES = ('mass_spring', 'adaptive', 'constraint')
 SCENE = {'rows': 8, 'cols': 8, 'dt': 0.002}

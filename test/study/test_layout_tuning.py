@@ -92,7 +92,7 @@ def test_a_single_lost_round_is_enough(context):
     plain = Times({rival: 2.0})
     assert found(context, plain).choice == rival
     lucky = Times({rival: 2.0}, slow=(rival, plain.turns(rival) - 1, 1.0))
-    # Of the last turn, the tries before the slow one count.
+    # In the last turn, the repetitions before the slow one count.
     assert found(context, lucky).choice == rival
     late = Times({rival: 2.0}, slow=(rival, plain.turns(rival) - 3, 1.0))
     assert found(context, late).choice == BUILT_IN

@@ -145,8 +145,8 @@ def test_arrays_are_kept(dropped, tmp_path):
     assert (again.arrays['positions'] == first.arrays['positions']).all()
     for path in (tmp_path / 'arrays').iterdir():
         path.write_bytes(b'half')
-    mended, = make([run], tmp_path)
-    assert (mended.arrays['positions'] == first.arrays['positions']).all()
+    repeated, = make([run], tmp_path)
+    assert (repeated.arrays['positions'] == first.arrays['positions']).all()
 
 
 def test_what_goes_wrong_is_a_line(tmp_path):

@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 
 SQUARE = Scene({'rows': 2, 'cols': 2, 'width': 1.0, 'height': 1.0})
-# Of a diagonal of the unit square that has become 1.1 x 1 m.
+# Strain of a diagonal of the unit square when it has become 1.1 x 1 m [1].
 DIAGONAL = np.hypot(1.1, 1.0) / np.sqrt(2.0) - 1.0
 
 
@@ -53,8 +53,8 @@ def test_a_fold_is_no_stretch():
 
 def test_peak_and_percentiles_of_a_run():
     """The figures would not be those that their definition gives by hand."""
-    # Of 21 edges, the 95th percentile is that at place 19, counted from 0. Of all 42 it lies 0.95
-    # of the way from place 38, which is 0.034, to the next, 0.036.
+    # The 95th percentile of 21 edges is that at index 19. That of all 42 lies 0.95 of the way from
+    # index 38, which is 0.034, to the next, 0.036.
     first = np.arange(21) / 1000.0
     stretch = stretch_of([first, 2.0 * first[::-1]])
     assert stretch.peak == pytest.approx(0.040)

@@ -27,7 +27,7 @@ MODULES = (
     'cloth_sim_ros.verb.render', 'cloth_sim_ros.verb.resimulate', 'cloth_sim_ros.verb.run',
     'cloth_sim_ros.verb.play', 'cloth_sim_ros.analysis.plots', 'PIL.Image',
     'rosbags.typesys.stores.ros2_jazzy', 'zstandard', 'lz4.frame')
-# Of address space, so that a hostile file can't take the machine [bytes].
+# Limit of the address space [bytes], so that a hostile file can't exhaust the machine.
 _MOST_MEMORY = 12 << 30
 
 
@@ -70,7 +70,7 @@ class ForkedVerbs:
         return Outcome(**json.loads(self._process.stdout.readline()))
 
     def warm_up(self, *arguments: object) -> None:
-        """Run a verb that needs no device so that all others begin with what it has learned."""
+        """Run a verb without a device, so that all others start with its imports loaded."""
         request = {'arguments': [str(each) for each in arguments], 'limit': None}
         print(json.dumps(request), file=self._process.stdin, flush=True)
         self._process.stdout.readline()

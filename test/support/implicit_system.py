@@ -34,8 +34,8 @@ class Solve:
     :param expected: change of velocity that tells which limits come into force (rows, cols, 3)
         [m/s], where none had pulled; None for none
     :param is_further: the nodes have moved, and the solve finds what ``found`` lacks of the law
-    :param is_next: ``found`` was solved for: where a limit pulled, it tells how far past the limit
-        an edge is
+    :param is_next: ``found`` was solved for: where a limit pulled, it gives the distance of an
+        edge beyond the limit
     """
 
     kick: float | None = None
@@ -127,7 +127,7 @@ class ImplicitSystem:
 
     def rounding(self) -> float:
         """Return the norm of what float32 rounds the right side by [m/s]."""
-        # Of each edge its length, which the law makes a tension of, and the tension itself.
+        # Length of each edge, and its tension by the law.
         square = sum(np.sum(2.0 * (
             edges.slope * edges.length + self._law.length * np.abs(edges.tension))**2)
             for edges in self._edges)

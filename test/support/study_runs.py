@@ -15,7 +15,7 @@ import numpy as np
 
 
 def square(scene: dict[str, Any], *, number: float, folder: str = '') -> dict[str, Any]:
-    """Return the square, and leave a file in ``folder`` that tells of the call."""
+    """Return the square, and write a file in ``folder`` that records the call."""
     if folder:
         Path(folder, f'{number}-{os.getpid()}-{time.monotonic_ns()}').touch()
     return {'square': number**2, 'device': 'none', 'process': os.getpid(),

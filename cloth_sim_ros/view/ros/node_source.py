@@ -111,7 +111,7 @@ class NodeColliders:
             try:
                 take(dict(zip(names, values)))
             except (ClothSimError, KeyError, TypeError):
-                # Of a node of another version: its cloth is shown without them.
+                # A node of another version lacks them; its cloth is shown without.
                 self._by_frame = {}
 
         self._client.call_async(GetParameters.Request(names=names)).add_done_callback(answer)

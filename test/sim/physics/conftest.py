@@ -56,7 +56,7 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     storage then, one node per invocation, as in test_constraint_against_reference.py. Cloths in
     air of 64 x 64 nodes run in mode mass_spring, and those of 16 x 16 in the others too. Below its
     limit mode adaptive makes the steps of mass_spring to the bit, which test_adaptive.py holds it
-    to: AS_SPRINGS are dear tests that make no solve in it, and cheaper ones of the same stay.
+    to: AS_SPRINGS are slow tests without a solve in it, of which faster variants stay.
     """
     for item in items:
         values = item.callspec.params if hasattr(item, 'callspec') else {}

@@ -60,7 +60,7 @@ def start_rolled(simulation: Simulation) -> ImplicitCloth:
 @pytest.mark.parametrize('form', FORMS)
 def test_steps_and_tensions(simulate, within, form, loads):
     """
-    A step on the device is not that of the law, solve after solve, to what float32 can do.
+    A step on the device differs from the law by more than float32 rounding.
 
     A position near 1 m is rounded by 2^-25 m, an edge by twice that, over h for velocities, over E
     for tensions. Six steps and the solves, which stop at 1e-6 of the change, make it some times as

@@ -94,8 +94,8 @@ def check(simulate, within, mode, seed, seconds):
     clearance = 0.5 * scene['contact.thickness']
 
     def energies():
-        # What bodies that overlap store in the cloth they press is theirs to get back. Where
-        # neither rubs, cloth moves between them without work, and it is not.
+        # Bodies that overlap recover the energy that they store in the pressed cloth. Without
+        # friction the cloth moves out between them without work, and they do not.
         cloth = simulation.measure().total_energy
         return cloth + np.array([0.0, compression_energy(
             scene, simulation.colliders, simulation.positions())])

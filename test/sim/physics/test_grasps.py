@@ -55,7 +55,7 @@ def test_held_nodes_follow_the_frame(simulate, within, any_mode):
 
 
 def test_held_nodes_say_that_they_are(simulate):
-    """Who watches could not tell a gripper from a peg, or would see one where none is any more."""
+    """A viewer would show a gripper as a peg, or one that was released."""
     simulation = simulate({**CLOTH, 'pins': ['bottom_left']})
     grasp = simulation.grasp('left', CORNER, radius=0.11)
     held = np.zeros((9, 9), dtype=bool)

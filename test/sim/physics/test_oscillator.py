@@ -58,7 +58,7 @@ def test_damped_decay(simulate, within, mode, layout, dt):
     """Damping takes away more or less than -ln(1 - k_d dt / m) / (2 dt)."""
     damping = 0.2
     states = _trajectory(simulate, mode, layout, dt, 1.5, damping)
-    # Of two starts, one step maps the plane linearly: its determinant is the decay squared.
+    # A step maps the states of two runs linearly; the determinant is the decay squared.
     before, after = states[:-1], states[1:]
     step = np.linalg.lstsq(before, after, rcond=None)[0]
     rate = -np.log(np.linalg.det(step)) / (2.0 * dt)

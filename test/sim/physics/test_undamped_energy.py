@@ -19,7 +19,7 @@ def _scene_values(mode, layout, dt):
 
 
 def _largest_errors(simulate, mode, layout, dt):
-    """Return the largest energy error over M g L: as it stands, and with v half a step on."""
+    """Return the largest energy error over M g L: as reported, and with v half a step later."""
     simulation = simulate(_scene_values(mode, layout, dt))
     oracle = MassSpringReference(Scene(_scene_values(mode, layout, dt)))
     start = simulation.snapshot().total_energy

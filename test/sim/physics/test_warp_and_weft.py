@@ -55,7 +55,7 @@ def test_uniaxial_stretch(forces, within, nodes):
         gradient = np.diag([-STRAIN * SHEAR / other] * 2)
         gradient[axis, axis] = STRAIN
         spacing, found = forces(gradient)
-        # Of the right side, which is pulled back, or of the upper one.
+        # Forces on the right side, which is pulled back, or on the upper one.
         side = found[1:-1, -1, 0] if axis == 0 else found[0, 1:-1, 1]
         measured = -side.mean() / spacing[1 - axis] / STRAIN
         exact = stiff - SHEAR**2 / other

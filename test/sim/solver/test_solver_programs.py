@@ -50,8 +50,8 @@ def test_steps_are_those_of_chebyshev(family, stiffness):
     count = {'structural': 4.0, 'shear': 4.0, 'bend': 16.0}[family]
     assert around == pytest.approx(count * 1e-4 * stiffness / 0.01)
     least, most = max(0.25, 1.0 / (1.0 + around)), (1.0 + 2.0 * around) / (1.0 + around)
-    # Of all polynomials that are 1 at 0, the one that is least there is as large at both ends as
-    # in the middle, with the opposite sign.
+    # The smallest polynomial on the interval that is 1 at 0 has the same value at both ends, and
+    # its negative in the middle.
     left = left_over(smoothing_steps(law), np.array([least, 0.5 * (least + most), most]))
     assert left[0] == pytest.approx(left[2], abs=1e-12)
     assert left[1] == pytest.approx(-left[0], abs=1e-12)

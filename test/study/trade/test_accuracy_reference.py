@@ -48,7 +48,7 @@ def test_it_is_that_of_an_independent_solver(exact, work, device):
     off = distances(reference.path, Path(exact, np.zeros(1), np.zeros((1, 3))))
     print(f'measured {off.max():.1e} of 1e-4 m allowed: reference against DOP853 ({device})')
     assert off.max() < 1e-4
-    # What it says of itself is no less than what it is off by.
+    # Its error estimate is of the order of its error.
     assert reference.changes.max() > 0.3 * off.max()
     assert reference.converged_times(1e-4) == len(TIMES)
 
