@@ -33,8 +33,8 @@ Node load_node(int row, int col) {
 }
 
 // Over some edges: the largest square of an angular velocity, as if the edge had its rest length
-// [1/s2], and the largest strain; the sum of what they lose, which grows with the fourth power of how
-// fast they turn, and the mean of the squares, weighted with that.
+// [1/s2], and the largest strain; the sum of the energies that they lose, which grow with the fourth
+// power of the angular velocity, and the mean of the squares, weighted with these.
 struct Found {
     float turn;
     float strain;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 // SPDX-License-Identifier: Apache-2.0
 
-// What air gives a triangle of the cloth, quadratic in the velocity of the air past it: drag along
+// Forces of air on a triangle of the cloth, quadratic in the relative velocity of the air: drag along
 // the normal, friction along the surface; docs/how_to/air.md.
 // HAS_AIR_FRICTION: 0 leaves friction out.
 
@@ -18,9 +18,9 @@ float fastest_rate = 0.0;  // [1/s] of those asked for
 // The acceleration over the velocity of the air past the cloth [1/s]; before: without the lead's
 // share of an implicit step.
 //
-// A cloth that nothing holds gives way: what counts is the middle of the step, in closed form. A
-// cloth that is held may not, so that there the present velocity counts. No rate is so high that
-// the velocity would turn round. Both are stable for any step.
+// A free cloth yields to the air, so that the velocity at the middle of the step is used, in closed
+// form; a held one does not, so that the current velocity is. The rate is bounded such that the
+// relative velocity does not change its sign. Both are stable for any step.
 float rate(float before) {
 #if MEASURES_RATE
     fastest_rate = max(fastest_rate, before);
@@ -29,8 +29,8 @@ float rate(float before) {
     return min(left * left * before, most_rate);
 }
 
-// Acceleration [m/s2] of a triangle. area: its area vector over what area it has at rest;
-// past: velocity of the air less that of the triangle, and what the lead adds to it [m/s].
+// Acceleration [m/s2] of a triangle. area: its area vector over its area at rest;
+// past: velocity of the air less that of the triangle, plus the part by the lead [m/s].
 vec3 air_acceleration(vec3 area, vec3 past) {
     float square = dot(area, area);
     float across = dot(area, past);

@@ -40,8 +40,8 @@ vec4 line_brake(
         bending_speed(line, behind_speed, here_speed, ahead_speed) * line.across, line.skew);
 }
 
-// What a node resists by the lines around those behind and ahead and around itself. Both
-// neighbours first: a mirrored cloth rounds alike.
+// Damping force on a node by the lines centred at the nodes behind, here and ahead. Both neighbours
+// are added first, so that a mirrored cloth rounds alike.
 vec3 braked(vec4 behind, vec4 here, vec4 ahead) {
     return ((1.0 - behind.w) * behind.xyz + (1.0 + ahead.w) * ahead.xyz) - 2.0 * here.xyz;
 }
@@ -50,7 +50,7 @@ vec3 braked(vec4 behind, vec4 here, vec4 ahead) {
     load_position(INDEX - STRIDE), load_position(INDEX), load_position(INDEX + STRIDE), \
     load_velocity(INDEX - STRIDE).xyz, load_velocity(INDEX).xyz, load_velocity(INDEX + STRIDE).xyz)
 
-// What a node resists along a row (stride 1) or a column (the pitch of rows), loaded one by one.
+// Damping force on a node along a row (stride 1) or a column (the pitch of rows), from single loads.
 #define BENDING_BRAKE(INDEX, STRIDE) braked( \
     LINE_BRAKE(INDEX - STRIDE, STRIDE), LINE_BRAKE(INDEX, STRIDE), \
     LINE_BRAKE(INDEX + STRIDE, STRIDE))

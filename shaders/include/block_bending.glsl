@@ -15,8 +15,8 @@
     for (int row = 2 - DROW; row < BLOCK + 2 + DROW; ++row) \
         for (int col = 2 - DCOL; col < BLOCK + 2 + DCOL; ++col)
 
-// What bending resists at the nodes of the block, into RESISTED; C is c along a row and along a
-// column. Both second differences are kept: they are found once for three nodes.
+// Bending forces on the nodes of the block, into RESISTED; C: c along a row and along a column.
+// Second differences are stored, as each is used by three nodes.
 #define FIND_BENDING(RESISTED, OF, NODE, C) { \
     vec3 bent[BLOCK + 4][BLOCK + 4]; \
     FOR_BENT(0, 1) { bent[row][col] = BENT(OF, NODE, row, col, 0, 1); } \

@@ -8,7 +8,7 @@
 
 uniform vec3 collider_size[COLLIDERS];  // [m] radius and half the length, or half the sides
 
-// Gradient and signed distance of what has the distance of the point p from a core, less radius.
+// Gradient and signed distance of the shape within radius of a core; p: vector from the core.
 vec4 distance_to_core(vec3 p, float radius) {
     float l = length(p);
     return vec4(l > 0.0 ? p / l : vec3(0.0, 0.0, 1.0), l - radius);
@@ -59,7 +59,7 @@ vec4 distance_to_shape(int shape, vec3 size, vec3 p) {
     return vec4(0.0, 0.0, 1.0, p.z);
 }
 
-// Normal of the surface nearest to what is at d from the centre, and the distance from it.
+// Normal and distance of the nearest surface, for a point at d from the centre.
 vec4 distance_to_collider(int collider, vec3 d) {
     vec3 along_x = collider_axes[3 * collider];
     vec3 along_y = collider_axes[3 * collider + 1];

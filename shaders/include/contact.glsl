@@ -1,14 +1,13 @@
 // SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 // SPDX-License-Identifier: Apache-2.0
 
-// What colliders do to the velocity that a node has without them, docs/explanation/contact.md:
-// no node comes nearer to a surface than it is thick, and friction takes what it moves along it,
-// up to mu times the impulse along the normal. A node that sticks has exactly the velocity of the
-// surface.
+// Velocity of a node after contact and friction, docs/explanation/contact.md: no node comes nearer
+// to a surface than the clearance, and friction reduces the sliding velocity by up to mu times the
+// impulse along the normal. A node that sticks has exactly the velocity of the surface.
 
 #include "collider_shapes.glsl"
 
-// A node is held by so many at most: by those that it is nearest to.
+// Max. contacts of a node [1]; the nearest ones count.
 #define MOST_TOUCHED (COLLIDERS < 4 ? COLLIDERS : 4)
 #define MOST_ROUNDS 32
 #define MOST_ROUNDS_OUT 16
@@ -50,7 +49,7 @@ int held_on;                  // how many, not parallel to each other, act on it
 ivec2 held_by;                // the first two of them
 float spare_way = 0.0;        // [m] that surfaces may be farther away than a node comes
 
-// What positions are rounded by: surfaces as near as this are touched.
+// Rounding of positions [m]; a surface within it is in contact.
 float rounding(vec3 x, int collider) {
     vec3 most = max(abs(x), abs(collider_centre[collider]));
     return 4e-7 * max(max(most.x, most.y), most.z) + 1e-9;
@@ -61,8 +60,8 @@ vec4 gap_at(int collider, vec3 x) {
         - vec4(0.0, 0.0, 0.0, clearance);
 }
 
-// Mean velocity in the substep of what is at x as it begins and goes with the collider: it ends
-// where the collider takes it, so that nothing creeps on one that turns.
+// Mean velocity in the substep of the material point of the collider that is at x at its begin. It
+// includes the rotation in full, so that nothing creeps on a turning collider.
 vec3 surface_velocity(int collider, vec3 x) {
     vec3 arm = x - collider_centre[collider];
     return collider_velocity[collider] + vec3(
@@ -131,8 +130,8 @@ void find_surfaces(uint bodies, vec3 x, vec3 towards, vec3 v, float h) {
     }
 }
 
-// A surface without friction is pressed on along its normal. What that drives the node out with is
-// left to the friction of the other one; between two that are alike each takes half of it.
+// A surface without friction presses along its normal. The component that drives the node out is
+// left to the friction of the other surface; two equal surfaces take half of it each.
 vec3 pressing_direction(int i, int j) {
     float other = collider_friction[touched[i]];
     float own = collider_friction[touched[j]];
@@ -140,9 +139,9 @@ vec3 pressing_direction(int i, int j) {
     return normalize(share.x * surface[i].xyz - share.y * surface[j].xyz);
 }
 
-// Two surfaces that face each other leave a node no room where they are nearer than the cloth is
-// thick. It is compressed then: the node stays between them, and they press on it. What each lacks
-// in room is shared, and so is what they differ by in their velocities along the normal.
+// Two surfaces that face each other compress the cloth where their distance is less than its
+// thickness: the node stays between them, and both press on it. They share the missing distance and
+// the difference of their velocities along the normal.
 void find_compression(float h) {
     for (int i = 1; i < touched_count; ++i) {
         for (int j = 0; j < i; ++j) {
@@ -204,7 +203,7 @@ void note_held(int i, bool is_held) {
     }
 }
 
-// What slides on three surfaces has no direction left: it is held for the substep.
+// A node in contact with three surfaces has no free direction: it sticks for the substep.
 int kind_held(bool sticks) {
     return sticks || held_on > 2 ? STICKS : held_on == 2 ? SLIDES_ON_TWO
         : held_on == 1 ? SLIDES : FREE;
@@ -230,15 +229,15 @@ float act_in_turn(vec3 x, float h, inout Contact found) {
     return length(found.velocity - before);
 }
 
-// What the velocity v of a node at x lacks along the normals of two surfaces that hold it.
+// Missing velocity of a node at x along the normals of two surfaces that hold it, for velocity v.
 vec2 lacking_on_two(vec3 x, vec3 v, float h) {
     float c = dot(surface[held_by.x].xyz, surface[held_by.y].xyz);
     vec2 lacks = vec2(lacking(held_by.x, x, v, h), lacking(held_by.y, x, v, h));
     return (lacks - c * lacks.yx) / (1.0 - c * c);
 }
 
-// What slides on two surfaces has the direction of their line left. Where they meet at a sharp
-// angle the rounds come to that slowly: what is lacking across the line is made right at once.
+// A node that slides on two surfaces is free along their line only. At a sharp angle between them
+// the rounds converge slowly, so that the velocity across the line is corrected at once.
 void slide_on_two(vec3 x, float h, inout Contact found) {
     vec3 n = surface[held_by.x].xyz;
     vec3 m = surface[held_by.y].xyz;
@@ -282,7 +281,7 @@ void slip_out(vec3 x, vec3 v, float h, inout Contact found) {
 }
 
 #if COLLIDERS > 1
-// What surfaces make of each other's work, where a node touches several.
+// Iterate over the surfaces of a node that touches several, as each changes the result of others.
 void act_together(vec3 x, vec3 v, float h, float change, inout Contact found) {
     for (int round = 1; round < MOST_ROUNDS && change > 1e-6 * length(v); ++round) {
         change = act_in_turn(x, h, found);
@@ -324,7 +323,7 @@ Contact contact_at(vec3 x, vec3 towards, vec3 v, float h) {
     return contact_with(bodies_towards(x, towards, h), x, towards, v, h);
 }
 
-// What the surface i, near as the substep ends, shares of the room that a node at x has too little.
+// Part of the surface i in the missing room of a node at x [m]; near: the gap at the substep's end.
 float room_lacking(int i, vec4 near, vec3 x, float h) {
     float lacking = 0.0;
 #if COLLIDERS > 1

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 // SPDX-License-Identifier: Apache-2.0
 
-// What colliders have done in the present step of dt: for each of them and each node the sum of
-// the changes of velocity [m/s], and in w whether the node sticks or slides, as it touched last.
+// Contacts in the current step of dt: for each collider and node the sum of the changes of velocity
+// [m/s], and in w whether the node stuck or slid at its last contact.
 
 uniform float serial;        // of the substep
 uniform float decision;     // number of the decision

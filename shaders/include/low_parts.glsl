@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Sums of positions and velocities. With HAS_LOW_PARTS they are compensated (Kahan): what rounding
-// takes from a sum is kept, and added with the next change. See docs/explanation/numerics.md.
+// Sums of positions and velocities. With HAS_LOW_PARTS they are compensated (Kahan): the rounding
+// error of a sum is stored, and added with the next change. See docs/explanation/numerics.md.
 
 #if HAS_LOW_PARTS
 layout(std430, binding = LOW_PARTS) buffer LowParts { float low_parts[]; };

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 // SPDX-License-Identifier: Apache-2.0
 
-// What may touch a collider in an explicit substep: blocks of nodes, which mass_spring_step.comp
-// lists, and of these the nodes, which near_nodes.comp lists for contact.comp; in no order. Each
+// Candidates for contact in an explicit substep: blocks of nodes, listed by mass_spring_step.comp,
+// and their nodes, listed by near_nodes.comp for contact.comp; in no order. Each
 // list has the workgroups of the pass that reads it.
 
 #define NEAR_LOCAL 32u

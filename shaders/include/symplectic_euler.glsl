@@ -3,8 +3,8 @@
 
 // Symplectic Euler (paper, Eq. 3 and 4): v+ = v + h (a + F / m), x+ = x + h v+. A pinned node keeps
 // its velocity, which is that of the pin.
-// A velocity belongs to the middle of its substep. Where the one before had another length, the
-// kick is what lies between their middles; with h instead each change of h would add energy.
+// Velocities are those at the middle of substeps. The kick is the time between the middles of this
+// substep and the one before; with h instead each change of h would add energy.
 
 #include "low_parts.glsl"
 
@@ -14,7 +14,7 @@ uniform float inverse_mass;  // [1/kg]
 
 vec3 next_velocity(int index, vec4 velocity, vec3 force, vec3 applied) {
     vec3 change = kick * (applied + inverse_mass * force);
-    // Not times 0: what is not finite would pass from a cloth by its ghosts to another one.
+    // Not times 0: a NaN would pass from a cloth by its ghosts to another one.
 #if HAS_LOW_PARTS
     return changed_velocity(index, velocity.xyz, velocity.w > 0.0 ? change : vec3(0.0));
 #else

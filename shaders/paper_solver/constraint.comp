@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 
 #version 430 core
-// A row of J, and what stands on the right side for it: disConstraint(), Vect() and Rhs() of the
-// paper, with unit rows. Begins conjugate gradients from zero.
+// A row of J, and its right side: disConstraint(), Vect() and Rhs() of the paper, with unit rows.
+// Starts conjugate gradients from zero.
 
 #include "paper_solver/buffers.glsl"
 

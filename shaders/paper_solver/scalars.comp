@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 
 #version 430 core
-// What conjugate gradients make of a scalar product.
+// The scalars of conjugate gradients, from a scalar product.
 
 #include "paper_solver/buffers.glsl"
 

@@ -3,8 +3,8 @@
 
 #version 430 core
 // One more step of smoothing the cloth: from SMOOTHED to SMOOTHED_TWICE on the way down, from
-// CORRECTED to PRECONDITIONED on the way up, which are the same fields; or what both steps leave of
-// the residual. One program makes both, as most of it is the product.
+// CORRECTED to PRECONDITIONED on the way up, which are the same fields; or the residual after both
+// steps. One program does both, as most of it is the product.
 
 #include "solver/levels.glsl"
 #include "solver/vectors.glsl"

@@ -37,7 +37,7 @@ mat3 whole(Symmetric s) {
     return mat3(s[0].x, s[1].x, s[1].y, s[1].x, s[0].y, s[1].z, s[1].y, s[1].z, s[0].z);
 }
 
-// What the surface that a node touches takes of its movement.
+// The directions that the surface in contact with a node blocks, as a projection.
 mat3 taken(ivec2 at) {
     return load_node(at).w == 0.0 ? mat3(0.0)
         : is_fixed(at) ? mat3(1.0) : whole(taken_directions(node_index(at.x, at.y)));
@@ -47,7 +47,7 @@ bool is_tied(ivec2 at) {
     return load_node(at).w < 0.0 || load_contact(node_index(at.x, at.y)).w > 0.0;
 }
 
-// What ties nodes to each other where one is taken more of a common movement than the other.
+// Stiffness between two nodes by the directions that are blocked in one of them only.
 Symmetric tie(ivec2 at, ivec2 other, Symmetric block) {
     mat3 apart = taken(other) - taken(at);
     mat3 product = apart * whole(block) * apart;
@@ -63,7 +63,7 @@ Symmetric tie(ivec2 at, ivec2 other, Symmetric block) {
 }
 #endif
 
-// What ties a free node to others: by an edge that begins here, or ends here.
+// Stiffness that ties a free node to others, by the edges that begin or end here.
 Symmetric ties(ivec2 at, ivec2 by, int edge) {
     return tie(at, at + by, edge_block(at, by, edge))
         + tie(at, at - by, edge_block(at - by, by, edge));

@@ -2,24 +2,25 @@
 // SPDX-License-Identifier: Apache-2.0
 
 #version 430 core
-// Decide how nodes touch colliders, docs/explanation/contact.md. A velocity is made right at once
-// in directions that a surface takes; friction acts in the next solve: as a force where a node
-// slides, and as a steep resistance where it does not.
-// STAGE BEGIN: before the first solve of a substep, by the velocities that are expected.
+// Decide how nodes touch colliders, docs/explanation/contact.md. A velocity is corrected at once in
+// the directions that a surface blocks; friction acts in the next solve: as a force where a node
+// slides, and as a steep drag where it sticks.
+// STAGE BEGIN: before the first solve of a substep, by the expected velocities.
 // STAGE AGAIN: after a solve, by the velocity that a node would have without its colliders.
-// STAGE END: after the last one. What does not slide has the velocity of the surface, and what was
-// not found by then is held off it.
+// STAGE END: after the last one. Nodes that stick get the velocity of the surface, and contacts
+// that no solve has included are resolved node by node.
 
 #define BEGIN 0
 #define AGAIN 1
 #define END 2
 
-// What has become of a node, kept beside its reaction: it stuck as the last substep ended, or was
-// let go in this one. Any number above 0 says that it changed in this substep, as hard edges can
-// have it do to and fro.
+// State of a node, stored in w of its reaction: it stuck at the end of the last substep, or was
+// released in this one. Positive numbers count its changes in this substep: with hard edges a node
+// can alternate.
 #define STUCK 1.0
 #define LET_GO 16.0
-// The friction found last is near to what the speed found last needs within this and one over it.
+// The last friction counts as near to the one needed at the last speed if their ratio is between
+// this and its inverse [1].
 #define NEARLY 0.5
 
 #include "solver/levels.glsl"
@@ -51,7 +52,7 @@ bool is_near_body(vec3 x, vec3 v) {
     return near_bodies(x, 0.0, substep * length(v) + spare_way) != 0u;
 }
 
-// How a node touches: what is left to a solve is grip and impulse.
+// Contact of a node; grip and impulse enter the next solve.
 struct Hold {
     int kind;      // by the directions left to it; STICKS: none
     vec3 normal;
@@ -264,7 +265,7 @@ void decide(int at, int index, inout vec4 x, inout vec4 v) {
     if (hold.kind != was) {
         note_turn();
     }
-    // What is let go has no reaction once the next solve is done.
+    // A released node has no reaction after the next solve.
     keep(index, hold, hold.kind == FREE ? vec3(0.0) : reaction + hold.change);
     if (hold.change != vec3(0.0)) {
         v.xyz += hold.change;
@@ -299,7 +300,7 @@ void decide(int at, int index, inout vec4 x, inout vec4 v) {
         record_impulse(touched[0], at, kept);
     }
     if (touched_count == 0 && reaction != vec3(0.0)) {
-        // What passes by without its reaction may come inside with it.
+        // A node that passes by without its reaction may penetrate with it.
         find_surfaces(
             bodies_towards(begin, v.xyz, substep), begin, v.xyz, v.xyz, substep);
     }

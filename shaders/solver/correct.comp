@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 
 #version 430 core
-// Add the correction of the level below to what smoothing made of the residual, and smooth again.
+// Add the correction of the level below to the smoothed residual, and smooth again.
 
 #include "solver/levels.glsl"
 #include "solver/vectors.glsl"

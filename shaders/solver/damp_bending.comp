@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 
 #version 430 core
-// Damping of bending in a solve: keep how the lines of three nodes resist, and take what they do
-// to the velocities before off the right side. The matrix makes it that of the velocities after.
+// Damping of bending in a solve: store the coefficients of the lines of three nodes, and subtract
+// their force at the velocities before from the right side. The matrix adds the change of velocity.
 
 #include "solver/levels.glsl"
 #include "solver/vectors.glsl"

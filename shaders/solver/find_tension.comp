@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 
 #version 430 core
-// The tension of each edge, over the node mass: what the right side began it with, and what the
-// solution adds.
+// The tension of each edge, over the node mass: that of the right side plus the part of the
+// solution.
 
 #include "solver/levels.glsl"
 #include "solver/vectors.glsl"

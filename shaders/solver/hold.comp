@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 
 #version 430 core
-// Take from the right side what nodes that touch a collider can't follow, with what the collider
-// gives along its surface; reaction.comp needs it whole.
+// Project the right side of nodes in contact to their free directions, and add the impulse of the
+// collider along its surface; reaction.comp needs the right side before.
 
 #include "solver/levels.glsl"
 #include "solver/vectors.glsl"

@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 
 #version 430 core
-// A solve takes the law of each edge for the straight line that it is at the expected length. What
-// that misses on the way from there to the solution, where edges come to limits or leave them:
-// over all nodes and edges, the curvature of the straight law's energy along the way, what the true
-// law's slope has besides at share of the way, and the square of what tensions lack there.
+// A solve linearises the law of each edge at the expected length. This measures the error along the
+// step to the solution, where edges reach or leave their limits. Sums over all nodes and edges: the
+// curvature of the linearised energy along the step, the difference of the true slope at share of
+// the step, and the squared error of the tensions there.
 
 #include "solver/levels.glsl"
 #include "solver/vectors.glsl"

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 
 #version 430 core
-// The matrix times the preconditioned residual, and what two scalar products get from each block.
+// The matrix times the preconditioned residual, and the part of each block in two scalar products.
 
 #include "solver/levels.glsl"
 #include "solver/vectors.glsl"

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 
 #version 430 core
-// What the colliders had to do in a solve, so that nodes went where they can: the matrix times the
-// solution less the right side, in all directions.
+// Impulses of the colliders in a solve: the matrix times the solution less the right side, in all
+// directions.
 
 #include "solver/levels.glsl"
 #include "solver/vectors.glsl"

@@ -31,7 +31,7 @@ void main() {
     for (int row = 0; row < FINER_TILE; ++row) {
         vec3 line[FINER_TILE];
         for (int col = 0; col < FINER_TILE; ++col) {
-            // What lies beyond the finer level counts nothing in a node of this one.
+            // Nodes beyond the finer level have no weight.
             ivec2 at = min(2 * first - 1 + ivec2(row, col), level_shape[level - 1].xy);
             line[col] = load_vector(
                 vector_entry(level - 1, DEFECT, level_index(level - 1, at.x, at.y)));

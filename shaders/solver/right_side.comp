@@ -2,14 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 
 #version 430 core
-// What a solve of the step begins with, over the node mass: the right side [m/s], and how much
-// each edge resists along its direction and across it. Directions are frozen at where nodes are.
-// An edge pulls as its law does at the length that the velocities lead to, with the limit in force
-// that it has at the length expected of the solution.
-// The first solve is from the velocities before, FORESEES_TURN with what moving across its direction
-// adds to the length of an edge. In a further one nodes have moved, and it finds what the tensions
-// lack of the law there: not worth a solve where they lack no more than lengths are rounded by. One
-// program makes both, since each takes llvmpipe a second to compile.
+// Set up a solve of the step, over the node mass: the right side [m/s], and the stiffness of each
+// edge along and across its direction, which is frozen at the current positions. The tension of an
+// edge is that of its law at the length that the velocities lead to, with the limit that acts at
+// the length expected of the solution.
+// The first solve starts from the velocities before; with FORESEES_TURN the length of an edge
+// includes the part by its rotation. Later solves start from moved nodes and correct the tensions
+// to the law; they are omitted where the error is below the rounding of lengths. One program does
+// both, since each takes llvmpipe a second to compile.
 
 #include "solver/levels.glsl"
 #include "solver/vectors.glsl"

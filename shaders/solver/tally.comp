@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 
 #version 430 core
-// Add how a solve ended to what is known of those before.
+// Add the result of a solve to the statistics of the step.
 
 layout(local_size_x = 1) in;
 

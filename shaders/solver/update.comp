@@ -20,7 +20,7 @@ vec3 load(int field, int index) { return load_vector(cloth_entry(field, index));
 void store(int field, int index, vec3 v) { store_vector(cloth_entry(field, index), v); }
 
 void main() {
-    // Before the first iteration these fields hold what the last solve left.
+    // Before the first iteration these fields have values of the last solve.
     bool goes_on = iterations > 1.0;
     float kept = keep;
     float length = step_length;

@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 // SPDX-License-Identifier: Apache-2.0
 
-// What damping of bending resists, by the lines that solver/damp_bending.comp has kept.
+// Damping of bending in the matrix, by the lines that solver/damp_bending.comp has stored.
 
 #include "bending_damping.glsl"
 
-// How fast the bend of a line grows, times the root of what damping weighs.
+// Rate of the bend of a line, times the root of the damping coefficient.
 float bent_speed(vec4 line, vec3 behind, vec3 here, vec3 ahead) {
     return bending_speed(BentLine(line.xyz, line.w), behind, here, ahead);
 }
@@ -14,7 +14,7 @@ vec4 kept_brake(vec4 line, vec3 behind, vec3 here, vec3 ahead) {
     return vec4(bent_speed(line, behind, here, ahead) * line.xyz, line.w);
 }
 
-// What the nodes of the block resist of a vector in the tile OF, added to TOTAL.
+// Add the damping matrix of the block times the vector in the tile OF to TOTAL.
 #define ADD_BENT_LINES(TOTAL, OF, FIRST) { \
     vec4 brake[TILE][TILE]; \
     ADD_BENT_LINES_ALONG(TOTAL, OF, FIRST, 0, 1) \

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 // SPDX-License-Identifier: Apache-2.0
 
-// What the level below adds to a tile: bilinear between its nodes, which lie at the centres of
+// Correction of a tile by the level below: bilinear between its nodes, which lie at the centres of
 // four nodes here, and constant beyond the outermost.
 
 #define COARSE_TILE (BLOCK / 2 + 2 * REACH)

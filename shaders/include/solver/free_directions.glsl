@@ -20,7 +20,7 @@ vec3 in_free_directions(int index, vec3 v) {
         : contact.w == 2.0 ? v - along : along;
 }
 
-// What friction resists the value at a node with.
+// Drag by friction for the value at a node.
 vec3 gripped(int index, vec3 value) {
     vec4 grip = load_grip(index);
     return grip.w * (value - dot(grip.xyz, value) * grip.xyz);
