@@ -64,7 +64,7 @@ def _problem_of_control(message: dict[str, Any], control: Callable[[str], Any]) 
         is_right = value in handle.options
     else:
         is_right = type(value) is type(handle.value)
-    return '' if is_right else f'the value {shown(value)} for the control {handle.label!r}'
+    return '' if is_right else f'the value {shown(value)} for the control {shown(handle.label)}'
 
 
 def _is_number(value: Any) -> bool:
