@@ -109,11 +109,12 @@ def run_all(args: Namespace) -> int:
         if section.name not in args.sections:
             continue
         left = TIME_LIMIT - (time.monotonic() - begin)
-        print(f'{section.title} ({section.name}, {time.monotonic() - begin:.0f} s)', flush=True)
         try:
+            now = time.monotonic() - begin
+            print(f'{section.title} ({section.name}, {now:.0f} s)', flush=True)
             outcome = run_section(section, args.quick, max(left, 1.0))
         except KeyboardInterrupt as interrupt:
-            outcomes.append(interrupt.outcome)  # type: ignore[attr-defined]
+            outcomes += filter(None, [getattr(interrupt, 'outcome', None)])
             write(args.out, outcomes)
             print(f'interrupted: {args.out}/gpu_suite.md has what was measured')
             return 130

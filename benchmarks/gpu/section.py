@@ -105,7 +105,9 @@ def run_section(section: Section, quick: bool, seconds: float) -> Outcome:
             process = subprocess.Popen(
                 [sys.executable, str(_SUITE), '--in-process', section.name,
                  '--rows', str(path), *(['--quick'] if quick else [])],
-                stderr=stream, env=_environment())
+                stderr=stream, env=_environment(),
+                # Ctrl-C reaches the suite alone, which ends the section.
+                start_new_session=True)
             try:
                 if process.wait(limit):
                     outcome.status = 'failed'

@@ -101,7 +101,7 @@ def pass_list(
     :param looks: take a snapshot at the end, and list its pass; its run is no part of a step
     """
     with take_inventory() as inventory, closing(
-            Simulation(Scene(values), context=context)) as run:
+            Simulation(Scene(values), context=context, records_forces=False)) as run:
         before = inventory.dispatches()
         steps = max(1, round(seconds / run.dt))
         run.step(steps)
@@ -171,7 +171,7 @@ def compare_results(scene: Mapping[str, Any], *, feature: str, seconds: float) -
     context = process_context()
     ends = []
     for values in (scene, _variant(scene, feature)):
-        run = Simulation(Scene(values), context=context)
+        run = Simulation(Scene(values), context=context, records_forces=False)
         run.advance(seconds)
         ends.append(run.snapshot())
         run.close()

@@ -14,7 +14,7 @@ def test_every_shader_of_a_mode_has_its_times():
     found, whole = compile_times({'mode': 'constraint', 'rows': 20, 'cols': 20})
     assert before == (program._linked, quick_calls.use_program, quick_calls.dispatch)
     assert {'observe.comp', 'solver/right_side.comp', 'solver/smooth.comp'} <= set(found)
-    assert found['observe.comp'].variants == 2, 'for measures and for a snapshot'
+    assert found['observe.comp'].variants == 3, 'for measures, a snapshot, and a closing limit'
     assert found['solver/right_side.comp'].variants == 1, 'for first solves and for further ones'
     seconds = [took.seconds for took in found.values()]
     assert seconds == sorted(seconds, reverse=True)

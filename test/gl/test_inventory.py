@@ -39,7 +39,7 @@ def test_runs_of_a_step_are_counted(context):
             Scene({
                 **SPRINGS, 'rows': 6, 'cols': 6, 'auto_substeps': False, 'substeps': 3,
                 'dt': 1e-3}),
-            context=context)
+            context=context, records_forces=False)
         run.step(2)
     counts = dict(zip((program.name for program in inventory.programs), inventory.dispatches()))
     assert counts == {'mass_spring_step.comp': 6, 'bounds_check.comp': 1}

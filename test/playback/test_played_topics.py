@@ -176,7 +176,7 @@ def test_a_reader_that_hangs_holds_nobody_up_and_is_told(client, reader):
 
 def test_late_confirmations_are_no_losses(client, reader):
     """A topic that lost nothing would be named: readers may confirm only when asked again."""
-    topic = played(client, patience=PATIENCE)
+    topic = played(client, patience=PATIENCE, reader=reader)
     reader.send_signal(SIGSTOP)
     Timer(1.5, reader.send_signal, (SIGCONT,)).start()
     for number in range(MESSAGES):
