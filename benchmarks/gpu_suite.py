@@ -20,6 +20,7 @@ from collections.abc import Sequence
 import json
 from pathlib import Path
 import platform
+import signal
 import subprocess
 import sys
 import time
@@ -138,6 +139,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     if args.in_process:
         section = next(each for each in SECTIONS if each.name == args.in_process)
         return run_here(section, args.rows, args.quick)
+    # A shell has programs that it starts in the background ignore it.
+    signal.signal(signal.SIGINT, signal.default_int_handler)
     return run_all(args)
 
 
