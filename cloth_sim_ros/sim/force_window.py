@@ -107,7 +107,7 @@ class ForceWindow:
     def clear(self) -> None:
         """Begin a frame now."""
         self.steps = 0
-        # What was told last, until a step is made.
+        # Forces returned last, until a step is made.
         self.latest: FrameForces | None = None
         self._impulses: list[Impulses] = []
         self._contacts: list[tuple[ContactForce, ...]] = []

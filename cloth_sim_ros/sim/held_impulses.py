@@ -24,7 +24,7 @@ _REST = np.zeros(3)
 _LOCAL = 32
 _VECTOR_BYTES = 16
 _HOLDER_VECTORS = 4
-# Of sums: those that are read, those that are written, and those that were kept.
+# Copies of the sums: read, written, and kept for an undone step.
 _PLACES = 3
 # Substeps between two folds: so many that a fold costs little beside them, in so many entries that
 # the pins of a large cloth take no more memory than its state. Results change by rounding only.
@@ -125,7 +125,7 @@ class HeldImpulses:
         self._capacity = 0
         self._entries = 0
         self._begins = False
-        # What the pass was told last.
+        # Uniforms that the pass has.
         self._how: tuple[int, ...] = ()
         # Where the sums are now, and where they were when they were kept.
         self._now = self._kept = 0
@@ -164,7 +164,7 @@ class HeldImpulses:
         :param velocities: of pins that move in it [m/s]
         :param caught: velocities of nodes that were free when they were pinned, since the last
             step
-        :param edits: State.edits; equal ones tell that the same nodes are pinned
+        :param edits: State.edits; if equal, the same nodes are pinned
         :return: impulses since ``take`` that are not to be had any more, as other nodes are held
         """
         before = None
@@ -244,7 +244,7 @@ class HeldImpulses:
         return taken
 
     def forget(self) -> None:
-        """Take the next state as it comes: it is not the one that the last step has left."""
+        """Drop all sums: the next state is not the result of the last step."""
         self._holders = self._pinned = self._last = None
         self.knows_last_step = True
         self._grasped = ()
@@ -276,7 +276,7 @@ class HeldImpulses:
             self._place(self._holders)
 
     def delete(self) -> None:
-        """Give pass and buffers back."""
+        """Free pass and buffers."""
         for buffer in (self._buffer, self._sums, self._own, self._replaced):
             if buffer is not None:
                 buffer.delete()

@@ -43,7 +43,7 @@ class OnePass:
         self._recording_step = SceneProgram(
             'mass_spring_step.comp', scene, layout, {**defines, 'HAS_HELD': 1})
         self._groups = layout.groups
-        # Where the last substep has left its entries of held.glsl; below 0: nowhere.
+        # First entry of held.glsl that the last substep wrote; below 0: none.
         self.held_at = -1
         self._held_set: int | None = None
         self._step.use()

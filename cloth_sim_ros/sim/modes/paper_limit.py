@@ -77,7 +77,7 @@ class PaperSweeps:
 
     def finish(self, state: State, length: float, kick: float, held_at: int) -> None:
         """
-        Move the nodes of the substep of ``length`` [s] that ``run`` was told of.
+        Move the nodes of the substep of ``length`` [s] that ``run`` was given.
 
         :param held_at: where its entries of held.glsl are; below 0: nowhere
         """

@@ -86,7 +86,7 @@ class RightSide:
         shader_writes_visible()
 
     def delete(self) -> None:
-        """Give the program back."""
+        """Free the program."""
         self._program.delete()
 
 

@@ -105,7 +105,7 @@ def _costs_of_methods(plan: Plan) -> tuple[dict[str, float], bool]:
         own = {**values, **setting.values}
         work = _work(own)
         if time.monotonic() - begin > _PROBES or not work:
-            # As dear as the dearest, of those that are known.
+            # As expensive as the most expensive known one.
             costs[setting.method] = max(costs.values(), default=0.0)
             is_least |= bool(work)
             continue
