@@ -8,7 +8,7 @@ Record the example that bags/README.md walks through: a node, and what was done 
     python scripts/example_recording.py bags/example
 
 A cloth of 16 x 16 nodes hangs from two corners. It is pushed at 0.6 s, switched to mode constraint
-at 1.2 s, and let go at its top left corner at 2 s: each as soon as the node tells of a frame of
+at 1.2 s, and let go at its top left corner at 2 s: each as soon as the node reports a frame of
 that time, so that the inputs of a new recording may come a few hundredths of a second later.
 """
 

@@ -11,8 +11,10 @@ import cloth_sim_ros
 
 _FIELD = re.compile(r':(param|returns?|raises) ?(\w*): *')
 _TITLES = {'param': '', 'return': 'Returns ', 'returns': 'Returns ', 'raises': 'Raises '}
-# Of annotations: where a name is defined says nothing to its reader.
+# Module names in annotations are left out: they tell the reader nothing.
 _MODULE = re.compile(r'\b(?:[a-z_]+\.)+(?=[A-Z])')
+# A default that is a function: its address differs from run to run.
+_FUNCTION = re.compile(r'<function (\w+) at 0x[0-9a-f]+>')
 
 
 def python_page(note: str) -> str:
@@ -81,7 +83,7 @@ def _member(owner: str, name: str, value: object) -> str:
 def _signature(name: str, value: object) -> str:
     found = inspect.signature(value)
     kept = [each for each in found.parameters.values() if each.name not in ('self', 'cls')]
-    parts = [_MODULE.sub('', str(each)) for each in kept]
+    parts = [_FUNCTION.sub(r'\1', _MODULE.sub('', str(each))) for each in kept]
     for index, each in enumerate(kept):
         if each.kind is each.KEYWORD_ONLY:
             if not any(one.kind is one.VAR_POSITIONAL for one in kept):

@@ -73,7 +73,7 @@ Write decimal points in lists of numbers: ROS accepts `[0.0, 0.0, 1.5]` and refu
 {table(header, map(parameter_cells, SCENE_FIELDS))}
 ## Colliders
 
-Each name in `colliders.names` has these, with the name in place of NAME
+Each name in `colliders.names` has these, with the name instead of NAME
 ([contact](../how_to/contact.md)):
 
 {table(header, map(parameter_cells, COLLIDER_FIELDS))}

@@ -4,17 +4,12 @@
 #version 430 core
 // One substep of the mass-spring mode: forces and update in one pass, BLOCK x BLOCK nodes an
 // invocation. A spring inside the block is evaluated once for both its ends.
-// STRAIN_LIMIT, for the adaptive mode:
-// NO_LIMIT
-// RIGID_LIMIT: springs beyond the limit give no force, and only the velocities are updated:
-//     paper_sweep.comp has the last word on them.
 // HAS_HELD 1: the pass records what pinned nodes are driven with.
 
 #include "lattice.glsl"
 #include "state_in.glsl"
 #include "state_out.glsl"
 #include "spring_law.glsl"
-#include "strain_limit.glsl"
 #include "applied_acceleration.glsl"
 #include "symplectic_euler.glsl"
 #if HAS_RIGIDITY
@@ -46,7 +41,7 @@ vec3 velocity[TILE][TILE];
 #endif
 vec3 force[TILE][TILE];
 
-void add_spring(int index, int row, int col, int drow, int dcol, int family, int rest) {
+void add_spring(int row, int col, int drow, int dcol, int rest) {
     vec4 from = position[row][col];
     vec4 to = position[row + drow][col + dcol];
 #if HAS_DAMPING
@@ -55,13 +50,7 @@ void add_spring(int index, int row, int col, int drow, int dcol, int family, int
     vec3 dv = vec3(0.0);
 #endif
     vec3 d = to.xyz - from.xyz;
-    vec3 f = spring_force(d, dv, from.w * to.w, family, rest);
-#if STRAIN_LIMIT != NO_LIMIT
-    if (family != BEND) {
-        vec2 l = length_and_inverse(d);
-        f *= is_beyond_limit(l.x, rest_length[rest]) ? 0.0 : 1.0;
-    }
-#endif
+    vec3 f = spring_force(d, dv, from.w * to.w, rest);
     force[row][col] += f;
     force[row + drow][col + dcol] -= f;
 }
@@ -91,8 +80,7 @@ vec4 brake[TILE][TILE];
             bool ends = row + DROW >= HALO && row + DROW < HALO + BLOCK \
                 && col + DCOL >= HALO && col + DCOL < HALO + BLOCK; \
             if (starts || ends) { \
-                int index = node_index(FIRST.y + row - HALO, FIRST.x + col - HALO); \
-                add_spring(index, row, col, DROW, DCOL, FAMILY, REST); \
+                add_spring(row, col, DROW, DCOL, REST); \
             } \
         } \
     }
@@ -147,9 +135,7 @@ void main() {
                 index, v, force[row][col], applied_acceleration(index));
             // Both w stand in every pair of buffers; software devices store number by number.
             velocity_out[index].xyz = v.xyz;
-#if STRAIN_LIMIT == NO_LIMIT
             position_out[index].xyz = next_position(index, position[row][col].xyz, v.xyz);
-#endif
 #if HAS_CONTACT
             add_speed(bound, v.xyz);
 #endif

@@ -64,7 +64,7 @@ def recorded_times(folder, topic):
 
 
 def acts_at_its_times(folder):
-    """Tell whether the demo did what it does at the simulated times it has for that."""
+    """Return whether the demo did what it does at the simulated times it has for that."""
     switches = recorded_times(folder, 'inputs/mode')[1:]  # the first one is the mode at the start
     return (
         recorded_times(folder, 'inputs/push') == pytest.approx(PUSHES)

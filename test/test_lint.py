@@ -184,7 +184,7 @@ def test_pep257(caplog):
 
 
 def has_header(path: Path) -> bool:
-    """Tell whether ``path`` begins with HEADER, after a line that has to be the first."""
+    """Return whether ``path`` begins with HEADER, after a line that has to be the first."""
     lines = path.read_text(encoding='utf-8').splitlines()
     if lines and lines[0].startswith(('#!', '#version')):
         del lines[0]

@@ -16,7 +16,7 @@ PAGE = Path(__file__).resolve().parents[1] / 'docs' / 'how_to' / 'python_api.md'
 def test_its_blocks_run_one_after_the_other(tmp_path):
     """The first program of a user would fail."""
     blocks = re.findall(r'```python\n(.*?)```', PAGE.read_text(encoding='utf-8'), re.DOTALL)
-    assert len(blocks) == 4
+    assert len(blocks) == 5
     done = subprocess.run(
         [sys.executable, '-c', '\n'.join(blocks)], cwd=tmp_path, capture_output=True, text=True,
         timeout=120)

@@ -18,7 +18,11 @@ from cloth_sim_ros.messages.requests import SUBSCRIPTIONS
 from cloth_sim_ros.messages.topics import TOPICS
 from cloth_sim_ros.node.missing_module import BUILD_COMMAND
 from cloth_sim_ros.verb.main import VERBS
+from graph_client import GraphClient
+from node_process import NodeProcess
 import pytest
+from rclpy.node import NodeNameNonExistentError
+from std_srvs.srv import SetBool
 
 ROOT = Path(__file__).resolve().parents[1]
 DOCS = ROOT / 'docs'
@@ -74,28 +78,46 @@ def test_topics_are_those_of_the_code():
 
 def test_services_are_those_of_the_code():
     """The page would lack a service, or give another type."""
-    made = re.compile(r"(?:create_service\(|serve_later\(\w+, )(\w+), '(~/\w+)'")
-    listed = rows(reference('services'), '# Services')
-    assert {row[0]: row[1].rpartition('/')[2] for row in listed} == created(made)
-    assert {service.name for service in SERVICES} == set(created(made))
+    assert {row[0]: row[1] for row in rows(reference('services'), '# Services')} == {
+        service.name: service.type_name for service in SERVICES}
 
 
 def test_subscriptions_are_those_of_the_code():
     """The page would lack a topic that the node listens to, or give another type."""
-    made = re.compile(r"create_subscription\(\s*(\w+), '([~/\w]+)'")
-    frames = (ROOT / 'cloth_sim_ros' / 'node' / 'input_frames.py').read_text(encoding='utf-8')
-    heard = created(made) | dict.fromkeys(
-        re.findall(r"_listen\(node, '(/\w+)'", frames), 'TFMessage')
-    listed = rows(reference('topics'), '## Subscribed')
-    assert {row[0]: row[1].rpartition('/')[2] for row in listed} == heard
-    assert {topic.name for topic in SUBSCRIPTIONS} == set(heard)
+    assert {row[0]: row[1] for row in rows(reference('topics'), '## Subscribed')} == {
+        topic.name: topic.type_name for topic in SUBSCRIPTIONS}
 
 
-def created(made):
-    """Return types by name of what the sources of the node make, found by an expression."""
-    return {
-        name: kind for path in (ROOT / 'cloth_sim_ros' / 'node').glob('*.py')
-        for kind, name in made.findall(path.read_text(encoding='utf-8'))}
+def test_a_node_has_the_services_and_subscriptions(tmp_path):
+    """The pages would have one that no node has, or lack one that each node has."""
+    # NAME stands for any collider and grasp on the pages.
+    scene = {
+        'colliders.names': ['ball'], 'colliders.ball.size': [0.1], 'grasps.start': [9.0],
+        'grasps.name': ['hand'], 'grasps.position': [0.0, 0.0, 1.0]}
+    one_for_any = {
+        '~/colliders/ball/pose': '~/colliders/NAME/pose',
+        '~/grasps/hand/target': '~/grasps/NAME/target'}
+    with GraphClient() as client, NodeProcess(tmp_path, scene):
+        client.call_until_answered(SetBool, '/cloth_sim/pause', data=True)
+
+        def offered(ask):
+            # It answers before all others know of it.
+            try:
+                found = ask('cloth_sim', '/')
+            except NodeNameNonExistentError:
+                return {}
+            own = {name.replace('/cloth_sim/', '~/'): kind for name, (kind,) in found}
+            # ROS gives each node services for its parameters and types.
+            return {
+                one_for_any.get(name, name): kind for name, kind in own.items()
+                if 'parameter' not in name and not name.endswith('get_type_description')}
+
+        for kinds, ask in (
+                (SERVICES, client.node.get_service_names_and_types_by_node),
+                (SUBSCRIPTIONS, client.node.get_subscriber_names_and_types_by_node)):
+            expected = {each.name: each.type_name for each in kinds}
+            client.spin_until(lambda: expected.keys() <= offered(ask).keys(), 'all of them')
+            assert offered(ask) == expected
 
 
 def test_every_verb_has_a_section():

@@ -18,7 +18,7 @@ from gpu.section import Row
 from gpu.section import Section
 
 # Passes that only other commands run: `cloth_sim paper` and Batch.
-_ELSEWHERE = ('paper_solver/', 'place_pins.comp')
+_ELSEWHERE = ('paper/solver/', 'place_pins.comp')
 # A pass that software does not use.
 _OF_GPUS = 'mass_spring_tile.comp'
 _LAYOUTS = ((1, 'storage'), (2, 'storage'), (4, 'storage'), (1, 'texture'), (2, 'texture'))

@@ -15,6 +15,7 @@ from cloth_sim_ros.analysis.frame import Frame
 from cloth_sim_ros.analysis.input_history import PushHistory
 from cloth_sim_ros.analysis.recorded_values import plain_value
 from cloth_sim_ros.analysis.recorded_values import recorded_pose
+from cloth_sim_ros.analysis.recorded_values import RESET
 from cloth_sim_ros.analysis.recording import Entry
 from cloth_sim_ros.analysis.recording import Recording
 from cloth_sim_ros.sim.colliders import Collider
@@ -23,7 +24,6 @@ from cloth_sim_ros.sim.colliders import NAMES
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.frame_paths import FrameMove
 from cloth_sim_ros.sim.frame_paths import FramePaths
-from cloth_sim_ros.sim.handling import RESET
 from cloth_sim_ros.sim.push import Push
 from cloth_sim_ros.sim.scene import Scene
 import numpy as np

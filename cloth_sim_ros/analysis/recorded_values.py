@@ -14,6 +14,8 @@ from cloth_sim_ros.sim.pose import Pose
 from cloth_sim_ros.sim.pose import unit_quaternion
 import numpy as np
 
+# What ~/inputs/command can say.
+RESET, CLEAR_PUSHES = 'reset', 'clear_pushes'
 _NUMBER = (int, float)
 _LIST = (list, tuple, np.ndarray)
 _POINT = ('x', 'y', 'z')

@@ -116,7 +116,7 @@ def _values(key: str, message: Any, prefix: str = '') -> Iterator[tuple[str, Any
 
 
 def _of_frame(key: str, frame: str) -> Iterator[tuple[str, Any]]:
-    """Yield the frame of a message of the topic ``key``, and what it is named after."""
+    """Yield the frame of a message of the topic ``key``, and the name of its node or body."""
     yield 'frame_id', frame
     topic, _, is_wrench = key.partition('/')
     if is_wrench and topic == 'pins':

@@ -94,7 +94,7 @@ class BodyColumns:
                 force.x, force.y, force.z)
 
     def times(self, kind: str) -> dict[str, tuple[float, float]]:
-        """Return when each grasp or collider is told of first and last [s], by its name."""
+        """Return the times of the first and last message of each body [s], by its name."""
         return {
             body.removeprefix(f'{kind}_'): (
                 min(time for _, time in forces), max(time for _, time in forces))

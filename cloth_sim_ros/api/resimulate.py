@@ -23,7 +23,7 @@ def resimulate(
     Rerun a recorded simulation, with its inputs at their times, and compare all frames.
 
     :param path: folder of the recording, or its file
-    :param changes: parameters of the scene in place of the recorded ones, by name
+    :param changes: parameters of the scene instead of the recorded ones, by name
     :param node: name of the recorded node, with its namespace; None finds it
     :return: ``frames`` has the number of bitwise identical frames, and the errors of the others
     :raises ClothSimError: when the recording can't be read, or does not hold the beginning of its

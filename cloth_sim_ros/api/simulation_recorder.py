@@ -13,23 +13,14 @@ from typing import Any
 import warnings
 
 from cloth_sim_interfaces.msg import ClothState
-from cloth_sim_ros.messages.frame import PointsMessage
-from cloth_sim_ros.messages.frame import stats_message
-from cloth_sim_ros.messages.markers import MarkersMessage
-from cloth_sim_ros.messages.pins import PinFrames
+from cloth_sim_ros.messages.frame_messages import FrameMessages
+from cloth_sim_ros.messages.frame_messages import FrameTaker
+from cloth_sim_ros.messages.frame_messages import Pace
+from cloth_sim_ros.messages.inputs import input_message
 from cloth_sim_ros.messages.pins import too_many_pins
-from cloth_sim_ros.messages.pins import WrenchMessages
 from cloth_sim_ros.messages.state import state_of
-from cloth_sim_ros.messages.wanted_forces import WantedForces
-from cloth_sim_ros.node.frames import body_messages
-from cloth_sim_ros.node.frames import PEAKS
-from cloth_sim_ros.node.frames import pin_messages
-from cloth_sim_ros.node.frames import wanted_of_bodies
-from cloth_sim_ros.node.frames import WITH_FORCES
-from cloth_sim_ros.node.frames import WRENCHES
 from cloth_sim_ros.node.node_fields import checked_node_values
 from cloth_sim_ros.node.node_fields import NODE_FIELDS
-from cloth_sim_ros.node.outlet import Inputs
 from cloth_sim_ros.node.recording_session import RecordingSession
 from cloth_sim_ros.node.recording_session import write_opening
 from cloth_sim_ros.recording.bag_folder import RecordingOptions
@@ -42,8 +33,10 @@ from cloth_sim_ros.sim.arguments import vector
 from cloth_sim_ros.sim.arguments import word
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.errors import NonFiniteStateError
-from cloth_sim_ros.sim.handling import InputListener
-from cloth_sim_ros.sim.handling import RESET
+from cloth_sim_ros.sim.inputs import Input
+from cloth_sim_ros.sim.inputs import InputListener
+from cloth_sim_ros.sim.inputs import ReplaceState
+from cloth_sim_ros.sim.inputs import Reset
 from cloth_sim_ros.sim.scene import refuse_unknown
 from cloth_sim_ros.sim.simulation import Simulation
 import numpy as np
@@ -77,13 +70,10 @@ class RunRecording:
         self._node_values = node_values
         self._node_name = node_name
         self._frame_id = node_values['frame_id']
-        self._points = PointsMessage(
-            simulation.scene.rows, simulation.scene.cols, self._frame_id)
-        self._markers = MarkersMessage(
-            simulation.scene.rows, simulation.scene.cols, self._frame_id)
-        self._pin_frames = PinFrames(node_name, self._frame_id)
-        self._wrenches = WrenchMessages(node_name)
-        self._forces = WantedForces(simulation)
+        self._taker = FrameTaker(simulation, {
+            **node_values, 'publish.clock': False, 'publish.points': True, 'publish.stats': True})
+        self._messages = FrameMessages(
+            simulation.scene.rows, simulation.scene.cols, node_name, self._frame_id)
         self.problem = ''
         self._session = RecordingSession(
             directory, node_name, self._on_lost, setting,
@@ -92,9 +82,8 @@ class RunRecording:
         values = {**simulation.scene.values, **node_values}
         write_opening(self._session, simulation, values, f'/{node_name.strip("/")}')
         self._write_state(ClothState.RUNNING)
-        reason = too_many_pins(int(np.count_nonzero(self._pins())))
-        self._has_wrenches = node_values['publish.wrenches'] and not reason
-        self._has_pin_frames = node_values['publish.tf'] and not reason
+        reason = too_many_pins(int(np.count_nonzero(
+            simulation.pinned_nodes() & ~simulation.grasped_nodes())))
         if reason and (node_values['publish.wrenches'] or node_values['publish.tf']):
             self._say(reason)
         self._recorded = 0.0
@@ -104,47 +93,22 @@ class RunRecording:
         """Write the present instant."""
         if not self._session.active:
             return
-        of_bodies = wanted_of_bodies(self._simulation, self._node_values, self)
-        snapshot = self._simulation.snapshot()
-        of_pins = frozenset((WRENCHES, PEAKS)) if self._has_wrenches else frozenset()
-        forces = (
-            self._forces.of(snapshot) if WITH_FORCES & (of_pins | of_bodies) else None)
-        stats = stats_message(
-            snapshot, self._frame_id, step_wall_time=step_wall_time,
-            real_time_factor=real_time_factor)
-        self._session.write('points', self._points.serialise(snapshot), snapshot.time)
+        frame = self._taker.take(
+            self._session.takes,
+            lambda: Pace(step_wall_time, steps=1, achieved=real_time_factor))
         # Not at the end: an interrupt may come in between.
-        self._recorded = snapshot.time
-        if self._session.takes('markers') and self._node_values['publish.markers']:
-            self._session.write('markers', self._markers.serialise(
-                snapshot, [applied.push for applied in self._simulation.pushes],
-                self._simulation.colliders, self._simulation.grasps), snapshot.time)
-        self._session.write('stats', serialize_message(stats), snapshot.time)
-        held = self._simulation.grasped_nodes()
-        if self._has_pin_frames and self._pins().any():
-            self._session.write('tf', self._pin_frames.serialise(snapshot, held), snapshot.time)
-        for key, messages in pin_messages(self._wrenches, forces, snapshot.time, of_pins):
-            for data in messages:
-                self._session.write(key, data, snapshot.time)
-        for key, message in body_messages(
-                self._simulation, snapshot, forces, of_bodies, self._node_name, self._frame_id):
-            self.send_message(key, message, snapshot.time)
+        self._recorded = frame.time
+        for key, data in self._messages.of(frame):
+            self._session.write(key, data, frame.time)
 
-    def wanted(self, key: str, *, by_recording: bool = True) -> bool:
-        """Return whether messages of the topic ``key`` are written now."""
-        return by_recording and self._session.active
-
-    def send_message(self, key: str, message: Any, sim_time: float) -> None:
-        """Write ``message`` of the topic ``key`` at ``sim_time`` [s], as a node's outlet does."""
-        self._session.write(key, serialize_message(message), sim_time)
-
-    def send(self, key: str, serialise: Callable[[], bytes], sim_time: float) -> None:
-        """Write what ``serialise`` returns, of the topic ``key``, at ``sim_time`` [s]."""
-        self._session.write(key, serialise(), sim_time)
-
-    def rewind(self) -> None:
-        """Go on as simulated time is about to return to 0."""
-        self._session.rewind(self._simulation.time)
+    def write_input(self, given: Input, time: float) -> None:
+        """Write an accepted input, which acts from ``time`` [s] on."""
+        made = input_message(given, time, self._frame_id)
+        if made is not None:
+            key, message = made
+            self._session.write(key, serialize_message(message), time)
+        if isinstance(given, Reset):
+            self._session.rewind(time)
 
     def write_stop(self) -> None:
         """Write that the run has stopped before its end."""
@@ -152,7 +116,7 @@ class RunRecording:
 
     def close(self) -> None:
         """Finish the recording; where that fails, ``problem`` says so."""
-        self._forces.leave_out()
+        self._taker.close()
         try:
             self._session.close()
         except RecordingError as error:
@@ -168,9 +132,6 @@ class RunRecording:
                 self._say(
                     f'interrupted; the recording {self.path} is complete up to '
                     f'{self._recorded:.6g} s')
-
-    def _pins(self) -> np.ndarray:
-        return self._simulation.pinned_nodes() & ~self._simulation.grasped_nodes()
 
     def _write_state(self, run_state: str) -> None:
         state = state_of(
@@ -236,8 +197,7 @@ class SimulationRecorder(AbstractContextManager['SimulationRecorder']):
             node_name=node, setting='directory')
         self.path: str = self._recording.path
         self._is_open = True
-        simulation.listener = _RecordedInputs(
-            self._recording, simulation, values['frame_id'], node)
+        simulation.listener = _RecordedInputs(self._recording)
 
     def __exit__(self, *_: object) -> None:
         """Close, however the block has ended."""
@@ -316,21 +276,17 @@ def _warn(sentence: str) -> None:
     warnings.warn(sentence, stacklevel=5)
 
 
-class _RecordedInputs(Inputs, InputListener):
-    """Records the inputs that a simulation is notified of."""
+class _RecordedInputs(InputListener):
+    """Records the inputs that a simulation accepts."""
 
-    def __init__(
-            self, recording: RunRecording, simulation: Simulation, frame_id: str,
-            node: str) -> None:
-        super().__init__(recording, simulation, frame_id, node)
+    def __init__(self, recording: RunRecording) -> None:
         self._recording = recording
 
-    def command(self, command: str) -> None:
-        super().command(command)
-        if command == RESET:
-            self._recording.rewind()
+    def check(self, given: Input) -> None:
+        if isinstance(given, ReplaceState):
+            raise ClothSimError(
+                'a new state cannot be recorded, and the run could not be resimulated after one: '
+                'close the recorder, set the state, and create another recorder')
 
-    def new_state(self) -> None:
-        raise ClothSimError(
-            'a new state cannot be recorded, and the run could not be resimulated after one: '
-            'close the recorder, set the state, and create another recorder')
+    def accept(self, given: Input, time: float) -> None:
+        self._recording.write_input(given, time)

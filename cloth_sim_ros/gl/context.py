@@ -147,7 +147,7 @@ class Context:
 
     @property
     def is_of_parent(self) -> bool:
-        """Tell whether this process was forked since the context was made."""
+        """Return whether this process was forked since the context was made."""
         return self._forks != forks()
 
     def release(self) -> None:
@@ -163,7 +163,7 @@ class Context:
         GL.glFinish()
 
     def close(self) -> None:
-        """Give the context and all its buffers back; in a forked child they are the parent's."""
+        """Release the context and all its buffers; in a forked child they are the parent's."""
         if self.is_of_parent:
             self._context = None
         if self._context is not None:

@@ -86,7 +86,7 @@ def strain_colors(strain: np.ndarray) -> np.ndarray:
     """
     Return the colour of each strain, dark at rest and bright from FULL_STRAIN on.
 
-    :param strain: of any shape, 0 or more; what is not a number takes the last colour
+    :param strain: of any shape, 0 or more; NaN gets the last colour
     :return: red, green, blue, alpha from 0 to 1, shape (..., 4) float32
     """
     steps = np.fmin(strain * ((_STEPS - 1) / FULL_STRAIN), _STEPS - 1)

@@ -18,14 +18,25 @@ from cloth_sim_interfaces.msg import Push as PushMessage
 from cloth_sim_ros.messages.body_frames import pose_message
 from cloth_sim_ros.messages.cdr_writer import CdrWriter
 from cloth_sim_ros.messages.stamp import stamp
-from cloth_sim_ros.sim.frame_paths import FrameMove
-from cloth_sim_ros.sim.grasps import Grasp
-from cloth_sim_ros.sim.pins import PinMove
+from cloth_sim_ros.sim.inputs import ClearPushes
+from cloth_sim_ros.sim.inputs import Input
+from cloth_sim_ros.sim.inputs import MoveCollider
+from cloth_sim_ros.sim.inputs import MoveFrame
+from cloth_sim_ros.sim.inputs import MoveGrasp
+from cloth_sim_ros.sim.inputs import MovePin
+from cloth_sim_ros.sim.inputs import Pin
+from cloth_sim_ros.sim.inputs import PushNodes
+from cloth_sim_ros.sim.inputs import Release
+from cloth_sim_ros.sim.inputs import Reset
+from cloth_sim_ros.sim.inputs import SetMode
+from cloth_sim_ros.sim.inputs import SetWind
+from cloth_sim_ros.sim.inputs import TakeGrasp
+from cloth_sim_ros.sim.inputs import Unpin
 from cloth_sim_ros.sim.pose import NO_ROTATION
 from cloth_sim_ros.sim.pose import Pose
-from cloth_sim_ros.sim.push import Push
 from cloth_sim_ros.sim.scene_fields import Field
 from geometry_msgs.msg import Point
+from geometry_msgs.msg import Pose as PoseMessage
 from geometry_msgs.msg import Vector3
 from geometry_msgs.msg import Vector3Stamped
 from rcl_interfaces.msg import Parameter
@@ -92,59 +103,62 @@ def _put_parameter(writer: CdrWriter, parameter: Parameter) -> None:
 
 def _put_numbers(writer: CdrWriter, code: str, numbers: Any) -> None:
     writer.put('I', len(numbers))
-    # Of an empty list nothing follows, not even what would align its elements.
+    # An empty list has neither elements nor padding.
     if len(numbers):
         writer.put(code, *numbers)
 
 
-def push_message(push: Push, sim_time: float, frame_id: str) -> PushMessage:
-    """Return ``push``, which was given at ``sim_time`` [s]."""
-    return PushMessage(
-        header=Header(stamp=stamp(sim_time), frame_id=frame_id),
-        force=Vector3(x=push.force[0], y=push.force[1], z=push.force[2]),
-        region=push.region,
-        center=Point(x=push.center[0], y=push.center[1], z=push.center[2]),
-        radius=push.radius,
-        start=push.start,
-        duration=push.duration)
+def input_message(given: Input, time: float, frame_id: str) -> tuple[str, Any] | None:
+    """
+    Return the topic and the message of an accepted input; None where it has changed nothing.
+
+    :param time: simulated time from which it acts [s]
+    :param frame_id: of the cloth
+    :raises TypeError: for an input that has no message
+    """
+    header = Header(stamp=stamp(time), frame_id=frame_id)
+    match given:
+        case PushNodes(push):
+            return 'inputs/push', PushMessage(
+                header=header, force=Vector3(**_xyz(push.force)), region=push.region,
+                center=Point(**_xyz(push.center)), radius=push.radius, start=push.start,
+                duration=push.duration)
+        case Pin(row, col) | Unpin(row, col):
+            return 'inputs/pin', PinChange(
+                header=header, row=row, col=col, pinned=isinstance(given, Pin))
+        case MovePin(row, col, target, speed):
+            return 'inputs/pin_target', PinTarget(
+                header=header, row=row, col=col, target=Point(**_xyz(target)), speed=speed)
+        case TakeGrasp(name, position, orientation, nodes=nodes):
+            rows, cols = zip(*nodes or ())
+            return 'inputs/grasp', GraspChange(
+                header=header, name=name, grasped=True,
+                pose=_pose(position, orientation),
+                rows=rows, cols=cols, max_force=given.max_force)
+        case Release(name, by_force):
+            return 'inputs/grasp', GraspChange(header=header, name=name, by_force=by_force)
+        case MoveGrasp():
+            return 'inputs/grasp_target', _frame_target(given, header)
+        case MoveCollider():
+            return 'inputs/collider_target', _frame_target(given, header)
+        case SetWind(velocity):
+            return 'inputs/wind', Vector3Stamped(header=header, vector=Vector3(**_xyz(velocity)))
+        case SetMode(mode, previous):
+            return None if mode == previous else (
+                'inputs/mode', ModeChange(header=header, mode=mode, previous_mode=previous))
+        case Reset():
+            return 'inputs/command', Command(header=header, command=Command.RESET)
+        case ClearPushes():
+            return 'inputs/command', Command(header=header, command=Command.CLEAR_PUSHES)
+    raise TypeError(f'{type(given).__name__} has no message')
 
 
-def pin_message(row: int, col: int, pinned: bool, sim_time: float, frame_id: str) -> PinChange:
-    """Return the pinning, or the release, of one node at ``sim_time`` [s]."""
-    return PinChange(
-        header=Header(stamp=stamp(sim_time), frame_id=frame_id), row=row, col=col, pinned=pinned)
-
-
-def pin_target_message(move: PinMove, sim_time: float, frame_id: str) -> PinTarget:
-    """Return ``move``, which was given at ``sim_time`` [s] or goes on from there."""
-    x, y, z = move.target
-    return PinTarget(
-        header=Header(stamp=stamp(sim_time), frame_id=frame_id), row=move.row, col=move.col,
-        target=Point(x=x, y=y, z=z), speed=move.speed)
-
-
-def grasp_message(grasp: Grasp, sim_time: float, frame_id: str) -> GraspChange:
-    """Return ``grasp``, which began at ``sim_time`` [s] or holds its nodes there."""
-    rows, cols = grasp.nodes.T.tolist()
-    return GraspChange(
-        header=Header(stamp=stamp(sim_time), frame_id=frame_id), name=grasp.name, grasped=True,
-        pose=pose_message(grasp.pose), rows=rows, cols=cols, max_force=grasp.max_force)
-
-
-def release_message(
-        name: str, by_force: bool, sim_time: float, frame_id: str) -> GraspChange:
-    """Return the end of the grasp ``name`` at ``sim_time`` [s]."""
-    return GraspChange(
-        header=Header(stamp=stamp(sim_time), frame_id=frame_id), name=name, by_force=by_force)
-
-
-def frame_target_message(move: FrameMove, sim_time: float, frame_id: str) -> FrameTarget:
-    """Return ``move``, which was given at ``sim_time`` [s] or goes on from there."""
+def _frame_target(given: MoveFrame, header: Header) -> FrameTarget:
     return FrameTarget(
-        header=Header(stamp=stamp(sim_time), frame_id=frame_id), name=move.name,
-        pose=pose_message(Pose(move.target, move.orientation or NO_ROTATION)),
-        keep_orientation=move.orientation is None, speed=move.speed,
-        angular_speed=move.angular_speed)
+        header=header, name=given.name,
+        pose=_pose(given.target, given.orientation),
+        keep_orientation=given.orientation is None, speed=given.speed,
+        angular_speed=given.angular_speed)
 
 
 def place_message(name: str, pose: Pose, sim_time: float, frame_id: str) -> FrameTarget:
@@ -154,24 +168,14 @@ def place_message(name: str, pose: Pose, sim_time: float, frame_id: str) -> Fram
         pose=pose_message(pose))
 
 
-def wind_message(
-        velocity: Sequence[float], sim_time: float, frame_id: str) -> Vector3Stamped:
-    """Return the steady wind from ``sim_time`` [s] on, ``velocity`` [m/s]."""
-    x, y, z = velocity
-    return Vector3Stamped(
-        header=Header(stamp=stamp(sim_time), frame_id=frame_id), vector=Vector3(x=x, y=y, z=z))
+def _pose(position: Sequence[float], orientation: Sequence[float] | None) -> PoseMessage:
+    x, y, z = map(float, position)
+    qx, qy, qz, qw = map(float, orientation or NO_ROTATION)
+    return pose_message(Pose((x, y, z), (qx, qy, qz, qw)))
 
 
-def mode_message(mode: str, previous_mode: str, sim_time: float, frame_id: str) -> ModeChange:
-    """Return the switch of the mode at ``sim_time`` [s]."""
-    return ModeChange(
-        header=Header(stamp=stamp(sim_time), frame_id=frame_id), mode=mode,
-        previous_mode=previous_mode)
-
-
-def command_message(command: str, sim_time: float, frame_id: str) -> Command:
-    """Return Command.RESET or Command.CLEAR_PUSHES, given at ``sim_time`` [s]."""
-    return Command(header=Header(stamp=stamp(sim_time), frame_id=frame_id), command=command)
+def _xyz(values: Sequence[float]) -> dict[str, float]:
+    return {name: float(value) for name, value in zip('xyz', values)}
 
 
 def parameters_message(

@@ -5,25 +5,23 @@
 
 from collections.abc import Callable
 from collections.abc import Sequence
+from contextlib import suppress
 from pathlib import Path
-import time
 from typing import Any
 import warnings
 
-from cloth_sim_interfaces.msg import Command
+from cloth_sim_ros.messages.frame_messages import Pace
 from cloth_sim_ros.messages.geometry import serialise_topology
 from cloth_sim_ros.messages.state import diagnostics_message
-from cloth_sim_ros.node.frames import Frames
+from cloth_sim_ros.node.device_thread import DeviceThread
 from cloth_sim_ros.node.graph_checks import ClockTopic
 from cloth_sim_ros.node.graph_checks import Namesake
 from cloth_sim_ros.node.guarded_node import GuardedNode
 from cloth_sim_ros.node.input_frames import InputFrames
 from cloth_sim_ros.node.input_frames import OwnFrames
-from cloth_sim_ros.node.load_requests import PushRequests
-from cloth_sim_ros.node.load_requests import WindTopic
+from cloth_sim_ros.node.load_requests import LoadRequests
 from cloth_sim_ros.node.mode_switch import ModeService
 from cloth_sim_ros.node.mode_switch import ModeSwitch
-from cloth_sim_ros.node.outlet import Inputs
 from cloth_sim_ros.node.outlet import Outlet
 from cloth_sim_ros.node.parameters import declare_fields
 from cloth_sim_ros.node.parameters import LiveParameters
@@ -31,20 +29,17 @@ from cloth_sim_ros.node.parameters import with_reasons
 from cloth_sim_ros.node.recording_session import RecordingSession
 from cloth_sim_ros.node.recording_session import write_opening
 from cloth_sim_ros.node.refusals import IgnoredMessages
+from cloth_sim_ros.node.reports import Reports
 from cloth_sim_ros.node.run_loop import PaceReport
 from cloth_sim_ros.node.run_loop import Pacing
 from cloth_sim_ros.node.run_loop import RunLoop
 from cloth_sim_ros.node.run_services import RecordingServices
 from cloth_sim_ros.node.run_services import RunServices
-from cloth_sim_ros.node.run_services import StateTopic
 from cloth_sim_ros.node.shared_memory import cloud_bytes
 from cloth_sim_ros.node.shared_memory import SharedMemory
-from cloth_sim_ros.node.targets import GraspServices
-from cloth_sim_ros.node.targets import LostGrasps
-from cloth_sim_ros.node.targets import MoveServices
-from cloth_sim_ros.node.targets import PinService
-from cloth_sim_ros.node.targets import PinTargets
-from cloth_sim_ros.node.targets import PoseStreams
+from cloth_sim_ros.node.targets import GraspRequests
+from cloth_sim_ros.node.targets import MoveRequests
+from cloth_sim_ros.node.targets import PinRequests
 from cloth_sim_ros.recording.bag_folder import fresh_name
 from cloth_sim_ros.recording.bag_folder import RecordingOptions
 from cloth_sim_ros.recording.recording_faults import RecordingError
@@ -52,6 +47,9 @@ from cloth_sim_ros.recording.recording_faults import RecordingFull
 from cloth_sim_ros.sim.colliders import fields_with_colliders
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.simulation import Simulation
+from cloth_sim_ros.sim.snapshot import Snapshot
+from rclpy._rclpy_pybind11 import InvalidHandle
+from rclpy._rclpy_pybind11 import RCLError
 from rclpy.clock import Clock
 from rclpy.clock import ClockType
 from rclpy.parameter import Parameter
@@ -85,13 +83,14 @@ class ClothSimNode(GuardedNode):
     Parameters: those of sim/scene_fields.py and node/node_fields.py.
 
     :param memory: what Fast DDS has to send clouds with
-    :param overlaps: whether a late node begins the next frame before it waits for the data of the
-        last one; by default where the device computes meanwhile
+
+    The simulation runs on a thread of its own, see device_thread.py.
+
     :raises ClothSimError: when the parameters ask for what can't be
     :raises DeviceError: when there is no GL device for it
     """
 
-    def __init__(self, memory: SharedMemory, *, overlaps: bool | None = None) -> None:
+    def __init__(self, memory: SharedMemory) -> None:
         """Declare the parameters and make the parts; nothing moves yet."""
         super().__init__('cloth_sim')
         self._memory = memory
@@ -99,48 +98,79 @@ class ClothSimNode(GuardedNode):
         name = self.get_fully_qualified_name()
         self._values = values
         scene = Scene({field.name: values[field.name] for field in fields_with_colliders(values)})
-        with warnings.catch_warnings(record=True) as told:
-            warnings.simplefilter('default')
-            self._simulation = Simulation(scene, compiles=False)
-        for warning in told:
-            self.get_logger().warning(str(warning.message))
+        warn = self.get_logger().warning
         self._recording = RecordingSession(
-            values['recording.directory'], name, self._on_recording_lost,
+            values['recording.directory'], name,
+            lambda error: self._device.emit(lambda: self._on_recording_lost(error)),
             options=RecordingOptions.from_values(values), wake=self._on_recording_ended)
-        # The thread that writes triggers it; the check runs where all else does.
+        # The thread that writes triggers it; the check runs on the ROS thread.
         self._recording_ended = self.create_guard_condition(self._recording.check)
-        self._ignored = IgnoredMessages(self.get_logger().warning)
-        own = OwnFrames(self._simulation, name, values['frame_id'])
-        self._input_frames = InputFrames(
-            self, own, values['frame_id'], self._ignored, listens=values['tf.listen'])
+        self._is_asked_for_health = False
+        self._ignored = IgnoredMessages(warn)
         self._outlet = Outlet(
             self, self._recording, heard_here=('tf',) if values['tf.listen'] else ())
-        self._inputs = Inputs(self._outlet, self._simulation, values['frame_id'], name)
-        self._frames = Frames(
-            self._simulation, self._outlet, values, name, own, self.get_logger().warning)
         self._pacing = Pacing(values['real_time_factor'])
-        self._pace_report = PaceReport(
-            self._simulation, self._pacing, warn=self.get_logger().warning,
-            say=self.get_logger().info)
-        self._run_loop = RunLoop(
-            self.alarm, self._simulation, frame_seconds=1.0 / values['publish.rate'],
-            pacing=self._pacing, paused=values['start_paused'],
-            on_frame=self.guarded(self._on_frame, 'a frame'), on_stop=self._on_stop,
-            note=self.faults.note,
-            overlaps=self._simulation.layout.is_asynchronous if overlaps is None else overlaps)
-        self._switch = ModeSwitch(
-            self, self._simulation, switched=self._on_switched, failed=self._on_mode_failed,
-            changed=self._send_state)
-        self._state = StateTopic(
-            self._outlet, self._simulation, self._run_loop, self._switch, self._recording,
-            values['frame_id'])
-        self._namesake = Namesake(self, '~/set_mode', self.get_logger().warning)
-        self._clock_topic = ClockTopic(self, self._outlet, values['publish.clock'])
-        LiveParameters(
-            self, values, ask_mode=self._switch.ask, changed=self._on_parameters_changed)
-        self._serve()
+        self._device = DeviceThread(self._wake, self._note_fault)
+        self._has_events = self.create_guard_condition(self._device.serve)
+        try:
+            with warnings.catch_warnings(record=True) as told:
+                warnings.simplefilter('default')
+                self._simulation: Simulation = self._device.start(
+                    lambda: self._make_simulation(scene), self._close_simulation)
+            for warning in told:
+                warn(str(warning.message))
+            self._switch = ModeSwitch(
+                self, self._device, self._simulation, switched=self._on_switched,
+                failed=self._on_mode_failed, changed=self._report_state)
+            self._namesake = Namesake(self, '~/set_mode', warn)
+            self._clock_topic = ClockTopic(self, self._outlet, values['publish.clock'])
+            LiveParameters(
+                self, values, ask_mode=self._switch.ask, changed=self._on_parameters_changed)
+            self._serve()
+        except BaseException:
+            self._device.close()
+            raise
         self.create_timer(
             _WATCH_PERIOD, self._watch, clock=Clock(clock_type=ClockType.STEADY_TIME))
+
+    def _make_simulation(self, scene: Scene) -> Simulation:
+        """Make what lives on the device thread, there."""
+        values, name = self._values, self.get_fully_qualified_name()
+        simulation = Simulation(scene, compiles=False)
+        own = OwnFrames(simulation, name, values['frame_id'])
+        self._input_frames = InputFrames(
+            self, own, values['frame_id'], self._ignored, listens=values['tf.listen'])
+        log = self.get_logger()
+        self._reports = simulation.listener = Reports(
+            self._device, simulation, self._outlet, self._recording, values, name,
+            self._input_frames,
+            warn=log.warning, follow=lambda names: self._moves.follow(names))
+        pace_report = PaceReport(
+            simulation, self._pacing,
+            warn=lambda text: self._device.emit(lambda: log.warning(text)),
+            say=lambda text: self._device.emit(lambda: log.info(text)))
+        self._run_loop = RunLoop(
+            simulation, frame_seconds=1.0 / values['publish.rate'], pacing=self._pacing,
+            report=pace_report, paused=values['start_paused'], on_frame=self._reports.frame,
+            on_stop=self._on_stop, note=self._device.note, is_due=self._device.has_jobs,
+            stop=self._device.is_closing, is_held_back=self._reports.is_held_back)
+        self._device.set_turns(self._run_loop)
+        return simulation
+
+    def _close_simulation(self) -> None:
+        self._simulation.close()
+
+    def _wake(self) -> None:
+        """Have the ROS thread serve an event; called on any thread."""
+        # While ROS is being shut down it fails: the events are served at the end.
+        with suppress(InvalidHandle, RCLError):
+            self._has_events.trigger()
+
+    def _note_fault(self, error: Exception, where: str) -> None:
+        # What is under way when ROS is shut down fails, and that is nobody's fault.
+        if not self.context.ok():
+            raise error
+        self.faults.note(error, where)
 
     def create_service(
             self, srv_type: type, srv_name: str, callback: Callable[[Any, Any], Any],
@@ -151,72 +181,63 @@ class ClothSimNode(GuardedNode):
 
     def begin(self) -> None:
         """Say what runs where, record when the parameters say so, and run."""
-        simulation = self._simulation
-        scene = simulation.scene
-        self._outlet.send('topology', lambda: serialise_topology(scene), simulation.time)
+        scene = self._simulation.scene
+        self._outlet.send('topology', lambda: serialise_topology(scene), self._simulation.time)
         if self._values['recording.enabled']:
             self._start_first_recording()
         else:
-            self._state.send()
+            self._report_state()
         sent = cloud_bytes(scene.node_count) if self._values['publish.points'] else 0
         if warning := self._memory.warning(sent):
             self.get_logger().warning(warning)
-        self._switch.ask(simulation.mode)
+        self._switch.ask(self._simulation.mode)
 
     def close_recording(self) -> None:
         """Close the recording, if there is one; works without ROS."""
+        self._device.stop()
+        self._device.serve_rest()
         self._recording.close()
 
     def destroy_node(self) -> None:
-        """Give the device's memory back, and everything of ROS."""
-        self._run_loop.close()
+        """Release the device's memory, and everything of ROS."""
         self._switch.close()
-        self._simulation.close()
+        self._device.close()
         super().destroy_node()
 
     def _serve(self) -> None:
         ModeService(self, self._simulation, self._switch)
-        frames = self._input_frames
-        PushRequests(
-            self, self._simulation, self._inputs, self._values, frames, self._ignored)
-        PinService(self, self._simulation, self._inputs, frames)
-        for topic in (PinTargets, WindTopic):
-            topic(self, self._simulation, self._inputs, frames, self._ignored)
-        self._streams = PoseStreams(
-            self, self._simulation, self._inputs, frames, self._ignored)
-        MoveServices(self, self._simulation, self._inputs, frames)
-        GraspServices(
-            self, self._simulation, self._inputs, frames, self._streams.follow_grasps)
-        self._simulation.listener = LostGrasps(
-            self._inputs, self.get_logger().warning, self._streams.follow_grasps)
+        parts = self, self._device, self._simulation
+        frames, ignored = self._input_frames, self._ignored
+        LoadRequests(*parts, self._values, frames, ignored)
+        PinRequests(*parts, frames, ignored)
+        GraspRequests(*parts, frames)
+        self._moves = MoveRequests(*parts, frames, ignored)
         RunServices(
-            self, self._simulation, self._run_loop, reset=self._reset, changed=self._state.send)
+            *parts, self._run_loop, reset=self._reset, changed=self._report_state_now)
         RecordingServices(
-            self, self._simulation, self._recording, start=self._start_recording,
-            changed=self._state.send)
+            self, self._device, self._recording, start=self._start_recording,
+            started=self._on_recording_started, stopped=self._report_state)
+
+    # Called on the ROS thread.
 
     def _start_first_recording(self) -> None:
         directory, name = self._values['recording.directory'], self._values['recording.name']
         fresh = fresh_name(directory, name) if name else ''
-        path = self._start_recording(fresh)
+        path = self._on_recording_started(self._device.wait_for(
+            lambda: self._start_recording(fresh)))
         # As with a launch that starts a node again after it was killed.
         if fresh != name:
             self.get_logger().warning(
                 f'{Path(path).with_name(name)} already exists, and no recording is overwritten: '
                 f'recording to {path} instead')
 
-    def _start_recording(self, name: str) -> str:
-        path = self._recording.start(name)
-        write_opening(
-            self._recording, self._simulation, self._values, self.get_fully_qualified_name())
-        self._state.send()
-        self._show()
+    def _on_recording_started(self, path: str) -> str:
         self.get_logger().info(f'recording to {path}')
         return path
 
     def _on_recording_ended(self) -> None:
         # On the thread that writes; a node that is being shut down closes the recording itself.
-        if self.context.ok():
+        with suppress(InvalidHandle, RCLError):
             self._recording_ended.trigger()
 
     def _on_recording_lost(self, error: RecordingError) -> None:
@@ -224,57 +245,11 @@ class ClothSimNode(GuardedNode):
             self.get_logger().warning(str(error))
         else:
             self.get_logger().error(str(error))
-        self._state.send()
+        self._report_state()
         self._send_diagnostics()
 
-    def _on_frame(
-            self, worked: float, steps: int, later: bool = False) -> Callable[[], None] | None:
-        self._input_frames.take_waiting()
-        too_slow = self._run_loop.running and self._pacing.too_slow
-        send = self._frames.send(
-            worked=worked, steps=steps, real_time_factor=self._run_loop.real_time_factor,
-            too_slow=too_slow, later=later)
-        if self._run_loop.running:
-            self._pace_report.look(time.monotonic())
-        return self.guarded(send, 'a frame') if send is not None else None
-
-    def _show(self) -> None:
-        """Send the present moment as a frame, as soon as there is a mode to look at it with."""
-        if self._simulation.is_ready:
-            self._on_frame(0.0, 0)
-
-    def _on_stop(self) -> None:
-        self.get_logger().error(
-            f'{self._run_loop.problem}; then resume to try again, or call ~/reset')
-        self._state.send()
-        self._watch()
-
-    def _reset(self) -> None:
-        self._inputs.command(Command.RESET)
-        self._recording.rewind(self._simulation.time)
-        self._simulation.reset()
-        self._input_frames.forget()
-        self._streams.follow_grasps()
-        self._run_loop.restart()
-        self._state.send()
-        self._show()
-
-    def _send_state(self) -> None:
-        self._state.send()
-
-    def _on_switched(self, mode: str, previous: str) -> None:
-        if not previous:
-            simulation = self._simulation
-            scene = simulation.scene
-            self.get_logger().info(
-                f'{scene.rows} x {scene.cols} nodes in mode {mode} on {simulation.device}: '
-                f'dt {simulation.dt:g} s in {simulation.substeps} substeps, '
-                f'{self._run_loop.run_state}')
-            self._show()
-            self._run_loop.start()
-        elif mode != previous:
-            self._inputs.mode(mode, previous)
-        self._state.send()
+    def _report_state(self) -> None:
+        self._device.post(self._report_state_now)
 
     def _on_mode_failed(self, mode: str, error: Exception) -> None:
         if not self._simulation.is_ready:
@@ -283,13 +258,18 @@ class ClothSimNode(GuardedNode):
         self.get_logger().error(f'mode {mode} cannot be prepared: {error}')
         self.set_parameters(
             [Parameter('mode', Parameter.Type.STRING, self._simulation.mode)])
-        self._state.send()
+        self._report_state()
 
     def _on_parameters_changed(self, parameters: Sequence[Parameter]) -> None:
-        self._inputs.parameters(parameters)
-        if self._values['real_time_factor'] != self._pacing.factor:
-            self._pacing.factor = self._values['real_time_factor']
-            self._run_loop.start()
+        factor = self._values['real_time_factor']
+
+        def change() -> None:
+            self._reports.parameters(parameters)
+            if factor != self._pacing.factor:
+                self._pacing.factor = factor
+                self._run_loop.start()
+
+        self._device.post(change)
 
     def _watch(self) -> None:
         """Once a second: the health of the run, and a still picture for those who come late."""
@@ -297,27 +277,90 @@ class ClothSimNode(GuardedNode):
         self._clock_topic.watch()
         self._namesake.watch()
         self._recording.check()
-        simulation = self._simulation
-        is_still = not self._run_loop.running and not simulation.stepping.is_mid_step
-        if simulation.is_ready and is_still:
-            self._frames.send(to_recording=False)
+
+        def show() -> None:
+            if self._simulation.is_ready and not self._run_loop.running:
+                self._reports.frame(Pace, to_recording=False)
+
+        self._device.post(show)
         self._send_diagnostics()
 
     def _send_diagnostics(self) -> None:
-        simulation = self._simulation
-        if not self._outlet.wanted('diagnostics'):
+        # Within a step that takes long, one request is enough.
+        if not self._is_asked_for_health and self._outlet.wanted('diagnostics'):
+            self._is_asked_for_health = True
+            self._device.post(self._report_diagnostics)
+
+    # Called on the device thread.
+
+    def _start_recording(self, name: str) -> str:
+        path = self._recording.start(name, lambda: write_opening(
+            self._recording, self._simulation, self._values, self.get_fully_qualified_name()))
+        self._report_state_now()
+        self._show()
+        return path
+
+    def _show(self) -> None:
+        """Report the present moment as a frame, if there is a mode to look at it with."""
+        if not self._simulation.is_ready:
             return
+        try:
+            self._reports.frame(Pace)
+        except Exception as error:
+            # The request that changed the moment is carried out all the same.
+            self._device.note(error, 'a frame')
+
+    def _on_stop(self) -> None:
+        problem = self._run_loop.problem
+        self._device.emit(lambda: self.get_logger().error(
+            f'{problem}; then resume to try again, or call ~/reset'))
+        self._report_state_now()
+        self._device.emit(self._watch)
+
+    def _reset(self) -> None:
+        self._simulation.reset()
+        self._run_loop.restart()
+        self._report_state_now()
+        self._show()
+
+    def _on_switched(self, mode: str, previous: str) -> None:
+        if not previous:
+            simulation = self._simulation
+            scene = simulation.scene
+            text = (
+                f'{scene.rows} x {scene.cols} nodes in mode {mode} on {simulation.device}: '
+                f'dt {simulation.dt:g} s in {simulation.substeps} substeps, '
+                f'{self._run_loop.run_state}')
+            self._device.emit(lambda: self.get_logger().info(text))
+            self._show()
+            self._run_loop.start()
+        self._report_state_now()
+
+    def _report_state_now(self) -> None:
+        self._reports.state(self._run_loop, self._switch)
+
+    def _report_diagnostics(self) -> None:
+        self._is_asked_for_health = False
+        simulation, loop = self._simulation, self._run_loop
         snapshot = simulation.snapshot() if simulation.is_ready else None
+        now, number = simulation.time, self._recording.number
+        known = {
+            'paused': not loop.running, 'problem': loop.problem,
+            'real_time_factor': loop.real_time_factor}
+        self._device.emit(lambda: self._send_health(snapshot, now, number, known))
+
+    # Called on the ROS thread.
+
+    def _send_health(
+            self, snapshot: Snapshot | None, now: float, number: int,
+            known: dict[str, Any]) -> None:
         ending = self._recording.ending
         self._outlet.send_message('diagnostics', diagnostics_message(
             snapshot, stamp=self.get_clock().now().to_msg(), node_name=self.get_name(),
-            device=simulation.device,
-            paused=not self._run_loop.running, problem=self._run_loop.problem,
-            real_time_factor=self._run_loop.real_time_factor,
+            device=self._simulation.device, **known,
             wanted_factor=self._values['real_time_factor'],
             automatic_substeps=self._values['auto_substeps'],
             recording_path=self._recording.path, recording_error=str(ending or ''),
             recording_is_whole=isinstance(ending, RecordingFull),
             faults=self.faults.count, latest_fault=self.faults.latest,
-            ignored=self._ignored.count),
-            simulation.time)
+            ignored=self._ignored.count), now, number=number)

@@ -1,10 +1,9 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-"""Wait for requests and for the time of the next frame, at a cost that does not count."""
+"""Wait for requests and events, at a cost that does not count."""
 
 from collections.abc import Callable
-import time
 from typing import Any
 
 from rclpy.executors import ExternalShutdownException
@@ -21,52 +20,27 @@ _GUARD = 'guard_condition'
 _KINDS = ('subscription', _GUARD, 'timer', 'client', 'service')
 
 
-class Alarm:
-    """
-    Calls ``ring`` when its time has come, and again until it is given another time or cancelled.
-
-    A timer of rclpy that is reset wakes its executor once more for that alone.
-    """
-
-    def __init__(self, ring: Callable[[], None]) -> None:
-        """Begin cancelled."""
-        self.ring = ring
-        self._due: float | None = None
-
-    def ring_in(self, seconds: float) -> None:
-        """Ring in ``seconds`` of wall time."""
-        self._due = time.monotonic() + seconds
-
-    def cancel(self) -> None:
-        """Ring no more."""
-        self._due = None
-
-    @property
-    def left(self) -> float | None:
-        """Get the time until it rings [s], 0 when that has passed; None when cancelled."""
-        return None if self._due is None else max(self._due - time.monotonic(), 0.0)
-
-
 class FrameExecutor(SingleThreadedExecutor):
     """
-    Serve one node, and ring an alarm in between.
+    Serve one node.
 
     rclpy collects all entities of a node for each callback, and once more as each callback wakes
     the executor: 50 frames a second cost as much as a small cloth (docs/notes/performance.md).
     Here what is waited for is kept, and rclpy's executor only runs when there is something to
-    serve. Events of publishers and subscriptions are served along with the next other thing.
-
-    :param alarm: rung at its time
+    serve. Guard conditions, by which frames come, are served without it. Events of publishers and
+    subscriptions are served along with the next other thing.
     """
 
-    def __init__(self, node: Node, alarm: Alarm) -> None:
+    # rclpy's __del__ reads it, also where a shutdown has kept __init__ from setting it.
+    _sigint_gc: Any = None
+
+    def __init__(self, node: Node) -> None:
         """Serve ``node``."""
         super().__init__(context=node.context)
         self.add_node(node)
         self._node = node
         assert node.context.handle is not None  # rclpy.init comes first
         self._context_handle = node.context.handle
-        self._alarm = alarm
         self._is_changed = True
         self._waited: list[tuple[Callable[[Any], Any], Any]] = []
         self._wait_set: Any = None
@@ -77,18 +51,16 @@ class FrameExecutor(SingleThreadedExecutor):
         super().wake()
 
     def spin_once(self, timeout_sec: float | None = None) -> None:
-        """Serve all that is ready, each once, and ring the alarm when it is due."""
-        left = self._alarm.left
-        if self._wait(timeout_sec if left is None else left):
+        """Serve all that is ready, each once."""
+        is_ready, triggered = self._wait(timeout_sec)
+        for guard in triggered:
+            guard.callback()
+        # What is taken as done is left for the next time.
+        if is_ready or any(not task.done() for task, _, _ in self._tasks):
             self._serve()
-        if self._alarm.left == 0.0:
-            self._alarm.ring()
-            # It may have brought what a task waits for, and be cancelled.
-            if self._tasks:
-                self._guard.trigger()
 
-    def _wait(self, seconds: float | None) -> bool:
-        """Return whether there is something to serve within ``seconds``."""
+    def _wait(self, seconds: float | None) -> tuple[bool, list[Any]]:
+        """Return whether rclpy has something to serve within ``seconds``, and what triggered."""
         if self._is_changed:
             self._collect()
         wait_set = self._wait_set
@@ -103,13 +75,9 @@ class FrameExecutor(SingleThreadedExecutor):
             guards = wait_set.get_ready_entities(_GUARD)
             is_ready = any(
                 wait_set.get_ready_entities(kind) for kind in _KINDS if kind != _GUARD)
-        # The wait has reset them, and rclpy's executor is to see them as well.
-        for guard in self._node.guards if guards else ():
-            if guard.handle.pointer in guards:
-                guard.trigger()
-                is_ready = True
         # Its own guard only ends the wait: what waits then is a task, or other entities.
-        return is_ready or bool(self._tasks)
+        return is_ready, [
+            guard for guard in self._node.guards if guard.handle.pointer in guards]
 
     def _collect(self) -> None:
         """Note what there is to wait for."""

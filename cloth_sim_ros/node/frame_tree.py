@@ -5,7 +5,6 @@
 
 from bisect import bisect_left
 from collections.abc import Callable
-from collections.abc import Iterator
 from dataclasses import dataclass
 import math
 import struct
@@ -23,16 +22,16 @@ _LITTLE_ENDIAN = b'\x00\x01'
 _COUNT = struct.Struct('<I')
 _STAMP_AND_LENGTH = struct.Struct('<iII')
 _PLACE = struct.Struct('<7d')
-# Of a rotation: farther from a length of 1 it is a mistake, as in tf2.
+# Max. deviation of the length of a quaternion from 1 [1], as in tf2; beyond it is a mistake.
 _TOLERANCE = 0.01
 
 # Frame, time [ns], parent, and x y z with a quaternion x y z w.
 Transform = tuple[str, int, str, tuple[float, ...]]
 
 
-def read_transforms(data: bytes) -> Iterator[Transform]:
+def read_transforms(data: bytes) -> list[Transform]:
     """
-    Yield the transforms of a serialised TFMessage one by one.
+    Return the transforms of a serialised TFMessage.
 
     A transform takes rclpy 20 us, and this a tenth of that.
 
@@ -42,6 +41,7 @@ def read_transforms(data: bytes) -> Iterator[Transform]:
         data = bytes(serialize_message(deserialize_message(data, TFMessage)))
     # Alignment counts from behind the encapsulation.
     body = data[4:]
+    found: list[Transform] = []
     try:
         count, = _COUNT.unpack_from(body)
         at = _COUNT.size
@@ -59,10 +59,11 @@ def read_transforms(data: bytes) -> Iterator[Transform]:
             at += -at % 8
             place = _PLACE.unpack_from(body, at)
             at += _PLACE.size
-            yield frame, sec * NANOSECONDS + nanosec, parent, place
+            found.append((frame, sec * NANOSECONDS + nanosec, parent, place))
     except (struct.error, UnicodeDecodeError) as error:
         raise ClothSimError(
             f'it is no TFMessage: {error}; publish tf2_msgs/msg/TFMessage') from None
+    return found
 
 
 def checked_pose(frame: str, place: tuple[float, ...]) -> Pose:
@@ -90,7 +91,7 @@ def _name(body: bytes, at: int, length: int) -> str:
 
 # As tf2 does by default [ns].
 KEPT = 10 * NANOSECONDS
-# Of one frame: 10 s at 200 Hz. At higher rates memory counts more than old stamps.
+# Max. samples of one frame [1]: 10 s at 200 Hz. At higher rates memory matters more.
 MOST_SAMPLES = 2000
 
 

@@ -13,7 +13,6 @@ from typing import NamedTuple
 import warnings
 
 from cloth_sim_ros.files.errors import cut
-from cloth_sim_ros.node.frame_executor import Alarm
 from cloth_sim_ros.node.frame_executor import FrameExecutor
 from cloth_sim_ros.node.refusals import LogThrottle
 from rcl_interfaces.msg import SetParametersResult
@@ -186,7 +185,6 @@ class GuardedNode(Node):
         """Begin without a fault."""
         self.faults = Faults(lambda text: self.get_logger().error(text))
         self.fatal: Exception | None = None
-        self.alarm = Alarm(_no_frame)
         self._retries: Timer | None = None
         self._late_answers = LateAnswers(
             warn=lambda text: self.get_logger().warning(text), wait=self._begin_retries,
@@ -233,7 +231,7 @@ class GuardedNode(Node):
         Return ``callback`` without its exceptions.
 
         :param where: what it serves, for the log
-        :param answer_with: makes the result in place of one that failed, of the reason and what
+        :param answer_with: makes the result instead of one that failed, of the reason and what
             ``callback`` was given; None by default
         """
         def note(error: Exception, arguments: tuple[Any, ...]) -> Any:
@@ -272,7 +270,7 @@ class GuardedNode(Node):
 
         :raises Exception: ``fatal``, or what the executor fails with again and again
         """
-        executor = FrameExecutor(self, self.alarm)
+        executor = FrameExecutor(self)
         failures = 0
         while self.context.ok() and self.fatal is None:
             try:
@@ -308,7 +306,3 @@ def _answer_with(reason: str, request: Any, response: Any) -> Any:
 
 def _name(callback: Callable[..., Any]) -> str:
     return getattr(callback, '__qualname__', type(callback).__name__)
-
-
-def _no_frame() -> None:
-    """Stand for the run loop until there is one."""

@@ -4,12 +4,13 @@
 """What is given in any frame of tf or of the node, in the frame of the cloth."""
 
 from collections import deque
-from collections.abc import Iterator
 from dataclasses import dataclass
+import threading
 from typing import Any
 
 from cloth_sim_ros.files.errors import shown
 from cloth_sim_ros.messages.body_frames import body_poses
+from cloth_sim_ros.messages.frame_messages import FrameContent
 from cloth_sim_ros.messages.frame_names import collider_frame
 from cloth_sim_ros.messages.frame_names import grasp_frame
 from cloth_sim_ros.messages.frame_names import node_of_pin
@@ -40,10 +41,17 @@ from rclpy.qos import QoSProfile
 from rclpy.subscription import Subscription
 from tf2_msgs.msg import TFMessage
 
+# Topics whose messages are given in the frames of pins, and in those of grasps and colliders.
+_WITH_PINS = frozenset(('tf', 'pins/wrenches', 'pins/peak_wrenches'))
+_WITH_BODIES = frozenset((
+    'tf', 'grasps/wrenches', 'grasps/peak_wrenches', 'colliders/wrenches'))
+
 
 class OwnFrames:
     """
     Where the frames are now, and were in the frames of the last seconds that were sent.
+
+    All of it is used on the device thread.
 
     :param node_name: with its namespace
     :param frame_id: of the cloth, their parent
@@ -61,17 +69,24 @@ class OwnFrames:
         self._pins: deque[tuple[int, np.ndarray, np.ndarray]] = deque(maxlen=MOST_SAMPLES)
 
     def owns(self, frame: str) -> bool:
-        """Tell whether the name ``frame`` is one of those that the node gives."""
+        """Return whether the name ``frame`` is one of those that the node gives."""
         return frame.startswith(self._prefixes)
 
-    def note_bodies(self) -> None:
+    def note(self, frame: FrameContent) -> None:
+        """Remember where those are that have a transform in ``frame``."""
+        if frame.keys & _WITH_PINS and frame.snapshot is not None and frame.pinned.any():
+            self._note_pins(frame.snapshot)
+        if frame.keys & _WITH_BODIES and (frame.grasps or frame.colliders):
+            self._note_bodies()
+
+    def _note_bodies(self) -> None:
         """Remember where grasps and colliders are now."""
         now, poses = nanoseconds(self._simulation.time), self._body_poses()
         self._bodies = {name: self._bodies.get(name, FrameHistory()) for name in poses}
         for name, pose in poses.items():
             self._add(self._bodies[name], now, pose)
 
-    def note_pins(self, snapshot: Snapshot) -> None:
+    def _note_pins(self, snapshot: Snapshot) -> None:
         """Remember where pins are in ``snapshot``."""
         now = nanoseconds(snapshot.time)
         nodes = np.flatnonzero(self._pinned())
@@ -128,15 +143,15 @@ class OwnFrames:
     def _pinned(self) -> np.ndarray:
         return self._simulation.pinned_nodes() & ~self._simulation.grasped_nodes()
 
-    def _places(self, node: int) -> Iterator[tuple[int, np.ndarray]]:
-        """Yield when and where ``node`` was a pin, for as long as it is one."""
+    def _places(self, node: int) -> list[tuple[int, np.ndarray]]:
+        """Return when and where ``node`` was a pin, for as long as it is one."""
         found = []
         for time, nodes, positions in reversed(self._pins):
             at = int(np.searchsorted(nodes, node))
             if at == len(nodes) or nodes[at] != node:
                 break
             found.append((time, positions[at]))
-        yield from reversed(found)
+        return found[::-1]
 
 
 def _at(position: np.ndarray) -> Pose:
@@ -206,6 +221,8 @@ class InputFrames:
     """
     Know the frames, and say what a header means.
 
+    Headers are read on the device thread, and transforms taken on that of ROS as well.
+
     :param own: the frames of the node itself
     :param frame_id: of the cloth
     :param listens: False to know no others than these
@@ -219,6 +236,7 @@ class InputFrames:
         self._own = own
         self._frame_id = frame_id
         self._ignored = ignored
+        self._lock = threading.RLock()
         self._tree = FrameTree(
             own.history, 'publish it on /tf or /tf_static' if listens
             else 'start the node with tf.listen: true')
@@ -235,25 +253,33 @@ class InputFrames:
         """
         if header.frame_id in ('', self._frame_id):
             return Given()
-        self.take_waiting()
         time = header.stamp.sec * NANOSECONDS + header.stamp.nanosec
-        return Given(self._tree.pose(header.frame_id, self._frame_id, time or None))
+        with self._lock:
+            self.take_waiting()
+            return Given(self._tree.pose(header.frame_id, self._frame_id, time or None))
+
+    def note(self, frame: FrameContent) -> None:
+        """Remember the poses of the node's own frames that have a transform in ``frame``."""
+        with self._lock:
+            self._own.note(frame)
 
     def forget(self) -> None:
         """Forget where frames were: the time has gone back. Fixed ones stay."""
-        self.take_waiting()
-        self._own.forget()
-        self._tree.forget_moving()
+        with self._lock:
+            self.take_waiting()
+            self._own.forget()
+            self._tree.forget_moving()
 
     def take_waiting(self) -> None:
         """Take what has come on /tf and /tf_static; call it now and then, before it piles up."""
-        for subscription, is_fixed in self._subscriptions:
-            for _ in range(_DEPTH):
-                with subscription.handle:
-                    taken = subscription.handle.take_message(TFMessage, True)
-                if taken is None:
-                    break
-                self._keep(subscription.topic_name, taken[0], is_fixed)
+        with self._lock:
+            for subscription, is_fixed in self._subscriptions:
+                for _ in range(_DEPTH):
+                    with subscription.handle:
+                        taken = subscription.handle.take_message(TFMessage, True)
+                    if taken is None:
+                        break
+                    self._keep(subscription.topic_name, taken[0], is_fixed)
 
     def _listen(self, node: Node, topic: str, *, is_fixed: bool) -> None:
         quality = QoSProfile(

@@ -6,15 +6,13 @@
 from collections.abc import Mapping
 from typing import Any
 
-from cloth_sim_interfaces.msg import Command
-from cloth_sim_interfaces.msg import Push
+from cloth_sim_interfaces.msg import Push as PushMessage
 from cloth_sim_interfaces.srv import ApplyPush
+from cloth_sim_ros.node.device_thread import DeviceThread
 from cloth_sim_ros.node.input_frames import InputFrames
-from cloth_sim_ros.node.outlet import Inputs
-from cloth_sim_ros.node.refusals import answer
+from cloth_sim_ros.node.on_device import listen_on_device
+from cloth_sim_ros.node.on_device import serve_on_device
 from cloth_sim_ros.node.refusals import IgnoredMessages
-from cloth_sim_ros.sim.errors import ClothSimError
-from cloth_sim_ros.sim.push_field import AppliedPush
 from cloth_sim_ros.sim.simulation import Simulation
 from geometry_msgs.msg import PointStamped
 from geometry_msgs.msg import Vector3
@@ -23,11 +21,13 @@ from rclpy.node import Node
 from std_srvs.srv import Trigger
 
 _PUSH_DEPTH = 10
+# A sensor or a model of the wind at 1 kHz fills it in the time of a few frames.
+_WIND_DEPTH = 100
 
 
-class PushRequests:
+class LoadRequests:
     """
-    Serve ~/apply_push and ~/clear_pushes, listen to ~/push and /clicked_point.
+    Serve ~/apply_push and ~/clear_pushes, listen to ~/push, ~/wind and /clicked_point.
 
     :param values: the node's parameter values, read at each click
     :param frames: says what headers mean
@@ -35,23 +35,24 @@ class PushRequests:
     """
 
     def __init__(
-            self, node: Node, simulation: Simulation, inputs: Inputs,
+            self, node: Node, device: DeviceThread, simulation: Simulation,
             values: Mapping[str, Any], frames: InputFrames, ignored: IgnoredMessages) -> None:
         """Make the services and subscriptions."""
-        self._ignored = ignored
         self._simulation = simulation
-        self._inputs = inputs
         self._values = values
         self._frames = frames
-        node.create_service(ApplyPush, '~/apply_push', answer(self._apply))
-        node.create_service(Trigger, '~/clear_pushes', answer(self._clear))
-        node.create_subscription(Push, '~/push', self._on_push, _PUSH_DEPTH)
-        node.create_subscription(PointStamped, '/clicked_point', self._on_click, _PUSH_DEPTH)
+        serve_on_device(node, device, ApplyPush, '~/apply_push', self._apply)
+        serve_on_device(node, device, Trigger, '~/clear_pushes', self._clear)
+        for kind, topic, depth, carry_out in (
+                (PushMessage, '~/push', _PUSH_DEPTH, self._on_push),
+                (PointStamped, '/clicked_point', _PUSH_DEPTH, self._on_click),
+                (Vector3Stamped, '~/wind', _WIND_DEPTH, self._on_wind)):
+            listen_on_device(node, device, kind, topic, depth, carry_out, ignored)
 
     def _apply(self, request: ApplyPush.Request, response: ApplyPush.Response) -> str:
         given = self._frames.given(request.header)
-        applied = self._push(
-            force=given.vector(request.force), region=request.region or Push.ALL,
+        applied = self._simulation.push(
+            given.vector(request.force), region=request.region or PushMessage.ALL,
             center=given.point(request.center), radius=request.radius,
             duration=request.duration)
         response.nodes = applied.nodes
@@ -60,63 +61,22 @@ class PushRequests:
         return f'pushing {applied.nodes} nodes for {request.duration:g} s'
 
     def _clear(self, _: Trigger.Request, __: Trigger.Response) -> str:
-        self._inputs.command(Command.CLEAR_PUSHES)
         return f'{self._simulation.clear_pushes()} pushes cleared'
 
-    def _on_push(self, message: Push) -> None:
-        try:
-            given = self._frames.given(message.header)
-            self._push(
-                force=given.vector(message.force), region=message.region or Push.ALL,
-                center=given.point(message.center), radius=message.radius,
-                duration=message.duration, start=message.start or None)
-        except ClothSimError as error:
-            self._ignored.note('~/push', error)
+    def _on_push(self, message: PushMessage) -> None:
+        given = self._frames.given(message.header)
+        self._simulation.push(
+            given.vector(message.force), region=message.region or PushMessage.ALL,
+            center=given.point(message.center), radius=message.radius,
+            duration=message.duration, start=message.start or None)
 
     def _on_click(self, message: PointStamped) -> None:
-        try:
-            center = self._frames.given(message.header).point(message.point)
-            self._push(
-                force=self._values['clicked_point.force'], region=Push.SPHERE, center=center,
-                radius=self._values['clicked_point.radius'],
-                duration=self._values['clicked_point.duration'])
-        except ClothSimError as error:
-            self._ignored.note('/clicked_point', error)
+        center = self._frames.given(message.header).point(message.point)
+        self._simulation.push(
+            self._values['clicked_point.force'], region=PushMessage.SPHERE, center=center,
+            radius=self._values['clicked_point.radius'],
+            duration=self._values['clicked_point.duration'])
 
-    def _push(self, **request: Any) -> AppliedPush:
-        applied = self._simulation.push(**request)
-        self._inputs.push(applied.push)
-        return applied
-
-
-# The wind, as a topic: ~/wind.
-
-# A sensor or a model of the wind at 1 kHz fills it in the time of a few frames.
-_WIND_DEPTH = 100
-
-
-class WindTopic:
-    """
-    Listen to ~/wind: each message blows until the next one, from the end of the step under way.
-
-    :param frames: says what headers mean
-    :param ignored: is given the messages that make no sense
-    """
-
-    def __init__(
-            self, node: Node, simulation: Simulation, inputs: Inputs, frames: InputFrames,
-            ignored: IgnoredMessages) -> None:
-        """Make the subscription."""
-        self._simulation = simulation
-        self._inputs = inputs
-        self._frames = frames
-        self._ignored = ignored
-        node.create_subscription(Vector3Stamped, '~/wind', self._on_message, _WIND_DEPTH)
-
-    def _on_message(self, message: Vector3Stamped) -> None:
-        try:
-            velocity = self._frames.given(message.header).vector(message.vector)
-            self._simulation.set_wind(velocity)
-            self._inputs.wind(velocity)
-        except ClothSimError as error:
-            self._ignored.note('~/wind', error)
+    def _on_wind(self, message: Vector3Stamped) -> None:
+        """Have the wind blow until the next message."""
+        self._simulation.set_wind(self._frames.given(message.header).vector(message.vector))

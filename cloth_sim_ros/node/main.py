@@ -3,7 +3,6 @@
 
 """The command `cloth_sim_node`: start the node, or say in one line why it can't start."""
 
-from collections.abc import Iterator
 from collections.abc import Sequence
 from itertools import pairwise
 import signal
@@ -42,27 +41,28 @@ def grid_of_arguments(args: Sequence[str]) -> tuple[int, int]:
     return rows, cols
 
 
-def _values(option: str, value: str) -> Iterator[tuple[str, Any]]:
-    """Yield the names and values that one option of ROS gives."""
+def _values(option: str, value: str) -> list[tuple[str, Any]]:
+    """Return the names and values that one option of ROS gives."""
     try:
         if option in ('-p', '--param'):
             name, _, text = value.partition(':=')
             # NODE:NAME:=VALUE gives it to one node.
-            yield name.rpartition(':')[2], parse_yaml(text, name)
-        elif option == '--params-file':
-            yield from _leaves(load_yaml(value))
+            return [(name.rpartition(':')[2], parse_yaml(text, name))]
+        if option == '--params-file':
+            return _leaves(load_yaml(value))
     except ClothSimError:
-        return
+        pass
+    return []
 
 
-def _leaves(content: Any, depth: int = 0) -> Iterator[tuple[str, Any]]:
+def _leaves(content: Any, depth: int = 0) -> list[tuple[str, Any]]:
+    """Return the names and values of a parameter file, of all nodes."""
     if not isinstance(content, dict) or depth > _DEEPEST:
-        return
+        return []
+    found: list[tuple[str, Any]] = []
     for name, value in content.items():
-        if isinstance(value, dict):
-            yield from _leaves(value, depth + 1)
-        else:
-            yield str(name), value
+        found += _leaves(value, depth + 1) if isinstance(value, dict) else [(str(name), value)]
+    return found
 
 
 def main(args: Sequence[str] | None = None) -> int:

@@ -8,6 +8,7 @@ import threading
 import time
 
 from cloth_sim_interfaces.srv import SetMode
+from cloth_sim_ros.node.device_thread import DeviceThread
 from cloth_sim_ros.node.refusals import serve_later
 from cloth_sim_ros.sim.engine import Preparation
 from cloth_sim_ros.sim.errors import ClothSimError
@@ -26,16 +27,18 @@ class ModeSwitch:
     """
     Prepare the mode that was asked for last, and let it take over at the end of a step.
 
-    :param switched: called with the mode that steps from now on and the one before, which is
-        empty for the first
+    :param switched: called on the device thread with the mode that steps from now on and the
+        one before, which is empty for the first
     :param failed: called with a mode that cannot be prepared and the reason
     :param changed: called when what is being prepared has changed, and while it goes on
     """
 
     def __init__(
-            self, node: Node, simulation: Simulation, *, switched: Callable[[str, str], None],
+            self, node: Node, device: DeviceThread, simulation: Simulation, *,
+            switched: Callable[[str, str], None],
             failed: Callable[[str, Exception], None], changed: Callable[[], None]) -> None:
         """Wait for a mode to be asked for."""
+        self._device = device
         self._simulation = simulation
         self._switched = switched
         self._failed = failed
@@ -61,7 +64,9 @@ class ModeSwitch:
     @property
     def compiled(self) -> int:
         """Return how many of its programs are ready."""
-        return self._preparation.compiled if self._preparation is not None else 0
+        # The device thread asks, while the ROS thread may end the preparation.
+        preparation = self._preparation
+        return preparation.compiled if preparation is not None else 0
 
     def ask(self, mode: str) -> None:
         """
@@ -75,7 +80,7 @@ class ModeSwitch:
         if self._preparation is not None and self._preparation.mode != mode:
             self._preparation.cancel()
         if self._simulation.engines.has(mode):
-            self._simulation.stepping.at_rest(self._take_over)
+            self._have_taken_over(mode)
         elif self._preparation is None:
             self._prepare(mode)
 
@@ -127,22 +132,34 @@ class ModeSwitch:
         if preparation.error is not None and preparation.mode == self._wanted:
             self._give_up(preparation.mode, preparation.error)
         elif self._wanted and self._simulation.engines.has(self._wanted):
-            self._simulation.stepping.at_rest(self._take_over)
+            self._have_taken_over(self._wanted)
         elif self._wanted:
             self._prepare(self._wanted)
 
-    def _take_over(self) -> None:
-        mode, self._wanted = self._wanted, ''
-        if not mode:
-            return
-        previous = self._simulation.mode if self._simulation.is_ready else ''
-        try:
-            self._simulation.set_mode(mode)
-        except Exception as error:
-            self._give_up(mode, error)
-            return
-        self._switched(mode, previous)
-        self._resolve(None)
+    def _have_taken_over(self, mode: str) -> None:
+        """Let ``mode``, which is compiled, take over between two steps."""
+        def take_over() -> Exception | None:
+            # Another one may have been asked for since.
+            if self._wanted != mode:
+                return None
+            previous = self._simulation.mode if self._simulation.is_ready else ''
+            try:
+                self._simulation.set_mode(mode)
+            except Exception as error:
+                return error
+            self._switched(mode, previous)
+            return None
+
+        def tell(error: Exception | None) -> None:
+            if self._wanted != mode:
+                return
+            if error is not None:
+                self._give_up(mode, error)
+                return
+            self._wanted = ''
+            self._resolve(None)
+
+        self._device.ask(lambda: (take_over(),), lambda outcome: tell(*outcome))
 
     def _give_up(self, mode: str, error: Exception) -> None:
         self._wanted = ''

@@ -23,14 +23,12 @@ from rclpy.logging import set_logger_level
 
 
 def run_node(
-        args: Sequence[str], memory: SharedMemory, reclaimed: Reclaimed, *,
-        overlaps: bool | None = None) -> None:
+        args: Sequence[str], memory: SharedMemory, reclaimed: Reclaimed) -> None:
     """
     Run the node with the command line ``args`` until it is asked to stop.
 
     :param memory: what Fast DDS has
     :param reclaimed: what killed processes had left of it
-    :param overlaps: as in ClothSimNode
     """
     check_interfaces()
     # rclpy stops the executor on SIGINT by itself. Python's KeyboardInterrupt on top would come
@@ -41,7 +39,7 @@ def run_node(
     try:
         # One that came before rclpy listened is only in the list.
         if not interrupts:
-            _spin(memory, reclaimed, overlaps)
+            _spin(memory, reclaimed)
     except (RuntimeError, NotInitializedException):
         # A signal cuts off ROS in the middle of anything, and what is under way then fails.
         if rclpy.ok():
@@ -50,9 +48,9 @@ def run_node(
         rclpy.try_shutdown()
 
 
-def _spin(memory: SharedMemory, reclaimed: Reclaimed, overlaps: bool | None) -> None:
+def _spin(memory: SharedMemory, reclaimed: Reclaimed) -> None:
     try:
-        node = ClothSimNode(memory, overlaps=overlaps)
+        node = ClothSimNode(memory)
     except RCLError as error:
         # A signal may have shut ROS down meanwhile.
         if not rclpy.ok():

@@ -8,20 +8,15 @@ from __future__ import annotations
 from collections.abc import Callable
 from collections.abc import Mapping
 from pathlib import Path
+import threading
 from typing import Any
 from typing import TYPE_CHECKING
 
 from cloth_sim_ros.messages.geometry import serialise_topology
-from cloth_sim_ros.messages.inputs import frame_target_message
-from cloth_sim_ros.messages.inputs import grasp_message
-from cloth_sim_ros.messages.inputs import mode_message
+from cloth_sim_ros.messages.inputs import input_message
 from cloth_sim_ros.messages.inputs import parameters_message
-from cloth_sim_ros.messages.inputs import pin_message
-from cloth_sim_ros.messages.inputs import pin_target_message
 from cloth_sim_ros.messages.inputs import place_message
-from cloth_sim_ros.messages.inputs import push_message
 from cloth_sim_ros.messages.inputs import serialise_parameter_event
-from cloth_sim_ros.messages.inputs import wind_message
 from cloth_sim_ros.node.missing_module import way_out
 from cloth_sim_ros.node.parameters import FIELDS
 from cloth_sim_ros.recording.bag_folder import DIRECTORY_SETTING
@@ -30,6 +25,16 @@ from cloth_sim_ros.recording.recording_faults import RecordingError
 from cloth_sim_ros.recording.recording_faults import refusal
 from cloth_sim_ros.sim.colliders import fields_with_colliders
 from cloth_sim_ros.sim.errors import ClothSimError
+from cloth_sim_ros.sim.inputs import Input
+from cloth_sim_ros.sim.inputs import MoveCollider
+from cloth_sim_ros.sim.inputs import MoveGrasp
+from cloth_sim_ros.sim.inputs import MovePin
+from cloth_sim_ros.sim.inputs import Pin
+from cloth_sim_ros.sim.inputs import PushNodes
+from cloth_sim_ros.sim.inputs import SetMode
+from cloth_sim_ros.sim.inputs import SetWind
+from cloth_sim_ros.sim.inputs import TakeGrasp
+from cloth_sim_ros.sim.inputs import Unpin
 from cloth_sim_ros.sim.simulation import Simulation
 import numpy as np
 from rclpy.serialization import serialize_message
@@ -59,27 +64,27 @@ def write_opening(
         {**values, **vars(simulation.layout.choice)}, fields_with_colliders(values, FIELDS), now,
         node_name)
     recording.write('inputs/parameters', serialise_parameter_event(parameters), now)
-    inputs = [('inputs/mode', mode_message(simulation.mode, '', now, frame_id))]
+    held: list[Input] = []
     pinned = simulation.pinned_nodes() & ~simulation.grasped_nodes()
     for row, col in np.argwhere(pinned != simulation.scene.pinned_nodes()).tolist():
-        inputs.append(
-            ('inputs/pin', pin_message(row, col, bool(pinned[row, col]), now, frame_id)))
-    for move in simulation.pin_moves:
-        inputs.append(('inputs/pin_target', pin_target_message(move, now, frame_id)))
-    for grasp in simulation.grasps:
-        inputs.append(('inputs/grasp', grasp_message(grasp, now, frame_id)))
-    for path in simulation.grasp_paths:
-        inputs.append(('inputs/grasp_target', frame_target_message(path.move, now, frame_id)))
-    for moved in simulation.moved_colliders:
-        key = 'inputs/collider_target'
-        inputs.append((key, place_message(moved.name, moved.pose, now, frame_id)))
-        if moved.path is not None:
-            inputs.append((key, frame_target_message(moved.path.move, now, frame_id)))
-    for applied in simulation.pushes:
-        inputs.append(('inputs/push', push_message(applied.push, now, frame_id)))
+        held.append(Pin(row, col) if pinned[row, col] else Unpin(row, col))
+    held += [MovePin.of(move) for move in simulation.pin_moves]
+    held += [TakeGrasp.of(grasp) for grasp in simulation.grasps]
+    held += [MoveGrasp.of(path.move) for path in simulation.grasp_paths]
+    later: list[Input] = [PushNodes(applied.push) for applied in simulation.pushes]
     if simulation.loads.wind not in (None, simulation.scene['air.wind']):
-        inputs.append(('inputs/wind', wind_message(simulation.loads.wind, now, frame_id)))
-    for key, message in inputs:
+        later.append(SetWind(simulation.loads.wind))
+    inputs = [
+        input_message(SetMode(simulation.mode), now, frame_id),
+        *(input_message(given, now, frame_id) for given in held)]
+    for moved in simulation.moved_colliders:
+        inputs.append((
+            'inputs/collider_target', place_message(moved.name, moved.pose, now, frame_id)))
+        if moved.path is not None:
+            inputs.append(input_message(MoveCollider.of(moved.path.move), now, frame_id))
+    inputs += [input_message(given, now, frame_id) for given in later]
+    for made in filter(None, inputs):
+        key, message = made
         recording.write(key, serialize_message(message), now)
 
 
@@ -107,62 +112,93 @@ class RecordingSession:
         self._setting = setting
         self._options = options
         self._wake = wake
+        # Recordings begin on the device thread, and are written and end on that of ROS.
+        self._lock = threading.RLock()
+        self._number = 0
         self._recorder: Recorder | None = None
         self._ending: RecordingError | None = None
         self._offset = 0.0
 
     @property
     def active(self) -> bool:
-        """Tell whether a recording is being written."""
+        """Return whether a recording is being written."""
         return self._recorder is not None
 
     def takes(self, key: str) -> bool:
-        """Tell whether messages of the topic ``key`` are being recorded."""
-        return self._recorder is not None and self._recorder.takes(key)
+        """Return whether messages of the topic ``key`` are being recorded."""
+        recorder = self._recorder
+        return recorder is not None and recorder.takes(key)
 
     @property
     def path(self) -> str:
         """Absolute path of the folder being written to; empty when there is none."""
-        return str(self._recorder.path) if self._recorder else ''
+        recorder = self._recorder
+        return str(recorder.path) if recorder else ''
 
     @property
     def ending(self) -> RecordingError | None:
         """Get why the last recording has ended before it was stopped; None when it has not."""
         return self._ending
 
-    def start(self, name: str = '') -> str:
-        """Open a recording and return its path; ClothSimError when that can't be."""
-        self.check()
-        if self._recorder is not None:
-            raise ClothSimError(
-                f'a recording is being written to {self.path}: stop it first, with '
-                '~/stop_recording or `cloth_sim record stop`')
-        self._recorder = self._open(name)
-        self._ending = None
-        self._offset = 0.0
-        return self.path
+    @property
+    def number(self) -> int:
+        """Get a number that the recording being written has, and no other; 0 for none."""
+        return self._number if self._recorder is not None else 0
 
-    def write(self, key: str, data: bytes, sim_time: float) -> None:
-        """Write the serialised message of the topic ``key`` at ``sim_time`` [s]."""
-        if self._recorder is None:
-            return
-        try:
-            self._recorder.write(key, data, self._offset + sim_time)
-        except RecordingError as error:
-            self._end(error)
+    def start(self, name: str = '', opening: Callable[[], None] | None = None) -> str:
+        """
+        Open a recording and return its path; ClothSimError when that can't be.
+
+        :param opening: called to write what it begins with, before anything else is written
+        """
+        with self._lock:
+            self.check()
+            if self._recorder is not None:
+                raise ClothSimError(
+                    f'a recording is being written to {self.path}: stop it first, with '
+                    '~/stop_recording or `cloth_sim record stop`')
+            self._recorder = self._open(name)
+            self._number += 1
+            self._ending = None
+            self._offset = 0.0
+            path = self.path
+            if opening is not None:
+                opening()
+            return path
+
+    def write(self, key: str, data: bytes, sim_time: float, number: int | None = None) -> None:
+        """
+        Write the serialised message of the topic ``key`` at ``sim_time`` [s].
+
+        :param number: of the recording that it belongs to; None for the present one
+        """
+        with self._lock:
+            if self._recorder is None or number not in (None, self._number):
+                return
+            try:
+                self._recorder.write(key, data, self._offset + sim_time)
+            except RecordingError as error:
+                self._end(error)
 
     def check(self) -> None:
         """Report an end of the recording that nobody has asked for."""
-        if self._recorder is None:
-            return
-        try:
-            self._recorder.check()
-        except RecordingError as error:
-            self._end(error)
+        with self._lock:
+            if self._recorder is None:
+                return
+            try:
+                self._recorder.check()
+            except RecordingError as error:
+                self._end(error)
 
-    def rewind(self, sim_time: float) -> None:
-        """Go on as simulated time returns from ``sim_time`` [s] to 0: players need it to grow."""
-        self._offset += sim_time
+    def rewind(self, sim_time: float, number: int | None = None) -> None:
+        """
+        Go on as simulated time returns from ``sim_time`` [s] to 0: players need it to grow.
+
+        :param number: as of ``write``
+        """
+        with self._lock:
+            if number in (None, self._number):
+                self._offset += sim_time
 
     def stop(self) -> str:
         """
@@ -170,24 +206,26 @@ class RecordingSession:
 
         :raises ClothSimError: when there is none, or when it does not go up to here
         """
-        if self._recorder is None:
-            raise self._ending or ClothSimError(
-                'no recording is being written: start one first, with ~/start_recording or '
-                '`cloth_sim record start`')
-        path = self.path
-        try:
-            self._recorder.close()
-        except RecordingError as error:
-            self._end(error)
-            raise
-        self._recorder = None
-        return path
+        with self._lock:
+            if self._recorder is None:
+                raise self._ending or ClothSimError(
+                    'no recording is being written: start one first, with ~/start_recording or '
+                    '`cloth_sim record start`')
+            path = self.path
+            try:
+                self._recorder.close()
+            except RecordingError as error:
+                self._end(error)
+                raise
+            self._recorder = None
+            return path
 
     def close(self) -> None:
         """Close the recording, if there is one, without the help of ROS."""
-        recorder, self._recorder = self._recorder, None
-        if recorder is not None:
-            recorder.close()
+        with self._lock:
+            recorder, self._recorder = self._recorder, None
+            if recorder is not None:
+                recorder.close()
 
     def _end(self, error: RecordingError) -> None:
         self._recorder = None

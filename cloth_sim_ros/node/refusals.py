@@ -15,26 +15,15 @@ from rclpy.callback_groups import ReentrantCallbackGroup
 from rclpy.node import Node
 
 
-def answer(carry_out: Callable[[Any, Any], str]) -> Callable[[Any, Any], Any]:
-    """
-    Return a service callback around ``carry_out(request, response) -> message``.
-
-    A ClothSimError becomes success false with its reason; every service of the node has the
-    response fields success and message.
-    """
-    def callback(request: Any, response: Any) -> Any:
-        try:
-            return _done(response, carry_out(request, response))
-        except ClothSimError as error:
-            return _refused(response, error)
-
-    return callback
-
-
 def serve_later(
         node: Node, kind: type, name: str,
         carry_out: Callable[[Any, Any], Awaitable[str]]) -> None:
-    """Serve requests by a coroutine; while one waits, everything else is served."""
+    """
+    Serve requests by the coroutine ``carry_out(request, response) -> message``.
+
+    A ClothSimError becomes success false with its reason; every service of the node has the
+    response fields success and message. While one waits, everything else is served.
+    """
     async def callback(request: Any, response: Any) -> Any:
         try:
             return _done(response, await carry_out(request, response))
@@ -62,7 +51,7 @@ def ros_reason(error: Exception) -> str:
 
 
 def is_about_security(error: Exception) -> bool:
-    """Tell whether ROS lacks what a secured graph needs."""
+    """Return whether ROS lacks what a secured graph needs."""
     return 'SECURITY' in str(error).upper()
 
 
@@ -95,7 +84,7 @@ class LogThrottle:
         """Begin with nothing logged."""
         self._quiet = quiet
         self._clock = clock
-        # Of each kind: when it was logged, and how many were left out since.
+        # By kind: the time of the last line [s], and the number left out since.
         self._logged: dict[str, tuple[float, int]] = {}
 
     def left_out(self, kind: str) -> int | None:

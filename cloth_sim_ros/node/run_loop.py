@@ -10,12 +10,11 @@ import time
 
 from cloth_sim_interfaces.msg import ClothState
 from cloth_sim_ros.gl.errors import DeviceError
+from cloth_sim_ros.messages.frame_messages import Pace
 from cloth_sim_ros.messages.state import slow_pace
-from cloth_sim_ros.node.frame_executor import Alarm
 from cloth_sim_ros.sim.errors import ClothSimError
-from cloth_sim_ros.sim.modes import Pieces
 from cloth_sim_ros.sim.simulation import Simulation
-from rclpy.task import Future
+from cloth_sim_ros.sim.stop import StepAbandoned
 
 # A late frame is caught up with, but not more than this: a machine that is too slow would
 # otherwise run ever longer without a pause.
@@ -61,15 +60,8 @@ class Pacing:
         if self.factor == 0.0:
             self._due = now
             return 0.0
-        self._due = max(self._due_after(simulated), now - _CATCH_UP)
+        self._due = max(self._due + simulated / self.factor, now - _CATCH_UP)
         return max(self._due - now, 0.0)
-
-    def is_next_due(self, now: float, simulated: float) -> bool:
-        """Tell whether ``delay`` would return 0 for the frame that has ended."""
-        return self.factor == 0.0 or self._due_after(simulated) <= now
-
-    def _due_after(self, simulated: float) -> float:
-        return self._due + simulated / self.factor
 
     @property
     def achieved(self) -> float:
@@ -81,12 +73,12 @@ class Pacing:
 
     @property
     def has_window(self) -> bool:
-        """Tell whether frames were made for a whole window."""
+        """Return whether frames were made for a whole window."""
         return bool(self._frames) and self._frames[-1][0] - self._frames[0][0] >= _WINDOW
 
     @property
     def too_slow(self) -> bool:
-        """Tell whether a whole window fell short of the factor asked for by over 5 percent."""
+        """Return whether a whole window fell short of the factor asked for by over 5 percent."""
         return self.has_window and self.achieved < 0.95 * self.factor
 
 
@@ -130,56 +122,55 @@ class PaceReport:
 
 # Advance the simulation frame by frame: running, paused, or stopped by a blow-up.
 
-# A step can take long: after this much wall time [s] services get their turn.
-_SLICE = 0.01
 MOST_STEPS = 100000
+# Is given None when all steps are made, or why they are not.
+Answer = Callable[[Exception | None], None]
 
 
 class RunLoop:
     """
-    Own the run state, and make the frames when the alarm rings.
+    Own the run state, and make the frames; all of it on the device thread.
 
     What a frame simulates comes from ``frame_seconds`` and dt alone; the wall clock only says
-    when it is made. Work is done in slices, between which everything else is served; a slice can
-    end within a step.
+    when it is made.
 
-    :param alarm: rings for the next slice of work
     :param frame_seconds: simulated time of a frame [s]
     :param pacing: when the next frame is due
-    :param on_frame: called after the state has changed, with the wall time that took [s], the
-        steps of dt made, and whether it is to return what sends the frame, or None, in place of
-        waiting for the device
+    :param report: is asked about the pace after each frame
+    :param on_frame: called after the state has changed, with what returns how fast that was
     :param on_stop: called when a step was not finite and the run has stopped before it, or when
         it has failed unexpectedly
     :param note: counts an unexpected exception, and returns it in one line
-    :param overlaps: True begins the next frame, where it is due, before the last one is sent
+    :param is_due: returns whether a job waits for the end of the step
+    :param stop: returns whether to abandon the step
+    :param is_held_back: returns whether frames wait that have to be served first
     """
 
     def __init__(
-            self, alarm: Alarm, simulation: Simulation, *, frame_seconds: float, pacing: Pacing,
-            paused: bool, on_frame: Callable[[float, int, bool], Callable[[], None] | None],
-            on_stop: Callable[[], None], note: Callable[[Exception, str], str],
-            overlaps: bool = False) -> None:
-        """Prepare; nothing moves before start."""
+            self, simulation: Simulation, *, frame_seconds: float, pacing: Pacing,
+            report: PaceReport, paused: bool,
+            on_frame: Callable[[Callable[[], Pace]], None], on_stop: Callable[[], None],
+            note: Callable[[Exception, str], str], is_due: Callable[[], bool],
+            stop: Callable[[], bool], is_held_back: Callable[[], bool]) -> None:
+        """Prepare; nothing moves before there is a mode."""
         self._simulation = simulation
         self._frame_seconds = frame_seconds
         self._pacing = pacing
+        self._report = report
         self._on_frame = on_frame
         self._on_stop = on_stop
         self._note = note
-        self._overlaps = overlaps
+        self._is_due = is_due
+        self._stop = stop
+        self._is_held_back = is_held_back
         self._paused = paused
         self._problem = ''
-        # Pieces of the step under way, and when the slice ends.
-        self._work: Pieces | None = None
-        self._deadline = 0.0
-        # What a caller of step waits for, how many steps it asked for, and the first of them.
-        self._answer: Future | None = None
+        # Wall time at which the next frame is due [s].
+        self._due = 0.0
+        # Who is answered when steps are made, and how many were asked for.
+        self._answer: Answer | None = None
         self._asked = 0
-        self._asked_from: int | None = None
         self._begin_frame()
-        alarm.ring = self._make_slice
-        self._alarm = alarm
 
     @property
     def run_state(self) -> str:
@@ -197,7 +188,7 @@ class RunLoop:
 
     @property
     def running(self) -> bool:
-        """Tell whether frames are being made."""
+        """Return whether frames are being made."""
         return self.run_state == ClothState.RUNNING
 
     @property
@@ -206,30 +197,24 @@ class RunLoop:
         return self._pacing.achieved if self.running else 0.0
 
     def start(self) -> None:
-        """Make frames from now on, unless paused or stopped, and the steps asked for."""
-        self._pacing.restart(time.monotonic())
-        if self._simulation.is_ready and (self.running or self._answer is not None):
-            self._alarm.ring_in(0.0)
+        """Pace frames from now on."""
+        now = time.monotonic()
+        self._pacing.restart(now)
+        self._due = now
 
     def pause(self) -> str:
         """
-        Make no more frames or steps; a step of dt under way comes to its end.
+        Make no more frames or steps.
 
         :return: what becomes of a request for steps; empty where there is none
         """
         self._paused = True
         if self._answer is None:
             return ''
-        stepping, answer = self._simulation.stepping, self._answer
-        stepping.at_rest(lambda: self._cut_steps(answer))
-        made = 0 if self._asked_from is None else stepping.edit_step - self._asked_from
+        made = self._simulation.steps - self._first
+        self._simulation.stepping.drop_aim()
+        self._end_frame()
         return f'~/step ends there, after {made} of {self._asked} steps'
-
-    def _cut_steps(self, answer: Future) -> None:
-        # A reset that came first has answered the request already.
-        if self._answer is answer:
-            self._simulation.stepping.drop_aim()
-            self._alarm.ring_in(0.0)
 
     def resume(self) -> None:
         """Make frames again; after a stop, try again from the state that was kept."""
@@ -246,18 +231,12 @@ class RunLoop:
             'the cloth was reset before all steps were done: request them again'))
         self.start()
 
-    def close(self) -> None:
-        """Undo a step under way, while there is a device to do so."""
-        self._alarm.cancel()
-        if self._work is not None:
-            self._work.close()
-
-    def step(self, steps: int) -> Future:
+    def step(self, steps: int, answer: Answer) -> None:
         """
         Begin to make ``steps`` steps of dt.
 
-        :return: done when they are made, with a NonFiniteStateError when one is lost, or a
-            ClothSimError when a pause or a reset comes before the last
+        :param answer: called when they are made, or with a NonFiniteStateError when one is lost,
+            or a ClothSimError when a pause or a reset comes before the last
         :raises ClothSimError: while running
         """
         if not self._paused and not self._problem:
@@ -270,54 +249,38 @@ class RunLoop:
         if self._answer is not None:
             raise ClothSimError(
                 'another caller is stepping: wait until ~/step has responded')
-        answer = self._answer = Future()
-        self._asked, self._asked_from = steps, None
-        self._paused, self._problem = True, ''
-        self._simulation.stepping.at_rest(lambda: self._begin_steps(steps))
-        self.start()
-        return answer
-
-    def _begin_steps(self, steps: int) -> None:
+        self._simulation.stepping.aim_steps(steps)
         self._begin_frame()
         self._is_frame_open = True
-        self._asked_from = self._first
-        try:
-            self._simulation.stepping.aim_steps(steps)
-        except ClothSimError as error:
-            self._begin_frame()
-            self._end_steps(error)
+        self._answer, self._asked = answer, steps
+        self._paused, self._problem = True, ''
+        self.start()
 
-    def _begin_frame(self) -> None:
-        """Let what comes next be a whole frame."""
-        self._is_frame_open = False
-        self._worked = 0.0
-        self._first = self._simulation.steps
+    def turn(self) -> float | None:
+        """Work on the frame that is due; return the time to wait before the next turn [s]."""
+        if not self._simulation.is_ready or not (self.running or self._answer is not None):
+            return None
+        if self._is_held_back():
+            return None
+        left = self._due - time.monotonic()
+        if left > 0.0 and self._answer is None:
+            return left
+        self._work()
+        return 0.0
 
-    def _make_slice(self) -> None:
-        if not (self.running or self._answer is not None or self._work is not None):
-            self._alarm.cancel()
-            return
-        if self._work_on(_SLICE):
-            self._end_frame()
-        elif not self._problem:
-            self._alarm.ring_in(0.0)
-
-    def _work_on(self, seconds: float, then: Callable[[], None] | None = None) -> bool:
-        """
-        Work on the frame for some wall time; return whether it, or all steps, are made.
-
-        :param then: called after that, and before the run stops at what went wrong in it
-        """
+    def _work(self) -> None:
+        """Make steps until the frame, or all steps, are made, or a job waits."""
         begin = time.monotonic()
-        self._deadline = begin + seconds
         problem: ClothSimError | DeviceError | None = None
-        is_made = False
+        stepping = self._simulation.stepping
         try:
-            if not self._is_frame_open and self._work is None:
+            if not self._is_frame_open:
                 self._begin_frame()
                 self._is_frame_open = True
-                self._simulation.stepping.aim(self._frame_seconds)
-            is_made = self._go_on()
+                stepping.aim(self._frame_seconds)
+            self._simulation.work(self._is_due, self._stop)
+        except StepAbandoned:
+            return
         except (ClothSimError, DeviceError) as error:
             problem = error
         except Exception as error:
@@ -326,51 +289,49 @@ class RunLoop:
                 f'the run failed unexpectedly, {self._note(error, "a step")}: report it with the '
                 'trace from the log')
         self._worked += time.monotonic() - begin
-        if then is not None:
-            then()
         if problem is not None:
-            self._stop(problem)
-        return is_made
+            self._end_run(problem)
+        elif not stepping.is_behind:
+            self._end_frame()
 
-    def _go_on(self) -> bool:
-        """Work until the slice is over; return whether the frame, or all steps, are made."""
-        while self._work is not None or self._simulation.stepping.is_behind:
-            if self._work is None:
-                self._work = self._simulation.work(self._is_due)
-            for _ in self._work:
-                if time.monotonic() >= self._deadline:
-                    return False
-            self._work = None
-            if self._is_due():
-                return not self._simulation.stepping.is_behind
-        return True
-
-    def _is_due(self) -> bool:
-        is_held = self._paused and self._answer is None
-        return is_held or time.monotonic() >= self._deadline
+    def _begin_frame(self) -> None:
+        """Let what comes next be a whole frame."""
+        self._is_frame_open = False
+        self._worked = 0.0
+        self._first = self._simulation.steps
 
     def _end_frame(self) -> None:
         # With a frame shorter than dt, some frames have nothing new to show.
         steps, worked = self._simulation.steps - self._first, self._worked
         self._begin_frame()
-        if steps > 0 and self._overlaps and self._answer is None and self.running and (
-                self._pacing.is_next_due(time.monotonic(), self._frame_seconds)):
-            send = self._on_frame(worked, steps, True)
-            # One piece, for the device to work on while the host waits, and sends. Nothing else
-            # is served before that: no request meets a frame that has not been sent.
-            self._work_on(0.0, then=send)
-        elif steps > 0:
-            self._on_frame(worked, steps, False)
+        self._show(worked, steps)
+        now = time.monotonic()
         if self._answer is not None:
             self._end_steps(self._cut_short(steps))
-            self._pacing.restart(time.monotonic())
-            delay = 0.0
+            self._pacing.restart(now)
+            self._due = now
         else:
-            delay = self._pacing.delay(time.monotonic(), self._frame_seconds)
-        if self.running:
-            self._alarm.ring_in(delay)
-        else:
-            self._alarm.cancel()
+            self._due = now + self._pacing.delay(now, self._frame_seconds)
+
+    def _show(self, worked: float, steps: int) -> None:
+        if steps == 0:
+            return
+        begin, is_running = time.monotonic(), self.running
+
+        def pace() -> Pace:
+            # The device may still be at work when the steps return: the read-back waits for it.
+            spent = worked + time.monotonic() - begin
+            return Pace(
+                spent, steps, self.real_time_factor, self._pacing.factor,
+                is_running and self._pacing.too_slow)
+
+        try:
+            self._on_frame(pace)
+        except Exception as error:
+            # Whoever waits for the steps has to be answered all the same.
+            self._note(error, 'a frame')
+        if is_running:
+            self._report.look(time.monotonic())
 
     def _cut_short(self, made: int) -> ClothSimError | None:
         if made == self._asked:
@@ -381,19 +342,14 @@ class RunLoop:
 
     def _end_steps(self, error: Exception | None) -> None:
         answer, self._answer = self._answer, None
-        if answer is not None and error is not None:
-            answer.set_exception(error)
-        elif answer is not None:
-            answer.set_result(None)
+        if answer is not None:
+            answer(error)
 
-    def _stop(self, error: ClothSimError | DeviceError) -> None:
-        """Show the last finite state, and tell that there is no more to come."""
-        self._alarm.cancel()
-        self._work = None
+    def _end_run(self, error: ClothSimError | DeviceError) -> None:
+        """Publish the last finite state, and report that the run has stopped."""
         self._problem = str(error)
         steps, worked = self._simulation.steps - self._first, self._worked
         self._begin_frame()
-        if steps > 0:
-            self._on_frame(worked, steps, False)
+        self._show(worked, steps)
         self._end_steps(error)
         self._on_stop()

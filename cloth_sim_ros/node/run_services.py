@@ -1,137 +1,120 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-"""~/pause, ~/step, ~/reset, ~/start_recording, ~/stop_recording, and what follows: ~/state."""
+"""~/pause, ~/step, ~/reset, ~/start_recording and ~/stop_recording."""
 
 from collections.abc import Callable
 from typing import Any
 
 from cloth_sim_interfaces.srv import StartRecording
 from cloth_sim_interfaces.srv import Step
-from cloth_sim_ros.messages.state import state_of
-from cloth_sim_ros.node.mode_switch import ModeSwitch
-from cloth_sim_ros.node.outlet import Outlet
+from cloth_sim_ros.node.device_thread import DeviceThread
 from cloth_sim_ros.node.recording_session import RecordingSession
-from cloth_sim_ros.node.refusals import answer
 from cloth_sim_ros.node.refusals import serve_later
 from cloth_sim_ros.node.run_loop import RunLoop
 from cloth_sim_ros.sim.simulation import Simulation
 from rclpy.node import Node
-from rclpy.task import Future
 from std_srvs.srv import SetBool
 from std_srvs.srv import Trigger
-
-
-def at_rest(simulation: Simulation, action: Callable[[], Any]) -> Future:
-    """Return a future with the result of ``action``, called now or when the step has ended."""
-    future = Future()
-
-    def act() -> None:
-        try:
-            future.set_result(action())
-        except Exception as error:
-            # Raised where it is awaited: it is the answer of a request, not the end of the step.
-            future.set_exception(error)
-
-    simulation.stepping.at_rest(act)
-    return future
 
 
 class RecordingServices:
     """
     Serve the requests about recordings.
 
-    :param start: starts a recording of the given name and returns its path
-    :param changed: called when a recording has ended
+    :param start: starts a recording of the given name, on the device thread; returns its path
+    :param started: called with the path
+    :param stopped: called when a recording has ended
     """
 
     def __init__(
-            self, node: Node, simulation: Simulation, recording: RecordingSession, *,
-            start: Callable[[str], str], changed: Callable[[], None]) -> None:
+            self, node: Node, device: DeviceThread, recording: RecordingSession, *,
+            start: Callable[[str], str], started: Callable[[str], str],
+            stopped: Callable[[], None]) -> None:
         """Make the services."""
-        self._simulation = simulation
+        self._device = device
         self._recording = recording
         self._start = start
-        self._changed = changed
+        self._started = started
+        self._stopped = stopped
         serve_later(node, StartRecording, '~/start_recording', self._on_start)
-        node.create_service(Trigger, '~/stop_recording', answer(self._on_stop))
+        serve_later(node, Trigger, '~/stop_recording', self._on_stop)
 
     async def _on_start(
             self, request: StartRecording.Request, response: StartRecording.Response) -> str:
-        # It begins with the state, which is whole between steps.
-        response.path = await at_rest(self._simulation, lambda: self._start(request.name))
+        # It begins with the state between two steps.
+        response.path = await self._device.ask(
+            lambda: self._start(request.name), self._started)
         return f'recording to {response.path}'
 
-    def _on_stop(self, _: Trigger.Request, __: Trigger.Response) -> str:
+    async def _on_stop(self, _: Trigger.Request, __: Trigger.Response) -> str:
+        path = await self._device.ask(lambda: None, self._stop)
+        return f'closed {path}'
+
+    def _stop(self, _: None) -> str:
+        # All frames that were made before have been recorded by now.
         try:
-            return f'closed {self._recording.stop()}'
+            return self._recording.stop()
         finally:
-            self._changed()
+            self._stopped()
 
 
 class RunServices:
     """
     Serve the requests about the run as a whole.
 
-    :param reset: puts the cloth back
-    :param changed: called when the run state has changed
+    :param reset: puts the cloth back, on the device thread
+    :param changed: called on the device thread when the run state has changed
     """
 
     def __init__(
-            self, node: Node, simulation: Simulation, run_loop: RunLoop, *,
+            self, node: Node, device: DeviceThread, simulation: Simulation, run_loop: RunLoop, *,
             reset: Callable[[], None], changed: Callable[[], None]) -> None:
         """Make the services."""
+        self._device = device
         self._simulation = simulation
         self._run_loop = run_loop
         self._reset = reset
         self._changed = changed
-        node.create_service(SetBool, '~/pause', answer(self._on_pause))
+        serve_later(node, SetBool, '~/pause', self._on_pause)
         serve_later(node, Step, '~/step', self._on_step)
         serve_later(node, Trigger, '~/reset', self._on_reset)
 
-    def _on_pause(self, request: SetBool.Request, _: SetBool.Response) -> str:
-        time = self._simulation.stepping.edit_time
-        ended = ''
-        if request.data:
-            ended = self._run_loop.pause()
-        else:
-            self._run_loop.resume()
+    async def _on_pause(self, request: SetBool.Request, _: SetBool.Response) -> str:
+        message: str = await self._device.ask(
+            self._pause if request.data else self._resume)
+        return message
+
+    def _pause(self) -> str:
+        time = self._simulation.time
+        ended = self._run_loop.pause()
         self._changed()
         return f'{self._run_loop.run_state} at {time:.6g} s' + (f'; {ended}' if ended else '')
 
+    def _resume(self) -> str:
+        self._run_loop.resume()
+        self._changed()
+        return f'{self._run_loop.run_state} at {self._simulation.time:.6g} s'
+
     async def _on_step(self, request: Step.Request, response: Step.Response) -> str:
-        before = self._run_loop.run_state
-        try:
-            await self._run_loop.step(request.steps)
-        finally:
+        def begin(answer: Callable[[Any], None]) -> None:
+            before = self._run_loop.run_state
+
+            def done(error: Exception | None) -> None:
+                response.sim_time = self._simulation.time
+                if self._run_loop.run_state != before:
+                    self._changed()
+                answer(error)
+
             response.sim_time = self._simulation.time
-            if self._run_loop.run_state != before:
-                self._changed()
-        return f'{request.steps} steps done, now at {self._simulation.time:.6g} s'
+            self._run_loop.step(request.steps, done)
+
+        await self._device.ask_later(begin)
+        return f'{request.steps} steps done, now at {response.sim_time:.6g} s'
 
     async def _on_reset(self, _: Trigger.Request, __: Trigger.Response) -> str:
-        await at_rest(self._simulation, self._reset)
-        return f'reset to the start, {self._run_loop.run_state}'
+        def reset() -> str:
+            self._reset()
+            return self._run_loop.run_state
 
-
-class StateTopic:
-    """Send the state put together from the parts that hold it."""
-
-    def __init__(
-            self, outlet: Outlet, simulation: Simulation, run_loop: RunLoop,
-            switch: ModeSwitch, recording: RecordingSession, frame_id: str) -> None:
-        """Keep the parts."""
-        self._switch = switch
-        self._outlet = outlet
-        self._simulation = simulation
-        self._run_loop = run_loop
-        self._recording = recording
-        self._frame_id = frame_id
-
-    def send(self) -> None:
-        """Send the state as it is now."""
-        state = state_of(
-            self._simulation, frame_id=self._frame_id, run_state=self._run_loop.run_state,
-            preparing=self._switch.preparing, compiled=self._switch.compiled,
-            recording_path=self._recording.path)
-        self._outlet.send_message('state', state, self._simulation.stepping.edit_time)
+        return f'reset to the start, {await self._device.ask(reset)}'

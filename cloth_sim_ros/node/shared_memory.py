@@ -184,7 +184,7 @@ def refuse_ros_without_memory(free: int | None = None, folder: Path | None = Non
 
 
 def _has_tracing_files(folder: Path) -> bool:
-    """Tell whether the files of all users and of this one are there, with their pages."""
+    """Return whether the files of all users and of this one are there, with their pages."""
     own = f'-{os.getuid()}'
     found = [path for path in folder.glob('lttng-ust-wait-*') if path.stat().st_blocks]
     return len({path.name.endswith(own) for path in found}) == 2

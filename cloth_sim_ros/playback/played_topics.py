@@ -123,7 +123,7 @@ class PlayedTopic:
         self._is_stuck = False
 
     def publish(self, data: bytes) -> bool:
-        """Publish ``data``, a serialised message; tell whether the middleware took it."""
+        """Publish ``data``, a serialised message; return whether the middleware took it."""
         if self._is_reliable and self._waiting >= self._depth:
             # A reader that has hung is waited for once, and then no more until it is back.
             if self.settle(0.0 if self._is_stuck else self._patience):

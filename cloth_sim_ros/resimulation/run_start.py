@@ -10,8 +10,8 @@ from cloth_sim_ros.analysis.recorded_values import recorded_pose
 from cloth_sim_ros.analysis.recording import Entry
 from cloth_sim_ros.resimulation.input_replay import InputReplay
 from cloth_sim_ros.resimulation.input_replay import Listener
-from cloth_sim_ros.resimulation.input_replay import recorded_nodes
-from cloth_sim_ros.resimulation.input_replay import recorded_push
+from cloth_sim_ros.resimulation.recorded_inputs import recorded_nodes
+from cloth_sim_ros.resimulation.recorded_inputs import recorded_push
 from cloth_sim_ros.resimulation.recorded_run import RecordedRun
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.grasps import Grasp

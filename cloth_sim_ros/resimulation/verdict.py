@@ -44,7 +44,7 @@ class Verdict:
 
     @property
     def is_failure(self) -> bool:
-        """Tell whether the run should have the same bits and has not, or was not made at all."""
+        """Return whether the run should have the same bits and has not, or was not made at all."""
         if self._rerun.problem and not self._rerun.has_recorded_stop:
             return True
         return not self.reasons and self._check.equal < self._check.frames

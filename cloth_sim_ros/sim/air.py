@@ -72,7 +72,7 @@ class Air:
     until the relative velocity of air and cloth may have changed by a tenth, for whole
     substeps, and no longer than a step of dt.
 
-    ``wind`` is what blows. ``work``, where one is set, is told of all that is given.
+    ``wind`` is the wind. ``work``, where one is set, adds up the work of the air.
     """
 
     work: AirWork | None = None
@@ -180,7 +180,7 @@ class Air:
         self._forget()
 
     def delete(self) -> None:
-        """Give pass and accelerations back."""
+        """Release pass and accelerations."""
         self._accelerations.delete()
         self._strips.delete()
         self._program.delete()

@@ -36,7 +36,7 @@ def integer(value: object, of: str, hint: str = 'give an int') -> int:
     """
     Return ``value`` as an int: an int, a NumPy integer, or whatever else has ``__index__``.
 
-    :param of: what it is, for the error: 'the count of a grasp'
+    :param of: its name in the error: 'the count of a grasp'
     :param hint: the way out, for the error
     """
     if not isinstance(value, (bool, np.bool_, np.ma.MaskedArray)):
@@ -61,7 +61,7 @@ def vector(
     """
     Return ``values`` as so many finite floats.
 
-    :param of: what they are, for the error
+    :param of: their name in the error
     :param unit: for the error; empty for none
     """
     found = vector_or_none(values, length)

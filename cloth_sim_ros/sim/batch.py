@@ -28,7 +28,6 @@ from cloth_sim_ros.sim.low_parts import largest_coordinate
 from cloth_sim_ros.sim.low_parts import needs_low_parts
 from cloth_sim_ros.sim.low_parts import plain_reach
 from cloth_sim_ros.sim.modes.mass_spring import MassSpring
-from cloth_sim_ros.sim.modes.mode import finish
 from cloth_sim_ros.sim.pins import checked_node
 from cloth_sim_ros.sim.pins import PinMove
 from cloth_sim_ros.sim.scene import GIVE_SCENE
@@ -61,7 +60,7 @@ class Stack:
     """
 
     def __init__(self, scenes: Sequence[Scene], context: Context) -> None:
-        """Compile, allocate and take up the start poses."""
+        """Compile, allocate and set the start poses."""
         scene = scenes[0]
         self.scenes = tuple(scenes)
         single = choose_layout(scene, context)
@@ -96,8 +95,7 @@ class Stack:
             return np.zeros(len(self.scenes), dtype=bool)
         lost = ~np.all(
             np.abs([self.positions(), self.velocities()]) < MOST_MAGNITUDE, axis=(0, 2, 3, 4))
-        with self._state.at_kept():
-            kept = self.positions()
+        kept = self._state.read_kept_positions()[self._rows]
         for cloth in np.flatnonzero(lost).tolist():
             self.write(cloth, kept[cloth], np.zeros_like(kept[cloth]))
         return lost
@@ -132,7 +130,7 @@ class Stack:
         return np.stack([self._rows[cloths, nodes[:, 0]], nodes[:, 1]], axis=-1)
 
     def delete(self) -> None:
-        """Give everything back."""
+        """Release everything."""
         for part in (self._mode, self._check, self.pins, self._loads, self._state):
             part.delete()
 
@@ -146,7 +144,7 @@ class Stack:
                 return made
         self.pins.begin_step(begin, end)
         self._loads.begin_step(begin, end)
-        finish(self._mode.step(self._state, begin, self._loads))
+        self._mode.step(self._state, begin, self._loads)
         self.pins.end_step(begin, end)
         return 1
 
@@ -173,7 +171,7 @@ class Batch(AbstractContextManager['Batch']):
     def __init__(
             self, scenes: Scene | Sequence[Scene], count: int | None = None, *,
             context: Context | None = None) -> None:
-        """Compile, allocate and take up the start poses."""
+        """Compile, allocate and set the start poses."""
         self.scenes = _checked_scenes(scenes, count)
         check_context(context)
         self.count = len(self.scenes)
@@ -194,7 +192,7 @@ class Batch(AbstractContextManager['Batch']):
             is_far = largest_coordinate(scene) > reaches[values]
             kinds.setdefault((values, is_far), []).append(number)
         self._stacks: list[Stack] = []
-        # Of each stack, which cloths; and of each cloth, its stack and its place there.
+        # The cloths of each stack; and the stack of each cloth with its place there.
         self._members = [np.array(numbers) for numbers in kinds.values()]
         self._places = np.empty((self.count, 2), dtype=int)
         for stack, members in enumerate(self._members):
@@ -270,7 +268,7 @@ class Batch(AbstractContextManager['Batch']):
             self, cloths: np.ndarray, nodes: np.ndarray, targets: np.ndarray,
             speeds: np.ndarray | float) -> None:
         """
-        Begin to move pins in a straight line, each in place of its move under way.
+        Begin to move pins in a straight line, each instead of its move under way.
 
         :param cloths: the number of the cloth of each, (n,)
         :param nodes: row and col of each, (n, 2); none of them twice

@@ -77,6 +77,9 @@ class Contacts:
         self._layout = layout
         # Of each collider and node; and the substep in which any of them was touched last.
         self._record = Buffer((len(scene.colliders) * layout.stored + 1) * _ENTRY_BYTES)
+        # The one of the moment of ``keep``, and one that is not in use.
+        self._kept: Buffer | None = None
+        self._spare: Buffer | None = None
         # A read from the record itself would have it moved to the host's memory.
         self._polled = Buffer(_ENTRY_BYTES, is_polled=True) if layout.is_asynchronous else None
         self.clearance = 0.5 * scene['contact.thickness']
@@ -100,7 +103,22 @@ class Contacts:
 
     def begin_step(self) -> None:
         """Forget what was done in the step before."""
+        if self._record is self._kept:
+            self._record = self._spare or Buffer(self._kept.bytes)
+            self._spare = None
         self._record.clear()
+
+    def keep(self) -> Buffer:
+        """Return what ``restore`` needs to come back to this moment: what the last step did."""
+        if self._kept is not self._record:
+            self._spare = self._kept
+        self._kept = self._record
+        return self._kept
+
+    def restore(self, kept: Buffer) -> None:
+        """Go back to the moment of ``keep``, the latest one; colliders stay on their ways."""
+        if self._record is not kept:
+            self._record, self._spare = kept, self._record
 
     def join(self, forcing: Forcing, begin: float, end: float) -> Forcing:
         """Return ``forcing`` with the colliders of a substep from ``begin`` to ``end`` [s]."""
@@ -115,14 +133,11 @@ class Contacts:
             replace(collider, position=pose.position, orientation=pose.orientation)
             for collider, pose in zip(self.colliders, self._poses(time)))
 
-    def move(self, move: FrameMove) -> None:
-        """Set a collider off."""
-        self._paths.add(move)
+    def move(self, move: FrameMove) -> FramePath:
+        """Start the motion of a collider; return its path."""
+        path = self._paths.add(move)
         self._forget_touch()
-
-    def path_of(self, move: FrameMove) -> FramePath:
-        """Return the path that ``move`` would take."""
-        return self._paths.foresee(move)
+        return path
 
     def moved(self, now: float) -> tuple[MovedFrame, ...]:
         """Return those that are not where the scene alone has them ``now`` [s]."""
@@ -249,8 +264,10 @@ class Contacts:
             deepest_node=max(depth, 0.0))
 
     def delete(self) -> None:
-        """Give pass and record back."""
-        self._record.delete()
+        """Release pass and record."""
+        for record in {self._record, self._kept, self._spare}:
+            if record is not None:
+                record.delete()
         if self._polled is not None:
             self._polled.delete()
         self._near.delete()

@@ -139,7 +139,7 @@ def edge_defines(families: Collection[str]) -> dict[str, object]:
     """
     Return the table for shaders of a cloth that has edges of ``families``.
 
-    HAS_<FAMILY> tells whether there are any. EACH_EDGE(DO, WITH) is DO(WITH, edge, drow, dcol,
+    HAS_<FAMILY> is 1 where there are any. EACH_EDGE(DO, WITH) is DO(WITH, edge, drow, dcol,
     family, rest) for each kind of them, EACH_SHORT_EDGE for each kind that joins neighbours,
     whatever the families; SHORT_EDGES are those as vectors (drow, dcol). EDGE_<NAME>,
     REST_<NAME> and <FAMILY> are numbers.

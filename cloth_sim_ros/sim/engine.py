@@ -20,7 +20,6 @@ from cloth_sim_ros.sim.held_impulses import HeldImpulses
 from cloth_sim_ros.sim.layout import Layout
 from cloth_sim_ros.sim.loads import Loads
 from cloth_sim_ros.sim.modes.mode import Mode
-from cloth_sim_ros.sim.modes.mode import Pieces
 from cloth_sim_ros.sim.observer import Observer
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.scene_fields import MODES
@@ -29,6 +28,10 @@ from cloth_sim_ros.sim.snapshot import Snapshot
 from cloth_sim_ros.sim.solver.edge_law import EdgeLaw
 from cloth_sim_ros.sim.state import start_state
 from cloth_sim_ros.sim.state import State
+from cloth_sim_ros.sim.stop import leave_if
+from cloth_sim_ros.sim.stop import never
+from cloth_sim_ros.sim.stop import StepAbandoned
+from cloth_sim_ros.sim.stop import Stop
 
 
 @dataclass(frozen=True)
@@ -56,7 +59,7 @@ class Engine:
         return cls(
             scene, layout, context, observer,
             GuardedSteps(scene, layout, observer, state, stop_at_non_finite),
-            modes.AVAILABLE[mode](scene, layout, check_stability=check_stability))
+            modes.mode_for(mode, scene)(scene, layout, check_stability=check_stability))
 
     def measure(self, state: State, forcing: Forcing) -> Measures:
         """Return energies and largest strain of ``state``."""
@@ -87,15 +90,18 @@ class Engine:
         return make
 
     def delete(self) -> None:
-        """Give back what it allocated; its context, or one beside it, has to be current."""
+        """Release what it allocated; its context, or one beside it, has to be current."""
         for part in (self.observer, self.guard, self.mode):
             part.delete()
 
-    def run_all_passes(self) -> Pieces:
+    def run_all_passes(self, stop: Stop = never) -> None:
         """
         Run every pass once, on a cloth that nobody needs.
 
         Drivers compile a program in part when it first runs.
+
+        :param stop: asked between passes
+        :raises StepAbandoned: when ``stop`` has returned True
         """
         scene, layout = self.scene, self.layout
         state = start_state(scene, layout)
@@ -104,20 +110,20 @@ class Engine:
         try:
             still = loads.still
             self.observer.measure(state, still, None)
-            yield
+            leave_if(stop)
             self.observer.record(state, still, None)
-            yield
+            leave_if(stop)
             self.guard.check.passes(state)
-            yield
+            leave_if(stop)
             loads.forcing(state, 0.0, scene['dt'])
-            yield
+            leave_if(stop)
             if loads.air is not None:
                 loads.air.fastest_rate(state, 0.0, scene['dt'])
-                yield
-            yield from self.mode.run_all_passes(state, loads)
+                leave_if(stop)
+            self.mode.run_all_passes(state, loads, stop)
             if state.pinned.any():
                 impulses.begin_step(state.pinned, (), {}, {})
-                yield from self.mode.run_all_passes(state, loads)
+                self.mode.run_all_passes(state, loads, stop)
                 impulses.end_step({})
         finally:
             impulses.delete()
@@ -177,10 +183,11 @@ class Preparation:
     def _compile(self, context: Context) -> Engine | None:
         with take_inventory() as self._inventory:
             engine = self._make(context)
-            for _ in engine.run_all_passes():
-                if self._is_cancelled:
-                    engine.delete()
-                    return None
+            try:
+                engine.run_all_passes(lambda: self._is_cancelled)
+            except StepAbandoned:
+                engine.delete()
+                return None
         return engine
 
 
@@ -224,7 +231,7 @@ class Engines:
         return self.current.mode.name if self.current else self._scene['mode']
 
     def has(self, mode: str) -> bool:
-        """Tell whether nothing is left to compile for ``mode``."""
+        """Return whether nothing is left to compile for ``mode``."""
         return mode in self._by_mode
 
     def check(self, mode: str) -> None:
@@ -232,10 +239,10 @@ class Engines:
         if not isinstance(mode, str) or mode not in MODES:
             raise ClothSimError(
                 f'there is no mode {shown(mode)}: choose one of {", ".join(MODES)}')
-        modes.AVAILABLE[mode].check(self._scene, check_stability=self._check_stability)
+        modes.mode_for(mode, self._scene).check(self._scene, check_stability=self._check_stability)
 
     def use(self, mode: str) -> None:
-        """Use the engine of ``mode``, which takes the state as it comes."""
+        """Use the engine of ``mode``, without anything kept from its earlier steps."""
         self.check(mode)
         self.context.make_current()
         if mode not in self._by_mode:
@@ -250,7 +257,7 @@ class Engines:
     def compile_all(self) -> None:
         """Compile all that the mode in use can need, not each part when it is first used."""
         self.context.make_current()
-        modes.finish(self.in_use.run_all_passes())
+        self.in_use.run_all_passes()
 
     def preparation(self, mode: str) -> Preparation:
         """Return what compiles the engine of ``mode`` on another thread."""
@@ -273,12 +280,12 @@ class Engines:
         return self.in_use.mode.energy_law(self._state)
 
     def forget(self) -> None:
-        """Let the mode in use take the next state as it comes."""
+        """Drop what the mode in use has kept from earlier steps."""
         if self.current is not None:
             self.current.mode.forget()
 
     def delete(self) -> None:
-        """Give everything on the device back but the first context, which is current then."""
+        """Release everything on the device but the first context, which is current then."""
         self._first_context.make_current()
         engines = self._by_mode.values()
         # Engines of one context can have observer and guard in common.
@@ -294,7 +301,7 @@ class Engines:
         current = self.current
         if (current is not None and context is current.context
                 and observed_families(mode, self._scene) == current.observer.families):
-            return replace(current, mode=modes.AVAILABLE[mode](
+            return replace(current, mode=modes.mode_for(mode, self._scene)(
                 self._scene, self._layout, check_stability=self._check_stability))
         return Engine.make(
             mode, self._scene, self._layout, self._state, context,

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-"""Errors a user can mend: each says rule, value and way out in one sentence."""
+"""Errors that a user can correct: each says rule, value and way out in one sentence."""
 
 from cloth_sim_ros.files.errors import ClothSimError
 
@@ -15,7 +15,7 @@ class NonFiniteStateError(ClothSimError):
 
     :param steps: made since the start or the last reset until the state that is kept
     :param node: row and col of the node that was fastest among those that were lost; None where
-        that can't be told
+        that is not known
     """
 
     def __init__(

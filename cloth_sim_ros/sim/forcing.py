@@ -55,7 +55,7 @@ class Forcing:
     :param pushed_everywhere: True when a push has part in ``everywhere``
     :param regions: what comes on top at each node [m/s2], and how many pushes on regions act
         there; None where there are none
-    :param parts: what it is made of, equal where nothing else acts
+    :param parts: pushes and shares that it was composed of; equal parts act alike
     :param reads_texture: whether shaders read ``regions`` as they read the state, by textures
     :param stand_in: a buffer of the same size, bound where there are no ``regions`` and textures
         would be read: llvmpipe compiles a shader anew when a texture comes that was not there
@@ -72,7 +72,7 @@ class Forcing:
 
     @property
     def has_regions(self) -> bool:
-        """Tell whether nodes are accelerated each by itself."""
+        """Return whether nodes are accelerated each by itself."""
         return self.regions is not None
 
     def apply(self, program: Program) -> None:

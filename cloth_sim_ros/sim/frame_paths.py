@@ -124,12 +124,12 @@ class FramePath:
             if self.turns else orientation)
 
     def is_under_way(self, begin: float, end: float) -> bool:
-        """Tell whether the frame moves at its constant speed from ``begin`` to ``end`` [s]."""
+        """Return whether the frame moves at its constant speed from ``begin`` to ``end`` [s]."""
         return self.begin <= begin and end <= self.arrival
 
     @property
     def turns(self) -> bool:
-        """Tell whether the frame changes its orientation."""
+        """Return whether the frame changes its orientation."""
         return self._rate > 0.0
 
     @property
@@ -186,17 +186,13 @@ class FramePaths:
         return added
 
     def put(self, name: str, pose: Pose) -> None:
-        """Have a frame ``name`` at rest, in place of any of that name."""
+        """Have a frame ``name`` at rest, instead of any of that name."""
         self._origins[name] = pose
         self._paths[name] = []
 
     def drop(self, name: str) -> None:
         """Forget the frame ``name``."""
         del self._origins[name], self._paths[name]
-
-    def foresee(self, move: FrameMove) -> FramePath:
-        """Return the path that ``add`` would, if nothing else is added before."""
-        return FramePath(move, self.pose(move.name, move.start))
 
     def under_way(self, now: float) -> tuple[FramePath, ...]:
         """Return the latest path of each frame that moves at ``now`` [s]."""

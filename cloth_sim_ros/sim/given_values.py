@@ -72,7 +72,7 @@ _EDGES_OF_CONSTRAINT = ('constraint.hard', 'constraint.springs')
 
 def with_preset(given: Mapping[str, Any]) -> dict[str, Any]:
     """
-    Return ``given`` with the values of its preset for what it leaves out.
+    Return ``given``, completed by the values of its preset.
 
     Where another mode is given than that of the preset, or mode constraint, its edges stay as they
     are without one: a preset never makes springs of edges that were to be hard.
@@ -103,7 +103,7 @@ def with_default_fabric(given: Mapping[str, Any]) -> dict[str, Any]:
 
 def completed(given: Mapping[str, Any]) -> dict[str, Any]:
     """
-    Return ``given`` with the values that follow from it for what it leaves out.
+    Return ``given``, completed by the values that follow from it.
 
     Presets bring their values. A cloth of neither springs nor a material is of the default fabric,
     in still air. A total mass takes the place of the default areal density, a material that of the

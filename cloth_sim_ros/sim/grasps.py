@@ -3,29 +3,20 @@
 
 """Grasps: nodes that are held rigidly to a frame, which can be moved and turned."""
 
-from collections.abc import Callable
-from collections.abc import Iterator
 from collections.abc import Sequence
-from contextlib import suppress
 from dataclasses import dataclass
 from dataclasses import replace
-from functools import partial
 
-from cloth_sim_ros.files.errors import shown
 from cloth_sim_ros.sim.arguments import integers
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.frame_paths import FrameMove
 from cloth_sim_ros.sim.frame_paths import FramePath
 from cloth_sim_ros.sim.frame_paths import FramePaths
-from cloth_sim_ros.sim.grasp_request import GraspRequest
 from cloth_sim_ros.sim.pin_motion import PinMotion
-from cloth_sim_ros.sim.pin_motion import PinRequests
 from cloth_sim_ros.sim.pins import checked_node
 from cloth_sim_ros.sim.pose import Pose
-from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.snapshot import FLAG_GRASPED
 from cloth_sim_ros.sim.state import State
-from cloth_sim_ros.sim.stepping import Stepping
 import numpy as np
 
 
@@ -86,7 +77,7 @@ class Grasps:
 
     @property
     def can_be_lost(self) -> bool:
-        """Tell whether one of them holds no more than a force."""
+        """Return whether one of them holds no more than a force."""
         return any(grasp.max_force for grasp in self._held.values())
 
     def under_way(self, now: float) -> tuple[FramePath, ...]:
@@ -105,28 +96,25 @@ class Grasps:
         self._held[grasp.name] = grasp
         self._paths.put(grasp.name, grasp.pose)
 
+    def holds(self, name: str) -> bool:
+        """Return whether the grasp ``name`` holds nodes."""
+        return name in self._held
+
     def end(self, name: str) -> None:
-        """Let the nodes of a grasp go, with the velocity that they have; none if it has ended."""
-        if name not in self._held:
-            return
+        """Let the nodes of a grasp go, with the velocity that they have."""
         for row, col in self._held.pop(name).nodes.tolist():
             self._pins.release(row, col)
         self._paths.drop(name)
 
-    def move(self, move: FrameMove) -> None:
-        """Set a grasp off; nothing if it has ended."""
-        if move.name not in self._held:
-            return
+    def move(self, move: FrameMove) -> FramePath:
+        """Start the motion of a grasp that holds nodes; return its path."""
         path = self._paths.add(move)
         nodes = self._held[move.name].nodes.tolist()
         here = np.array([self._pins.position(row, col, move.start) for row, col in nodes])
         arms = path.origin.seen_from(here)
         for (row, col), arm in zip(nodes, arms):
             self._pins.follow(row, col, CarriedNode(path, arm))
-
-    def foresee(self, move: FrameMove) -> FramePath:
-        """Return the path that ``move`` would take."""
-        return self._paths.foresee(move)
+        return path
 
     def stop(self, now: float) -> None:
         """Have their frames at rest where they are: their nodes have been put elsewhere."""
@@ -134,122 +122,7 @@ class Grasps:
             self._paths.put(grasp.name, grasp.pose)
 
 
-class GraspRequests:
-    """
-    Grasp, move and release, now or at the end of the step under way.
-
-    :param grasps: of the run
-    :param reach: how far the nearest node may be from a grasp without a radius [m]
-    """
-
-    def __init__(
-            self, grasps: Grasps, pins: PinRequests, stepping: Stepping, reach: float) -> None:
-        """Begin with the present ones."""
-        self._grasps = grasps
-        self._pins = pins
-        self._stepping = stepping
-        self._reach = reach
-        # What the step under way still has otherwise; None for what is released.
-        self._to_be: dict[str, Grasp | None] = {}
-
-    def present(self) -> dict[str, Grasp]:
-        """Return those that hold something, with the changes yet to be made, by name."""
-        if not self._stepping.is_mid_step:
-            self._to_be.clear()
-        found: dict[str, Grasp | None] = {
-            grasp.name: grasp for grasp in self._grasps.present(self._stepping.time)}
-        found.update(self._to_be)
-        return {name: grasp for name, grasp in found.items() if grasp is not None}
-
-    def begin(
-            self, request: GraspRequest, positions: np.ndarray,
-            nodes: Sequence[Sequence[int]] | None = None) -> Grasp:
-        """
-        Hold what ``request`` asks for.
-
-        :param positions: (rows, cols, 3) [m]
-        :param nodes: to hold these in place of the ones that it chooses
-        """
-        present = self.present()
-        if request.name in present:
-            raise ClothSimError(
-                f'grasp {request.name} holds {len(present[request.name].nodes)} nodes: release '
-                'it first, or give another name')
-        pinned = self._pins.pinned_nodes()
-        chosen = (
-            request.chosen(positions, pinned, self._reach) if nodes is None
-            else _given_nodes(request.name, nodes, pinned))
-        grasp = Grasp(request.name, request.pose, chosen, request.max_force)
-        self._pins.expect(chosen, True)
-        self._change(grasp.name, grasp)
-        self._stepping.at_rest(lambda: self._grasps.begin(grasp))
-        return grasp
-
-    def timed_edits(
-            self, scene: Scene, read_positions: Callable[[], np.ndarray],
-            ) -> Iterator[tuple[float, Callable[[], object]]]:
-        """
-        Yield what ``scene`` asks for, with the time [s] of each.
-
-        A grasp that finds no free node at its time holds nothing.
-
-        :param read_positions: returns those of that time, (rows, cols, 3) [m]
-        """
-        def begin(request: GraspRequest) -> None:
-            with suppress(ClothSimError):
-                self.begin(request, read_positions())
-
-        for request in scene.timed_grasps():
-            yield request.start, partial(begin, request)
-            if request.release:
-                yield request.release, partial(self._grasps.end, request.name)
-        for move in scene.timed_grasp_moves():
-            yield move.start, partial(self._grasps.move, move)
-
-    def end(self, name: str) -> Grasp:
-        """Let go; return what was held."""
-        grasp = self.holding(name)
-        self._pins.expect(grasp.nodes, False)
-        self._change(name, None)
-        self._stepping.at_rest(lambda: self._grasps.end(name))
-        return grasp
-
-    def move(self, move: FrameMove) -> FramePath:
-        """Set a grasp off; return its path, as far as it can be told now."""
-        path = self.foresee(move)
-        self._stepping.at_rest(lambda: self._grasps.move(move))
-        return path
-
-    def foresee(self, move: FrameMove) -> FramePath:
-        """Return the path that ``move`` would take."""
-        grasp = self.holding(move.name)
-        return (
-            FramePath(move, grasp.pose) if move.name in self._to_be
-            else self._grasps.foresee(move))
-
-    def holding(self, name: str) -> Grasp:
-        """Return the grasp ``name``, or raise ClothSimError when it holds nothing."""
-        present = self.present()
-        if not isinstance(name, str) or name not in present:
-            names = ', '.join(present) or 'none'
-            raise ClothSimError(
-                f'there is no grasp {shown(name)}: grasp first, or give one of those that hold '
-                f'nodes, {names}')
-        return present[name]
-
-    def refuse_held(self, row: int, col: int) -> None:
-        """Raise ClothSimError when a grasp holds the node (row, col)."""
-        for grasp in self.present().values():
-            if np.any(np.all(grasp.nodes == (row, col), axis=-1)):
-                raise ClothSimError(
-                    f'grasp {grasp.name} holds node ({row}, {col}): move or release the grasp')
-
-    def _change(self, name: str, grasp: Grasp | None) -> None:
-        if self._stepping.is_mid_step:
-            self._to_be[name] = grasp
-
-
-def _given_nodes(
+def given_nodes(
         name: str, nodes: Sequence[Sequence[int]], pinned: np.ndarray) -> np.ndarray:
     """Return ``nodes`` as (n, 2), or raise ClothSimError where they can't be held."""
     chosen = integers(nodes, f'the nodes of grasp {name}', 'give [row, col] of each')
@@ -270,7 +143,7 @@ def _given_nodes(
 
 class CarriedNode:
     """
-    The way of a node that a frame carries.
+    The path of a node that a frame carries.
 
     :param path: of the frame
     :param arm: where the node is in the frame [m], (3,)

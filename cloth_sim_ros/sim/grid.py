@@ -35,6 +35,10 @@ def rest_positions(
     return positions
 
 
+# How far a node may be from a point that means it, as far as a click pushes [m].
+USUAL_REACH = 0.1
+
+
 @dataclass(frozen=True)
 class NearNode:
     """
@@ -81,3 +85,9 @@ def near_node(
             f'({x:g}, {y:g}, {z:g}): the nearest, ({row}, {col}), is {found.distance:.3g} m away; '
             f'give a point nearer to it, or a larger {parameter}')
     return found
+
+
+def usual_reach(rows: int, cols: int, distances: tuple[float, float]) -> float:
+    """Return how far a node may be from a point that means it [m]: further on a coarse cloth."""
+    dx, dy = distances
+    return max(USUAL_REACH, dx if cols > 1 else 0.0, dy if rows > 1 else 0.0)

@@ -4,7 +4,6 @@
 """Make steps, stop at the last finite state when one leads out of all bounds, and say why."""
 
 from collections.abc import Callable
-from collections.abc import Generator
 from collections.abc import Sequence
 from dataclasses import dataclass
 from dataclasses import replace
@@ -16,9 +15,7 @@ from cloth_sim_ros.sim.errors import NonFiniteStateError
 from cloth_sim_ros.sim.forcing import Forcing
 from cloth_sim_ros.sim.layout import Layout
 from cloth_sim_ros.sim.loads import Loads
-from cloth_sim_ros.sim.modes.mode import finish
 from cloth_sim_ros.sim.modes.mode import Mode
-from cloth_sim_ros.sim.modes.mode import Steps
 from cloth_sim_ros.sim.observer import Observer
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.scene_program import SceneProgram
@@ -26,12 +23,15 @@ from cloth_sim_ros.sim.scene_program import Strips
 from cloth_sim_ros.sim.stability import safe_substep
 from cloth_sim_ros.sim.state import MOST_MAGNITUDE
 from cloth_sim_ros.sim.state import State
+from cloth_sim_ros.sim.stop import leave_if
+from cloth_sim_ros.sim.stop import never
+from cloth_sim_ros.sim.stop import Stop
 import numpy as np
 
 # Of the shortest spacing: a node that moves further in a substep has left what its springs know.
 _FAR = 0.5
-# Makes up to so many steps, from the one of a number on.
-StepsFrom = Callable[[int, int], Steps]
+# Makes up to so many steps, from the one of a number on; returns how many it has made.
+StepsFrom = Callable[[int, int, Stop], int]
 # Rotation of edges in a substep over the accurate one [1]; below it, rotation is no cause.
 _ROUNDING = 1e-3
 # A strain that no cloth was laid out for.
@@ -54,7 +54,7 @@ class BoundsCheck:
         return bool(self._strips.largest()[0] == 0.0)
 
     def delete(self) -> None:
-        """Give pass and result back."""
+        """Release pass and result."""
         self._strips.delete()
         self._program.delete()
 
@@ -83,7 +83,7 @@ class StepReport:
 
     @property
     def is_implicit(self) -> bool:
-        """Tell whether it was an implicit step."""
+        """Return whether it was an implicit step."""
         return self.solves > 0
 
 
@@ -99,7 +99,7 @@ def explain(
         scene: Scene, lost: np.ndarray, records: np.ndarray, *, mode: str, step: StepReport,
         steps: int, gained_speed: float) -> NonFiniteStateError:
     """
-    Return the error that tells when, where, why, and what to change.
+    Return the error with time, node, cause, and what to change.
 
     :param lost: records of the state that is not finite
     :param records: of the last finite one, which is kept
@@ -184,7 +184,7 @@ def _more_turns(scene: Scene) -> str:
 
 
 def _is_lost(records: np.ndarray) -> np.ndarray:
-    # Written so that what is no number is lost.
+    # Written so that NaN counts as lost.
     return ~np.logical_and.reduce([
         np.abs(records[name]) < MOST_MAGNITUDE for name in ('x', 'y', 'z', 'vx', 'vy', 'vz')])
 
@@ -194,10 +194,6 @@ def _lengths(records: np.ndarray, *names: str) -> np.ndarray:
 
 
 # Make steps, and stop at the last finite state when one leads out of all bounds.
-
-def _never() -> bool:
-    return False
-
 
 def _nothing(steps: int) -> None:
     pass
@@ -221,7 +217,7 @@ class GuardedSteps:
     its own, and the state goes back to the last that passes. What the mode keeps from step to
     step begins anew there.
 
-    :param guarded: False steps on whatever becomes of the state
+    :param guarded: False makes further steps of a non-finite state
     """
 
     def __init__(
@@ -238,20 +234,20 @@ class GuardedSteps:
     def make(
             self, first: int, count: int, step: StepsFrom, mode: Mode,
             loads: Loads, others: Sequence[Restorable] = (), *,
-            is_due: Callable[[], bool] = _never,
-            settle: Callable[[int], None] = _nothing) -> Generator[None, None, None]:
+            is_due: Callable[[], bool] = never, stop: Stop = never,
+            settle: Callable[[int], None] = _nothing) -> None:
         """
         Make up to ``count`` steps from a state that is finite.
-
-        When ``is_due`` asks for it, they end with the step under way; within a step, it yields.
-        Meanwhile the state may be looked at as it was kept. Closed there, it goes back to that.
 
         :param first: number of the first step, counted from 0 at the start of the run
         :param step: makes some steps from that of a number on, by ``mode``; returns how many
         :param loads: those that ``step`` uses
         :param others: what else ``step`` changes
+        :param is_due: asked after each step: True makes it the last
+        :param stop: asked before and within steps: True abandons those since the last check
         :param settle: called with the number of steps made, when they have passed a check
         :raises NonFiniteStateError: after going back to the last finite state
+        :raises StepAbandoned: as ``stop`` has asked, after going back to the last state checked
         """
         parts: tuple[Restorable, ...] = (self._state, loads, *others)
         kept = _keep(parts)
@@ -260,10 +256,10 @@ class GuardedSteps:
         while number < first + count:
             most = -(-(mode.checked_substeps - substeps) // mode.substeps)
             try:
-                made = yield from _in_pieces(
-                    step(number, min(most, first + count - number)), is_due)
+                leave_if(stop)
+                made = step(number, min(most, first + count - number), stop)
             except BaseException:
-                # Closed, interrupted, or the device has failed: no half step is left behind.
+                # Abandoned, interrupted, or the device has failed: no half step is left behind.
                 _go_back(parts, kept, mode)
                 raise
             number += made
@@ -281,7 +277,7 @@ class GuardedSteps:
             kept = _keep(parts)
 
     def delete(self) -> None:
-        """Give everything back."""
+        """Release everything."""
         self.check.delete()
 
     def _step_to_the_last_finite(
@@ -291,7 +287,7 @@ class GuardedSteps:
         most = self._scene['solver.max_iterations']
         for number in range(begin, end):
             kept = _keep(parts)
-            finish(step(number, 1))
+            step(number, 1, never)
             made = report_of(mode)
             if self.check.passes(self._state):
                 before = made
@@ -316,19 +312,6 @@ class GuardedSteps:
 
     def _look(self) -> np.ndarray:
         return self._observer.record(self._state, Forcing(self._scene['gravity']), None)[1]
-
-
-def _in_pieces(pieces: Steps, is_due: Callable[[], bool]) -> Generator[None, None, int]:
-    """Do the work, and yield between pieces when that is due; return what the work returns."""
-    waited = None
-    while True:
-        try:
-            pieces.send(waited)
-        except StopIteration as end:
-            return int(end.value)
-        waited = is_due()
-        if waited:
-            yield
 
 
 def _keep(parts: Sequence[Restorable]) -> list[Any]:

@@ -131,7 +131,7 @@ class Loads:
         return self.air.work.settle(self._state)
 
     def forget(self) -> None:
-        """Take the next state as it comes."""
+        """Drop what was kept of the state of earlier steps."""
         if self.air is not None:
             self.air.begin_step(-math.inf)
         if self.contacts is not None:
@@ -166,23 +166,26 @@ class Loads:
         return checked_wind(velocity)
 
     def set_wind(self, velocity: tuple[float, float, float]) -> None:
-        """Let ``velocity``, which was checked, blow in place of the steady wind."""
+        """Let ``velocity``, which was checked, blow instead of the steady wind."""
         assert self.air is not None  # checked_wind has refused it otherwise
         self.air.wind.steady = velocity
 
     def keep(self) -> tuple[Any, ...]:
         """Return what ``restore`` needs to come back to this moment."""
-        return self.pushes.keep(), None if self.air is None else self.air.keep()
+        parts = (self.pushes, self.air, self.contacts)
+        return tuple(None if part is None else part.keep() for part in parts)
 
     def restore(self, kept: tuple[Any, ...]) -> None:
         """Go back to the moment of ``keep``."""
-        pushes, air = kept
+        pushes, air, record = kept
         self.pushes.restore(pushes)
         if self.air is not None:
             self.air.restore(air)
+        if self.contacts is not None:
+            self.contacts.restore(record)
 
     def delete(self) -> None:
-        """Give everything back."""
+        """Release everything."""
         self.pushes.delete()
         for part in (self.air, self.contacts):
             if part is not None:

@@ -23,7 +23,7 @@ from cloth_sim_ros.sim.scene_fields import NO_PRESET
 
 # Along rows and along columns: places in what has two values.
 WARP, WEFT = range(2)
-# Of a scene that has a material, these are 0.
+# Fields that are 0 in a scene with a material.
 MATERIAL_SPRINGS = ('stiffness.structural', 'stiffness.shear')
 MATERIAL = ('material.warp', 'material.weft', 'material.shear')
 
@@ -96,7 +96,7 @@ def _written(value: float | tuple[float, float]) -> str:
 #
 # The numbers are those of Wang, O'Brien and Ramamoorthi, "Data-driven elastic models for cloth:
 # modeling and measurement", 2011, DOI 10.1145/2010324.1964966. They measured curves; a fabric here
-# has one value of each. docs/how_to/choose_a_fabric.md says what that leaves out.
+# has one value of each. docs/how_to/choose_a_fabric.md lists the omissions.
 
 SOURCE = "Wang, O'Brien, Ramamoorthi 2011, DOI 10.1145/2010324.1964966"
 _MICRO = 1e-6
@@ -109,7 +109,7 @@ class Fabric:
     """
     A fabric as a linear sheet.
 
-    :param fabric: what it is, and its name in the source
+    :param fabric: description, and its name in the source
     :param density: mass per area [kg/m2]
     :param warp: stiffness along the rows [N/m]
     :param weft: along the columns [N/m]
@@ -179,7 +179,7 @@ FABRICS: Mapping[str, Fabric] = {
 
 def with_material(given: Mapping[str, Any]) -> dict[str, Any]:
     """
-    Return ``given`` with the values of its ``material.preset`` for what it leaves out.
+    Return ``given``, completed by the values of its ``material.preset``.
 
     A mass of the whole cloth takes the place of the fabric's, and springs that of its stretch.
     """

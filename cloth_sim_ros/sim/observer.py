@@ -111,7 +111,7 @@ class Observer:
         return self._law_in_newtons
 
     def delete(self) -> None:
-        """Give passes and buffers back."""
+        """Release passes and buffers."""
         for program in self._programs.values():
             program.delete()
         self._read_back.delete()

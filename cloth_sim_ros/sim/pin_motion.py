@@ -14,10 +14,9 @@ from cloth_sim_ros.sim.pins import PinPath
 from cloth_sim_ros.sim.pins import Way
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.state import State
-from cloth_sim_ros.sim.stepping import Stepping
 import numpy as np
 
-# Of a step: what is left of a way that counts as none.
+# Rounding of the end of a path, in steps of dt [1].
 _NOTHING = 1e-9
 _REST = np.zeros(3)
 
@@ -89,29 +88,15 @@ class PinMotion:
             self, row: int, col: int, target: Sequence[float], speed: float | None,
             now: float) -> PinPath:
         """
-        Begin to move the pin (row, col) ``now`` [s], in place of a move under way.
+        Begin to move the pin (row, col) ``now`` [s], instead of a move under way.
 
         :param speed: [m/s]; None for the scene's pin_speed
-        :return: its way, which tells when it arrives
+        :return: its path, with the time of arrival
         :raises ClothSimError: when the node is not pinned or a value is wrong
         """
         self.check_node(row, col)
         return self._start(
             self._checked(row, col, target, speed, now, self._state.pinned[row, col]))
-
-    def foresee(
-            self, row: int, col: int, target: Sequence[float], speed: float | None, then: float,
-            *, is_pinned: bool, now: np.ndarray) -> PinPath:
-        """
-        Return the way of a ``move`` that is to begin at the later time ``then`` [s].
-
-        :param is_pinned: whether the node will be pinned by then
-        :param now: where the node is [m], (3,); a pin under way is known to be elsewhere then
-        :raises ClothSimError: as ``move`` does
-        """
-        move = self._checked(row, col, target, speed, then, is_pinned)
-        path = self._paths.get((row, col))
-        return PinPath(move, now if path is None else path.position(then))
 
     def follow(self, row: int, col: int, way: Way) -> None:
         """Let the pin (row, col) follow what carries it."""
@@ -220,67 +205,3 @@ class PinMotion:
         if not np.array_equal(velocity, self._on_device.get(node, _REST)):
             self._state.set_pin_velocity(*node, velocity)
             self._on_device[node] = velocity
-
-
-class PinRequests:
-    """
-    Pin, release and move nodes, now or at the end of the step under way.
-
-    :param motion: the pins of the run
-    """
-
-    def __init__(self, motion: PinMotion, state: State, stepping: Stepping) -> None:
-        """Begin with the pins of ``state``."""
-        self._motion = motion
-        self._state = state
-        self._stepping = stepping
-        # Pins that the step under way still has otherwise.
-        self._to_be: dict[tuple[int, int], bool] = {}
-
-    def pinned_nodes(self) -> np.ndarray:
-        """Return which nodes are held, (rows, cols) bool, with the changes yet to be made."""
-        if not self._stepping.is_mid_step:
-            self._to_be.clear()
-        pinned = self._state.pinned.copy()
-        for node, is_pinned in self._to_be.items():
-            pinned[node] = is_pinned
-        return pinned
-
-    def hold(self, row: int, col: int) -> None:
-        """Hold the node (row, col) where it is then."""
-        self._change(row, col, True)
-
-    def release(self, row: int, col: int) -> None:
-        """Let the node (row, col) go."""
-        self._change(row, col, False)
-
-    def move(
-            self, row: int, col: int, target: Sequence[float], speed: float | None) -> PinPath:
-        """Move the pin (row, col); return its way, as far as it can be told now."""
-        stepping = self._stepping
-        if not stepping.is_mid_step:
-            return self._motion.move(row, col, target, speed, stepping.time)
-        self._motion.check_node(row, col)
-        then = stepping.edit_time
-        with self._state.at_kept():
-            path = self._motion.foresee(
-                row, col, target, speed, then, is_pinned=self.pinned_nodes()[row, col],
-                now=self._state.read_position(row, col))
-        stepping.at_rest(lambda: self._motion.move(row, col, target, speed, then))
-        return path
-
-    def expect(self, nodes: np.ndarray, is_pinned: bool) -> None:
-        """Hear that ``nodes``, (n, 2), are held or let go by another, at the end of the step."""
-        # What an earlier step has left is settled.
-        self.pinned_nodes()
-        if self._stepping.is_mid_step:
-            self._to_be.update(dict.fromkeys(map(tuple, nodes.tolist()), is_pinned))
-
-    def _change(self, row: int, col: int, is_pinned: bool) -> None:
-        self._motion.check_node(row, col)
-        # What an earlier step has left is settled.
-        self.pinned_nodes()
-        if self._stepping.is_mid_step:
-            self._to_be[row, col] = is_pinned
-        change = self._motion.hold if is_pinned else self._motion.release
-        self._stepping.at_rest(lambda: change(row, col))

@@ -70,7 +70,7 @@ class Pose:
 
 
 def checked_position(position: Sequence[float], of: str) -> Vector:
-    """Return ``position``, or raise ClothSimError; ``of`` says what it is: 'the target of ...'."""
+    """Return ``position``, or raise ClothSimError; ``of`` is its name in the error."""
     x, y, z = vector(position, of)
     if max(abs(x), abs(y), abs(z)) > FARTHEST:
         raise ClothSimError(

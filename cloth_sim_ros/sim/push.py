@@ -68,7 +68,7 @@ class Push:
         start = real_number(start, 'the start of a push', _IN_SECONDS)
         duration = real_number(duration, 'the duration of a push', _IN_SECONDS)
         radius = real_number(radius, 'the radius of a push', 'give it in metres')
-        # Written so that what is no number is refused.
+        # Written so that NaN is refused.
         if not 0.0 <= start <= _LONGEST:
             raise ClothSimError(
                 f'the start of a push must be from 0 to {_LONGEST:g} s, got {start} s: '

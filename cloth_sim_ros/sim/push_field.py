@@ -94,7 +94,7 @@ class PushField:
 
     def add(self, push: Push, now: float) -> AppliedPush:
         """
-        Take up ``push``; it is spread over the free nodes that are in its region as it begins.
+        Add ``push``; it is spread over the free nodes that are in its region as it begins.
 
         :raises ClothSimError: when it begins now and no free node is there to push, or would be
             accelerated beyond what the device can hold; when there are too many
@@ -107,33 +107,8 @@ class PushField:
         self._entries.append(entry)
         return AppliedPush(push, entry.nodes)
 
-    def foresee(self, push: Push, pinned: np.ndarray) -> AppliedPush:
-        """
-        Add ``push``, which is to begin with the next step, as far as can be told now.
-
-        :param pinned: the nodes that will be pinned by then
-        :raises ClothSimError: as ``add`` does, by the present positions
-        """
-        self._check_count()
-        entry = _Entry(push)
-        self._settle(entry, pinned)
-        _check(entry)
-        self._entries.append(_Entry(push))
-        return AppliedPush(push, entry.nodes)
-
-    def begin(self, push: Push) -> None:
-        """Spread ``push``, which was foreseen, over the free nodes that are in its region now."""
-        for entry in self._entries:
-            if entry.push is push:
-                self._begin(entry)
-
-    def drop(self, pushes: Iterable[Push]) -> None:
-        """Take ``pushes`` away, which are the same objects that ``applied`` has."""
-        gone = {id(push) for push in pushes}
-        self._entries = [entry for entry in self._entries if id(entry.push) not in gone]
-
     def take_up(self, pushes: Iterable[Push], now: float) -> None:
-        """Have ``pushes`` in place of all others; those that have begun act on who is there."""
+        """Have ``pushes`` instead of all others; those that have begun act on who is there."""
         self._entries = [_Entry(push) for push in pushes]
         for entry in self._entries:
             if entry.push.start <= now:
@@ -198,7 +173,7 @@ class PushField:
             * entry.strength for entry in self._entries)
 
     def delete(self) -> None:
-        """Give the buffer back."""
+        """Release the buffer."""
         if self._buffer is not None:
             self._buffer.delete()
 
@@ -238,12 +213,10 @@ class PushField:
         return forcing
 
     def _begin(self, entry: _Entry) -> None:
-        self._settle(entry, self._pinned)
-
-    def _settle(self, entry: _Entry, pinned: np.ndarray) -> None:
+        """Spread the push over the free nodes that are in its region now."""
         self._asked = None
         push = entry.push
-        entry.inside = ~pinned
+        entry.inside = ~self._pinned
         if push.region != 'all':
             entry.inside &= push.contains(self._read_positions())
         entry.nodes = int(np.count_nonzero(entry.inside))

@@ -140,12 +140,12 @@ class Scene:
 
     @property
     def has_rigidity(self) -> bool:
-        """Tell whether the cloth resists bending by its rigidity."""
+        """Return whether the cloth resists bending by its rigidity."""
         return max(self.bending) > 0.0
 
     @property
     def has_bending_damping(self) -> bool:
-        """Tell whether the cloth resists being bent the more the faster that is."""
+        """Return whether the cloth resists being bent the more the faster that is."""
         return self.has_rigidity and self['bending.damping'] > 0.0
 
     @property
@@ -157,7 +157,7 @@ class Scene:
             of_direction(rigidity, WEFT) * dx / dy**3 if self.rows > 2 else 0.0)
 
     def models(self, family: str) -> bool:
-        """Tell whether springs of ``family`` do anything in this scene."""
+        """Return whether springs of ``family`` do anything in this scene."""
         return self.stiffness(family) > 0.0 or self.damping(family) > 0.0
 
     @property
@@ -201,7 +201,7 @@ class Scene:
 
     @property
     def has_air(self) -> bool:
-        """Tell whether air acts on the cloth."""
+        """Return whether air acts on the cloth."""
         return self['air.density'] > 0.0 and (self['air.drag'] > 0.0 or self['air.friction'] > 0.0)
 
     def gusts(self) -> tuple[Gust, ...]:
@@ -230,7 +230,7 @@ class Scene:
 
     @property
     def has_contact(self) -> bool:
-        """Tell whether there is anything that the cloth can touch."""
+        """Return whether there is anything that the cloth can touch."""
         return bool(self.colliders)
 
     def timed_collider_moves(self) -> tuple[FrameMove, ...]:

@@ -13,7 +13,7 @@ from cloth_sim_ros.files.errors import shown
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.pins import PIN_NAMES
 
-# Of a list.
+# Max. length of a list [1].
 MOST_ELEMENTS = 100_000
 _NAMES = {
     bool: 'true or false', int: 'a whole number', float: 'a number', str: 'a word',

@@ -72,7 +72,7 @@ class SceneProgram:
         return self._program
 
     def delete(self) -> None:
-        """Give the program back; it is compiled anew when it is used again."""
+        """Release the program; it is compiled anew when it is used again."""
         if self._program is not None:
             self._program.delete()
             self._program = self._set = None
@@ -82,7 +82,6 @@ def scene_defines(scene: Scene) -> dict[str, object]:
     """Return what the scene's shaders compile in."""
     has_damping = any(scene.damping(family) > 0.0 for family in FAMILIES)
     return {
-        'STRAIN_LIMIT': 'NO_LIMIT',
         'MOST_MAGNITUDE': f'{MOST_MAGNITUDE:e}',
         'HAS_HELD': 0,
         'HAS_DAMPING': int(has_damping),
@@ -151,5 +150,5 @@ class Strips:
         return self.read().sum(axis=0, dtype=np.float64)
 
     def delete(self) -> None:
-        """Give the room back."""
+        """Release the room."""
         self._buffer.delete()

@@ -51,7 +51,7 @@ def safe_substep(scene: Scene) -> float:
 
 
 def choose_substeps(scene: Scene) -> int:
-    """Return how many substeps auto_substeps makes of dt: what is safe, times refine."""
+    """Return the number of substeps with auto_substeps: the fewest safe ones times refine."""
     return scene['refine'] * needed_substeps(scene['dt'], safe_substep(scene))
 
 
@@ -82,7 +82,7 @@ def _waves(scene: Scene) -> tuple[np.ndarray, np.ndarray]:
 
 
 def _bending_of_waves(scene: Scene) -> np.ndarray:
-    """Return the stiffness of bending over the waves [N/m]: the square of what edges have."""
+    """Return the stiffness of bending over the waves [N/m]: the square of that of edges."""
     return sum(c * (2.0 - 2.0 * np.cos(wave))**2 for c, wave in zip(scene.bending, _waves(scene)))
 
 

@@ -14,7 +14,7 @@ from cloth_sim_ros.sim.state import State
 import numpy as np
 
 _LOCAL = 32
-# Of a step: what is left of a way that counts as none.
+# Rounding of the end of a path, in steps of dt [1].
 _NOTHING = 1e-9
 _PIN = np.dtype([
     ('position', np.float32, 4), ('velocity', np.float32, 3), ('index', np.int32)])
@@ -42,14 +42,14 @@ class StackedPins:
 
     @property
     def rest(self) -> bool:
-        """Tell whether no pin is under way."""
+        """Return whether no pin is under way."""
         return not len(self._paths)
 
     def move(
             self, nodes: np.ndarray, targets: np.ndarray, speeds: np.ndarray,
             now: float) -> None:
         """
-        Begin to move pins ``now`` [s], each in place of its move under way.
+        Begin to move pins ``now`` [s], each instead of its move under way.
 
         :param nodes: row in the stack and col of each, (n, 2) int, each once
         :param targets: (n, 3) [m]
@@ -94,7 +94,7 @@ class StackedPins:
         self._paths = paths[~arrive]
 
     def delete(self) -> None:
-        """Give pass and buffer back."""
+        """Release pass and buffer."""
         self._program.delete()
         if self._buffer is not None:
             self._buffer.delete()

@@ -3,9 +3,7 @@
 
 """The moving state on the device: pairs of buffers, read from one and written to another."""
 
-from collections.abc import Iterator
 from collections.abc import Sequence
-from contextlib import contextmanager
 from typing import Protocol
 
 from cloth_sim_ros.gl.buffer import Buffer
@@ -36,7 +34,7 @@ class HeldEntries(Protocol):
 
     @property
     def is_recording(self) -> bool:
-        """Tell whether some node is held in the step under way."""
+        """Return whether some node is held in the step under way."""
 
     def reserve(self, substeps: int, place: int = bindings.HELD) -> tuple[int, int, int]:
         """Return where the first of ``substeps`` leaves its entries, how many, how far apart."""
@@ -168,12 +166,11 @@ class State:
         """Return all velocities [m/s], (rows, cols, 3) float32."""
         return self._read(self._velocities)
 
-    @contextmanager
-    def at_kept(self) -> Iterator[None]:
-        """Have the state that was kept in place of the present one, for looking only."""
+    def read_kept_positions(self) -> np.ndarray:
+        """Return the positions that were kept last [m], (rows, cols, 3)."""
         now, self._now = self._now, self._kept
         try:
-            yield
+            return self.read_positions()
         finally:
             self._now = now
 
@@ -199,7 +196,7 @@ class State:
         self._pairs[self._now].bind_storage(bindings.POSITION_IN)
 
     def bind_out_for_reading(self) -> None:
-        """Let the next dispatches read the velocities to come in place of the present ones."""
+        """Let the next dispatches read the velocities to come instead of the present ones."""
         self._velocities[self._next].bind_texture(bindings.VELOCITY_IN)
 
     def bind_expected(self) -> None:
@@ -219,7 +216,7 @@ class State:
         self._next = _SPARE[self._now, self._kept]
 
     def keep(self) -> None:
-        """Keep the present state, in place of the one kept before, for ``restore``."""
+        """Keep the present state, instead of the one kept before, for ``restore``."""
         self._kept = self._now
         self._next = _SPARE[self._now, self._kept]
         if self._low is not None:
@@ -234,7 +231,7 @@ class State:
             self._low.restore()
 
     def delete(self) -> None:
-        """Give the buffers back."""
+        """Release the buffers."""
         for buffer in self._positions + self._velocities:
             buffer.delete()
         if self._low is not None:

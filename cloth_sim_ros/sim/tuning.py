@@ -27,7 +27,7 @@ _OFF = (OFF, 'no', 'false', '0')
 _FOLDER = 'cloth_sim_ros'
 _MOST_BYTES = 1 << 16
 MOST_SIZES = 64
-# Of a file's name, which has the device in it for people; the file itself says which one it is.
+# Max. length of a file name [1]. It has the device in it for people; the file itself names it.
 _MOST_LETTERS = 160
 _FIELDS = {field.name: field for field in SCENE_FIELDS if field.name in (
     'rows', 'loads', 'block')}
@@ -94,7 +94,7 @@ def tuned_choice(scene: Scene, device: str, driver: str) -> Choice:
 
 
 def is_off() -> bool:
-    """Tell whether the environment switches tunings off."""
+    """Return whether the environment switches tunings off."""
     return os.environ.get(VARIABLE, '').lower() in _OFF
 
 
@@ -123,7 +123,7 @@ def read_tuning(device: str, driver: str) -> Tuning | None:
 
 def write_tuning(tuning: Tuning) -> Path:
     """
-    Keep ``tuning`` in place of an earlier one of its device, and return the path of its file.
+    Keep ``tuning`` instead of an earlier one of its device, and return the path of its file.
 
     :raises ClothSimError: when it cannot be written
     """

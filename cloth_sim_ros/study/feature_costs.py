@@ -130,7 +130,7 @@ def modelled(defines: Mapping[str, str]) -> str:
     edges = defines.get(EACH_EDGE, '')
     there += [family for family in FAMILIES if family not in there and family.upper() in edges]
     others = [f'{name.lower().replace("_", " ")} {value}' for name, value in chosen.items()
-              if not name.startswith('HAS_') and value not in ('0', 'NO_LIMIT')]
+              if not name.startswith('HAS_') and value != '0']
     return ', '.join(there + others)
 
 

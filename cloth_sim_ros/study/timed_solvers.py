@@ -152,7 +152,7 @@ class PaperSolver:
     def _compile(self, scene: Scene) -> None:
         defines = paper_solver_defines(self._count, scene.node_count, self._row_slots)
         self._programs = {
-            name: Program(ShaderSource(f'paper_solver/{name}.comp', defines))
+            name: Program(ShaderSource(f'paper/solver/{name}.comp', defines))
             for name in (
                 'constraint', 'spmm', 'spmv', 'dot', 'scalars', 'update', 'direction')}
         softness = 1.0 / (full_pull(scene, scene['constraint.strain']) * self._step**2)
@@ -255,7 +255,7 @@ class TimedSolver(Protocol):
 
 class _SolverStep:
     name: str
-    options: dict[str, Any] = {}
+    options: dict[str, Any] = {'tolerance': 1e-2, 'max_iterations': 12}
 
     def __init__(self, context: Context, scene: Scene, state: Fields, step: Step) -> None:
         """Write the state and compile the passes."""
@@ -292,14 +292,14 @@ class MultigridStep(_SolverStep):
     """The solver of the modes; it starts from nothing each time, as in a first step."""
 
     name = 'multigrid'
-    options = {'max_iterations': 100}
+    options = {'tolerance': 1e-2, 'max_iterations': 100}
 
 
 class BlockJacobiStep(_SolverStep):
     """The same without coarser levels, which takes hundreds of iterations."""
 
     name = 'block_jacobi'
-    options = {'max_iterations': 1000}
+    options = {'tolerance': 1e-2, 'max_iterations': 1000}
 
 
 class PaperStep(PaperSolver):

@@ -19,7 +19,7 @@ from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.errors import NonFiniteStateError
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.simulation import Simulation
-from cloth_sim_ros.verb.termination import sayer
+from cloth_sim_ros.verb.termination import reporter
 from tqdm import tqdm
 
 if TYPE_CHECKING:
@@ -84,7 +84,7 @@ def compile_notice(mode: str) -> Iterator[None]:
         timer.cancel()
 
 
-# Of a step: what a sum of frame times may fall short of it, as in Simulation.advance.
+# Rounding of a sum of frame times, in steps of dt [1], as in Simulation.advance.
 _ROUNDING = 1e-6
 _BAR = '{percentage:3.0f}% |{bar}| {n:.2f}/{total:.2f} s simulated{postfix}'
 
@@ -166,7 +166,7 @@ class BatchRun:
             from cloth_sim_ros.api.simulation_recorder import RunRecording
             self._recording = RunRecording(
                 self._simulation, self._node_values, self._record_directory,
-                say=sayer('run'), setting=self._setting)
+                say=reporter('run'), setting=self._setting)
 
     def _make_frames(self, seconds: float, steps: int) -> None:
         dt = self._simulation.dt

@@ -73,7 +73,7 @@ _BATCH_SIZES = [32]
 _BATCH_FRAMES = 10
 _NODE_SIZES = [32, 64, 128]
 _ROUNDS = 7
-# Of --modes, --contact, --batch and --node, whose rounds take minutes.
+# Rounds with --modes, --contact, --batch and --node, which take minutes each.
 _MODES_ROUNDS = 3
 _SECONDS = 1.2
 _NODE_SECONDS = 6.0

@@ -67,7 +67,7 @@ def main(args: Namespace) -> int:
 
 def _grasp(args: Namespace) -> Grasp.Request:
     if args.speed is not None:
-        raise ClothSimError('--speed is for a move: give --to X Y Z in place of --at')
+        raise ClothSimError('--speed is for a move: give --to X Y Z instead of --at')
     if args.count is not None and not 1 <= args.count <= _MOST_NODES:
         raise ClothSimError(f'--count must be 1 or more, got {args.count}: give a number of nodes')
     for name in ('radius', 'max_force'):
@@ -83,7 +83,7 @@ def _move(args: Namespace) -> MoveFrame.Request:
     given = [name for name in _OF_A_GRASP if getattr(args, name) is not None]
     if given:
         raise ClothSimError(
-            f'--{given[0].replace("_", "-")} is for a new grasp: give --at X Y Z in place of --to')
+            f'--{given[0].replace("_", "-")} is for a new grasp: give --at X Y Z instead of --to')
     if args.speed == 0.0:
         raise ClothSimError('--speed must be above 0, got 0: give more, or leave it out')
     return MoveFrame.Request(

@@ -20,7 +20,7 @@ from argparse import RawDescriptionHelpFormatter
 from importlib import import_module
 from types import ModuleType
 
-# Of each figure: the module that makes it, with `add_arguments(parser, figure)` and
+# The module that makes each figure, with `add_arguments(parser, figure)` and
 # `main(args) -> int`.
 FIGURES = {
     'table10': ('paper_speeds', 'frame rates of the CPU and of GLSL, and the real-time limits'),

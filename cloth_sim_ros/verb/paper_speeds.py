@@ -65,7 +65,7 @@ def add_arguments(parser: ArgumentParser, figure: str) -> None:
                         help='wall time of a cloth, after which no round begins [s] '
                              '(default: %(default)s)')
     parser.add_argument('--sizes', type=int, nargs='+', metavar='N',
-                        help="nodes along each side, in place of the paper's cloths")
+                        help="nodes along each side, instead of the paper's cloths")
     parser.add_argument('--json', action='store_true', help='print JSON, one document')
     if figure in _TITLES:
         parser.add_argument('--plot', default=f'{figure}.png', metavar='FILE.png',

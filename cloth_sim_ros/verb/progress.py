@@ -15,7 +15,7 @@ class ReadingProgress:
     """
     Shows how much has been read, of all recordings it is given together.
 
-    The bar goes away at the end, and before an error is told.
+    The bar disappears at the end, and before an error is printed.
 
     :param name: of what is read
     """

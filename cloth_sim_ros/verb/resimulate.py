@@ -55,7 +55,7 @@ def add_arguments(parser: ArgumentParser) -> None:
 
 
 def main(args: Namespace) -> int:
-    """Run again, and tell how that compares."""
+    """Run again, and report the comparison."""
     changes = dict(parse_change(change) for change in args.changes)
     _refuse_node_names(changes)
     recording = open_recording(args)

@@ -5,21 +5,16 @@
 
 from typing import Any
 
-from cloth_sim_interfaces.msg import Command
 from cloth_sim_ros.api.simulation_recorder import RunRecording
-from cloth_sim_ros.node.outlet import Inputs
 from cloth_sim_ros.resimulation.input_replay import Listener
-from cloth_sim_ros.sim.frame_paths import FrameMove
-from cloth_sim_ros.sim.grasps import Grasp
-from cloth_sim_ros.sim.pins import PinMove
-from cloth_sim_ros.sim.push import Push
+from cloth_sim_ros.sim.inputs import Input
 from cloth_sim_ros.sim.simulation import Simulation
-from cloth_sim_ros.verb.termination import sayer
+from cloth_sim_ros.verb.termination import reporter
 
 
 class ResimulatedRecording(Listener):
     """
-    Records inputs and frames as they are heard of, so that this run can be made again, too.
+    Records inputs and frames, so that this run can be repeated as well.
 
     ``recording`` is None before it begins, and ``path``, its folder, empty.
 
@@ -32,10 +27,8 @@ class ResimulatedRecording(Listener):
             self, simulation: Simulation, node_values: dict[str, Any], directory: str,
             node_name: str) -> None:
         """Keep the parts; nothing is written yet."""
-        self._simulation = simulation
         self._arguments = (simulation, node_values, directory)
         self._node_name = node_name
-        self._frame_id = node_values['frame_id']
         self.recording: RunRecording | None = None
         self._is_written = False
         self.path = ''
@@ -43,54 +36,14 @@ class ResimulatedRecording(Listener):
     def begin(self) -> None:
         """Open the recording and write what it begins with, and its first frame."""
         self.recording = RunRecording(
-            *self._arguments, node_name=self._node_name, say=sayer('resimulate'),
+            *self._arguments, node_name=self._node_name, say=reporter('resimulate'),
             setting='--out')
         self._is_written = True
         self.path = self.recording.path
-        self._inputs = Inputs(
-            self.recording, self._simulation, self._frame_id, self._node_name)
 
-    def push(self, push: Push) -> None:
-        """Write a push."""
-        self._inputs.push(push)
-
-    def pin(self, row: int, col: int, pinned: bool) -> None:
-        """Write that a node was pinned or released."""
-        self._inputs.pin(row, col, pinned)
-
-    def pin_target(self, move: PinMove) -> None:
-        """Write that a pin sets off."""
-        self._inputs.pin_target(move)
-
-    def grasp(self, grasp: Grasp) -> None:
-        """Write a grasp."""
-        self._inputs.grasp(grasp)
-
-    def grasp_release(self, name: str, by_force: bool) -> None:
-        """Write the end of a grasp."""
-        self._inputs.grasp_release(name, by_force)
-
-    def grasp_move(self, move: FrameMove) -> None:
-        """Write that a grasp sets off."""
-        self._inputs.grasp_move(move)
-
-    def collider_move(self, move: FrameMove) -> None:
-        """Write that a collider sets off."""
-        self._inputs.collider_move(move)
-
-    def wind(self, velocity: tuple[float, float, float]) -> None:
-        """Write another steady wind."""
-        self._inputs.wind(velocity)
-
-    def mode(self, mode: str, previous: str) -> None:
-        """Write a switch of the mode."""
-        self._inputs.mode(mode, previous)
-
-    def command(self, command: str) -> None:
-        """Write a command."""
-        self._inputs.command(command)
-        if command == Command.RESET:
-            self._begun.rewind()
+    def accept(self, given: Input, time: float) -> None:
+        """Write an input that acts from ``time`` [s] on."""
+        self._begun.write_input(given, time)
 
     def frame(self, step_wall_time: float, real_time_factor: float) -> None:
         """Write the present moment, unless it is the beginning, which is written already."""

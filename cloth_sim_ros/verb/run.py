@@ -45,7 +45,7 @@ def add_arguments(parser: ArgumentParser) -> None:
 
 
 def main(args: Namespace) -> int:
-    """Run the scene and tell what came out."""
+    """Run the scene and report the result."""
     args.changes += recording_changes(args)
     scene, node_values = read_scene(args)
     simulation = Simulation(scene)

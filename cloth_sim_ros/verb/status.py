@@ -47,7 +47,7 @@ def main(args: Namespace) -> int:
         try:
             stats = _plain(node.read(ClothStats, 'stats', _FRAMES))
         except ClothSimError as error:
-            # A node may have publish.stats off; what it is doing is known all the same.
+            # A node may have publish.stats off; its state is known without them.
             print(f'cloth_sim status: {error}', file=sys.stderr)
     print(json.dumps({'state': state, 'stats': stats or None}) if args.json else
           _text({**state, **stats}))
@@ -70,7 +70,7 @@ def _wait_until(node: NodeClient, sim_time: float) -> None:
 
 
 def _stands_still(stats: ClothStats, seen: set[float]) -> bool:
-    """Tell whether the moment was shown before, as it is while simulated time stands still."""
+    """Return whether the moment was shown before, as it is while simulated time stands still."""
     shown_before = stats.sim_time in seen
     seen.add(stats.sim_time)
     return shown_before

@@ -16,7 +16,7 @@ from typing import Any
 from typing import NoReturn
 
 
-def sayer(verb: str) -> Callable[[str], None]:
+def reporter(verb: str) -> Callable[[str], None]:
     """Return what prints a sentence of ``verb`` to stderr."""
     return lambda sentence: print(f'cloth_sim {verb}: {sentence}', file=sys.stderr)
 

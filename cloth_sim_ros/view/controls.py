@@ -52,12 +52,12 @@ class Controls:
 
     @property
     def shows_handles(self) -> bool:
-        """Tell whether pins have handles."""
+        """Return whether pins have handles."""
         return bool(self._handles.value)
 
     @property
     def click_pushes(self) -> bool:
-        """Tell whether a click pushes; otherwise it pins a node or lets it go."""
+        """Return whether a click pushes; otherwise it pins a node or lets it go."""
         return self._click.value == _PUSH
 
     @property

@@ -5,7 +5,7 @@
 Point the cmake files of the ROS wheels at this Python and its NumPy.
 
 The wheels' exported targets name the include folders of the machine that built them.
-Run by the Python of the prefix to mend; running it again changes nothing.
+Run by the Python of the prefix to correct; running it again changes nothing.
 """
 
 from pathlib import Path
@@ -21,19 +21,19 @@ PYTHON_INCLUDE = re.compile(BUILD_PREFIX + r'/include/python3\.\d+t?')
 LEFT_OVER = re.compile(BUILD_PREFIX)
 
 
-def mended(text: str, python_include: str, numpy_include: str) -> str:
+def corrected(text: str, python_include: str, numpy_include: str) -> str:
     """Replace the include folders of the build machine."""
     text = NUMPY_INCLUDE.sub(lambda _: numpy_include, text)
     return PYTHON_INCLUDE.sub(lambda _: python_include, text)
 
 
 def mend_prefix(prefix: Path, python_include: str, numpy_include: str) -> tuple[int, set[str]]:
-    """Mend every cmake file under the prefix; return the count and what could not be mended."""
+    """Correct every cmake file under the prefix; return the count and the files that failed."""
     changed = 0
     left_over: set[str] = set()
     for path in sorted((prefix / 'share').rglob('*.cmake')):
         old = path.read_text(encoding='utf-8')
-        new = mended(old, python_include, numpy_include)
+        new = corrected(old, python_include, numpy_include)
         left_over.update(LEFT_OVER.findall(new))
         if new != old:
             path.write_text(new, encoding='utf-8')

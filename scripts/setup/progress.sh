@@ -86,7 +86,7 @@ end_step() {
   done
 }
 
-# A set-up that is told to end takes its step along; what was done so far stays.
+# A set-up that is terminated ends its step as well; completed steps stay.
 stopped_by() {
   trap '' INT TERM HUP
   printf 'setup: stopped by SIG%s: run it again to go on\n' "$1" >&2

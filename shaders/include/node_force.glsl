@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 
 // The force of edges and bending on one node, loaded by itself: for the few nodes of which a pass
-// over blocks keeps no force. Needs spring_law.glsl, strain_limit.glsl and the laws of bending.
+// over blocks keeps no force. Needs spring_law.glsl and the laws of bending.
 
-vec3 pull_of(int here, int there, int family, int rest) {
+vec3 pull_of(int here, int there, int rest) {
     vec4 from = load_position(here);
     vec4 to = load_position(there);
 #if HAS_DAMPING
@@ -13,18 +13,12 @@ vec3 pull_of(int here, int there, int family, int rest) {
     vec3 dv = vec3(0.0);
 #endif
     vec3 d = to.xyz - from.xyz;
-    vec3 pull = spring_force(d, dv, from.w * to.w, family, rest);
-#if STRAIN_LIMIT != NO_LIMIT
-    if (family != BEND) {
-        pull *= is_beyond_limit(length_and_inverse(d).x, rest_length[rest]) ? 0.0 : 1.0;
-    }
-#endif
-    return pull;
+    return spring_force(d, dv, from.w * to.w, rest);
 }
 
 #define ADD_PULLS(HERE, EDGE, DROW, DCOL, FAMILY, REST) \
-    total += pull_of(HERE, HERE + DROW * PITCH + DCOL, FAMILY, REST) \
-        + pull_of(HERE, HERE - DROW * PITCH - DCOL, FAMILY, REST);
+    total += pull_of(HERE, HERE + DROW * PITCH + DCOL, REST) \
+        + pull_of(HERE, HERE - DROW * PITCH - DCOL, REST);
 
 #if HAS_RIGIDITY
 vec3 bent_at(int index, int stride) {

@@ -90,7 +90,7 @@ void main() {
         if (is_pin(first, row, col)) {
             ivec2 at = first + ivec2(col, row) - REACH;
             int index = state_index(at.y, at.x);
-            // Of the solution, a pin has no part, so the product is that of its edges alone.
+            // The solution is 0 at a pin, so the product is that of its edges alone.
             vec3 driven = -product[row][col] + to_come * kick * applied_acceleration(index);
 #if HAS_RIGIDITY
             driven -= to_come * kick * resisted[row][col];

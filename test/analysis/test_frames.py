@@ -11,15 +11,16 @@ from cloth_sim_ros.analysis.frames import read_frames
 from cloth_sim_ros.analysis.recording import Entry
 from cloth_sim_ros.analysis.recording import Recording
 from cloth_sim_ros.api.simulation_recorder import SimulationRecorder
-from cloth_sim_ros.messages.inputs import command_message
-from cloth_sim_ros.messages.inputs import frame_target_message
+from cloth_sim_ros.messages.inputs import input_message
 from cloth_sim_ros.messages.inputs import parameters_message
 from cloth_sim_ros.messages.inputs import place_message
 from cloth_sim_ros.messages.stamp import stamp
 from cloth_sim_ros.recording.recorder import Recorder
 from cloth_sim_ros.sim.colliders import fields_with_colliders
 from cloth_sim_ros.sim.errors import ClothSimError
-from cloth_sim_ros.sim.frame_paths import FrameMove
+from cloth_sim_ros.sim.inputs import ClearPushes
+from cloth_sim_ros.sim.inputs import MoveCollider
+from cloth_sim_ros.sim.inputs import Reset
 from cloth_sim_ros.sim.pose import Pose
 from cloth_sim_ros.sim.push import Push
 from cloth_sim_ros.sim.scene import Scene
@@ -64,15 +65,16 @@ def test_moves_of_the_scene_are_followed():
 def test_recorded_targets_until_reset():
     """A collider moved by a service or stream would stand still, or stay moved after a reset."""
     history = opened()
-    move = FrameMove.checked(
-        name='ball', target=(0.4, 2.0, 0.0), orientation=None, speed=0.5, angular_speed=1.0,
-        start=0.7)
-    history.read(Entry('inputs/collider_target', 0.7, frame_target_message(move, 0.7, 'world')))
+
+    def give(given, time):
+        key, message = input_message(given, time, 'world')
+        history.read(Entry(key, time, message))
+
+    give(MoveCollider('ball', (0.4, 2.0, 0.0), None, 0.5, 1.0), 0.7)
     assert place_of(history, 1.7) == pytest.approx((0.4, 1.5, 0.0))
-    reset = command_message('clear_pushes', 1.8, 'world')
-    history.read(Entry('inputs/command', 1.8, reset))
+    give(ClearPushes(), 1.8)
     assert place_of(history, 9.0) == pytest.approx((0.4, 2.0, 0.0))
-    history.read(Entry('inputs/command', 2.0, command_message('reset', 2.0, 'world')))
+    give(Reset(), 2.0)
     assert place_of(history, 0.1) == pytest.approx((0.0, 1.0, 0.0))
 
 

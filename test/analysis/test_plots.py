@@ -9,9 +9,10 @@ from cloth_sim_ros.analysis.recording import Recording
 from cloth_sim_ros.analysis.run import Run
 from cloth_sim_ros.messages.frame import PointsMessage
 from cloth_sim_ros.messages.frame import stats_message
-from cloth_sim_ros.messages.inputs import mode_message
-from cloth_sim_ros.messages.inputs import push_message
+from cloth_sim_ros.messages.inputs import input_message
 from cloth_sim_ros.recording.recorder import Recorder
+from cloth_sim_ros.sim.inputs import PushNodes
+from cloth_sim_ros.sim.inputs import SetMode
 from cloth_sim_ros.sim.push import Push
 from made_snapshot import make_snapshot
 from matplotlib.backends.backend_agg import FigureCanvasAgg
@@ -30,7 +31,7 @@ def run(tmp_path_factory):
     def write(key, message, time):
         recorder.write(key, serialize_message(message), time)
 
-    write('inputs/mode', mode_message('adaptive', '', 0.0, 'world'), 0.0)
+    write(*input_message(SetMode('adaptive'), 0.0, 'world'), 0.0)
     for number in (*range(60), *range(70, 100)):
         time = number / 50
         in_constraint = number > 50
@@ -42,9 +43,10 @@ def run(tmp_path_factory):
         write('stats', stats_message(
             snapshot, 'world', step_wall_time=2e-3, real_time_factor=2.5), time)
         if number == 10:
-            write('inputs/push', push_message(PUSH, time, 'world'), time)
+            write(*input_message(PushNodes(PUSH), time, 'world'), time)
         if number == 50:
-            write('inputs/mode', mode_message('constraint', 'adaptive', time, 'world'), time)
+            change = SetMode('constraint', 'adaptive')
+            write(*input_message(change, time, 'world'), time)
     recorder.close()
     return Run(Recording(recorder.path))
 

@@ -61,7 +61,7 @@ class Kills:
             killed = time.time()
             node.send(signal.SIGKILL)
             node.wait()
-        self._client.spin_for(0.2)  # for what it has sent at the end
+        self._client.spin_for(0.2)  # receive the messages of its end
         fresh = sorted(self.recordings() - before)
         assert len(fresh) <= 1
         safe = [steps for at, steps in self._heard if at < written]

@@ -88,7 +88,7 @@ class Attacker:
         for name, key in TOLD.items():
             cloth.client.spin_until(
                 lambda: len(cloth[key]) >= self.done[name],
-                f'{self.done[name]} accepted calls of {name} are told on {key}')
+                f'{self.done[name]} accepted calls of {name} are published on {key}')
         for stats in cloth['stats']:
             assert np.isfinite(
                 [stats.total_energy, stats.max_strain, stats.real_time_factor]).all()

@@ -147,7 +147,7 @@ def test_a_fault_is_reported_and_the_simulation_goes_on(cloth, node, fault, runn
     undo = fault(node, path)
     reason = FAULTS[fault]
     try:
-        cloth.client.spin_until(lambda: is_told(cloth, node, path, reason), 'the end is told')
+        cloth.client.spin_until(lambda: is_told(cloth, node, path, reason), 'the end is reported')
         answer = cloth.call(Trigger, 'stop_recording')
         assert not answer.success and reason in answer.message
         assert cloth.call(SetBool, 'pause', data=True).success
@@ -227,7 +227,7 @@ def test_a_recording_that_has_its_size_is_complete(client, tmp_path):
         cloth.call(SetBool, 'pause', data=False)
         said = f'the recording {path} is complete up to '
         cloth.client.spin_until(
-            lambda: cloth['state'] and not cloth['state'][-1].recording, 'the end is told')
+            lambda: cloth['state'] and not cloth['state'][-1].recording, 'the end is reported')
         cloth.wait_for('diagnostics', lambda array: any(
             status.level == DiagnosticStatus.WARN and status.message.startswith(said)
             for status in array.status))

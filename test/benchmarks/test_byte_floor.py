@@ -104,7 +104,7 @@ def test_fields_are_those_that_the_shader_loads_and_stores(passes, name):
     """The floor would be that of another pass, or of one as it once was."""
     memory, run = Memory(passes), passes.passes[name]
     fields, raw = memory.read()
-    # None is zero, which would hide what it is multiplied by.
+    # None is zero, which would hide its factor.
     memory.write(*memory.changed(fields, fields, raw))
     before, raw = memory.read()
     after = outcome(passes, memory, run, raw, (before['position'], before['velocity']))

@@ -1,36 +1,45 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-"""What was done to the cloth."""
+"""What was done to the cloth, as messages."""
 
 from cloth_sim_interfaces.msg import Command
-from cloth_sim_interfaces.msg import FrameTarget
-from cloth_sim_interfaces.msg import GraspChange
-from cloth_sim_interfaces.msg import PinTarget
-from cloth_sim_interfaces.msg import Push as PushMessage
 from cloth_sim_ros.messages.body_frames import pose_message
-from cloth_sim_ros.messages.inputs import command_message
-from cloth_sim_ros.messages.inputs import frame_target_message
-from cloth_sim_ros.messages.inputs import grasp_message
-from cloth_sim_ros.messages.inputs import mode_message
+from cloth_sim_ros.messages.inputs import input_message
 from cloth_sim_ros.messages.inputs import parameters_message
-from cloth_sim_ros.messages.inputs import pin_message
-from cloth_sim_ros.messages.inputs import pin_target_message
 from cloth_sim_ros.messages.inputs import place_message
-from cloth_sim_ros.messages.inputs import push_message
-from cloth_sim_ros.messages.inputs import release_message
-from cloth_sim_ros.sim.frame_paths import FrameMove
-from cloth_sim_ros.sim.grasps import Grasp
-from cloth_sim_ros.sim.pins import PinMove
+from cloth_sim_ros.sim.inputs import ClearPushes
+from cloth_sim_ros.sim.inputs import MoveCollider
+from cloth_sim_ros.sim.inputs import MoveGrasp
+from cloth_sim_ros.sim.inputs import MovePin
+from cloth_sim_ros.sim.inputs import Pin
+from cloth_sim_ros.sim.inputs import PushNodes
+from cloth_sim_ros.sim.inputs import Release
+from cloth_sim_ros.sim.inputs import ReplaceState
+from cloth_sim_ros.sim.inputs import Reset
+from cloth_sim_ros.sim.inputs import SetMode
+from cloth_sim_ros.sim.inputs import SetWind
+from cloth_sim_ros.sim.inputs import TakeGrasp
+from cloth_sim_ros.sim.inputs import Unpin
 from cloth_sim_ros.sim.pose import Pose
 from cloth_sim_ros.sim.push import Push
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.scene_fields import SCENE_FIELDS
 import numpy as np
+import pytest
 from rclpy.parameter import Parameter
 from rclpy.serialization import deserialize_message
 from rclpy.serialization import serialize_message
 from springs import SPRINGS
+
+
+def told(given, key):
+    """Return the message of ``given`` at 0.5 s as it arrives."""
+    topic, message = input_message(given, 0.5, 'world')
+    assert topic == key
+    message = deserialize_message(serialize_message(message), type(message))
+    assert message.header.stamp.nanosec == 500000000 and message.header.frame_id == 'world'
+    return message
 
 
 def test_a_push_is_told_in_full():
@@ -38,9 +47,7 @@ def test_a_push_is_told_in_full():
     push = Push.checked(
         force=(1.0, 2.0, 3.0), start=4.0, duration=5.0, region='sphere',
         center=(6.0, 7.0, 8.0), radius=9.0)
-    message = deserialize_message(
-        serialize_message(push_message(push, 0.5, 'world')), PushMessage)
-    assert message.header.stamp.nanosec == 500000000 and message.header.frame_id == 'world'
+    message = told(PushNodes(push), 'inputs/push')
     assert Push(
         force=(message.force.x, message.force.y, message.force.z),
         start=message.start, duration=message.duration, region=message.region,
@@ -50,54 +57,67 @@ def test_a_push_is_told_in_full():
 
 def test_a_target_is_told_in_full():
     """A pin could not be moved again as it was."""
-    move = PinMove.checked(row=3, col=4, target=(1.0, 2.0, 3.0), speed=0.25, start=0.5)
-    message = deserialize_message(
-        serialize_message(pin_target_message(move, 0.5, 'world')), PinTarget)
-    assert message.header.stamp.nanosec == 500000000 and message.header.frame_id == 'world'
+    message = told(MovePin(3, 4, (1.0, 2.0, 3.0), 0.25), 'inputs/pin_target')
     assert (message.row, message.col, message.speed) == (3, 4, 0.25)
-    assert (message.target.x, message.target.y, message.target.z) == move.target
+    assert (message.target.x, message.target.y, message.target.z) == (1.0, 2.0, 3.0)
 
 
 def test_a_grasp_is_told_in_full():
     """A run could not hold the same nodes again, at the same place."""
-    pose = Pose((1.0, 2.0, 3.0), (0.6, 0.0, 0.0, 0.8))
-    grasp = Grasp('hand', pose, np.array([[3, 4], [7, 0]]), 2.5)
-    message = deserialize_message(
-        serialize_message(grasp_message(grasp, 0.5, 'world')), GraspChange)
-    assert message.header.stamp.nanosec == 500000000 and message.header.frame_id == 'world'
+    position, turn = (1.0, 2.0, 3.0), (0.6, 0.0, 0.0, 0.8)
+    message = told(
+        TakeGrasp('hand', position, turn, max_force=2.5, nodes=((3, 4), (7, 0))), 'inputs/grasp')
     assert (message.name, message.grasped, message.max_force) == ('hand', True, 2.5)
     assert list(zip(message.rows, message.cols)) == [(3, 4), (7, 0)]
-    assert message.pose == pose_message(pose)
-    assert not release_message('hand', False, 0.5, 'world').by_force
-    lost = release_message('hand', True, 0.5, 'world')
+    assert message.pose == pose_message(Pose(position, turn))
+    assert not told(Release('hand'), 'inputs/grasp').by_force
+    lost = told(Release('hand', by_force=True), 'inputs/grasp')
     assert (lost.name, lost.grasped, lost.by_force) == ('hand', False, True)
 
 
-def test_a_move_of_a_frame_is_told_in_full():
+@pytest.mark.parametrize(('kind', 'key'), [
+    (MoveGrasp, 'inputs/grasp_target'), (MoveCollider, 'inputs/collider_target')])
+def test_a_move_of_a_frame_is_told_in_full(kind, key):
     """A collider could not be moved again as it was."""
-    turn = (0.6, 0.0, 0.0, 0.8)
+    target, turn = (1.0, 2.0, 3.0), (0.6, 0.0, 0.0, 0.8)
     for orientation in (None, turn):
-        move = FrameMove('ball', (1.0, 2.0, 3.0), orientation, 0.25, 0.75, 0.5)
-        message = deserialize_message(
-            serialize_message(frame_target_message(move, 0.5, 'world')), FrameTarget)
-        assert message.header.stamp.nanosec == 500000000
+        message = told(kind('ball', target, orientation, 0.25, 0.75), key)
         assert (message.name, message.speed, message.angular_speed) == ('ball', 0.25, 0.75)
         assert message.keep_orientation == (orientation is None)
-        assert orientation is None or message.pose == pose_message(Pose(move.target, turn))
+        assert message.pose.position == pose_message(Pose(target)).position
+        assert orientation is None or message.pose == pose_message(Pose(target, turn))
+
+
+def test_a_collider_at_rest_is_told():
+    """A recording that begins late would have a moved collider where its scene has it."""
     # A speed of 0 says that it is there.
-    place = place_message('ball', Pose((1.0, 2.0, 3.0), turn), 0.5, 'world')
+    place = place_message('ball', Pose((1.0, 2.0, 3.0), (0.6, 0.0, 0.0, 0.8)), 0.5, 'world')
     assert (place.speed, place.pose.position.y) == (0.0, 2.0)
 
 
-def test_pin_mode_and_command_are_told_with_their_time():
+def test_pin_wind_mode_and_command_are_told():
     """The order of inputs would be lost."""
-    pin = pin_message(3, 4, True, 0.5, 'world')
-    mode = mode_message('adaptive', 'constraint', 0.5, 'world')
-    command = command_message(Command.CLEAR_PUSHES, 0.5, 'world')
+    pin = told(Pin(3, 4), 'inputs/pin')
     assert (pin.row, pin.col, pin.pinned) == (3, 4, True)
+    assert not told(Unpin(3, 4), 'inputs/pin').pinned
+    wind = told(SetWind((1.0, 2.0, 3.0)), 'inputs/wind').vector
+    assert (wind.x, wind.y, wind.z) == (1.0, 2.0, 3.0)
+    mode = told(SetMode('adaptive', 'constraint'), 'inputs/mode')
     assert (mode.mode, mode.previous_mode) == ('adaptive', 'constraint')
-    assert command.command == 'clear_pushes'
-    assert {message.header.stamp.nanosec for message in (pin, mode, command)} == {500000000}
+    assert told(ClearPushes(), 'inputs/command').command == Command.CLEAR_PUSHES
+    assert told(Reset(), 'inputs/command').command == Command.RESET
+
+
+def test_what_changes_nothing_has_no_message():
+    """A reader would see a switch of the mode that was none."""
+    assert input_message(SetMode('adaptive', 'adaptive'), 0.5, 'world') is None
+
+
+def test_an_input_without_a_message_is_told_from_one():
+    """A recording would lack an input, and nobody would know."""
+    nothing = np.zeros((2, 2, 3))
+    with pytest.raises(TypeError, match='ReplaceState has no message'):
+        input_message(ReplaceState(nothing, nothing), 0.5, 'world')
 
 
 def test_a_scene_can_be_made_again_from_its_parameters():

@@ -1,13 +1,11 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-"""The executor serves what rclpy's own does, and rings its alarm in between."""
+"""The executor serves what rclpy's own does."""
 
-from threading import Thread
 from threading import Timer
 import time
 
-from cloth_sim_ros.node.frame_executor import Alarm
 from cloth_sim_ros.node.frame_executor import FrameExecutor
 import pytest
 import rclpy
@@ -37,36 +35,17 @@ def spin_until(executor, condition):
     return condition()
 
 
-def test_an_alarm_rings_until_it_is_set_anew():
-    """A frame would never be made, or the same one again and again."""
-    alarm = Alarm(lambda: None)
-    assert alarm.left is None
-    alarm.ring_in(100.0)
-    assert 0.0 < alarm.left <= 100.0
-    alarm.ring_in(0.0)
-    assert alarm.left == 0.0
-    alarm.cancel()
-    assert alarm.left is None
-
-
-def test_the_alarm_rings_while_everything_else_is_served(node):
-    """A running cloth would keep its node from answering, or requests the cloth from running."""
-    rung, heard, answered = [], [], []
+def test_every_kind_of_entity_is_served(node):
+    """A request, a message or a timer would be forgotten beside the others."""
+    heard, answered, ticks = [], [], []
 
     def answer(_, response):
         answered.append(1)
         return response
 
-    def ring():
-        rung.append(1)
-        alarm.ring_in(0.0)
-
-    alarm = Alarm(ring)
-    alarm.ring_in(0.0)
-    executor = FrameExecutor(node, alarm)
+    executor = FrameExecutor(node)
     node.create_service(Trigger, '~/serve', answer)
     node.create_subscription(String, '~/text', lambda _: heard.append(1), 10)
-    ticks = []
     node.create_timer(0.01, lambda: ticks.append(1))
     client = node.create_client(Trigger, '~/serve')
     publisher = node.create_publisher(String, '~/text', 10)
@@ -74,14 +53,12 @@ def test_the_alarm_rings_while_everything_else_is_served(node):
     assert spin_until(executor, lambda: publisher.get_subscription_count() == 1)
     future = client.call_async(Trigger.Request())
     publisher.publish(String())
-    before = len(rung)
     assert spin_until(executor, lambda: future.done() and heard and ticks and answered)
-    assert len(rung) > before
 
 
 def test_entities_that_come_late_are_waited_for(node):
     """A topic that is subscribed to at run time, as of a grasp, would stay silent."""
-    executor = FrameExecutor(node, Alarm(lambda: None))
+    executor = FrameExecutor(node)
     executor.spin_once(0.0)
     ticks = []
     timer = node.create_timer(0.01, lambda: ticks.append(1))
@@ -92,7 +69,7 @@ def test_entities_that_come_late_are_waited_for(node):
 
 def test_a_guard_condition_of_another_thread_is_served_once(node):
     """A mode compiled on a thread would not take over, or a fault be reported for ever."""
-    executor = FrameExecutor(node, Alarm(lambda: None))
+    executor = FrameExecutor(node)
     called = []
     condition = node.create_guard_condition(lambda: called.append(1))
     trigger = Timer(0.2, condition.trigger)
@@ -106,7 +83,7 @@ def test_a_guard_condition_of_another_thread_is_served_once(node):
 
 def test_coroutines_are_finished(node):
     """A request that is answered later, as ~/step, would never be."""
-    executor = FrameExecutor(node, Alarm(lambda: None))
+    executor = FrameExecutor(node)
     waited = rclpy.task.Future(executor=executor)
 
     async def answer(_, response):
@@ -126,29 +103,41 @@ def test_coroutines_are_finished(node):
     assert future.result().success
 
 
-def test_what_the_alarm_brings_is_answered_at_once(node):
-    """An answer to ~/step would wait for the next timer, up to a second, where steps take long."""
+def test_what_a_guard_condition_brings_is_answered_at_once(node):
+    """An answer would wait for the next timer, up to a second."""
     brought = rclpy.task.Future()
-    rings = []
-
-    def ring():
-        rings.append(1)
-        if len(rings) == 3:
-            brought.set_result(None)
-            alarm.cancel()
 
     async def wait():
         await brought
 
-    alarm = Alarm(ring)
-    executor = FrameExecutor(node, alarm)
+    executor = FrameExecutor(node)
+    condition = node.create_guard_condition(lambda: brought.set_result(None))
     task = executor.create_task(wait)
-    alarm.ring_in(0.0)
-    for _ in range(3):
-        executor.spin_once(0.0)
-    assert brought.done() and not task.done()
-    # Nothing else comes, so that it may sleep for ever; the end of the context wakes it then.
-    turn = Thread(target=executor.spin_once, daemon=True)
-    turn.start()
-    turn.join(PATIENCE)
-    assert task.done()
+    executor.spin_once(0.0)
+    assert not task.done()
+    condition.trigger()
+    # Nothing else comes: another turn would sleep for ever.
+    executor.spin_once(None)
+    assert brought.done() and task.done()
+
+
+def test_a_task_that_waits_is_not_asked_again_and_again(node):
+    """The thread that steps would lose time to one that only asks."""
+    polls, ticks = [], []
+
+    class Wait:
+        def __await__(self):
+            while len(ticks) < 5:
+                polls.append(1)
+                yield
+
+    async def wait():
+        await Wait()
+
+    executor = FrameExecutor(node)
+    task = executor.create_task(wait)
+    node.create_timer(0.05, lambda: ticks.append(1))
+    while not task.done():
+        executor.spin_once()
+    # In that time, a loop that never sleeps would have asked thousands of times.
+    assert len(polls) < 10 * len(ticks)

@@ -14,7 +14,7 @@ def test_backs_off_from_another_publisher(client, tmp_path):
     with NodeProcess(tmp_path, {**PAUSED, 'publish.clock': True}, '-r', '__ns:=/clock_test'):
         client.spin_until(lambda: node.count_publishers('/clock') == 1, 'the node has /clock')
         clock = client.watch(Clock, '/clock')
-        client.spin_until(lambda: clock.messages, 'a paused node tells the time')
+        client.spin_until(lambda: clock.messages, 'a paused node publishes the time')
         other = node.create_publisher(Clock, '/clock', 10)
         client.spin_until(lambda: node.count_publishers('/clock') == 1, 'the node backs off')
         node.destroy_publisher(other)

@@ -188,7 +188,7 @@ def status_of(cloth, faults=1):
     pytest.param('clear_pushes', Trigger, '_clear', marks=pytest.mark.long)])
 def test_a_request_that_fails_is_answered(client, tmp_path, service, kind, method):
     """The node would end, or the caller wait for ever for an answer."""
-    start = with_fault('node.load_requests', 'PushRequests', method)
+    start = with_fault('node.load_requests', 'LoadRequests', method)
     with NodeProcess(tmp_path, PAUSED, '-r', '__ns:=/fails', start=start) as node:
         cloth = ClothUnderTest(client, PAUSED, '/fails/cloth_sim')
         for _ in range(2):
@@ -215,7 +215,7 @@ def test_a_coroutine_that_fails_is_answered(client, tmp_path):
 
 def test_a_message_that_fails_is_left_out(client, tmp_path):
     """A message on a topic would end the node."""
-    start = with_fault('node.load_requests', 'PushRequests', '_on_push', '(1,)')
+    start = with_fault('node.load_requests', 'LoadRequests', '_on_push', '(1,)')
     with NodeProcess(tmp_path, PAUSED, '-r', '__ns:=/topic', start=start):
         cloth = ClothUnderTest(client, PAUSED, '/topic/cloth_sim')
         publisher = client.node.create_publisher(Push, '/topic/cloth_sim/push', 10)
@@ -254,9 +254,10 @@ def test_a_device_that_is_lost_stops_the_run(client, tmp_path):
         assert cloth.call(Trigger, 'clear_pushes').success
 
 
-def test_a_frame_that_fails_is_left_out(client, tmp_path):
+@pytest.mark.parametrize('method', ['frame', '_send_frame'])
+def test_a_frame_that_fails_is_left_out(client, tmp_path, method):
     """A frame that cannot be made would stop all that come after it."""
-    start = with_fault('node.frames', 'Frames', 'send', '(4,)')
+    start = with_fault('node.reports', 'Reports', method, '(4,)')
     with NodeProcess(tmp_path, SCENE, '-r', '__ns:=/frame', start=start) as node:
         cloth = ClothUnderTest(client, SCENE, '/frame/cloth_sim')
         cloth.wait_for('stats', lambda stats: stats.steps > 60)

@@ -47,7 +47,7 @@ def cloth(windy_node, client):
 
 @pytest.fixture
 def publisher(cloth) -> Iterator:
-    """Return who tells the wind."""
+    """Return the publisher of the wind."""
     made = cloth.client.node.create_publisher(Vector3Stamped, f'{NAME}/wind', 100)
     cloth.client.spin_until(made.get_subscription_count, 'the node listens')
     yield made

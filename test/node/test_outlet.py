@@ -124,7 +124,9 @@ def test_a_recording_of_markers_reads_them(client, tmp_path):
         session.start(name)
         assert outlet.wanted('markers') == markers
         assert outlet.wanted('points') and not outlet.wanted('points', by_recording=False)
-        outlet.send('markers', lambda: b'', 0.0)
+        outlet.send('markers', lambda: b'', 0.0, number=session.number)
+        # A recording that has ended.
+        outlet.send('markers', lambda: b'', 0.0, number=session.number - 1)
         session.stop()
         with AnyReader([tmp_path / name]) as reader:
             assert reader.message_count == int(markers)

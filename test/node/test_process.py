@@ -54,6 +54,48 @@ def test_stops_cleanly_with_the_recording_closed(signals, client, tmp_path):
     simulation.close()
 
 
+# A signal after the first message of the tenth frame.
+WITHIN_A_FRAME = """
+from cloth_sim_ros.messages.frame_messages import FrameMessages
+from cloth_sim_ros.node.main import main
+import os
+import rclpy
+import signal
+import sys
+import time
+
+frames = []
+
+def of(messages, frame):
+    frames.append(frame)
+    for number, made in enumerate(works(messages, frame)):
+        yield made
+        if len(frames) == 10 and number == 0:
+            os.kill(os.getpid(), signal.SIGINT)
+            while rclpy.ok():
+                time.sleep(1e-3)
+
+works, FrameMessages.of = FrameMessages.of, of
+sys.exit(main())
+"""
+
+
+def test_a_signal_within_a_frame_leaves_it_whole(client, tmp_path):
+    """The last frame would be recorded without its cloud, or a trace be logged."""
+    values = {**RECORDING, 'publish.clock': True}
+    with NodeProcess(tmp_path, values, '-r', '__ns:=/within', start=WITHIN_A_FRAME) as node:
+        client.watch(ClothStats, '/within/cloth_sim/stats')
+        assert node.wait() == 0, node.output
+    assert 'Traceback' not in node.output and '[ERROR]' not in node.output
+    bag = Recorded(tmp_path / 'bags' / 'run')
+    clouds, stats = ([
+        (message.header.stamp.sec, message.header.stamp.nanosec)
+        for message in bag.messages(key)] for key in ('points', 'stats'))
+    assert len(clouds) >= 10 and clouds == stats
+    for key in ('pins/wrenches', 'pins/peak_wrenches'):
+        assert len(bag.messages(key)) == 2 * len(clouds)
+
+
 def test_a_tuning_that_is_none_is_warned_of(monkeypatch, tmp_path):
     """A node would not start because of a file that it can do without, or say nothing of it."""
     context = Context(single_thread=True)

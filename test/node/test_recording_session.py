@@ -24,7 +24,7 @@ def test_a_full_disk_ends_the_recording_and_nothing_else(client, tmp_path):
         resource.prlimit(node.pid, resource.RLIMIT_FSIZE, (SMALL_FILE, hard))
         cloth.client.spin_until(
             lambda: cloth.call(Step, 'step', steps=1).success
-            and cloth['state'] and not cloth['state'][-1].recording, 'the end is told')
+            and cloth['state'] and not cloth['state'][-1].recording, 'the end is reported')
         assert path in node.output and 'start a new one' in node.output
         resource.prlimit(node.pid, resource.RLIMIT_FSIZE, (hard, hard))
         told = cloth.wait_for('diagnostics', lambda array: any(

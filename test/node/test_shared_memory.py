@@ -320,7 +320,7 @@ def test_killed_nodes_leave_nothing_behind(count, wait, client, tmp_path, monkey
         client.spin_until(lambda: stats.messages, 'the neighbour publishes')
         own = segments_of(neighbour.pid, exclusively=True)
         left = killed_nodes(tmp_path, count)
-        assert left, 'the test has to find what they leave'
+        assert left, 'segments have to be left'
         wait_or_make_old(left, wait)
         with NodeProcess(tmp_path / 'next', SMALL, '-r', '__ns:=/next'):
             first = client.watch(ClothStats, '/next/cloth_sim/stats')

@@ -144,7 +144,7 @@ def played(client, name='/played', patience=0.2, reader=None, **quality):
 
 
 def is_read(client, name):
-    """Tell whether the publisher of ``name`` has a reader."""
+    """Return whether the publisher of ``name`` has a reader."""
     return any(
         publisher.get_subscription_count() for publisher in client.node.publishers
         if publisher.topic_name == name)

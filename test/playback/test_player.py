@@ -235,7 +235,7 @@ def test_a_pause_stops_the_messages(bag, client, player):
     client.spin_for(0.5)
     assert len(heard) == count
     process.resume(client)
-    client.spin_until(lambda: len(heard) > count + FRAMES, 'it goes on for a round')
+    client.spin_until(lambda: len(heard) > count + FRAMES, 'another round is played')
     process.process.terminate()
     assert process.wait(client) == 0
     one_round = [number * 20_000_000 for number in range(FRAMES)]
@@ -342,7 +342,7 @@ def test_a_long_gap_is_told(client, player, tmp_path):
     recorder.close()
     process = player(recorder.path)
     process.resume(client)
-    client.spin_until(lambda: 'the next message' in process.problems, 'the gap is told')
+    client.spin_until(lambda: 'the next message' in process.problems, 'the gap is reported')
     assert 'is due in 3.6e+03 s, at 3600 s of the recording' in process.problems
     assert process.problems.count('the next message') == 1
 

@@ -9,7 +9,7 @@ import resource
 from cloth_sim_interfaces.msg import ClothStats
 from cloth_sim_interfaces.msg import Push
 from cloth_sim_ros.messages.geometry import serialise_topology
-from cloth_sim_ros.messages.inputs import push_message
+from cloth_sim_ros.messages.inputs import input_message
 from cloth_sim_ros.messages.topics import Topic
 from cloth_sim_ros.messages.topics import TOPICS
 from cloth_sim_ros.recording.bag_folder import RecordingOptions
@@ -19,6 +19,7 @@ from cloth_sim_ros.recording.message_definition import type_hash
 from cloth_sim_ros.recording.recorder import offered_qos
 from cloth_sim_ros.recording.recorder import Recorder
 from cloth_sim_ros.sim.errors import ClothSimError
+from cloth_sim_ros.sim.inputs import PushNodes
 from cloth_sim_ros.sim.push import Push as SimPush
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.snapshot import POINT_DTYPE
@@ -104,7 +105,8 @@ def bag(tmp_path):
     """Return the folder of a recording of clouds, numbers, a push and the rest shape."""
     recorder = Recorder(tmp_path, 'run', node_name='/left/cloth_sim')
     recorder.write('topology', serialise_topology(Scene({**SPRINGS, 'rows': 3, 'cols': 4})), 0.0)
-    recorder.write('inputs/push', serialize_message(push_message(PUSH, 0.04, 'world')), 0.04)
+    key, push = input_message(PushNodes(PUSH), 0.04, 'world')
+    recorder.write(key, serialize_message(push), 0.04)
     for number in range(FRAMES):
         time = number / 50
         recorder.write('points', make_cloud(3, 4, number)[0], time)

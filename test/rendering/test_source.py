@@ -5,7 +5,7 @@
 
 from cloth_sim_ros.analysis.frame import Frame
 from cloth_sim_ros.analysis.recording import Recording
-from cloth_sim_ros.messages.inputs import mode_message
+from cloth_sim_ros.messages.inputs import input_message
 from cloth_sim_ros.messages.inputs import parameters_message
 from cloth_sim_ros.messages.inputs import serialise_parameter_event
 from cloth_sim_ros.recording.recorder import Recorder
@@ -14,6 +14,7 @@ from cloth_sim_ros.rendering.source import RecordingSource
 from cloth_sim_ros.rendering.source import StateSource
 from cloth_sim_ros.sim.colliders import fields_with_colliders
 from cloth_sim_ros.sim.errors import ClothSimError
+from cloth_sim_ros.sim.inputs import SetMode
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.snapshot import FLAG_PINNED
 from hypothesis import given
@@ -66,8 +67,8 @@ def test_colliders_that_are_not_known_are_named(tmp_path, shape):
             parameter.value.string_value = shape
     recorder = Recorder(tmp_path, 'run', 'cloth_sim')
     recorder.write('inputs/parameters', serialise_parameter_event(message), 0.0)
-    mode = mode_message('constraint', '', 0.0, 'world')
-    recorder.write('inputs/mode', serialize_message(mode), 0.0)
+    key, mode = input_message(SetMode('constraint'), 0.0, 'world')
+    recorder.write(key, serialize_message(mode), 0.0)
     recorder.close()
     source = RecordingSource(Recording(tmp_path / 'run'))
     assert source.missing == ([] if shape == 'sphere' else ['colliders'])

@@ -26,8 +26,8 @@ def test_inputs_that_cannot_be_given_are_named(tmp_path):
     """A run with other settings would end at the first input that makes no sense there."""
     with Director(tmp_path, {'rows': 8, 'cols': 9}) as director:
         director.step(4)
-        director.pin(7, 7)
-        director.move_pin(7, 7, (0.4, -0.4, 1.0), 0.5)
+        director.simulation.pin(7, 7)
+        director.simulation.move_pin(7, 7, (0.4, -0.4, 1.0), 0.5)
         director.step(20)
     with made_again(director.path, rows=5) as rerun:
         assert len(rerun.refused) == 2

@@ -155,16 +155,17 @@ def act(director, chance):
     corner = chance.choice((0, 8))
     force = tuple(chance.uniform(-1.0, 1.0) for _ in 'xyz')
     target = (0.4 if corner else -0.4, 0.5, chance.uniform(0.9, 1.1))
+    cloth = director.simulation
     chance.choice((
-        lambda: director.push(force, duration=chance.uniform(1e-3, 0.3)),
-        lambda: director.push(
+        lambda: cloth.push(force, duration=chance.uniform(1e-3, 0.3)),
+        lambda: cloth.push(
             force, duration=0.1, region='sphere', center=(0.0, 0.2, 0.9), radius=0.5,
-            start=director.simulation.time + chance.uniform(0.0, 0.1)),
-        lambda: director.pin(row, col),
-        lambda: director.release(row, col),
-        lambda: (director.pin(0, corner), director.move_pin(0, corner, target, 0.8)),
-        lambda: director.set_mode(chance.choice(MODES)),
-        director.clear_pushes,
+            start=cloth.time + chance.uniform(0.0, 0.1)),
+        lambda: cloth.pin(row, col),
+        lambda: cloth.release(row, col),
+        lambda: (cloth.pin(0, corner), cloth.move_pin(0, corner, target, 0.8)),
+        lambda: cloth.set_mode(chance.choice(MODES)),
+        cloth.clear_pushes,
         director.reset))()
 
 
@@ -194,11 +195,11 @@ def test_a_run_in_the_wind_is_made_again(tmp_path, mode):
     with Director(
             tmp_path, {**SCENE, **air}, lambda cloth: cloth.set_wind((0.0, 0.0, 2.0))) as director:
         director.step(11)
-        director.set_wind((0.0, -4.0, 1.0))
+        director.simulation.set_wind((0.0, -4.0, 1.0))
         director.step(11)
         director.reset()
         director.step(11)
-        director.set_wind((0.0, 2.0, 1.0))
+        director.simulation.set_wind((0.0, 2.0, 1.0))
         director.step(11)
     assert_same(director.path, director.frames)
 
@@ -295,10 +296,10 @@ def eventful(tmp_path):
     """Return a recording with a push, a pin, a switch of the mode and a reset, and its frames."""
     with Director(tmp_path, {**SPRINGS, 'rows': 8, 'cols': 9}) as director:
         director.step(10)
-        director.push((0.0, 0.5, 1.0), duration=0.1)
-        director.pin(7, 7)
+        director.simulation.push((0.0, 0.5, 1.0), duration=0.1)
+        director.simulation.pin(7, 7)
         director.step(10)
-        director.set_mode('adaptive')
+        director.simulation.set_mode('adaptive')
         director.step(10)
         director.reset()
         director.step(20)

@@ -30,7 +30,7 @@ def test_a_run_that_stops_is_made_again_up_to_there(tmp_path, mode):
     values = {'rows': 8, 'cols': 9, 'mode': mode}
     with Director(tmp_path, values) as director:
         director.step(10)
-        director.push((0.0, 0.0, 1e25), duration=0.01)
+        director.simulation.push((0.0, 0.0, 1e25), duration=0.01)
         with pytest.raises(NonFiniteStateError) as lost:
             director.step(1)
         director.stop()
@@ -43,11 +43,11 @@ def test_a_run_that_stops_is_made_again_up_to_there(tmp_path, mode):
 def stop_and_go_on(director):
     """Lose the state to a push, and go on without it."""
     director.step(10)
-    director.push((0.0, 0.0, 1e25), duration=0.01)
+    director.simulation.push((0.0, 0.0, 1e25), duration=0.01)
     with pytest.raises(NonFiniteStateError):
         director.step(1)
     director.stop()
-    director.clear_pushes()
+    director.simulation.clear_pushes()
     director.step(10)
 
 
@@ -71,7 +71,7 @@ def test_a_new_blow_up_ends_the_run(tmp_path):
     """A run with other settings that blows up would end as a traceback, or be called whole."""
     with Director(tmp_path, {'rows': 8, 'cols': 9, 'node_mass': 1e6}) as director:
         director.step(10)
-        director.push((0.0, 0.0, 1e20), duration=0.01)
+        director.simulation.push((0.0, 0.0, 1e20), duration=0.01)
         director.step(10)
     assert_same(director.path, 3)
     listener = Stops()

@@ -49,7 +49,7 @@ _OF_CONTACT = (
 # Where integers are counted by atomics, and no result depends on the order.
 _COUNTING = {
     # The paper's solver, which only a benchmark runs, counts entries as the paper does.
-    'paper_solver/spmm.comp': ['atomicAdd(row_count[i], 1u)'],
+    'paper/solver/spmm.comp': ['atomicAdd(row_count[i], 1u)'],
     # One flag, which any edge raises.
     'solver/right_side.comp': ['atomicOr(is_off, floatBitsToUint(1.0))'],
     # Lists of blocks and of their nodes, each of which is treated by itself.
@@ -63,17 +63,19 @@ _COUNTING = {
 # What each shader is compiled with besides; a comma sets further forms of one apart.
 _FORMS = {
     'bounds_check.comp': {'STRIP': 16},
-    'mass_spring_step.comp': {'STRAIN_LIMIT': 'RIGID_LIMIT'},
-    'mass_spring_step.comp, recording': {'STRAIN_LIMIT': 'RIGID_LIMIT', 'HAS_HELD': 1},
+    'mass_spring_step.comp': {},
+    'mass_spring_step.comp, recording': {'HAS_HELD': 1},
+    'paper/spring_velocity.comp': {},
+    'paper/spring_velocity.comp, recording': {'HAS_HELD': 1},
     'mass_spring_tile.comp': {'TILE_SIDE': 32},
     'observe.comp': {'RECORDS_WANTED': 1, 'STRIP': 16},
     'place_pins.comp': {'PINS_LOCAL': 32},
-    'paper_force.comp': {},
-    'paper_update.comp': {'UPDATE_LOCAL': 1024},
-    'paper_finish.comp, recording': {'HAS_HELD': 1},
-    'paper_update.comp, recording': {'UPDATE_LOCAL': 1024, 'HAS_HELD': 1},
+    'paper/force.comp': {},
+    'paper/update.comp': {'UPDATE_LOCAL': 1024},
+    'paper/finish.comp, recording': {'HAS_HELD': 1},
+    'paper/update.comp, recording': {'UPDATE_LOCAL': 1024, 'HAS_HELD': 1},
     'fold_held.comp': {'FOLD_LOCAL': 32},
-    **{f'paper_solver/{name}.comp': paper_solver_defines(150, 63) for name in (
+    **{f'paper/solver/{name}.comp': paper_solver_defines(150, 63) for name in (
         'constraint', 'direction', 'dot', 'scalars', 'spmm', 'spmv', 'update')},
     'rigid_sums.comp': {'STRIP': 16},
     'solver/coarsest.comp': {'COARSEST_SIDE': 8, 'COARSEST_STEPS': 6},

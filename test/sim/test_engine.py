@@ -264,5 +264,5 @@ def test_the_driver_has_nothing_left_to_compile(context, shader_cache, mode, val
          'is prepared', 'is prepared', 'runs'],
         check=True, env=environment, stdout=subprocess.PIPE)
     kept = json.loads(done.stdout)
-    assert kept[1], 'the driver keeps what it has compiled'
+    assert kept[1], 'the driver keeps compiled programs'
     assert kept[2] == kept[1]

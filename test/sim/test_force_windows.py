@@ -5,6 +5,7 @@
 
 from contextlib import closing
 
+from abandoned import abandon
 from cloth_sim_ros.gl.inventory import take_inventory
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.errors import NonFiniteStateError
@@ -130,7 +131,7 @@ def test_nothing_has_a_force_before_the_first_step(context):
 
 @pytest.mark.parametrize('mode', MODES)
 def test_the_peak_is_no_weaker_than_the_mean(context, mode):
-    """A gripper would be told of less than it has to hold."""
+    """A gripper would measure less than it has to hold."""
     values = {**SCENE, 'mode': mode, 'dt': 0.01, 'auto_substeps': False, 'substeps': 16}
     with closing(Simulation(Scene(values), context=context)) as simulation:
         simulation.grasp('gripper', simulation.positions()[0, 7].astype(float), radius=0.2)
@@ -146,20 +147,16 @@ def test_the_peak_is_no_weaker_than_the_mean(context, mode):
 
 
 def test_steps_that_are_undone_leave_no_impulse(context):
-    """A step that is closed in its midst would count once more when it is made."""
+    """A step that was abandoned would count once more when it is made."""
     values = {**SCENE, 'mode': 'constraint', 'dt': 0.01}
     with closing(Simulation(Scene(values), context=context)) as simulation, closing(
             Simulation(Scene(values), context=context)) as twin:
         windows = simulation.open_force_window(), twin.open_force_window()
         for run in (simulation, twin):
             run.step(3)
-        simulation.stepping.aim_steps(1)
-        work = simulation.work(lambda: True)
-        next(work)
-        work.close()
+        abandon(simulation, steps=2, after=9)
+        twin.engines.forget()
         for run in (simulation, twin):
-            run.stepping.drop_aim()
-            run.engines.forget()
             run.step(2)
         frames = [
             run.frame_forces(window) for run, window in zip((simulation, twin), windows)]
@@ -213,7 +210,7 @@ def test_the_last_step_is_recorded_in_any_call(context, mode):
 
 
 def test_forces_that_were_not_recorded_are_refused(context):
-    """A force of 0 would be told where nobody has recorded one."""
+    """A force of 0 would be reported where none was recorded."""
     with closing(Simulation(
             Scene(SCENE), context=context, records_forces=False)) as simulation:
         assert not simulation.pin_forces().forces.any()

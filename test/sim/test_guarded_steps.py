@@ -15,12 +15,13 @@ from cloth_sim_ros.sim.guarded_steps import GuardedSteps
 from cloth_sim_ros.sim.layout import choose_layout
 from cloth_sim_ros.sim.loads import Loads
 from cloth_sim_ros.sim.modes.mass_spring import MassSpring
-from cloth_sim_ros.sim.modes.mode import Pieces
-from cloth_sim_ros.sim.modes.mode import Steps
 from cloth_sim_ros.sim.observer import Observer
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.simulation import Simulation
 from cloth_sim_ros.sim.state import State
+from cloth_sim_ros.sim.stop import never
+from cloth_sim_ros.sim.stop import StepAbandoned
+from cloth_sim_ros.sim.stop import Stop
 import numpy as np
 import pytest
 from springs import SPRINGS
@@ -123,6 +124,24 @@ def test_moving_pins_go_back_too(simulate, mode):
         runs.append(simulation.snapshot())
     assert np.array_equal(runs[0].positions[0, 0], runs[1].positions[0, 0])
     np.testing.assert_allclose(runs[0].positions, runs[1].positions, atol=1e-3)
+
+
+def test_contact_forces_are_those_of_the_state_that_is_kept(simulate, mode):
+    """A stop showed those of the lost step, 9e7 N in mode adaptive in place of 0.04 N."""
+    found = []
+    for force in (None, _ABSURD):
+        simulation = simulate({
+            'mode': mode, 'colliders.names': ['ball'], 'colliders.ball.size': [0.2],
+            'colliders.ball.position': [0.0, 0.0, 0.79]})
+        if force is not None:
+            simulation.push(force, start=0.0605, duration=1.0)
+            _stop(simulation, 100)
+        else:
+            simulation.step(15)
+        force, = simulation.contact_forces()
+        found.append((force.force.tolist(), force.torque.tolist(), force.sliding, force.sticking))
+    assert found[0] == found[1]
+    assert found[0][0][2] < 0.0
 
 
 def test_reset_after_a_stop_is_the_start_again(simulate, mode):
@@ -236,9 +255,9 @@ class _Remembering(MassSpring):
     name = 'remembering'
     remembers = True
 
-    def step(self, state: State, begin: float, loads: Loads) -> Pieces:
+    def step(self, state: State, begin: float, loads: Loads, stop: Stop = never) -> None:
         """Step ``state`` on by one dt."""
-        yield from super().step(state, begin, loads)
+        super().step(state, begin, loads, stop)
         if self.remembers:
             self._passes.substep(state, Forcing(_ABSURD), 1.0)
 
@@ -256,19 +275,77 @@ def test_a_blow_up_by_memory_alone_is_told():
     loads = Loads(scene, layout, state)
     guard, mode = GuardedSteps(scene, layout, observer, state), _Remembering(scene, layout)
 
-    def step(number: int, most: int) -> Steps:
-        yield from mode.step(state, number * scene['dt'], loads)
+    def step(number: int, most: int, stop: Stop) -> int:
+        mode.step(state, number * scene['dt'], loads, stop)
         return 1
 
     with pytest.raises(
             NonFiniteStateError, match='without what the mode had carried over') as caught:
-        list(guard.make(0, 3, step, mode, loads))
+        guard.make(0, 3, step, mode, loads)
     assert caught.value.steps == 3
     assert observer.measure(state, loads.still, None).finite
-    list(guard.make(3, 3, step, mode, loads))
+    guard.make(3, 3, step, mode, loads)
     for part in (guard, mode, loads, observer, state):
         part.delete()
     context.close()
+
+
+class _Counted:
+    """Steps that are counted, on a state that stays as it is."""
+
+    def __init__(self, context: Context) -> None:
+        self.scene = Scene({**_SMALL, 'auto_substeps': False, 'substeps': 16})
+        layout = choose_layout(self.scene, context)
+        self.state = State(layout, self.scene.start_positions(), self.scene.pinned_nodes())
+        self.observer = Observer(self.scene, layout, set(self.scene.families))
+        self.loads = Loads(self.scene, layout, self.state)
+        self.guard = GuardedSteps(self.scene, layout, self.observer, self.state)
+        self.mode = MassSpring(self.scene, layout)
+        self.steps: list[int] = []
+        self.settled: list[int] = []
+
+    def make(self, first: int, count: int, **asked: Callable[[], bool]) -> None:
+        """Make steps by the guard, with what is asked."""
+        self.guard.make(
+            first, count, self._step, self.mode, self.loads, settle=self.settled.append, **asked)
+
+    def _step(self, number: int, most: int, stop: Stop) -> int:
+        self.steps.append(number)
+        return 1
+
+    def close(self) -> None:
+        """Release everything."""
+        for part in (self.guard, self.mode, self.loads, self.observer, self.state):
+            part.delete()
+
+
+@pytest.fixture
+def counted(context: Context) -> Iterator[_Counted]:
+    """Give steps of 16 substeps, of which 64 are checked together."""
+    counted = _Counted(context)
+    assert (counted.mode.substeps, counted.mode.checked_substeps) == (16, 64)
+    yield counted
+    counted.close()
+
+
+def test_steps_count_when_they_have_passed_a_check(counted):
+    """A time would be shown that a blow-up takes back."""
+    counted.make(2, 10)
+    assert counted.steps == list(range(2, 12))
+    assert counted.settled == [6, 10, 12]
+
+
+def test_the_step_that_is_due_is_the_last(counted):
+    """A frame would have more steps than were asked for."""
+    counted.make(0, 10, is_due=lambda: counted.steps[-1] == 5)
+    assert counted.settled == [4, 6] and counted.steps[-1] == 5
+
+
+def test_steps_before_the_last_check_stay(counted):
+    """A shutdown would take back what has been shown."""
+    with pytest.raises(StepAbandoned):
+        counted.make(0, 10, stop=lambda: len(counted.steps) == 6)
+    assert counted.settled == [4] and counted.steps[-1] == 5
 
 
 def test_it_can_be_turned_off(simulate):

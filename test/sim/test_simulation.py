@@ -7,7 +7,17 @@ from collections.abc import Iterator
 
 from cloth_sim_ros.gl.errors import DeviceError
 from cloth_sim_ros.sim.errors import ClothSimError
-from cloth_sim_ros.sim.handling import InputListener
+from cloth_sim_ros.sim.inputs import ClearPushes
+from cloth_sim_ros.sim.inputs import Input
+from cloth_sim_ros.sim.inputs import InputListener
+from cloth_sim_ros.sim.inputs import MovePin
+from cloth_sim_ros.sim.inputs import Pin
+from cloth_sim_ros.sim.inputs import PushNodes
+from cloth_sim_ros.sim.inputs import ReplaceState
+from cloth_sim_ros.sim.inputs import Reset
+from cloth_sim_ros.sim.inputs import SetMode
+from cloth_sim_ros.sim.inputs import Unpin
+from cloth_sim_ros.sim.push import Push
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.simulation import Simulation
 import numpy as np
@@ -293,31 +303,18 @@ def test_pin_forces_are_those_of_the_snapshot(simulation: Simulation):
 
 
 class _Heard(InputListener):
-    """Stores the inputs it is notified of, and can refuse a new state."""
+    """Stores the inputs it is notified of, with their times, and can refuse a new state."""
 
     def __init__(self) -> None:
-        self.inputs: list[tuple] = []
+        self.inputs: list[tuple[Input, float]] = []
         self.refuses = False
 
-    def push(self, push):
-        self.inputs.append(('push', push.start))
-
-    def pin(self, row, col, pinned):
-        self.inputs.append(('pin', row, col, pinned))
-
-    def pin_target(self, move):
-        self.inputs.append(('target', move.target))
-
-    def mode(self, mode, previous):
-        self.inputs.append(('mode', mode, previous))
-
-    def command(self, command):
-        self.inputs.append(('command', command))
-
-    def new_state(self):
-        if self.refuses:
+    def check(self, given):
+        if self.refuses and isinstance(given, ReplaceState):
             raise ClothSimError('no')
-        self.inputs.append(('state',))
+
+    def accept(self, given, time):
+        self.inputs.append((given, time))
 
 
 def test_a_listener_hears_of_each_accepted_input_once(simulation: Simulation):
@@ -340,10 +337,14 @@ def test_a_listener_hears_of_each_accepted_input_once(simulation: Simulation):
     positions, velocities = simulation.positions(), simulation.velocities()
     simulation.set_state(positions, velocities)
     simulation.reset()
-    assert heard.inputs == [
-        ('push', 0.02), ('pin', 4, 3, True), ('target', (0.0, 0.0, 1.0)), ('pin', 4, 3, False),
-        ('mode', 'constraint', 'mass_spring'), ('command', 'clear_pushes'), ('state',),
-        ('command', 'reset')]
+    push = Push.checked(force=(0.0, 0.0, 1.0), start=0.02, duration=0.1)
+    expected = [
+        PushNodes(push), Pin(4, 3), MovePin(4, 3, (0.0, 0.0, 1.0), simulation.scene['pin_speed']),
+        Unpin(4, 3), SetMode('constraint', 'mass_spring'), SetMode('constraint', 'constraint'),
+        ClearPushes(), ReplaceState, Reset()]
+    for (given, time), one in zip(heard.inputs, expected, strict=True):
+        assert given == one or type(given) is one
+        assert time == 0.02
     heard.refuses = True
     with pytest.raises(ClothSimError):
         simulation.set_state(positions + 1.0, velocities)

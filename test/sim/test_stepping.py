@@ -14,12 +14,8 @@ import pytest
 
 def make_all(stepping: Stepping) -> None:
     """Count the steps up to the aim as made."""
-    def make(first: int, count: int):
-        stepping.settle(first + count)
-        yield from ()
-
-    for _ in stepping.run(make):
-        pass
+    stepping.steps = stepping.goal
+    assert not stepping.is_behind
 
 
 @pytest.mark.parametrize(('dt', 'frame'), [(0.005, 0.02), (0.003, 0.02), (0.02, 0.0007)])
@@ -44,3 +40,16 @@ def test_a_run_ends_where_stamps_end():
         with pytest.raises(ClothSimError, match=f'ends at {LATEST} s.* reset it'):
             ask(1)
     assert stepping.steps == LATEST and not stepping.is_behind
+
+
+def test_an_aim_can_be_dropped():
+    """What was not made would be made up for by the next call."""
+    stepping = Stepping(0.01, steps=3)
+    stepping.aim(0.055)
+    assert (stepping.goal, stepping.is_behind, stepping.is_last(7)) == (8, True, True)
+    stepping.steps = 5
+    stepping.drop_aim()
+    assert (stepping.goal, stepping.is_behind) == (5, False)
+    # The remainder of the frame is gone with it.
+    stepping.aim(0.0199)
+    assert stepping.goal == 6

@@ -1,23 +1,46 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-"""Steps made in pieces are the same steps, and what happens between pieces waits for their end."""
+"""Work ends when it is due; a step that is abandoned leaves the cloth as it was checked last."""
 
 from collections.abc import Callable
 from collections.abc import Iterator
+from typing import Any
 
+from abandoned import abandon
+from abandoned import calls_of
+from abandoned import StopAfter
 from cloth_sim_ros.gl.context import Context
 from cloth_sim_ros.sim import modes
 from cloth_sim_ros.sim.errors import ClothSimError
-from cloth_sim_ros.sim.errors import NonFiniteStateError
+from cloth_sim_ros.sim.inputs import InputListener
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.simulation import Simulation
+from cloth_sim_ros.sim.stop import StepAbandoned
 import numpy as np
 import pytest
 from springs import SPRINGS
 
-_SCENE = {'rows': 8, 'cols': 9, 'dt': 0.01, 'auto_substeps': True}
-_SPHERE = {'region': 'sphere', 'center': (0.0, 0.0, 1.0), 'radius': 0.3}
+_SCENE = {**SPRINGS, 'rows': 8, 'cols': 9, 'dt': 0.01, 'auto_substeps': True}
+# All that a step can change: what is timed begins and ends in the steps that are abandoned.
+_BUSY = {
+    **_SCENE, 'auto_substeps': False, 'substeps': 16,
+    'air.density': 1.2, 'air.drag': 1.0, 'air.wind': [0.5, 0.0, 0.0],
+    'gusts.start': [0.03], 'gusts.duration': [0.03], 'gusts.wind': [0.0, 0.0, 2.0],
+    'pushes.start': [0.0, 0.045], 'pushes.duration': [0.06, 0.02],
+    'pushes.force': [0.0, 0.0, 0.3, 0.0, 0.2, 0.0], 'pushes.center': [0.0, 0.0, 1.0] * 2,
+    'pushes.radius': [0.0, 0.3],
+    'pin_moves.node': ['0,0'], 'pin_moves.start': [0.04], 'pin_moves.target': [-0.4, 0.45, 1.05],
+    'pin_moves.speed': [0.5],
+    'colliders.names': ['ball'], 'colliders.ball.shape': 'sphere', 'colliders.ball.size': [0.2],
+    'colliders.ball.position': [0.0, 0.0, 0.785], 'collider_moves.start': [0.01],
+    'collider_moves.name': ['ball'], 'collider_moves.target': [0.0, 0.0, 0.9],
+    'collider_moves.speed': [0.3]}
+_MODES = {
+    **{mode: {'mode': mode} for mode in modes.AVAILABLE},
+    'adaptive, limited': {'mode': 'adaptive', 'adaptive.threshold': 0.01},
+    'adaptive, paper': {
+        'mode': 'adaptive', 'adaptive.scheme': 'paper', 'adaptive.threshold': 0.01}}
 
 
 @pytest.fixture(autouse=True)
@@ -26,14 +49,16 @@ def in_small_pieces(monkeypatch: pytest.MonkeyPatch):
     monkeypatch.setattr('cloth_sim_ros.sim.modes.mass_spring._NODES_AT_ONCE', 1)
 
 
-@pytest.fixture(params=modes.AVAILABLE)
+@pytest.fixture(params=_MODES)
 def simulate(request: pytest.FixtureRequest, context: Context) -> Iterator[Callable]:
     """Return a function that makes a cloth in each mode there is."""
     opened = []
 
-    def make() -> Simulation:
-        opened.append(Simulation(Scene({
-            **SPRINGS, **_SCENE, 'mode': request.param}), context=context))
+    def make(values: dict[str, Any] = _SCENE) -> Simulation:
+        values = {**values, **_MODES[request.param]}
+        if values.get('adaptive.scheme') == 'paper':  # which has no contact
+            values = {name: value for name, value in values.items() if 'collider' not in name}
+        opened.append(Simulation(Scene(values), context=context))
         return opened[-1]
 
     yield make
@@ -41,158 +66,66 @@ def simulate(request: pytest.FixtureRequest, context: Context) -> Iterator[Calla
         simulation.close()
 
 
-def always() -> bool:
-    """Ask for control at every opportunity."""
-    return True
+class Busy:
+    """A cloth on which everything acts, with its forces since the third step."""
+
+    def __init__(self, simulation: Simulation) -> None:
+        """Bring it to the third step."""
+        self.cloth = simulation
+        self.begin()
+
+    def begin(self) -> None:
+        """Make the first three steps."""
+        cloth = self.cloth
+        cloth.grasp('hand', cloth.positions()[7, 4].astype(float), radius=0.2)
+        cloth.move_grasp('hand', (0.0, -0.45, 1.05), (0.1, 0.0, 0.0, 1.0), speed=1.0)
+        cloth.pin(4, 8)
+        cloth.move_pin(4, 8, (0.45, 0.0, 1.0), speed=0.5)
+        self.windows = [cloth.open_force_window() for _ in range(2)]
+        cloth.step(3)
+        cloth.frame_forces(self.windows[0])
+
+    def begin_again(self) -> None:
+        """Reset, and make the first three steps."""
+        for window in self.windows:
+            self.cloth.close_force_window(window)
+        self.cloth.reset()
+        self.begin()
+
+    def look(self) -> dict[str, Any]:
+        """Return all that steps change, to the bit, but the forces of its windows."""
+        cloth = self.cloth
+        return {
+            'steps': cloth.steps, 'time': cloth.time, 'is behind': cloth.stepping.is_behind,
+            'positions': cloth.positions().tobytes(), 'velocities': cloth.velocities().tobytes(),
+            'pinned': cloth.pinned_nodes().tobytes(), 'pushes': cloth.pushes,
+            'pin moves': cloth.pin_moves, 'colliders': cloth.colliders, 'wind': cloth.loads.wind,
+            'grasps': [(grasp.name, grasp.pose, grasp.nodes.tolist()) for grasp in cloth.grasps],
+            'grasp paths': [path.move for path in cloth.grasp_paths],
+            'pin forces': cloth.pin_forces().forces.tobytes(),
+            'pin peaks': cloth.pin_forces().peaks.tobytes(),
+            'grasp forces': [
+                (each.force.tobytes(), each.torque.tobytes()) for each in cloth.grasp_forces()],
+            'contact forces': [_numbers(each) for each in cloth.contact_forces()],
+            'flags': cloth.snapshot().flags.tobytes(),
+            'stalled pins': cloth.snapshot().stalled_pins}
+
+    def frames(self) -> list[Any]:
+        """Return the forces of its windows, and begin these anew."""
+        return [
+            (found.seconds, found.pins.forces.tobytes(), found.pins.peaks.tobytes(),
+             [(each.force.tobytes(), each.torque.tobytes()) for each in found.grasps],
+             [_numbers(each) for each in found.contacts])
+            for found in map(self.cloth.frame_forces, self.windows)]
 
 
-def into_a_step(simulation: Simulation, pieces: int = 1) -> Iterator[None]:
-    """Return the work of a step of dt that is under way."""
-    simulation.stepping.aim_steps(1)
-    work = simulation.work(always)
-    for _ in range(pieces):
-        next(work)
-    return work
+def _numbers(force: Any) -> tuple:
+    return force.force.tobytes(), force.torque.tobytes(), force.sticking, force.sliding
 
 
-def finish(work: Iterator[None]) -> None:
-    """Go on to the end of the step."""
-    for _ in work:
-        pass
-
-
-def test_pieces_make_the_same_bits(simulate):
-    """A cloth would move otherwise in a node that is asked much."""
-    whole, cut = simulate(), simulate()
-    whole.step(6)
-    while cut.steps < 6:
-        for _ in into_a_step(cut):
-            # Looks use the device, and must leave what the step has bound as it was.
-            cut.snapshot()
-            cut.measure()
-            cut.nearest_node((0.0, 0.0, 0.0), max_distance=9.0)
-    assert cut.snapshot().state_sha256 == whole.snapshot().state_sha256
-    assert cut.time == whole.time
-
-
-def test_between_pieces_the_state_is_that_before_the_step(simulate):
-    """A reader would get half a step: some nodes moved, others not."""
-    simulation = simulate()
-    simulation.step(3)
-    before = simulation.snapshot()
-    work = into_a_step(simulation, pieces=2)
-    now = simulation.snapshot()
-    assert now.state_sha256 == before.state_sha256
-    assert now.time == before.time and now.steps == 3
-    assert np.array_equal(simulation.positions(), before.positions)
-    finish(work)
-    assert simulation.steps == 4
-    assert simulation.snapshot().state_sha256 != before.state_sha256
-
-
-def test_changes_are_made_at_the_end_of_the_step(simulate):
-    """A step would be part with and part without them, and could not be made again."""
-    asked, plain = simulate(), simulate()
-    asked.step(3)
-    work = into_a_step(asked)
-    at = asked.stepping.edit_time
-    assert at == pytest.approx(0.04) and asked.time == pytest.approx(0.03)
-    applied = asked.push((0.0, 0.0, 0.4), duration=0.05, **_SPHERE)
-    asked.pin(3, 4)
-    asked.release(0, 0)
-    asked.pin(7, 0)
-    path = asked.move_pin(7, 0, (-0.5, -0.5, 1.3), speed=0.5)
-    assert applied.nodes > 0 and path.begin == at
-    assert asked.pinned_nodes()[3, 4] and not asked.pinned_nodes()[0, 0]
-    finish(work)
-
-    plain.step(4)
-    plain.push((0.0, 0.0, 0.4), duration=0.05, **_SPHERE)
-    plain.pin(3, 4)
-    plain.release(0, 0)
-    plain.pin(7, 0)
-    plain.move_pin(7, 0, (-0.5, -0.5, 1.3), speed=0.5)
-    for _ in range(3):
-        first, second = asked.snapshot(), plain.snapshot()
-        assert first.state_sha256 == second.state_sha256
-        assert np.array_equal(first.flags, second.flags)
-        asked.step(2)
-        plain.step(2)
-
-
-def test_changes_are_checked_when_they_are_asked_for(simulate):
-    """The reason of a refusal would come when nobody waits for it."""
-    simulation = simulate()
-    work = into_a_step(simulation)
-    for change, reason in (
-            (lambda: simulation.pin(99, 0), 'there is no node'),
-            (lambda: simulation.move_pin(4, 4, (0.0, 0.0, 1.0)), 'is free'),
-            (lambda: simulation.push((0.0, 0.0, 1.0), duration=-1.0), 'duration'),
-            (lambda: simulation.push(
-                (0.0, 0.0, 1.0), duration=1.0, region='sphere', center=(9.0, 0.0, 0.0),
-                radius=0.1), 'no free node')):
-        with pytest.raises(ClothSimError, match=reason):
-            change()
-    finish(work)
-    assert not simulation.pushes
-
-
-def test_pushes_are_cleared_but_not_those_that_come_after(simulate):
-    """A push would act on, or be gone that was asked for after the others were cleared."""
-    simulation = simulate()
-    simulation.push((0.0, 0.0, 1.0), duration=9.0)
-    work = into_a_step(simulation)
-    assert simulation.clear_pushes() == 1
-    simulation.push((0.0, 0.5, 0.0), duration=9.0)
-    finish(work)
-    assert [applied.push.force for applied in simulation.pushes] == [(0.0, 0.5, 0.0)]
-
-
-def test_closed_work_undoes_the_step(simulate):
-    """A reset would begin from half a step."""
-    simulation, plain = simulate(), simulate()
-    for each in (simulation, plain):
-        each.step(3)
-    before = plain.snapshot().state_sha256
-    work = into_a_step(simulation)
-    simulation.pin(3, 3)
-    work.close()
-    assert simulation.snapshot().state_sha256 == before
-    assert not simulation.pinned_nodes()[3, 3]
-    simulation.reset()
-    plain.reset()
-    simulation.step(4)
-    plain.step(4)
-    assert simulation.snapshot().state_sha256 == plain.snapshot().state_sha256
-
-
-def test_a_stop_keeps_what_was_asked_for_meanwhile(simulate):
-    """A release that could save the cloth would be lost with the step that failed."""
-    simulation = simulate()
-    simulation.push((0.0, 0.0, 1e30), duration=1.0)
-    simulation.stepping.aim_steps(5)
-    work = simulation.work(always)
-    next(work)
-    simulation.pin(3, 3)
-    simulation.push((0.0, 0.0, 0.1), duration=0.5)
-    with pytest.raises(NonFiniteStateError):
-        for _ in range(1000):
-            finish(work)
-            work = simulation.work(always)
-    assert simulation.pinned_nodes()[3, 3]
-    assert len(simulation.pushes) == 2
-
-
-def test_what_needs_a_whole_step_is_refused_within_one(simulate):
-    """The state would be replaced during a step that uses the old one."""
-    simulation = simulate()
-    work = into_a_step(simulation)
-    for change in (simulation.reset, lambda: simulation.step(1),
-                   lambda: simulation.set_mode('mass_spring')):
-        with pytest.raises(RuntimeError, match='needs the current step to end'):
-            change()
-    finish(work)
-    simulation.step(1)
+def forget(simulation: Simulation) -> None:
+    """Drop what the mode carries over from earlier steps, as an abandoned step does."""
+    simulation.engines.forget()
 
 
 def test_work_ends_when_it_is_due_and_goes_on_to_its_aim(simulate):
@@ -201,35 +134,143 @@ def test_work_ends_when_it_is_due_and_goes_on_to_its_aim(simulate):
     simulation.stepping.aim(0.055)
     made = []
     while simulation.stepping.is_behind:
-        finish(simulation.work(always))
+        simulation.work(lambda: True)
         made.append(simulation.steps)
     assert made == [1, 2, 3, 4, 5]
     simulation.stepping.aim(0.005)
     assert simulation.stepping.is_behind
-    finish(simulation.work(lambda: False))
+    simulation.work()
     assert simulation.steps == 6
 
 
-def test_changes_apply_at_the_end_of_their_step(context):
-    """A recorded change would have the time of an earlier step than the one that it ended."""
-    asked = Simulation(Scene({**SPRINGS, **_SCENE, 'mode': 'mass_spring'}), context=context)
-    plain = Simulation(Scene({**SPRINGS, **_SCENE, 'mode': 'mass_spring'}), context=context)
-    asked.stepping.aim_steps(6)
-    # Two substeps of the third step are made, and none of these steps has been checked.
-    left = 2 * asked.substeps + 2
-    calls = iter([False] * (left + 1) + [True] * 99)
-    work = asked.work(lambda: next(calls))
-    next(work)
-    assert asked.steps == 0
-    assert asked.stepping.edit_time == pytest.approx(0.03)
-    path = asked.move_pin(0, 0, (-0.5, 0.5, 1.2), speed=0.5)
-    assert path.begin == asked.stepping.edit_time
-    finish(work)
-    assert asked.steps == 3
-    plain.step(3)
-    plain.move_pin(0, 0, (-0.5, 0.5, 1.2), speed=0.5)
-    for each in (asked, plain):
-        each.step(4)
-    assert asked.snapshot().state_sha256 == plain.snapshot().state_sha256
-    for each in (asked, plain):
-        each.close()
+def test_who_is_asked_does_not_change_the_bits(simulate):
+    """A cloth would move otherwise in a node that is asked much."""
+    whole, asked = Busy(simulate(_BUSY)), Busy(simulate(_BUSY))
+    whole.cloth.step(6)
+    asked.cloth.stepping.aim_steps(6)
+    while asked.cloth.stepping.is_behind:
+        asked.cloth.work(lambda: True, StopAfter(1e9))
+        asked.cloth.nearest_node((0.0, 0.0, 0.0), max_distance=9.0)
+        asked.look()
+    assert asked.look() == whole.look()
+    assert asked.frames() == whole.frames()
+
+
+def test_steps_ask_often_whether_to_stop(simulate):
+    """A shutdown would wait for all steps of a frame, or for a step of many substeps."""
+    assert calls_of(Busy(simulate(_BUSY)).cloth, steps=4) >= 4 * 16
+    # Nothing acts here, so that steps are made in runs.
+    assert calls_of(simulate(), steps=4) >= 4
+
+
+def test_an_abandoned_step_leaves_all_as_it_was(simulate):
+    """What is shown or recorded last would be half a step, or forces of one that never was."""
+    cut, twin = Busy(simulate(_BUSY)), Busy(simulate(_BUSY))
+    # The first time, each program is run by itself, with a question after it.
+    calls_of(cut.cloth, steps=9)
+    cut.begin_again()
+    calls = calls_of(cut.cloth, steps=9)
+    ends = set()
+    for after in np.linspace(0, calls - 1, 7).astype(int):
+        cut.begin_again()
+        abandon(cut.cloth, steps=9, after=int(after))
+        twin.begin_again()
+        twin.cloth.step(cut.cloth.steps - 3)
+        forget(twin.cloth)
+        ends.add(cut.cloth.steps)
+        assert cut.look() == twin.look(), after
+        assert cut.frames() == twin.frames(), after
+        # It goes on to the same bits.
+        for each in (cut, twin):
+            each.cloth.step(7)
+        assert cut.look() == twin.look(), after
+        assert cut.frames() == twin.frames(), after
+    # Those that were checked before are kept.
+    assert min(ends) == 3 and (max(ends) > 3 or len(ends) == 1)
+
+
+@pytest.mark.parametrize('error', [KeyboardInterrupt, MemoryError])
+def test_an_error_within_a_step_leaves_all_as_it_was(simulate, error):
+    """A program that handles Ctrl-C would continue with half a step."""
+    cut, twin = Busy(simulate(_BUSY)), Busy(simulate(_BUSY))
+    abandon(cut.cloth, steps=2, after=9, error=error)
+    forget(twin.cloth)
+    assert cut.look() == twin.look()
+    for each in (cut, twin):
+        each.cloth.step(7)
+    assert cut.look() == twin.look() and cut.frames() == twin.frames()
+
+
+def test_an_abandoned_step_can_be_abandoned_again(simulate):
+    """The second time, the state would go back too far."""
+    cut, twin = Busy(simulate(_BUSY)), Busy(simulate(_BUSY))
+    for after in (0, 9, 30, 5):
+        abandon(cut.cloth, steps=2, after=after)
+    forget(twin.cloth)
+    assert cut.look() == twin.look()
+    assert cut.frames() == twin.frames()
+
+
+def test_inputs_after_an_abandoned_step_act_from_its_begin(simulate):
+    """A reset or another mode would begin from half a step."""
+    cut, twin = Busy(simulate(_BUSY)), Busy(simulate(_BUSY))
+    abandon(cut.cloth, steps=2, after=9)
+    forget(twin.cloth)
+    for each in (cut, twin):
+        each.cloth.pin(3, 3)
+        each.cloth.push((0.0, 0.0, 0.1), duration=0.05)
+        each.cloth.release_grasp('hand')
+        each.cloth.set_mode('mass_spring')
+        each.cloth.step(4)
+    assert cut.look() == twin.look()
+    for each in (cut, twin):
+        each.begin_again()
+        each.cloth.step(4)
+    assert cut.look() == twin.look()
+
+
+def test_abandoned_steps_are_not_made_up_for(simulate):
+    """The next advance would make the steps of the last one, too."""
+    simulation = simulate()
+    abandon(simulation, steps=50, after=1)
+    assert not simulation.stepping.is_behind
+    before = simulation.steps
+    assert simulation.advance(0.02) == 2 and simulation.steps == before + 2
+
+
+class _Releases(InputListener):
+    def __init__(self) -> None:
+        self.names: list[str] = []
+
+    def accept(self, given, time):
+        self.names.append(given.name)
+
+
+def test_a_grasp_is_not_lost_in_an_abandoned_step(simulate):
+    """A gripper would let go because of a pull that never was."""
+    simulation = simulate()
+    simulation.grasp('weak', simulation.positions()[7, 4].astype(float), max_force=0.01)
+    simulation.listener = _Releases()
+    # Its frame has moved in the steps before the one in which the cloth pulls too hard.
+    abandon(simulation, steps=30, after=1)
+    assert [grasp.name for grasp in simulation.grasps] == ['weak']
+    assert simulation.listener.names == []
+    simulation.step(30)
+    assert simulation.grasps == () and simulation.listener.names == ['weak']
+
+
+@pytest.mark.parametrize('argument', ['is_due', 'stop'])
+def test_what_is_asked_must_be_a_function(context, argument):
+    """A run would end in a TypeError, with its aim kept."""
+    with Simulation(Scene(_SCENE), context=context) as simulation:
+        with pytest.raises(ClothSimError, match=f'{argument} must be a function'):
+            simulation.work(**{argument: 3})
+
+
+def test_a_stop_that_asks_at_once_makes_no_step(simulate):
+    """A node that ends would make one more step, of any length."""
+    simulation = simulate()
+    simulation.stepping.aim_steps(1)
+    with pytest.raises(StepAbandoned):
+        simulation.work(stop=lambda: True)
+    assert simulation.steps == 0

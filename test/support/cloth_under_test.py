@@ -158,7 +158,7 @@ class ClothUnderTest:
         self.clear()
         assert self.call(Trigger, 'reset').success
         self.frame(0)
-        self.client.spin_until(lambda: self['state'] and self['stats'], 'the reset is told')
+        self.client.spin_until(lambda: self['state'] and self['stats'], 'the reset is reported')
         # What a run before it has published may still stand in the queues.
         self.client.spin_until_quiet()
         self.clear()

@@ -15,6 +15,7 @@ _MASKED = np.ma.masked_invalid([math.nan, 0.0, 0.0])
 HOSTILE: dict[str, Any] = {
     'None': None, 'True': True, 'numpy True': np.True_, 'minus one': -1, 'one and a half': 1.5,
     'float of a whole number': 2.0, 'nan': math.nan, 'infinite': math.inf,
+    'minus infinite': -math.inf,
     'huge float': 1.7e308, 'int beyond int64': 2**64, 'int beyond floats': 10**400,
     'int beyond text': 10**5000, 'numpy int': np.int64(2**62), 'numpy nan': np.float32('nan'),
     'complex': 1j, 'Decimal': Decimal('0.5'), 'Decimal nan': Decimal('nan'),

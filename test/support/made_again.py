@@ -14,9 +14,12 @@ from cloth_sim_ros.node.node_fields import NODE_FIELDS
 from cloth_sim_ros.resimulation.input_replay import Listener
 from cloth_sim_ros.resimulation.recorded_run import RecordedRun
 from cloth_sim_ros.resimulation.rerun import Rerun
+from cloth_sim_ros.sim.inputs import InputListener
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.simulation import Simulation
 from cloth_sim_ros.verb.resimulated_recording import ResimulatedRecording
+import numpy as np
+from rclpy.serialization import serialize_message
 
 
 @contextmanager
@@ -44,7 +47,7 @@ def assert_same(path: str | Path, frames: int | None = None, node: str = 'cloth_
 
 class Director:
     """
-    Does things to a simulation and records them, as a node does; a context manager.
+    Records what is done to ``simulation``, as a node does; a context manager.
 
     :param values: of the scene
     :param before: what is done before the recording begins
@@ -61,6 +64,7 @@ class Director:
             self.simulation, node_values, str(directory), 'cloth_sim')
         self._recording.begin()
         self._recording.frame(0.0, 0.0)
+        self.simulation.listener = self._recording
         self.frames = 1
         self.path = Path(self._recording.path)
 
@@ -75,7 +79,8 @@ class Director:
 
     def send(self, key: str, message: Any) -> None:
         """Record any message at the present moment."""
-        self._recording.recording.send_message(key, message, self.simulation.time)
+        self._recording.recording._session.write(
+            key, serialize_message(message), self.simulation.time)
 
     def step(self, steps: int) -> None:
         """Make steps, and a frame of their end."""
@@ -83,44 +88,14 @@ class Director:
         self.frames += 1
         self._recording.frame(1e-3, 1.0)
 
-    def push(self, force: tuple[float, float, float], **request: Any) -> None:
-        """Push."""
-        self._recording.push(self.simulation.push(force, **request).push)
-
-    def pin(self, row: int, col: int) -> None:
-        """Pin a node."""
-        self.simulation.pin(row, col)
-        self._recording.pin(row, col, True)
-
-    def release(self, row: int, col: int) -> None:
-        """Release a node."""
-        self.simulation.release(row, col)
-        self._recording.pin(row, col, False)
-
-    def move_pin(
-            self, row: int, col: int, target: tuple[float, float, float], speed: float) -> None:
-        """Let a pin set off."""
-        self._recording.pin_target(self.simulation.move_pin(row, col, target, speed).move)
-
-    def set_wind(self, velocity: tuple[float, float, float]) -> None:
-        """Let another wind blow."""
-        self.simulation.set_wind(velocity)
-        self._recording.wind(velocity)
-
-    def set_mode(self, mode: str) -> None:
-        """Switch the mode."""
-        previous = self.simulation.set_mode(mode)
-        if mode != previous:
-            self._recording.mode(mode, previous)
-
-    def clear_pushes(self) -> None:
-        """End all pushes."""
-        self._recording.command('clear_pushes')
-        self.simulation.clear_pushes()
+    def set_state_unrecorded(self, positions: np.ndarray, velocities: np.ndarray) -> None:
+        """Replace the state, of which no recording tells."""
+        self.simulation.listener = InputListener()
+        self.simulation.set_state(positions, velocities)
+        self.simulation.listener = self._recording
 
     def reset(self) -> None:
         """Go back to the start, and show that."""
-        self._recording.command('reset')
         self.simulation.reset()
         self.step(0)
 

@@ -72,7 +72,7 @@ class NodeProcess:
 
     @property
     def running(self) -> bool:
-        """Tell whether the process is there."""
+        """Return whether the process is there."""
         return self._process.poll() is None
 
     def send(self, number: signal.Signals) -> None:

@@ -10,12 +10,13 @@ from pathlib import Path
 from cloth_sim_ros.analysis.frame import Frame
 from cloth_sim_ros.messages.frame import PointsMessage
 from cloth_sim_ros.messages.frame import stats_message
-from cloth_sim_ros.messages.inputs import command_message
-from cloth_sim_ros.messages.inputs import mode_message
-from cloth_sim_ros.messages.inputs import pin_message
-from cloth_sim_ros.messages.inputs import push_message
+from cloth_sim_ros.messages.inputs import input_message
 from cloth_sim_ros.messages.state import state_message
 from cloth_sim_ros.recording.recorder import Recorder
+from cloth_sim_ros.sim.inputs import PushNodes
+from cloth_sim_ros.sim.inputs import Reset
+from cloth_sim_ros.sim.inputs import SetMode
+from cloth_sim_ros.sim.inputs import Unpin
 from cloth_sim_ros.sim.push import Push
 from cloth_sim_ros.sim.snapshot import FLAG_PINNED
 from cloth_sim_ros.sim.snapshot import POINT_DTYPE
@@ -50,6 +51,9 @@ def known(tmp_path_factory: pytest.TempPathFactory) -> Known:
         data = message if isinstance(message, bytes) else serialize_message(message)
         recorder.write(key, data, time + offset)
 
+    def write_input(given, time):
+        write(*input_message(given, time, 'world'), time)
+
     def write_frame(number, offset=0.0):
         made = make_snapshot(
             ROWS, COLS, time=number / 50, max_strain=0.01 * number, kinetic_energy=float(number))
@@ -64,18 +68,18 @@ def known(tmp_path_factory: pytest.TempPathFactory) -> Known:
         frame_id='world', sim_time=0.0, mode='mass_spring', available_modes=['mass_spring'],
         run_state='running', rows=ROWS, cols=COLS, dt=0.005, substeps=3, stability_limit=0.002,
         device='a device'), 0.0)
-    write('inputs/mode', mode_message('mass_spring', '', 0.0, 'world'), 0.0)
+    write_input(SetMode('mass_spring'), 0.0)
     for number in range(FRAMES):
         time = number / 50
         write_frame(number)
         if number == 5:
-            write('inputs/push', push_message(PUSH, time, 'world'), time)
+            write_input(PushNodes(PUSH), time)
         if number == 10:
-            write('inputs/pin', pin_message(0, 0, False, time, 'world'), time)
+            write_input(Unpin(0, 0), time)
         if number == 15:
-            write('inputs/push', push_message(LATE_PUSH, time, 'world'), time)
+            write_input(PushNodes(LATE_PUSH), time)
     end = (FRAMES - 1) / 50
-    write('inputs/command', command_message('reset', end, 'world'), end)
+    write_input(Reset(), end)
     for number in range(AFTER_RESET):
         write_frame(number, end)
     recorder.close()

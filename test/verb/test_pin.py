@@ -12,7 +12,7 @@ def test_pins_and_releases(verb, cloth):
     assert (result.returncode, result.stdout) == (0, 'node (5, 3) is pinned\n')
     result = verb('pin', '5', '3', '--release')
     assert (result.returncode, result.stdout) == (0, 'node (5, 3) is free\n')
-    told = cloth.client.spin_until(lambda: cloth['inputs/pin'][1:], 'both are told')
+    told = cloth.client.spin_until(lambda: cloth['inputs/pin'][1:], 'both are published')
     assert not told[0].pinned
 
 
@@ -44,7 +44,7 @@ def test_moves(verb, cloth):
     assert (result.returncode, result.stdout) == (
         0, 'node (0, 0), 0.050 m from the point, moves to (-0.45, 0.35, 1.5) and arrives at '
            '0.5 s\n')
-    told = cloth.client.spin_until(lambda: cloth['inputs/pin_target'][1:], 'both are told')
+    told = cloth.client.spin_until(lambda: cloth['inputs/pin_target'][1:], 'both are published')
     assert told[0].speed == 1.0
 
 

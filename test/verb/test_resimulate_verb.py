@@ -32,8 +32,8 @@ def bag(tmp_path) -> Path:
     """Record a short run with a push and a switch of the mode."""
     with Director(tmp_path, SCENE) as director:
         director.step(4)
-        director.push((0.0, 0.0, 1.0), duration=0.1)
-        director.set_mode('adaptive')
+        director.simulation.push((0.0, 0.0, 1.0), duration=0.1)
+        director.simulation.set_mode('adaptive')
         director.step(6)
     return director.path
 
@@ -100,7 +100,7 @@ def test_a_run_that_does_not_come_out_again_is_a_failure(tmp_path, again):
         now = director.simulation.snapshot()
         positions = now.positions.copy()
         positions[2, 3, 1] += 1.0
-        director.simulation.set_state(positions, now.velocities)  # which no recording tells
+        director.set_state_unrecorded(positions, now.velocities)
         director.step(0)
     code, lines, _ = again(director.path)
     assert code == 1

@@ -38,7 +38,7 @@ def test_a_browser_draws_the_cloth_and_steers_it(tmp_path: Path):
 
 
 def _has_cloth(picture: bytes) -> bool:
-    """Tell whether some of the left half is bluish, as the cloth is where it hardly stretches."""
+    """Return whether some of the left half is bluish, as a cloth that hardly stretches is."""
     pixels = np.asarray(Image.open(io.BytesIO(picture)).convert('RGB')).astype(int)
     red, _, blue = np.moveaxis(pixels[:, :pixels.shape[1] // 2], -1, 0)
     return float((blue - red > 5).mean()) > 0.01

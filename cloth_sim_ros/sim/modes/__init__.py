@@ -6,12 +6,16 @@
 from cloth_sim_ros.sim.modes.adaptive import Adaptive
 from cloth_sim_ros.sim.modes.constraint import Constraint
 from cloth_sim_ros.sim.modes.mass_spring import MassSpring
-from cloth_sim_ros.sim.modes.mode import finish
 from cloth_sim_ros.sim.modes.mode import Mode
-from cloth_sim_ros.sim.modes.mode import Pieces
-from cloth_sim_ros.sim.modes.mode import Steps
+from cloth_sim_ros.sim.modes.paper import paper_mode
+from cloth_sim_ros.sim.scene import Scene
 
-__all__ = ('AVAILABLE', 'Mode', 'Pieces', 'Steps', 'finish')
+__all__ = ('AVAILABLE', 'Mode', 'mode_for')
 
 AVAILABLE: dict[str, type[Mode]] = {
     mode.name: mode for mode in (MassSpring, Constraint, Adaptive)}
+
+
+def mode_for(name: str, scene: Scene) -> type[Mode]:
+    """Return the class of the mode ``name``, in the form that ``scene`` asks for."""
+    return paper_mode(name, scene) or AVAILABLE[name]

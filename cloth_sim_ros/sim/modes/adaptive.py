@@ -6,6 +6,7 @@
 from collections.abc import Collection
 import math
 from typing import Any
+from typing import Protocol
 
 from cloth_sim_ros.gl.buffer import Buffer
 from cloth_sim_ros.gl.buffer import shader_writes_visible
@@ -18,18 +19,18 @@ from cloth_sim_ros.sim.modes.edge_watch import StrainWatch
 from cloth_sim_ros.sim.modes.implicit import ImplicitStep
 from cloth_sim_ros.sim.modes.mass_spring import OnePass
 from cloth_sim_ros.sim.modes.mode import CHECKED_SUBSTEPS
-from cloth_sim_ros.sim.modes.mode import Pieces
-from cloth_sim_ros.sim.modes.paper_limit import PaperLimit
 from cloth_sim_ros.sim.pin_forces import spring_tension
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.scene_program import SceneProgram
-from cloth_sim_ros.sim.solver.edge_law import BETA
 from cloth_sim_ros.sim.solver.edge_law import edge_law
 from cloth_sim_ros.sim.solver.edge_law import EdgeLaw
 from cloth_sim_ros.sim.solver.edge_law import spring_law
 from cloth_sim_ros.sim.stability import spring_substeps
 from cloth_sim_ros.sim.stability import stability_limit
 from cloth_sim_ros.sim.state import State
+from cloth_sim_ros.sim.stop import leave_if
+from cloth_sim_ros.sim.stop import never
+from cloth_sim_ros.sim.stop import Stop
 import numpy as np
 
 # Bend springs may bend as far as they like: it is not a strain of the cloth.
@@ -55,8 +56,7 @@ def transition_of(scene: Scene) -> float:
 
 def onset_of(scene: Scene) -> float:
     """Return the strain from which on the limit pulls."""
-    has_kink = scene['adaptive.scheme'] == 'paper'
-    return scene['adaptive.threshold'] - (0.0 if has_kink else transition_of(scene))
+    return float(scene['adaptive.threshold'] - transition_of(scene))
 
 
 class LimitedSprings(ImplicitStep):
@@ -81,7 +81,7 @@ class LimitedSprings(ImplicitStep):
 
     @property
     def is_settling(self) -> bool:
-        """Tell whether the limit that holds now is a wider one."""
+        """Return whether the limit that holds now is a wider one."""
         return self._limit(self.settling.limit) > self.strain_bound
 
     def law(self, length: float, settling: float) -> EdgeLaw:
@@ -90,7 +90,7 @@ class LimitedSprings(ImplicitStep):
             self._scene, length, springs=self._families, limited=LIMITED,
             limit=self._limit(settling),
             strain=strain_past_limit(self._scene), transition=transition_of(self._scene),
-            geometric=BETA if self._solves > 1 else 0.0)
+            geometric=self._newton.beta)
 
     def spend_calm(self, seconds: float) -> None:
         """Go on by ``seconds`` in which no edge came near its limit."""
@@ -121,12 +121,16 @@ _FADING_STEPS = 8
 
 
 class LimitMarks:
-    """The marks of limit_mark.comp; nothing is done for a cloth that has none."""
+    """
+    The marks of limit_mark.comp; nothing is done for a cloth that has none.
 
-    def __init__(self, scene: Scene, layout: Layout) -> None:
+    :param onset: strain from which on the limit pulls
+    """
+
+    def __init__(self, scene: Scene, layout: Layout, onset: float) -> None:
         """Allocate the marks; the pass is compiled when it is first needed."""
         self._layout = layout
-        self._onset = onset_of(scene)
+        self._onset = onset
         self._program = SceneProgram('limit_mark.comp', scene, layout, {
             'LOCAL_X': _LOCAL[0], 'LOCAL_Y': _LOCAL[1]})
         self._groups = -(-layout.cols // _LOCAL[0]), -(-layout.rows // _LOCAL[1])
@@ -141,7 +145,7 @@ class LimitMarks:
 
     @property
     def are_empty(self) -> bool:
-        """Tell whether no edge is engaged, nor was one a step before."""
+        """Return whether no edge is engaged, nor was one a step before."""
         return self._fading == 0
 
     def update(self, state: State, *, some: bool) -> None:
@@ -180,7 +184,7 @@ class LimitMarks:
         self._clear()
 
     def delete(self) -> None:
-        """Give pass and marks back."""
+        """Release pass and marks."""
         self.buffer.delete()
         self._program.delete()
 
@@ -199,11 +203,67 @@ _NOTHING = 1e-9
 _NEAR, _FAR = 0.9, 8.0 / 9.0
 
 
+class LimitedSubsteps(Protocol):
+    """
+    What makes substeps while edges are at their limit; see ImplicitStep and LimitedSprings.
+
+    ``substeps`` are those of the last ``advance``, ``last_length`` is that of the last one [s].
+    """
+
+    substeps: int
+    last_length: float
+    stability_limit: float
+    substep_margin: float
+
+    @property
+    def strain_bound(self) -> float:
+        """Get the strain limit."""
+
+    def energy_law(self, state: State) -> EdgeLaw:
+        """Return the law by which the edges of ``state`` store energy."""
+
+    def pulls_in(self, state: State) -> bool:
+        """Return whether the limit pulls at some edge of a new ``state``."""
+
+    def advance(
+            self, state: State, begin: float, seconds: float, loads: Loads,
+            stop: Stop = never) -> None:
+        """Step ``state`` on by ``seconds``."""
+
+    def run_all_passes(self, state: State, loads: Loads, stop: Stop = never) -> None:
+        """Make a substep of a ``state`` that nobody needs."""
+
+    def resume(self, last_length: float) -> None:
+        """Go on after explicit substeps, the last of ``last_length`` [s]."""
+
+    def spend_calm(self, seconds: float) -> None:
+        """Go on by ``seconds`` in which no edge came near its limit."""
+
+    def clear_tally(self) -> None:
+        """Begin to count solves anew."""
+
+    def report(self) -> dict[str, Any]:
+        """Return how the solves of the last dt ended."""
+
+    def settling_report(self) -> dict[str, Any]:
+        """Return whether a limit has closed in during the last dt, and the work it has done."""
+
+    def tension(
+            self, positions: np.ndarray, velocities: np.ndarray,
+            nodes: np.ndarray | None = None) -> np.ndarray:
+        """Return the tension of every edge [N]."""
+
+    def forget(self) -> None:
+        """Take the next state as it comes."""
+
+    def delete(self) -> None:
+        """Release everything."""
+
+
 class Adaptive:
     """
-    Explicit mass-spring substeps while no edge comes near its limit, limited ones while some do.
+    Explicit mass-spring substeps while no edge comes near its limit, implicit ones while some do.
 
-    The limited ones are those of the implicit step, or those of the paper: ``adaptive.scheme``.
     ``substeps`` are those of the last step.
     """
 
@@ -221,17 +281,29 @@ class Adaptive:
         self._length = self._dt / self.substeps
         self._fewest_substeps = self.substeps
         self._springs = OnePass(scene, layout)
-        self._near = min(_NEAR * scene['adaptive.threshold'], onset_of(scene))
+        onset = self.onset(scene)
+        self._near = min(_NEAR * scene['adaptive.threshold'], onset)
         self._watch = StrainWatch(scene, layout, self._near)
-        self._limit: LimitedSprings | PaperLimit = (
-            PaperLimit(scene, layout, self._length)
-            if scene['adaptive.scheme'] == 'paper'
-            else LimitedSprings(scene, layout, scene.families))
-        self._marks = LimitMarks(scene, layout)
+        self._limit = self.make_limit(scene, layout, self._length)
+        self._marks = LimitMarks(scene, layout, onset)
         # The last substep was a limited one; some of the last step were.
         self._is_limited = self._made_limited = False
         # Length of the last substep [s]; 0 where none was.
         self._before = 0.0
+
+    @staticmethod
+    def onset(scene: Scene) -> float:
+        """Return the strain from which on the limit pulls."""
+        return onset_of(scene)
+
+    @staticmethod
+    def make_limit(scene: Scene, layout: Layout, length: float) -> LimitedSubsteps:
+        """
+        Compile and return what makes the limited substeps.
+
+        :param length: of an explicit substep [s]
+        """
+        return LimitedSprings(scene, layout, scene.families)
 
     @staticmethod
     def edge_model(scene: Scene) -> str:
@@ -272,7 +344,7 @@ class Adaptive:
         """Return the strain limit."""
         return self._limit.strain_bound
 
-    def step(self, state: State, begin: float, loads: Loads) -> Pieces:
+    def step(self, state: State, begin: float, loads: Loads, stop: Stop = never) -> None:
         """Step ``state`` on by one dt."""
         self._limit.clear_tally()
         self._made_limited = False
@@ -286,13 +358,13 @@ class Adaptive:
                 calm = min(count, self._watch.calm_substeps(state, now, length, loads))
             if calm:
                 self._is_limited = False
-                yield from self._spring_substeps(state, now, length, calm, loads)
+                self._spring_substeps(state, now, length, calm, loads, stop)
                 self._watch.spend(calm)
                 self._limit.spend_calm(calm * length)
                 done += calm * length
                 substeps += calm
             else:
-                yield from self._limited_substeps(state, now, left, loads)
+                self._limited_substeps(state, now, left, loads, stop)
                 done += left
                 substeps += self._limit.substeps
         self.substeps = substeps
@@ -303,15 +375,14 @@ class Adaptive:
         """Return 0: each step goes by what the one before has found."""
         return 0
 
-    def run_all_passes(self, state: State, loads: Loads) -> Pieces:
+    def run_all_passes(self, state: State, loads: Loads, stop: Stop = never) -> None:
         """Make substeps with and without limit of a ``state`` that nobody needs."""
         self._watch.strains(state, loads.still, self._length)
-        yield
+        leave_if(stop)
         self._springs.substep(state, loads.still, self._length, self._length)
-        yield
-        yield from self._limit.run_all_passes(state, loads)
+        leave_if(stop)
+        self._limit.run_all_passes(state, loads, stop)
         self._marks.update(state, some=True)
-        yield
         self.forget()
 
     def forget(self) -> None:
@@ -341,7 +412,7 @@ class Adaptive:
         return spring_tension(self._scene, positions, velocities, nodes)
 
     def delete(self) -> None:
-        """Give everything back."""
+        """Release everything."""
         for part in (self._springs, self._watch, self._limit, self._marks):
             part.delete()
 
@@ -354,8 +425,9 @@ class Adaptive:
 
     def _spring_substeps(
             self, state: State, now: float, length: float, count: int,
-            loads: Loads) -> Pieces:
+            loads: Loads, stop: Stop) -> None:
         for index in range(count):
+            leave_if(stop)
             start = now + index * length
             # A velocity belongs to the middle of its substep, so forces act from there to the
             # next.
@@ -365,12 +437,11 @@ class Adaptive:
             self._springs.substep(
                 state, loads.forcing(state, start, start + length, kick), length, kick)
             self._before = length
-            yield
 
     def _limited_substeps(
-            self, state: State, now: float, left: float, loads: Loads) -> Pieces:
+            self, state: State, now: float, left: float, loads: Loads, stop: Stop) -> None:
         if not self._is_limited:
             self._limit.resume(self._before)
         self._is_limited = self._made_limited = True
-        yield from self._limit.advance(state, now, left, loads)
+        self._limit.advance(state, now, left, loads, stop)
         self._before = self._limit.last_length

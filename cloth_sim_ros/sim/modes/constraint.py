@@ -10,7 +10,6 @@ from cloth_sim_ros.gl.buffer import Buffer
 from cloth_sim_ros.sim.layout import Layout
 from cloth_sim_ros.sim.modes.implicit import ImplicitStep
 from cloth_sim_ros.sim.scene import Scene
-from cloth_sim_ros.sim.solver.edge_law import BETA
 from cloth_sim_ros.sim.solver.edge_law import edge_law
 from cloth_sim_ros.sim.solver.edge_law import EdgeLaw
 
@@ -41,9 +40,7 @@ class Constraint(ImplicitStep):
         """Return the law of hard edges, or that of springs with a limit that closes in on them."""
         hard, springs = self._scene['constraint.hard'], self._scene['constraint.springs']
         common = {
-            'strain': self._scene['constraint.strain'],
-            # The paper's method, one solve, is without.
-            'geometric': BETA if self._solves > 1 else 0.0}
+            'strain': self._scene['constraint.strain'], 'geometric': self._newton.beta}
         if settling:
             return edge_law(
                 self._scene, length, springs={*hard, *springs}, limited=hard, limit=settling,

@@ -73,7 +73,7 @@ class StrainWatch:
         return float(now), float(then)
 
     def delete(self) -> None:
-        """Give pass and result back."""
+        """Release pass and result."""
         self._strips.delete()
         self._program.delete()
 
@@ -138,6 +138,6 @@ class TurnWatch:
         return longest, float(strains.max())
 
     def delete(self) -> None:
-        """Give pass and room back."""
+        """Release pass and room."""
         self._strips.delete()
         self._program.delete()

@@ -69,7 +69,7 @@ class FreeMotion:
             self._centre = (self._centre + offset).astype(np.float32)
 
     def delete(self) -> None:
-        """Give passes and room back."""
+        """Release passes and room."""
         self._strips.delete()
         self._sums.delete()
         self._add.delete()

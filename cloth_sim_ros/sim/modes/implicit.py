@@ -5,11 +5,9 @@
 
 from abc import ABC
 from abc import abstractmethod
-from collections.abc import Callable
 from collections.abc import Collection
-from collections.abc import Generator
+from dataclasses import dataclass
 from dataclasses import replace
-from functools import partial
 import math
 from typing import Any
 
@@ -19,13 +17,16 @@ from cloth_sim_ros.sim.loads import Loads
 from cloth_sim_ros.sim.modes.edge_watch import TurnWatch
 from cloth_sim_ros.sim.modes.free_motion import FreeMotion
 from cloth_sim_ros.sim.modes.mode import CHECKED_SUBSTEPS
-from cloth_sim_ros.sim.modes.mode import Pieces
 from cloth_sim_ros.sim.observer import Observer
 from cloth_sim_ros.sim.scene import FAMILIES
 from cloth_sim_ros.sim.scene import Scene
+from cloth_sim_ros.sim.solver.edge_law import BETA
 from cloth_sim_ros.sim.solver.edge_law import EdgeLaw
 from cloth_sim_ros.sim.solver.solver import Solver
 from cloth_sim_ros.sim.state import State
+from cloth_sim_ros.sim.stop import leave_if
+from cloth_sim_ros.sim.stop import never
+from cloth_sim_ros.sim.stop import Stop
 import numpy as np
 
 # [s]: slowly beside the time in which a cloth of a metre falls.
@@ -96,6 +97,21 @@ _MOST_CONTACT_SOLVES = 8
 _MOST_CONTACT_TURNS = 4
 
 
+@dataclass(frozen=True)
+class Newton:
+    """
+    How Newton's method is applied in a substep (docs/explanation/implicit_step.md).
+
+    :param solves: linear solves, each with the lengths that the one before has found
+    :param foresees_turn: whether the first one allows for how much longer edges get by turning
+    :param beta: share of the geometric stiffness of an edge [1]
+    """
+
+    solves: int
+    foresees_turn: bool = True
+    beta: float = BETA
+
+
 class ImplicitStep(ABC):
     """
     The implicit step of docs/explanation/implicit_step.md, for any edge law; a base class.
@@ -119,11 +135,11 @@ class ImplicitStep(ABC):
         families = tuple(family for family in FAMILIES if family in families)
         self._scene = scene
         self._dt: float = scene['dt']
-        self._solves: int = scene['constraint.newton_iterations']
+        self._newton = self.newton(scene)
         self._solver = Solver(
             scene, layout, families=families, preconditioner=scene['solver.preconditioner'],
             tolerance=scene['solver.tolerance'], max_iterations=scene['solver.max_iterations'],
-            foresees_turn=self._solves > 1)
+            foresees_turn=self._newton.foresees_turn)
         self._watch = TurnWatch(scene, layout, families)
         self._free_motion = FreeMotion(scene, layout)
         self.settling = Settling(notable)
@@ -133,6 +149,11 @@ class ImplicitStep(ABC):
         # Where the substep under way leaves its entries of held.glsl; below 0: nowhere.
         self._held_at = -1
         self.forget()
+
+    @staticmethod
+    def newton(scene: Scene) -> Newton:
+        """Return how Newton's method is applied."""
+        return Newton(scene['constraint.newton_iterations'])
 
     @staticmethod
     def check(scene: Scene, *, check_stability: bool = True) -> None:
@@ -158,12 +179,14 @@ class ImplicitStep(ABC):
         """Return the largest strain of structural and shear edges."""
         return self._watch.look(state, _NO_FORCING, self._dt)[1]
 
-    def step(self, state: State, begin: float, loads: Loads) -> Pieces:
+    def step(self, state: State, begin: float, loads: Loads, stop: Stop = never) -> None:
         """Step ``state`` on by one dt."""
         self.clear_tally()
-        yield from self.advance(state, begin, self._dt, loads)
+        self.advance(state, begin, self._dt, loads, stop)
 
-    def advance(self, state: State, begin: float, seconds: float, loads: Loads) -> Pieces:
+    def advance(
+            self, state: State, begin: float, seconds: float, loads: Loads,
+            stop: Stop = never) -> None:
         """Step ``state`` on by ``seconds``, one dt or what is left of it."""
         self._choose_substeps(
             state, loads.forcing(state, begin, begin + seconds), seconds,
@@ -178,21 +201,18 @@ class ImplicitStep(ABC):
             # A velocity belongs to the middle of its substep, so forces act from there to the
             # next.
             kick = 0.5 * ((self.last_length or length) + length)
-            forcing_of = partial(loads.forcing, state, start, start + length, kick)
-            touch = forcing_of().touch
+            forcing = loads.forcing(state, start, start + length, kick)
+            touch = forcing.touch
             if touch is not None:
                 touch.begin_substep()
-                self._solver.meet_colliders(state, forcing_of(), kick)
-                yield
+                self._solver.meet_colliders(state, forcing, kick)
             # What a collider holds has no momentum of its own.
             if is_held or (touch is not None and touch.is_touched()):
                 self._free_motion.forget()
-                yield from self._substep(state, forcing_of, kick)
+                self._substep(state, forcing, kick, stop)
             else:
-                forcing = forcing_of()
                 self._free_motion.aim_at(state, forcing, loads.still, kick)
-                yield from self._substep(
-                    state, lambda: _uneven(forcing_of()), kick, _common(forcing, kick))
+                self._substep(state, _uneven(forcing), kick, stop, _common(forcing, kick))
                 if touch is not None and touch.is_touched():
                     self._free_motion.forget()
                 else:
@@ -205,25 +225,24 @@ class ImplicitStep(ABC):
         """Return 0: each step goes by what the one before has found."""
         return 0
 
-    def run_all_passes(self, state: State, loads: Loads) -> Pieces:
+    def run_all_passes(self, state: State, loads: Loads, stop: Stop = never) -> None:
         """Make a substep of a ``state`` that nobody needs, held and free."""
         still = loads.still
         self._watch.look(state, still, self._dt)
-        yield
+        leave_if(stop)
         self._solver.set_law(self._present_law(self._dt))
         if still.touch is not None:
             self._solver.meet_colliders(state, still, self._dt)
-            yield
+            leave_if(stop)
         self._free_motion.aim_at(state, still, still, self._dt)
-        yield
+        leave_if(stop)
         self._held_at = state.next_held_entry()
-        yield from self._substep(state, lambda: still, self._dt)
+        self._substep(state, still, self._dt, stop)
         # Hard edges of a cloth that comes stretched have limits for a while, too.
         self._solver.run_search(state)
-        yield
+        leave_if(stop)
         self._free_motion.restore(state, still, self._dt)
         self._stored(state, 0.0)
-        yield
         self.forget()
 
     def forget(self) -> None:
@@ -271,7 +290,7 @@ class ImplicitStep(ABC):
 
     @property
     def is_settling(self) -> bool:
-        """Tell whether edges have a wider limit than their own yet."""
+        """Return whether edges have a wider limit than their own yet."""
         return self.settling.limit > 0.0
 
     def tension(
@@ -281,7 +300,7 @@ class ImplicitStep(ABC):
         return self._solver.tensions()
 
     def delete(self) -> None:
-        """Give everything back."""
+        """Release everything."""
         self._solver.delete()
         self._watch.delete()
         self._free_motion.delete()
@@ -326,23 +345,20 @@ class ImplicitStep(ABC):
             seconds / self.substeps / max(longest, 1e-30), _LARGEST_MARGIN)
 
     def _substep(
-            self, state: State, forcing_of: Callable[[], Forcing], kick: float,
-            common_change: tuple[float, float, float] = (0.0, 0.0, 0.0)) -> Pieces:
-        yield from self._solve(state, forcing_of, kick=kick)
+            self, state: State, forcing: Forcing, kick: float, stop: Stop,
+            common_change: tuple[float, float, float] = (0.0, 0.0, 0.0)) -> None:
+        self._solve(state, forcing, stop, kick=kick)
         self._solver.apply(state, common_change=common_change)
-        yield
-        is_due = self._resolve_contacts(state, forcing_of(), 1)
+        is_due = self._resolve_contacts(state, forcing, 1)
         solves = 1
-        while solves < self._solves or (is_due and solves < _MOST_CONTACT_SOLVES):
-            if not (yield from self._solve(state, forcing_of, kick=kick, is_further=True)):
+        while solves < self._newton.solves or (is_due and solves < _MOST_CONTACT_SOLVES):
+            if not self._solve(state, forcing, stop, kick=kick, is_further=True):
                 break
             self._solver.apply(state, further=True)
-            yield
             solves += 1
-            is_due = self._resolve_contacts(state, forcing_of(), solves)
-        if forcing_of().touch is not None:
-            self._solver.resolve_contacts(state, forcing_of(), is_last=True)
-            yield
+            is_due = self._resolve_contacts(state, forcing, solves)
+        if forcing.touch is not None:
+            self._solver.resolve_contacts(state, forcing, is_last=True)
 
     def _resolve_contacts(self, state: State, forcing: Forcing, solves: int) -> bool:
         """Let colliders act on what was solved; return whether another solve is due for it."""
@@ -352,25 +368,24 @@ class ImplicitStep(ABC):
             state, forcing, ends_turns=solves >= _MOST_CONTACT_TURNS)
         # What began within the tolerance is within it after a solve, unless a node has turned.
         return forcing.touch.is_solve_due(
-            is_exact=solves > self._solves and self._solver.had_nothing_to_do())
+            is_exact=solves > self._newton.solves and self._solver.had_nothing_to_do())
 
     def _solve(
-            self, state: State, forcing_of: Callable[[], Forcing],
-            **how: Any) -> Generator[None, bool | None, bool]:
+            self, state: State, forcing: Forcing, stop: Stop,
+            **how: Any) -> bool:
         """Find the solution of a pass, and return whether there was anything to solve for."""
         for count in range(_MOST_SOLVES):
-            # Asked for each time: a look at the state, between two pieces, may change the buffer.
+            leave_if(stop)
             if not self._solver.prepare(
-                    state, forcing_of(), is_again=count > 0, may_stop_early=True, **how):
+                    state, forcing, is_again=count > 0, may_stop_early=True, **how):
                 return False
-            yield
-            yield from self._solver.solve_in_pieces()
+            self._solver.iterate(stop)
             is_last = count == _MOST_SOLVES - 1
             if not self._solver.move_start(state, is_last=is_last):
                 break
             self._unsettled += is_last
         self._solver.record_held(
-            state, forcing_of(), how['kick'], self._held_at,
+            state, forcing, how['kick'], self._held_at,
             is_further=how.get('is_further', False))
         self._solver.find_tensions()
         return True

@@ -6,16 +6,15 @@
 from collections.abc import Collection
 import math
 from typing import Any
+from typing import Protocol
 
 from cloth_sim_ros.gl.buffer import Buffer
 from cloth_sim_ros.gl.buffer import shader_writes_visible
 from cloth_sim_ros.gl.program import Program
-from cloth_sim_ros.sim import bindings
 from cloth_sim_ros.sim.forcing import Forcing
 from cloth_sim_ros.sim.layout import Layout
 from cloth_sim_ros.sim.loads import Loads
 from cloth_sim_ros.sim.modes.mode import CHECKED_SUBSTEPS
-from cloth_sim_ros.sim.modes.mode import Pieces
 from cloth_sim_ros.sim.modes.spring_tiles import SpringTiles
 from cloth_sim_ros.sim.pin_forces import spring_tension
 from cloth_sim_ros.sim.scene import Scene
@@ -25,23 +24,22 @@ from cloth_sim_ros.sim.solver.edge_law import spring_law
 from cloth_sim_ros.sim.stability import spring_substeps
 from cloth_sim_ros.sim.stability import stability_limit
 from cloth_sim_ros.sim.state import State
+from cloth_sim_ros.sim.stop import leave_if
+from cloth_sim_ros.sim.stop import never
+from cloth_sim_ros.sim.stop import Stop
 import numpy as np
 
 
 class OnePass:
-    """
-    The fused layout: mass_spring_step.comp.
+    """The fused layout: mass_spring_step.comp."""
 
-    :param strain_limit: which form of the pass, as the shader names them
-    """
+    shader = 'mass_spring_step.comp'
 
-    def __init__(self, scene: Scene, layout: Layout, strain_limit: str = 'NO_LIMIT') -> None:
+    def __init__(self, scene: Scene, layout: Layout) -> None:
         """Compile the pass."""
-        defines = {'STRAIN_LIMIT': strain_limit}
-        self._step = SceneProgram('mass_spring_step.comp', scene, layout, defines)
+        self._step = SceneProgram(self.shader, scene, layout)
         # Leaves entries of held.glsl, and costs more. Both make the same state, to the bit.
-        self._recording_step = SceneProgram(
-            'mass_spring_step.comp', scene, layout, {**defines, 'HAS_HELD': 1})
+        self._recording_step = SceneProgram(self.shader, scene, layout, {'HAS_HELD': 1})
         self._groups = layout.groups
         # First entry of held.glsl that the last substep wrote; below 0: none.
         self.held_at = -1
@@ -109,63 +107,10 @@ class OnePass:
             touch.act()
 
     def delete(self) -> None:
-        """Give the pass back."""
+        """Release the pass."""
         self._step.delete()
         self._recording_step.delete()
         self._held_set = None
-
-
-_UPDATE_LOCAL = 1024
-_FORCE_BYTES = 16
-
-
-class TwoPass:
-    """Forces into a buffer (paper, Tab. 1), then the update (Tab. 2)."""
-
-    def __init__(self, scene: Scene, layout: Layout) -> None:
-        """Compile both passes and allocate the force and mass buffers."""
-        self._force = SceneProgram('paper_force.comp', scene, layout)
-        self._update = SceneProgram(
-            'paper_update.comp', scene, layout, {'UPDATE_LOCAL': _UPDATE_LOCAL})
-        self._recording_update = SceneProgram(
-            'paper_update.comp', scene, layout, {'UPDATE_LOCAL': _UPDATE_LOCAL, 'HAS_HELD': 1})
-        self._forces = Buffer(layout.stored * _FORCE_BYTES)
-        self._masses = Buffer(np.full(layout.stored, scene.node_mass, dtype=np.float32))
-        self._force_groups = layout.groups
-        self._update_groups = -(-scene.node_count // _UPDATE_LOCAL)
-        self._force.use()
-        self._update.use()
-
-    def substeps(self, state: State, forcing: Forcing, length: float, count: int) -> None:
-        """Step ``state`` on ``count`` times by ``length`` [s]."""
-        for _ in range(count):
-            self.substep(state, forcing, length)
-
-    def substep(self, state: State, forcing: Forcing, length: float) -> None:
-        """Step ``state`` on by ``length`` [s], in place."""
-        held_at = state.next_held_entry()
-        state.bind_in()
-        self._forces.bind_storage(bindings.FORCE)
-        self._masses.bind_storage(bindings.MASS)
-        force = self._force.use()
-        force.dispatch(*self._force_groups)
-        shader_writes_visible()
-        state.bind_low_parts()
-        if held_at < 0:
-            update = self._update.use_for_step(forcing, length)
-        else:
-            update = self._recording_update.use_for_step(forcing, length)
-            update.set_int('held_at', held_at)
-        update.dispatch(self._update_groups)
-        shader_writes_visible()
-
-    def delete(self) -> None:
-        """Give the passes and their buffers back."""
-        self._force.delete()
-        self._update.delete()
-        self._recording_update.delete()
-        self._forces.delete()
-        self._masses.delete()
 
 
 # Substeps that can't be interrupted, by their nodes: a few milliseconds on one core.
@@ -179,8 +124,21 @@ _TILED_AT_ONCE = 256
 _ROUNDING = 1e-6
 
 
+class SubstepPasses(Protocol):
+    """What makes substeps of springs."""
+
+    def substep(self, state: State, forcing: Forcing, length: float) -> None:
+        """Step ``state`` on by ``length`` [s]."""
+
+    def substeps(self, state: State, forcing: Forcing, length: float, count: int) -> None:
+        """Step ``state`` on ``count`` times by ``length`` [s], under the same forcing."""
+
+    def delete(self) -> None:
+        """Release the passes."""
+
+
 class MassSpring:
-    """Forces and update in one pass; the paper's two passes when the scene asks for them."""
+    """Forces and update in one pass."""
 
     name = 'mass_spring'
     is_implicit = False
@@ -194,7 +152,7 @@ class MassSpring:
         self.substeps = spring_substeps(scene, self.name, check_stability=check_stability)
         self._length: float = scene['dt'] / self.substeps
         self.substep_margin = self._length / self.stability_limit
-        self._passes = OnePass(scene, layout) if layout.kind == 'fused' else TwoPass(scene, layout)
+        self._passes = self.make_passes(scene, layout)
         self._tiles: SpringTiles | None = None
         self.checked_substeps = CHECKED_SUBSTEPS
         self._most_at_once = max(1, _NODES_AT_ONCE // scene.node_count)
@@ -203,6 +161,11 @@ class MassSpring:
             if SpringTiles.can_run(scene, layout):
                 self._tiles = SpringTiles(scene, layout)
                 self._most_at_once = self.checked_substeps = _TILED_AT_ONCE
+
+    @staticmethod
+    def make_passes(scene: Scene, layout: Layout) -> SubstepPasses:
+        """Compile and return what makes substeps."""
+        return OnePass(scene, layout)
 
     @staticmethod
     def edge_model(scene: Scene) -> str:
@@ -223,10 +186,11 @@ class MassSpring:
         """Raise ClothSimError when dt is too long for the springs of ``scene``."""
         spring_substeps(scene, MassSpring.name, check_stability=check_stability)
 
-    def step(self, state: State, begin: float, loads: Loads) -> Pieces:
+    def step(self, state: State, begin: float, loads: Loads, stop: Stop = never) -> None:
         """Step ``state`` on by one dt, in substeps of equal length."""
         made = 0
         while made < self.substeps:
+            leave_if(stop)
             start = begin + made * self._length
             forcing = loads.forcing(state, start, start + self._length)
             count = min(self.substeps - made, self._alike(start, loads))
@@ -235,7 +199,6 @@ class MassSpring:
             else:
                 self._passes.substep(state, forcing, self._length)
             made += count
-            yield
 
     def step_ahead(self, state: State, gravity: Forcing, most: int) -> int:
         """Make up to ``most`` steps at once under gravity alone; return how many."""
@@ -258,13 +221,12 @@ class MassSpring:
         quiet = loads.quiet_until(start) - start
         return max(1, int(min(self._most_at_once, quiet / self._length + _ROUNDING)))
 
-    def run_all_passes(self, state: State, loads: Loads) -> Pieces:
+    def run_all_passes(self, state: State, loads: Loads, stop: Stop = never) -> None:
         """Make a substep of a ``state`` that nobody needs."""
         self._passes.substep(state, loads.still, self._length)
-        yield
+        leave_if(stop)
         if self._tiles is not None:
             self._tiles.substeps(state, loads.still, self._length, 1)
-            yield
 
     def forget(self) -> None:
         """Forget nothing: a step depends on the state alone."""
@@ -283,7 +245,7 @@ class MassSpring:
         return spring_tension(self._scene, positions, velocities, nodes)
 
     def delete(self) -> None:
-        """Give the passes back, with what they allocated."""
+        """Release the passes, with what they allocated."""
         self._passes.delete()
         if self._tiles is not None:
             self._tiles.delete()

@@ -4,7 +4,6 @@
 """What every mode offers."""
 
 from collections.abc import Collection
-from collections.abc import Generator
 from typing import Any
 from typing import Protocol
 
@@ -15,20 +14,9 @@ from cloth_sim_ros.sim.loads import Loads
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.solver.edge_law import EdgeLaw
 from cloth_sim_ros.sim.state import State
+from cloth_sim_ros.sim.stop import never
+from cloth_sim_ros.sim.stop import Stop
 import numpy as np
-
-# A piece of work that can wait at each yield. What is sent back is True when something else may
-# have used the device meanwhile: then everything is bound anew.
-Pieces = Generator[None, bool | None, None]
-# Pieces that return how many steps of dt they have made.
-Steps = Generator[None, bool | None, int]
-
-
-def finish(pieces: Pieces | Steps) -> None:
-    """Do all the work at once."""
-    for _ in pieces:
-        pass
-
 
 # Max. substeps between two checks of the state: the read-back of a check waits for the device, and
 # what lies between is stepped again when one fails (docs/notes/performance.md).
@@ -92,12 +80,14 @@ class Mode(Protocol):
     def energy_law(self, state: State) -> EdgeLaw:
         """Return the law by which the edges of ``state`` store energy now."""
 
-    def step(self, state: State, begin: float, loads: Loads) -> Pieces:
+    def step(self, state: State, begin: float, loads: Loads, stop: Stop = never) -> None:
         """
-        Step ``state`` on by one dt, piece by piece.
+        Step ``state`` on by one dt.
 
         :param begin: simulated time at which the step begins [s]
         :param loads: what accelerates the nodes besides the edges, by time
+        :param stop: asked between the parts of the step
+        :raises StepAbandoned: when ``stop`` has returned True; the state is left within the step
         """
 
     def step_ahead(self, state: State, gravity: Forcing, most: int) -> int:
@@ -109,7 +99,7 @@ class Mode(Protocol):
         :return: how many were made; 0 where ``step`` has to make each
         """
 
-    def run_all_passes(self, state: State, loads: Loads) -> Pieces:
+    def run_all_passes(self, state: State, loads: Loads, stop: Stop = never) -> None:
         """Run each pass that a step can need, on a ``state`` that nobody needs."""
 
     def forget(self) -> None:

@@ -123,7 +123,7 @@ class HeldPass:
         shader_writes_visible()
 
     def delete(self) -> None:
-        """Give the program back."""
+        """Release the program."""
         self._program.delete()
 
 
@@ -191,7 +191,7 @@ class LimitSearch:
         self._start_between(1.0, start, into)
 
     def delete(self) -> None:
-        """Give both programs back."""
+        """Release both programs."""
         self._look_at.delete()
         self._move.delete()
 
@@ -324,7 +324,7 @@ class SolverContacts:
         self._run(program, state)
 
     def delete(self) -> None:
-        """Give the passes back."""
+        """Release the passes."""
         for program in self._decide.values():
             program.delete()
 

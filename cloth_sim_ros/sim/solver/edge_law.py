@@ -111,12 +111,12 @@ class EdgeLaw:
 
     @property
     def has_bounds(self) -> bool:
-        """Tell whether there are edges that are hard or come to limits."""
+        """Return whether there are edges that are hard or come to limits."""
         return any(map(self._has_limit, range(len(FAMILIES))))
 
     @property
     def has_limits(self) -> bool:
-        """Tell whether there are edges that come to limits and leave them."""
+        """Return whether there are edges that come to limits and leave them."""
         return any(
             self._has_limit(family) and least < most
             for family, (least, most) in enumerate(zip(self.shortest, self.longest)))

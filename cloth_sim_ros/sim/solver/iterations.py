@@ -3,8 +3,6 @@
 
 """The iterations of conjugate gradients, of which the device decides when to stop."""
 
-from collections.abc import Generator
-
 from cloth_sim_ros.gl.buffer import DISPATCHES_VISIBLE
 from cloth_sim_ros.gl.buffer import shader_dispatches_visible
 from cloth_sim_ros.gl.quick_calls import make
@@ -19,6 +17,8 @@ from cloth_sim_ros.sim.solver.solver_programs import POINT_LOCAL
 from cloth_sim_ros.sim.solver.solver_programs import POINTS
 from cloth_sim_ros.sim.solver.solver_programs import SolverPass
 from cloth_sim_ros.sim.solver.solver_programs import SolverPrograms
+from cloth_sim_ros.sim.stop import leave_if
+from cloth_sim_ros.sim.stop import Stop
 import numpy as np
 
 # Iterations that are submitted together where asking in between is a wait.
@@ -92,34 +92,30 @@ class Iterations:
         self._reduce.set_int('may_stay', int(may_stay))
         self._reduce.set_float('early_square', early**2)
 
-    def solve(self) -> Generator[None, bool | None, None]:
-        """Find the solution, and yield where the device may do something else; as Mode.step."""
+    def solve(self, stop: Stop) -> None:
+        """Find the solution; raise StepAbandoned where ``stop`` asks for it in between."""
         self.buffers.bind()
         first = self._begin, *self._first
         if self._first_go is None:
             for each in first:
                 each.run()
-                if (yield):
-                    self.buffers.bind()
+                leave_if(stop)
             self._first_go = PassList(first)
         else:
             self._first_go.run()
-            if (yield):
-                self.buffers.bind()
         shader_dispatches_visible()
-        yield from self._go_on()
+        self._go_on(stop)
         self._update.run()
 
-    def _go_on(self) -> Generator[None, bool | None, None]:
+    def _go_on(self, stop: Stop) -> None:
         # To ask whether the device goes on costs little where that is this processor, and a wait
         # elsewhere: there, as many are submitted at once as the last solve took.
         made, batch = 1, self._first_batch
         while made < self._most and self.buffers.is_going():
+            leave_if(stop)
             batch = min(batch, self._most - made)
             for _ in range(batch):
                 make(self._further_calls)
-                if (yield):
-                    self.buffers.bind()
             made += batch
             batch = self._batch
         if self._batch > 1:

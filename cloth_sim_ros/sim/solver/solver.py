@@ -3,7 +3,6 @@
 
 """The solves of an implicit step, by preconditioned conjugate gradients on the device."""
 
-from collections.abc import Generator
 from dataclasses import replace
 
 from cloth_sim_ros.sim import bindings
@@ -42,6 +41,8 @@ from cloth_sim_ros.sim.solver.tally import SolveReport
 from cloth_sim_ros.sim.solver.tally import Tally
 from cloth_sim_ros.sim.solver.tally import TallyReport
 from cloth_sim_ros.sim.state import State
+from cloth_sim_ros.sim.stop import never
+from cloth_sim_ros.sim.stop import Stop
 import numpy as np
 
 PRECONDITIONERS: dict[str, type[Preconditioner]] = {
@@ -77,8 +78,8 @@ class Solver:
 
     def __init__(
             self, scene: Scene, state: Layout, *, families: tuple[str, ...] | None = None,
-            preconditioner: str = 'multigrid', tolerance: float = 1e-2,
-            max_iterations: int = 12, foresees_turn: bool = False) -> None:
+            preconditioner: str = 'multigrid', tolerance: float, max_iterations: int,
+            foresees_turn: bool = False) -> None:
         """Compile the passes and allocate the buffers."""
         if families is None:
             families = tuple(family for family in FAMILIES if scene.models(family))
@@ -233,13 +234,12 @@ class Solver:
 
     def solve(self) -> None:
         """Find the solution and the tensions; returns before the device has them."""
-        for _ in self.solve_in_pieces():
-            pass
+        self.iterate(never)
         self.find_tensions()
 
-    def solve_in_pieces(self) -> Generator[None, bool | None, None]:
-        """Find the solution, and yield where the device may do something else; as Mode.step."""
-        yield from self._iterations.solve()
+    def iterate(self, stop: Stop) -> None:
+        """Find the solution alone; raise StepAbandoned where ``stop`` asks for it in between."""
+        self._iterations.solve(stop)
 
     def record_held(
             self, state: State, forcing: Forcing, kick: float, held_at: int, *,
@@ -363,7 +363,7 @@ class Solver:
         return report_of(found.scale, found.measure, 0, self._tolerance).residual
 
     def delete(self) -> None:
-        """Give buffers and programs back."""
+        """Release buffers and programs."""
         self._buffers.delete()
         self._tally.delete()
         self._programs.delete()

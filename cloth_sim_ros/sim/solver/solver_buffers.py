@@ -15,18 +15,23 @@ from cloth_sim_ros.gl.quick_calls import make
 from cloth_sim_ros.sim import bindings
 from cloth_sim_ros.sim.layout import HALO
 from cloth_sim_ros.sim.layout import Layout
+from cloth_sim_ros.sim.solver.solver_fields import BEND_SYSTEM
+from cloth_sim_ros.sim.solver.solver_fields import BENDING_DAMPING_SYSTEM
+from cloth_sim_ros.sim.solver.solver_fields import CLOTH_SYSTEM
+from cloth_sim_ros.sim.solver.solver_fields import CLOTH_VECTORS
+from cloth_sim_ros.sim.solver.solver_fields import COARSE_SYSTEM
+from cloth_sim_ros.sim.solver.solver_fields import CONTACT_SYSTEM
+from cloth_sim_ros.sim.solver.solver_fields import CONTACT_VECTORS
+from cloth_sim_ros.sim.solver.solver_fields import count
+from cloth_sim_ros.sim.solver.solver_fields import numbers
+from cloth_sim_ros.sim.solver.solver_fields import VECTORS
 import numpy as np
 
 # A coarsest level of up to this many nodes a side is solved in one workgroup.
 COARSEST_SIDE = 8
-# As in solver/levels.glsl: enough for any cloth that buffers can hold.
+# Max. levels [1]: enough for any cloth that buffers can hold, each has half the side of the one
+# before.
 MOST_LEVELS = 16
-_CLOTH_VECTORS = 9
-# With bend edges, and with damped bending, two fields more for each.
-_CLOTH_SYSTEM, _MORE_SYSTEM = 7, 2
-_CONTACT_VECTORS, _CONTACT_SYSTEM = 5, 2
-_COARSE_VECTORS = 3
-_COARSE_SYSTEM = 10
 # Nodes along each side of an invocation, an even number, and invocations of a workgroup.
 # Software runs whole workgroups even where a level ends, so small ones leave less idle.
 _ON_SOFTWARE = (4, (8, 2))
@@ -61,11 +66,17 @@ class Levels:
             self.layouts.append(
                 _layout(state, -(-finer.rows // 2), -(-finer.cols // 2), has_much))
         coarse = len(self.layouts) - 1
-        vectors = [_CLOTH_VECTORS + _CONTACT_VECTORS * has_contact] + [_COARSE_VECTORS] * coarse
-        of_cloth = (
-            _CLOTH_SYSTEM + _MORE_SYSTEM * (has_bend + has_bending_damping)
-            + _CONTACT_SYSTEM * has_contact)
-        system = [of_cloth] + [_COARSE_SYSTEM] * coarse
+        cloth_vectors = (VECTORS, CLOTH_VECTORS, *[CONTACT_VECTORS] * has_contact)
+        cloth_system = (
+            CLOTH_SYSTEM, *[BEND_SYSTEM] * has_bend,
+            *[BENDING_DAMPING_SYSTEM] * has_bending_damping, *[CONTACT_SYSTEM] * has_contact)
+        # A shader can name a field that no scene of this kind has.
+        self._fields = {
+            **numbers(VECTORS, CLOTH_VECTORS, CONTACT_VECTORS), **numbers(COARSE_SYSTEM),
+            **numbers(BEND_SYSTEM, BENDING_DAMPING_SYSTEM, CONTACT_SYSTEM),
+            **numbers(*cloth_system)}
+        vectors = [count(*cloth_vectors)] + [count(VECTORS)] * coarse
+        system = [count(*cloth_system)] + [count(COARSE_SYSTEM)] * coarse
         stored = np.array([layout.stored for layout in self.layouts])
         ends = np.cumsum([stored * vectors, stored * system], axis=1)
         self._begins = (ends - [stored * vectors, stored * system]).T
@@ -80,6 +91,10 @@ class Levels:
     def coarsest(self) -> int:
         """Return the number of the last level."""
         return len(self.layouts) - 1
+
+    def defines(self) -> dict[str, object]:
+        """Return what levels.glsl compiles in, without the lattice of the cloth."""
+        return {'MOST_LEVELS': MOST_LEVELS, **self._fields}
 
     def set_in(self, program: Program) -> None:
         """Set the uniforms of the lattices of all levels in the program in use."""
@@ -111,8 +126,13 @@ def _layout(state: Layout, rows: int, cols: int, has_much: bool) -> Layout:
 
 # What the solver keeps on the device.
 
-TENSION, BEND_TENSION = 5, 8
-RESIDUAL, PRODUCT, PRECONDITIONED, DIRECTION, IMAGE, SOLUTION, CHANGE, START, LEFT = range(9)
+_VECTOR = numbers(VECTORS, CLOTH_VECTORS)
+RESIDUAL, PRODUCT, PRECONDITIONED = (
+    _VECTOR[name] for name in ('RESIDUAL', 'PRODUCT', 'PRECONDITIONED'))
+SOLUTION, CHANGE, START, LEFT = (
+    _VECTOR[name] for name in ('SOLUTION', 'CHANGE', 'START', 'LEFT'))
+_SYSTEM = numbers(CLOTH_SYSTEM, BEND_SYSTEM)
+TENSION, BEND_TENSION = _SYSTEM['TENSION'], _SYSTEM['BEND_TENSION']
 _ENTRY_BYTES = 16
 
 
@@ -234,7 +254,7 @@ class SolverBuffers:
         return self._cloth.load(values)
 
     def delete(self) -> None:
-        """Give everything back."""
+        """Release everything."""
         self._release()
         for buffer in (self._scalars, self._dispatches):
             buffer.delete()

@@ -91,7 +91,7 @@ class SolverPrograms:
         return program
 
     def delete(self) -> None:
-        """Give all programs back."""
+        """Release all programs."""
         for program in self._compiled:
             program.delete()
         self._compiled.clear()
@@ -121,6 +121,7 @@ def solver_defines(
     """Return what every shader of the solver compiles in."""
     return {
         **levels.cloth.defines(),
+        **levels.defines(),
         **edge_defines(families),
         'MULTIGRID': int(is_multigrid),
         'HAS_RIGIDITY': int(has_rigidity),

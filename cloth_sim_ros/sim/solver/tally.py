@@ -110,5 +110,5 @@ class Tally:
             int(most), worst_square**0.5, int(unreached), int(solves), int(iterations))
 
     def delete(self) -> None:
-        """Give the figures back."""
+        """Release the figures."""
         self._buffer.delete()

@@ -19,7 +19,7 @@ from scipy import sparse
 # As that of study/timed_solvers.py: the paper names none.
 TOLERANCE = 1e-2
 MOST_ITERATIONS = 2000
-# D of the adaptive scheme over the sum of inverse masses, as in paper_sweep.comp.
+# D of the adaptive scheme over the sum of inverse masses, as in paper/sweep.comp.
 _DELTA = 1e-3
 _ALWAYS = -1.0
 

@@ -12,6 +12,7 @@ from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.simulation import Simulation
 from cloth_sim_ros.sim.stability import choose_substeps
+from cloth_sim_ros.sim.stop import StepAbandoned
 from cloth_sim_ros.study.make_runs import in_minutes
 from cloth_sim_ros.study.results import ResultsFolder
 from cloth_sim_ros.study.trade.grid import Grid
@@ -142,12 +143,10 @@ def _seconds_per_second(values: dict[str, Any]) -> tuple[float, bool]:
 def _step(cloth: Simulation, deadline: float) -> bool:
     """Make a step of dt; return False where it is not done by the ``deadline``."""
     cloth.stepping.aim_steps(1)
-    pieces = cloth.work(lambda: True)
-    for _ in pieces:
-        if time.monotonic() > deadline:
-            pieces.close()  # which undoes it
-            cloth.stepping.drop_aim()
-            return False
+    try:
+        cloth.work(stop=lambda: time.monotonic() > deadline)
+    except StepAbandoned:
+        return False
     return True
 
 

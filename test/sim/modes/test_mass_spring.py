@@ -6,6 +6,7 @@
 from collections.abc import Callable
 from collections.abc import Iterator
 
+from abandoned import calls_of
 from cloth_sim_ros.gl.context import Context
 from cloth_sim_ros.sim.modes import mass_spring
 from cloth_sim_ros.sim.scene import Scene
@@ -36,18 +37,12 @@ def simulate() -> Iterator[Callable[..., Simulation]]:
     context.close()
 
 
-def pieces_of(simulation: Simulation) -> int:
-    """Make two steps, and return in how many pieces."""
-    simulation.stepping.aim_steps(2)
-    return sum(1 for _ in simulation.work(lambda: True))
-
-
 def test_a_device_beside_the_host_is_given_more_at_once(simulate):
     """It would be idle while the host sends a frame, having been given a moment's work."""
     software, beside = simulate(is_software=True), simulate(is_software=False)
     assert beside.layout.is_asynchronous and not software.layout.is_asynchronous
     assert software.substeps == beside.substeps > 64
-    assert pieces_of(beside) < pieces_of(software)
+    assert calls_of(beside, steps=2) < calls_of(software, steps=2)
 
 
 def test_the_bits_are_those_of_single_substeps(simulate, monkeypatch: pytest.MonkeyPatch):
@@ -55,5 +50,5 @@ def test_the_bits_are_those_of_single_substeps(simulate, monkeypatch: pytest.Mon
     at_once = simulate(is_software=False)
     monkeypatch.setattr(mass_spring, '_SUBMITTED_AT_ONCE', 1)
     singly = simulate(is_software=False)
-    assert pieces_of(at_once) < pieces_of(singly)
+    assert calls_of(at_once, steps=2) < calls_of(singly, steps=2)
     assert at_once.snapshot().state_sha256 == singly.snapshot().state_sha256

@@ -47,7 +47,7 @@ def weight(simulation):
 
 
 def check_momentum(simulation, within, steps):
-    """Step on, and hold what the cloth gives to what its momentum loses."""
+    """Step, and compare the impulse of the cloth with its loss of momentum."""
     begun, given, exchanged = momentum(simulation), np.zeros(3), 0.0
     touched = set()
     for _ in range(steps):
@@ -124,7 +124,7 @@ def test_a_falling_cloth_that_is_caught_by_a_pin(simulate, within, mode):
 
 @pytest.mark.parametrize('mode', ['mass_spring', 'constraint', 'adaptive'])
 def test_power_of_a_stopped_sheet(simulate, within, mode):
-    """A controller would be told of half the power with which it stops a sheet from 3 m/s."""
+    """A controller would measure half the power with which it stops a sheet from 3 m/s."""
     simulation = simulate({
         'rows': 8, 'cols': 8, 'mode': mode, 'dt': 0.01, 'gravity': [0.0, 0.0, 0.0],
         'pins': ['top_edge']})

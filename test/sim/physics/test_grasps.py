@@ -6,7 +6,8 @@
 import math
 
 from cloth_sim_ros.sim.errors import ClothSimError
-from cloth_sim_ros.sim.handling import InputListener
+from cloth_sim_ros.sim.inputs import InputListener
+from cloth_sim_ros.sim.inputs import Release
 from cloth_sim_ros.sim.snapshot import FLAG_GRASPED
 from cloth_sim_ros.sim.snapshot import FLAG_PINNED
 import numpy as np
@@ -26,8 +27,9 @@ class Losses(InputListener):
     def __init__(self):
         self.lost = []
 
-    def grasp_release(self, name, by_force):
-        self.lost += [name] * by_force
+    def accept(self, given, time):
+        if isinstance(given, Release) and given.by_force:
+            self.lost.append(given.name)
 
 
 def test_held_nodes_follow_the_frame(simulate, within, any_mode):

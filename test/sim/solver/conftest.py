@@ -88,7 +88,8 @@ class SolverCase:
         self._kick = kick
         self._foresees_turn = foresees_turn
         self.solver = Solver(
-            self.scene, self.layout, families=families, foresees_turn=foresees_turn, **options)
+            self.scene, self.layout, families=families, foresees_turn=foresees_turn,
+            **{'tolerance': 1e-2, 'max_iterations': 12, **options})
         self.solver.set_law(law)
         self.forget()
         self.prepare()

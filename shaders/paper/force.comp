@@ -14,7 +14,7 @@ layout(local_size_x = LOCAL_X, local_size_y = LOCAL_Y) in;
 
 layout(std430, binding = FORCE) writeonly buffer Force { vec4 force_out[]; };
 
-vec3 compute_force(int row, int col, int drow, int dcol, int family, int rest) {
+vec3 compute_force(int row, int col, int drow, int dcol, int rest) {
     ivec2 there = ivec2(row + drow, col + dcol);
     if (there.x < 0 || there.x >= ROWS || there.y < 0 || there.y >= COLS) {
         return vec3(0.0);
@@ -23,12 +23,12 @@ vec3 compute_force(int row, int col, int drow, int dcol, int family, int rest) {
     int j = node_index(there.x, there.y);
     return spring_force(
         load_position(j).xyz - load_position(i).xyz, load_velocity(j).xyz - load_velocity(i).xyz,
-        1.0, family, rest);
+        1.0, rest);
 }
 
-vec3 both_ways(int row, int col, int drow, int dcol, int family, int rest) {
-    return compute_force(row, col, drow, dcol, family, rest)
-        + compute_force(row, col, -drow, -dcol, family, rest);
+vec3 both_ways(int row, int col, int drow, int dcol, int rest) {
+    return compute_force(row, col, drow, dcol, rest)
+        + compute_force(row, col, -drow, -dcol, rest);
 }
 
 #if HAS_RIGIDITY
@@ -57,7 +57,7 @@ uniform float bending_damping;  // [s]
 #endif
 
 #define ADD_BOTH_WAYS(FORCE, EDGE, DROW, DCOL, FAMILY, REST) \
-    FORCE += both_ways(row, col, DROW, DCOL, FAMILY, REST);
+    FORCE += both_ways(row, col, DROW, DCOL, REST);
 
 void main() {
     int row = int(gl_GlobalInvocationID.y);

@@ -5,7 +5,7 @@
 // A row of J, and its right side: disConstraint(), Vect() and Rhs() of the paper, with unit rows.
 // Starts conjugate gradients from zero.
 
-#include "paper_solver/buffers.glsl"
+#include "paper/solver/buffers.glsl"
 
 layout(local_size_x = 1024) in;
 

@@ -4,7 +4,7 @@
 #version 430 core
 // The scalars of conjugate gradients, from a scalar product.
 
-#include "paper_solver/buffers.glsl"
+#include "paper/solver/buffers.glsl"
 
 layout(local_size_x = 1) in;
 

@@ -4,7 +4,7 @@
 #version 430 core
 // The new tensions and their residual.
 
-#include "paper_solver/buffers.glsl"
+#include "paper/solver/buffers.glsl"
 
 layout(local_size_x = 1024) in;
 

@@ -4,7 +4,7 @@
 #version 430 core
 // A scalar product by the paper's reduction in shared memory, its Fig. 6: a sum for a workgroup.
 
-#include "paper_solver/buffers.glsl"
+#include "paper/solver/buffers.glsl"
 
 layout(local_size_x = 1024) in;
 

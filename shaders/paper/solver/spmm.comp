@@ -7,7 +7,7 @@
 // otherwise. The triplets of a row are kept together, so that the product with a vector needs no
 // atomic sums of floats, which GLSL does not have.
 
-#include "paper_solver/buffers.glsl"
+#include "paper/solver/buffers.glsl"
 
 layout(local_size_x = 16, local_size_y = 16) in;
 

@@ -13,8 +13,8 @@ from cloth_sim_ros.sim.edge_kinds import EDGE_KINDS
 from cloth_sim_ros.sim.forcing import Forcing
 from cloth_sim_ros.sim.layout import Layout
 from cloth_sim_ros.sim.loads import Loads
+from cloth_sim_ros.sim.modes.adaptive import Adaptive
 from cloth_sim_ros.sim.modes.mass_spring import OnePass
-from cloth_sim_ros.sim.modes.mode import Pieces
 from cloth_sim_ros.sim.pin_forces import spring_tension
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.scene_program import SceneProgram
@@ -22,6 +22,9 @@ from cloth_sim_ros.sim.solver.edge_law import EdgeLaw
 from cloth_sim_ros.sim.solver.edge_law import spring_law
 from cloth_sim_ros.sim.stability import stability_limit
 from cloth_sim_ros.sim.state import State
+from cloth_sim_ros.sim.stop import leave_if
+from cloth_sim_ros.sim.stop import never
+from cloth_sim_ros.sim.stop import Stop
 import numpy as np
 
 _COLOURS = 4
@@ -37,15 +40,15 @@ _NOTHING = 1e-9
 
 
 class PaperSweeps:
-    """The passes paper_sweep.comp and paper_finish.comp, and the tensions they work on."""
+    """The passes paper/sweep.comp and paper/finish.comp, and the tensions they work on."""
 
     def __init__(self, scene: Scene, layout: Layout) -> None:
         """Compile the passes and allocate the tensions."""
         self._layout = layout
-        self._sweep = SceneProgram('paper_sweep.comp', scene, layout, _DEFINES)
-        self._finish = SceneProgram('paper_finish.comp', scene, layout, _DEFINES)
+        self._sweep = SceneProgram('paper/sweep.comp', scene, layout, _DEFINES)
+        self._finish = SceneProgram('paper/finish.comp', scene, layout, _DEFINES)
         self._recording_finish = SceneProgram(
-            'paper_finish.comp', scene, layout, {**_DEFINES, 'HAS_HELD': 1})
+            'paper/finish.comp', scene, layout, {**_DEFINES, 'HAS_HELD': 1})
         # Cells of a colour lie in every other column and row.
         self._groups = tuple(
             -(-nodes // (2 * local)) for nodes, local in zip((layout.cols, layout.rows), _LOCAL))
@@ -108,11 +111,17 @@ class PaperSweeps:
         self.tensions.write(np.zeros(self.tensions.bytes, dtype=np.uint8))
 
     def delete(self) -> None:
-        """Give passes and tensions back."""
+        """Release passes and tensions."""
         self.tensions.delete()
         self._sweep.delete()
         self._finish.delete()
         self._recording_finish.delete()
+
+
+class _Springs(OnePass):
+    """Springs within the limit; the sweeps have the last word on the velocities."""
+
+    shader = 'paper/spring_velocity.comp'
 
 
 class PaperLimit:
@@ -135,7 +144,7 @@ class PaperLimit:
         self.strain_bound: float = scene['adaptive.threshold']
         self.stability_limit = stability_limit(scene)
         self.substep_margin = length / self.stability_limit
-        self._springs = OnePass(scene, layout, 'RIGID_LIMIT')
+        self._springs = _Springs(scene, layout)
         self._sweeps = PaperSweeps(scene, layout)
 
     def energy_law(self, state: State) -> EdgeLaw:
@@ -147,21 +156,22 @@ class PaperLimit:
         """Return False: what holds an edge at its limit stores nothing."""
         return False
 
-    def advance(self, state: State, begin: float, seconds: float, loads: Loads) -> Pieces:
+    def advance(
+            self, state: State, begin: float, seconds: float, loads: Loads,
+            stop: Stop = never) -> None:
         """Step ``state`` on by ``seconds``."""
         self.substeps = math.ceil(seconds / self._length - _NOTHING)
         length = seconds / self.substeps
         for substep in range(self.substeps):
+            leave_if(stop)
             start = begin + substep * length
             kick = 0.5 * ((self.last_length or length) + length)
             self._substep(state, loads.forcing(state, start, start + length, kick), length, kick)
             self.last_length = length
-            yield
 
-    def run_all_passes(self, state: State, loads: Loads) -> Pieces:
+    def run_all_passes(self, state: State, loads: Loads, stop: Stop = never) -> None:
         """Make a substep of a ``state`` that nobody needs."""
         self._substep(state, loads.still, self._length, self._length)
-        yield
 
     def resume(self, last_length: float) -> None:
         """Go on after springs alone, the last substep of which had ``last_length`` [s]."""
@@ -202,6 +212,20 @@ class PaperLimit:
         self.last_length = 0.0
 
     def delete(self) -> None:
-        """Give passes and buffers back."""
+        """Release passes and buffers."""
         self._springs.delete()
         self._sweeps.delete()
+
+
+class PaperAdaptive(Adaptive):
+    """Mode adaptive with the limit of the paper: ``adaptive.scheme: paper``."""
+
+    @staticmethod
+    def onset(scene: Scene) -> float:
+        """Return the limit itself: it has a kink there."""
+        return float(scene['adaptive.threshold'])
+
+    @staticmethod
+    def make_limit(scene: Scene, layout: Layout, length: float) -> PaperLimit:
+        """Compile and return the paper's substeps."""
+        return PaperLimit(scene, layout, length)

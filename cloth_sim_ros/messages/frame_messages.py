@@ -1,0 +1,225 @@
+# SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
+# SPDX-License-Identifier: Apache-2.0
+
+"""One frame: what is taken of a simulation, and the messages made of it."""
+
+from collections.abc import Callable
+from collections.abc import Iterator
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from cloth_sim_ros.messages.body_frames import body_frames
+from cloth_sim_ros.messages.body_frames import body_poses
+from cloth_sim_ros.messages.body_frames import collider_wrenches
+from cloth_sim_ros.messages.body_frames import grasp_peaks
+from cloth_sim_ros.messages.body_frames import grasp_wrenches
+from cloth_sim_ros.messages.frame import PointsMessage
+from cloth_sim_ros.messages.frame import StatsMessage
+from cloth_sim_ros.messages.markers import MarkersMessage
+from cloth_sim_ros.messages.pins import MOST_PINS
+from cloth_sim_ros.messages.pins import PinFrames
+from cloth_sim_ros.messages.pins import WrenchMessages
+from cloth_sim_ros.messages.stamp import serialise_clock
+from cloth_sim_ros.sim.colliders import Collider
+from cloth_sim_ros.sim.force_window import ForceWindow
+from cloth_sim_ros.sim.force_window import FrameForces
+from cloth_sim_ros.sim.grasps import Grasp
+from cloth_sim_ros.sim.push import Push
+from cloth_sim_ros.sim.simulation import Simulation
+from cloth_sim_ros.sim.snapshot import Snapshot
+import numpy as np
+from rclpy.serialization import serialize_message
+
+# The topics of a frame, and the parameter that allows each.
+PARAMETERS = {
+    'clock': 'publish.clock', 'points': 'publish.points', 'markers': 'publish.markers',
+    'stats': 'publish.stats', 'tf': 'publish.tf', 'pins/wrenches': 'publish.wrenches',
+    'pins/peak_wrenches': 'publish.wrenches', 'grasps/wrenches': 'publish.wrenches',
+    'grasps/peak_wrenches': 'publish.wrenches', 'colliders/wrenches': 'publish.wrenches'}
+_ALWAYS = frozenset(('clock', 'points', 'markers', 'stats'))
+_OF_PINS = frozenset(('tf', 'pins/wrenches', 'pins/peak_wrenches'))
+_OF_GRASPS = frozenset(('tf', 'grasps/wrenches', 'grasps/peak_wrenches'))
+_OF_COLLIDERS = frozenset(('tf', 'colliders/wrenches'))
+# Those that need the forces of the frame.
+_WITH_FORCES = frozenset(key for key in PARAMETERS if key.endswith('wrenches'))
+
+
+@dataclass(frozen=True)
+class Pace:
+    """
+    How fast a frame was made.
+
+    :param worked: wall time that its steps took [s]
+    :param steps: of dt in it, 0 when the moment has been shown before
+    :param achieved: simulated time per wall time
+    :param wanted: the same as asked for, 0 for as fast as possible
+    :param too_slow: True when the last second fell short of that
+    """
+
+    worked: float = 0.0
+    steps: int = 0
+    achieved: float = 0.0
+    wanted: float = 0.0
+    too_slow: bool = False
+
+    @property
+    def step_wall_time(self) -> float:
+        """Return the wall time of one dt [s]."""
+        return self.worked / max(self.steps, 1)
+
+
+@dataclass(frozen=True)
+class FrameContent:
+    """
+    What is known of one moment; no step changes it any more.
+
+    :param keys: the topics that are wanted of it
+    :param snapshot: None where nothing but the clock is wanted
+    :param pinned: which nodes are held by pins alone, (rows, cols) bool
+    :param forces: means over the frame; None where they are not wanted, or not known
+    """
+
+    keys: frozenset[str]
+    time: float
+    pace: Pace
+    snapshot: Snapshot | None
+    pinned: np.ndarray
+    forces: FrameForces | None
+    pushes: tuple[Push, ...]
+    grasps: tuple[Grasp, ...]
+    colliders: tuple[Collider, ...]
+
+
+class FrameTaker:
+    """
+    Takes the frames of a simulation, on its thread.
+
+    :param values: the node's parameter values, read at each frame
+    """
+
+    def __init__(self, simulation: Simulation, values: Mapping[str, Any]) -> None:
+        """Add up no forces yet."""
+        self._simulation = simulation
+        self._values = values
+        self._window: ForceWindow | None = None
+
+    def take(self, is_read: Callable[[str], bool], pace: Callable[[], Pace]) -> FrameContent:
+        """
+        Return what is read of the present moment.
+
+        :param is_read: returns whether anybody reads the topic of a key
+        :param pace: returns how fast the frame was made, asked when the device is done
+        """
+        simulation = self._simulation
+        pinned = simulation.pinned_nodes() & ~simulation.grasped_nodes()
+        grasps, colliders = simulation.grasps, simulation.colliders
+        has_pins = bool(0 < np.count_nonzero(pinned) <= MOST_PINS)
+        there = set(_ALWAYS)
+        for exists, keys in (
+                (has_pins, _OF_PINS), (grasps, _OF_GRASPS), (colliders, _OF_COLLIDERS)):
+            there |= keys if exists else frozenset()
+        wanted = frozenset(
+            key for key in there if self._values[PARAMETERS[key]] and is_read(key))
+        snapshot = simulation.snapshot() if wanted - {'clock'} else None
+        forces = None
+        if wanted & _WITH_FORCES:
+            forces = self._forces(snapshot)
+        else:
+            self._leave_out_forces()
+        return FrameContent(
+            wanted, simulation.time, pace(), snapshot, pinned & has_pins,
+            forces,
+            tuple(applied.push for applied in simulation.pushes), grasps, colliders)
+
+    def close(self) -> None:
+        """Add up no forces any more."""
+        self._leave_out_forces()
+
+    def _forces(self, snapshot: Snapshot | None) -> FrameForces | None:
+        """
+        Return the means over the frame.
+
+        The first frame in which they are wanted has those of the last step of dt, if these are
+        known.
+        """
+        if self._window is None:
+            self._window = self._simulation.open_force_window()
+        if not self._simulation.knows_forces:
+            return None
+        return self._simulation.frame_forces(self._window, snapshot)
+
+    def _leave_out_forces(self) -> None:
+        if self._window is not None:
+            self._simulation.close_force_window(self._window)
+            self._window = None
+
+
+class FrameMessages:
+    """
+    Makes the messages of frames, in the bytes that go out.
+
+    :param node_name: with its namespace
+    :param frame_id: of the positions
+    """
+
+    def __init__(self, rows: int, cols: int, node_name: str, frame_id: str) -> None:
+        """Serialise what stays the same from frame to frame."""
+        self._node_name = node_name
+        self._frame_id = frame_id
+        self._points = PointsMessage(rows, cols, frame_id)
+        self._markers = MarkersMessage(rows, cols, frame_id)
+        self._stats = StatsMessage(frame_id)
+        self._pin_frames = PinFrames(node_name, frame_id)
+        self._wrenches = WrenchMessages(node_name)
+
+    def of(self, frame: FrameContent) -> Iterator[tuple[str, bytes]]:
+        """Yield the key of a topic and each message, frames before what is given in them."""
+        keys = frame.keys
+        if 'clock' in keys:
+            yield 'clock', serialise_clock(frame.time)
+        snapshot = frame.snapshot
+        if snapshot is None:
+            return
+        if 'points' in keys:
+            yield 'points', self._points.serialise(snapshot)
+        if 'markers' in keys:
+            yield 'markers', self._markers.serialise(
+                snapshot, frame.pushes, frame.colliders, frame.grasps)
+        if 'stats' in keys:
+            pace = frame.pace
+            yield 'stats', self._stats.serialise(
+                snapshot, step_wall_time=pace.step_wall_time, real_time_factor=pace.achieved,
+                wanted_factor=pace.wanted, too_slow=pace.too_slow)
+        if 'tf' in keys and frame.pinned.any():
+            yield 'tf', self._pin_frames.serialise(snapshot, ~frame.pinned)
+        yield from self._pin_wrenches(frame)
+        yield from self._of_bodies(frame)
+
+    def _pin_wrenches(self, frame: FrameContent) -> Iterator[tuple[str, bytes]]:
+        if frame.forces is None:
+            return
+        pins = frame.forces.pins
+        for key, values in (
+                ('pins/wrenches', pins.forces), ('pins/peak_wrenches', pins.peaks)):
+            if key in frame.keys:
+                for data in self._wrenches.serialise(pins.nodes, values, frame.time):
+                    yield key, data
+
+    def _of_bodies(self, frame: FrameContent) -> Iterator[tuple[str, bytes]]:
+        name, now = self._node_name, frame.time
+        if 'tf' in frame.keys and (frame.grasps or frame.colliders):
+            poses = body_poses(name, frame.grasps, frame.colliders)
+            yield 'tf', serialize_message(body_frames(poses, now, self._frame_id))
+        forces = frame.forces
+        if forces is None:
+            return
+        wrenches = {
+            'grasps/wrenches': grasp_wrenches(name, frame.grasps, forces.grasps, now),
+            'grasps/peak_wrenches': grasp_peaks(name, frame.grasps, forces.grasps, now),
+            'colliders/wrenches': collider_wrenches(
+                name, frame.colliders, forces.contacts, now)}
+        for key, messages in wrenches.items():
+            if key in frame.keys:
+                for message in messages:
+                    yield key, serialize_message(message)
