@@ -33,6 +33,10 @@ STICKS, SLIDES = 1, 2
 # A way through a plane, which has no end [m].
 _ENDLESS = 1e9
 _ENTRY_BYTES = 16
+# Speed at which a node inside a body is moved out, over the root of the size of the cloth
+# [sqrt(m) / s]: a third of sqrt(gravity x size); chosen: a squeezed cloth does not change from
+# 0.25 to 4, one that begins inside a body by 1.5 % (constants.py --only _WAY_OUT_SPEED).
+_WAY_OUT_SPEED = 1.0
 # Substeps are counted in a float.
 _MOST_SERIAL = 2**24
 # Of coordinates: what positions are rounded by counts as no way.
@@ -338,6 +342,8 @@ class Contacts:
             min(collider.thickness, _ENDLESS) for collider in self.colliders])
         program.set_float('clearance', self.clearance)
         scene = self._scene
+        program.set_float(
+            'way_out_speed', _WAY_OUT_SPEED * math.sqrt(max(scene['width'], scene['height'])))
         area = scene['width'] * scene['height'] / scene.node_count
         program.set_float('compression', scene['contact.compression'] * area / scene.node_mass)
         program.set_int('record_stride', self._layout.stored)

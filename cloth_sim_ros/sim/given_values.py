@@ -19,6 +19,13 @@ from cloth_sim_ros.sim.materials import MATERIAL_SPRINGS
 from cloth_sim_ros.sim.materials import with_material
 from cloth_sim_ros.sim.scene_fields import PRESETS
 
+NO_PINS = ('none',)
+# A woven one whose threads hardly stretch; without air it would whip, and never come to rest.
+DEFAULT_FABRIC = MappingProxyType({'material.preset': 'trousers', 'air.density': 1.225})
+# They stretch, too, which would add to what a material says.
+_BEND_SPRINGS = ('stiffness.bend', 'damping.bend')
+_EDGES_OF_CONSTRAINT = ('constraint.hard', 'constraint.springs')
+
 
 def load_parameters(path: str | Path) -> dict[str, Any]:
     """
@@ -61,14 +68,6 @@ def _flatten(
 
 
 # What the values given for a scene mean for those that are left out.
-
-NO_PINS = ('none',)
-# A woven one whose threads hardly stretch; without air it would whip, and never come to rest.
-DEFAULT_FABRIC = MappingProxyType({'material.preset': 'trousers', 'air.density': 1.225})
-# They stretch, too, which would add to what a material says.
-_BEND_SPRINGS = ('stiffness.bend', 'damping.bend')
-_EDGES_OF_CONSTRAINT = ('constraint.hard', 'constraint.springs')
-
 
 def with_preset(given: Mapping[str, Any]) -> dict[str, Any]:
     """

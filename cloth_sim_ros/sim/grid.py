@@ -12,6 +12,9 @@ from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.pose import checked_position
 import numpy as np
 
+# Default max. distance of a node from a point that stands for it [m]: as clicked_point.radius.
+USUAL_REACH = 0.1
+
 
 def spacing(rows: int, cols: int, width: float, height: float) -> tuple[float, float]:
     """Return the rest distance along a row and along a column [m]."""
@@ -33,10 +36,6 @@ def rest_positions(
     positions[..., 2] = z
     positions[..., 2 if pose == 'hanging' else 1] += down[:, None]
     return positions
-
-
-# How far a node may be from a point that means it, as far as a click pushes [m].
-USUAL_REACH = 0.1
 
 
 @dataclass(frozen=True)

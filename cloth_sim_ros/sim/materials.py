@@ -26,6 +26,11 @@ WARP, WEFT = range(2)
 # Fields that are 0 in a scene with a material.
 MATERIAL_SPRINGS = ('stiffness.structural', 'stiffness.shear')
 MATERIAL = ('material.warp', 'material.weft', 'material.shear')
+SOURCE = "Wang, O'Brien, Ramamoorthi 2011, DOI 10.1145/2010324.1964966"
+_CEILING = 'at least this stiff: the fit ends there'
+_STIFFENS = 'stiffens: value at the largest strain'
+# Micronewton metres in a newton metre [1].
+_MICRO = 1e-6
 
 
 def of_direction(value: float | tuple[float, float], direction: int | None) -> float:
@@ -97,11 +102,6 @@ def _written(value: float | tuple[float, float]) -> str:
 # The numbers are those of Wang, O'Brien and Ramamoorthi, "Data-driven elastic models for cloth:
 # modeling and measurement", 2011, DOI 10.1145/2010324.1964966. They measured curves; a fabric here
 # has one value of each. docs/how_to/choose_a_fabric.md lists the omissions.
-
-SOURCE = "Wang, O'Brien, Ramamoorthi 2011, DOI 10.1145/2010324.1964966"
-_MICRO = 1e-6
-_CEILING = 'at least this stiff: the fit ends there'
-_STIFFENS = 'stiffens: value at the largest strain'
 
 
 @dataclass(frozen=True)

@@ -26,8 +26,12 @@ import numpy as np
 
 # A node's part in D of a line around the node at this place.
 _PARTS = {-1: 1.0, 0: -2.0, 1: 1.0}
-# Squares of a chord and of a bend [m2], as in bending_damping.glsl: below, none has a direction.
-_LEAST_SQUARE, _LEAST_BEND = 1e-20, 1e-30
+# Least square of a chord [m2], and of a bend, that has a direction; as in bending_damping.glsl.
+_LEAST_SQUARE = 1e-20
+_LEAST_BEND = 1e-30
+# Least length of an edge [m], so that two nodes in one place divide by nothing; as in
+# spring_law.glsl.
+_LEAST_LENGTH = 1e-10
 
 
 def bending_pulls(
@@ -76,10 +80,6 @@ def _brake(
 
 
 # What edges pull nodes with, by their tension.
-
-# As in spring_law.glsl: two nodes in one place are this far apart [m].
-_LEAST_LENGTH = 1e-10
-
 
 def spring_tension(
         scene: Scene, positions: np.ndarray, velocities: np.ndarray,

@@ -28,6 +28,11 @@ _REGIONS = {
 }
 # What a pin can be called.
 PIN_NAMES = f'{", ".join(_REGIONS)}, or a node as "row,col"'
+# Max. coordinate of a pin [m]: float32 rounds it by 6 cm, and farther out holds no cloth.
+FARTHEST = 1e6
+# Range of the speed of a pin [m/s], that of the parameter pin_speed.
+_SLOWEST = 1e-6
+_FASTEST = 1e6
 
 
 def pinned_nodes(
@@ -77,10 +82,6 @@ def checked_node(row: int, col: int, rows: int, cols: int) -> tuple[int, int]:
 
 
 # Where a moving pin is at each time, and where it ends.
-
-# Farther out float32 holds no cloth any more.
-FARTHEST = 1e6
-_SLOWEST, _FASTEST = 1e-6, 1e6
 
 
 @dataclass(frozen=True)

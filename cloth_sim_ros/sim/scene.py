@@ -36,6 +36,8 @@ from cloth_sim_ros.sim.wind import Gust
 import numpy as np
 
 GIVE_SCENE = "write Scene({'rows': 32}), or load_scene(path)"
+# Max. suggestions for a name that several groups have [1], so that the message is read.
+_MOST_MEMBERS = 4
 
 
 class Scene:
@@ -358,10 +360,6 @@ def refuse_unknown(given: Iterable[str], fields: tuple[Field, ...]) -> None:
     for name in given:
         if name not in known:
             raise ClothSimError(f'there is no parameter {cut(name)}: {_hint(name, known)}')
-
-
-# Max. number of suggestions for a name that several groups have.
-_MOST_MEMBERS = 4
 
 
 def _hint(name: str, known: list[str]) -> str:

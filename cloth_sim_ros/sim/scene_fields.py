@@ -13,8 +13,19 @@ from cloth_sim_ros.files.errors import shown
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.pins import PIN_NAMES
 
-# Max. length of a list [1].
+# Max. elements of a list [1]: more are a mistake, and take seconds to check.
 MOST_ELEMENTS = 100_000
+# Max. substeps of a dt [1]: more take minutes.
+MOST_SUBSTEPS = 100000
+# Max. speed of the wind along an axis [m/s]: beyond it the laws of air hold no longer.
+FASTEST_WIND = 1000.0
+MODES = ('mass_spring', 'constraint', 'adaptive')
+FAMILIES = ('structural', 'shear', 'bend')
+NO_PRESET = 'none'
+PRESETS = ('fast', 'balanced', 'accurate', 'stiff')
+MATERIALS = (
+    't_shirt', 'underwear', 'denim', 'tablecloth', 'trousers', 'blanket', 'ponte_roma',
+    'polyester_jacket', 'sweater', 'swimsuit')
 _NAMES = {
     bool: 'true or false', int: 'a whole number', float: 'a number', str: 'a word',
 }
@@ -113,16 +124,6 @@ def _as_float(number: int | float) -> float:
     except OverflowError:
         return math.inf if number > 0 else -math.inf
 
-
-MOST_SUBSTEPS = 100000
-MODES = ('mass_spring', 'constraint', 'adaptive')
-FAMILIES = ('structural', 'shear', 'bend')
-FASTEST_WIND = 1000.0
-NO_PRESET = 'none'
-PRESETS = ('fast', 'balanced', 'accurate', 'stiff')
-MATERIALS = (
-    't_shirt', 'underwear', 'denim', 'tablecloth', 'trousers', 'blanket', 'ponte_roma',
-    'polyester_jacket', 'sweater', 'swimsuit')
 
 SCENE_FIELDS = (
     Field('preset', str, NO_PRESET, 'measured values for time-stepping parameters that are not '

@@ -22,6 +22,11 @@ from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.state import MOST_MAGNITUDE
 import numpy as np
 
+# Invocations of a workgroup of Strips along a row and a column [1]: measured as Observer's.
+_LOCAL = (16, 2)
+# Nodes of a column that one invocation of Strips looks at [1].
+_STRIP = 16
+
 
 class SceneProgram:
     """
@@ -106,10 +111,6 @@ def _set_springs(program: Program, scene: Scene) -> None:
 
 
 # Passes in which an invocation looks at a strip of a column and leaves its figures behind.
-
-_LOCAL = (16, 2)
-_STRIP = 16
-
 
 class Strips:
     """

@@ -18,6 +18,9 @@ import numpy as np
 # Of the limit, kept by automatic substeps: what a stretched cloth may take away from it.
 SAFETY = 0.85
 _SAMPLES = 129
+_SHORTEST_DT = next(field.low for field in SCENE_FIELDS if field.name == 'dt') or 0.0
+_AUTOMATIC = 'auto_substeps: true'
+_OTHER_SPRINGS = 'use softer springs, less damping or a larger node mass'
 
 
 @lru_cache(maxsize=16)
@@ -109,11 +112,6 @@ def _largest_eigenvalue(matrix: np.ndarray) -> np.ndarray:
 
 
 # How many substeps explicit springs need, and whether they are allowed.
-
-_SHORTEST_DT = next(field.low for field in SCENE_FIELDS if field.name == 'dt') or 0.0
-_AUTOMATIC = 'auto_substeps: true'
-_OTHER_SPRINGS = 'use softer springs, less damping or a larger node mass'
-
 
 def spring_substeps(scene: Scene, mode: str, *, check_stability: bool = True) -> int:
     """

@@ -26,9 +26,7 @@ uniform float collider_friction[COLLIDERS];
 uniform float collider_thickness[COLLIDERS];  // [m] of a way through it, at least
 uniform float clearance;                      // [m] half the thickness of the cloth
 uniform float compression;                    // [m/s2] what compression to nothing presses with
-
-// Speed at which a node that is inside is moved out [m/s].
-const float way_out_speed = 1.0;
+uniform float way_out_speed;                  // [m/s] at which a node that is inside is moved out
 
 struct Contact {
     vec3 velocity;

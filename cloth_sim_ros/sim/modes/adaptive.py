@@ -33,15 +33,26 @@ from cloth_sim_ros.sim.stop import never
 from cloth_sim_ros.sim.stop import Stop
 import numpy as np
 
-# Bend springs may bend as far as they like: it is not a strain of the cloth.
+# Families with a strain limit. The length of a bend spring is not a strain of the cloth.
 LIMITED = ('structural', 'shear')
-# What an edge that carries the weight of the cloth is beyond its limit: a share of the limit, and
-# no more than a strain at which a push of many times the weight is held as well.
+# TODO-ORIGIN
 _SHARE = 0.1
 _MOST = 0.002
-# Of that: from there before the limit on it comes into force. With a kink, Newton's method would
-# search for the edges that are past it, most of them in vain.
 _TRANSITION = 1.0
+_NEAR = 0.9
+_FAR = 8.0 / 9.0
+_RELEASE = 0.5
+_FADING_STEPS = 8
+# Rest of a dt that is taken for rounding, over dt [1]: float64 rounds a time by 1e-13 of it.
+_NOTHING = 1e-9
+# Invocations of a workgroup of limit_mark.comp along a row and a column [1], as in Strips.
+_LOCAL = (16, 2)
+# First bit in a mark of the edges that are held, engaged, and were engaged one step before.
+_HELD = 0
+_ENGAGED = 4
+_BEFORE = 8
+# Bits of the edges of one cell [1]: four.
+_EDGES = 0xF
 
 
 def strain_past_limit(scene: Scene) -> float:
@@ -109,15 +120,6 @@ class LimitedSprings(ImplicitStep):
 
 
 # Which edges are at their limit at the end of a step, and which were one step before.
-
-_LOCAL = (16, 2)
-# Where in a mark the bits of the edges are that are held, engaged, and engaged before.
-_HELD, _ENGAGED, _BEFORE = 0, 4, 8
-_EDGES = 0xF
-# Of the limit: an edge that is let go is engaged until it has come back to this strain.
-_RELEASE = 0.5
-# Steps without a held edge, after which no edge is engaged any more.
-_FADING_STEPS = 8
 
 
 class LimitMarks:
@@ -194,13 +196,6 @@ class LimitMarks:
 
 def _count_bits(values: np.ndarray) -> int:
     return int(np.unpackbits(values.astype(np.uint8)).sum())
-
-
-# Of dt: a rest that is no substep any more.
-_NOTHING = 1e-9
-# Of the limit: an edge that is predicted to come so far, or to where the limit begins to pull, is
-# near it. Once the limit has held, edges are left to their springs below this share of that.
-_NEAR, _FAR = 0.9, 8.0 / 9.0
 
 
 class LimitedSubsteps(Protocol):

@@ -15,7 +15,12 @@ from cloth_sim_ros.sim.scene_program import Strips
 from cloth_sim_ros.sim.state import State
 import numpy as np
 
-_FEWEST, _MOST = 4, 64
+# TODO-ORIGIN
+_MEAN_TURN = 0.002
+_LARGEST_TURN = 0.0075
+# Substeps that a look ahead covers at first, and at most [1]; each look costs about one substep.
+_FEWEST = 4
+_MOST = 64
 
 
 def _bind(state: State, forcing: Forcing, ahead: float) -> None:
@@ -97,12 +102,6 @@ class StrainWatch:
             self._left = int(share * reach) if math.isfinite(share) else 0
             self._until = now + self._left * length
         self._reach = min(max(2 * self._left, _FEWEST), _MOST)
-
-
-# Of the length of an edge that turns in one substep, (omega h)^2 / 2, in the mean over all edges,
-# weighted with what they lose by it; and of any edge: a further pass still mends such a length.
-_MEAN_TURN = 0.002
-_LARGEST_TURN = 0.0075
 
 
 class TurnWatch:

@@ -29,10 +29,18 @@ from cloth_sim_ros.sim.stop import never
 from cloth_sim_ros.sim.stop import Stop
 import numpy as np
 
-# [s]: slowly beside the time in which a cloth of a metre falls.
-_TIME = 0.3
-# A smaller strain is held at once: what hard edges hold of it as energy is lost in a few steps.
-NOTABLE = 0.01
+# Time in which a limit closes in, over the root of the size of the cloth [s / sqrt(m)]: the far
+# end of one that comes longer by a tenth has at most 6 x 0.1 size / time^2, 0.7 of gravity.
+_SETTLING_TIME = 0.3
+# TODO-ORIGIN
+_MOST_SOLVES = 32
+_MOST_CONTACT_SOLVES = 8
+_MOST_CONTACT_TURNS = 4
+# Max. substep margin that is reported [1]; a finite number where edges turn at once.
+_LARGEST_MARGIN = 1e9
+# Fraction of a substep that is taken for rounding [1]: no further substep is made for it.
+_NOTHING = 1e-9
+_NO_FORCING = Forcing((0.0, 0.0, 0.0))
 
 
 class Settling:
@@ -45,19 +53,22 @@ class Settling:
     at once, it would have that of hard edges from nothing, and be thrown together.
 
     :param notable: strain up to which it is held at once
+    :param size: of the cloth [m]: the time is that in which a cloth falls a share of its size, so
+        that cloths of all sizes move alike
     """
 
     is_new: bool
 
-    def __init__(self, notable: float = NOTABLE) -> None:
+    def __init__(self, notable: float, size: float) -> None:
         """Wait for a cloth."""
         self._notable = notable
+        self._time = _SETTLING_TIME * math.sqrt(size)
         self.forget()
 
     @property
     def limit(self) -> float:
         """Return the strain limit that holds now; 0 for hard edges."""
-        left = 1.0 - min(self._age / _TIME, 1.0)
+        left = 1.0 - min(self._age / self._time, 1.0)
         return self._first * left * left * (3.0 - 2.0 * left)
 
     def begin(self, strain: float) -> None:
@@ -75,26 +86,13 @@ class Settling:
         """Go on by ``length`` [s]."""
         if self._first:
             self._age += length
-            if self._age >= _TIME:
+            if self._age >= self._time:
                 self._first = 0.0
 
     def forget(self) -> None:
         """Wait for another cloth."""
         self._first = self._age = 0.0
         self.is_new = True
-
-
-_NO_FORCING = Forcing((0.0, 0.0, 0.0))
-# What is told of substeps in which edges turn at once, a finite number.
-_LARGEST_MARGIN = 1e9
-# Of a substep: rounding that is no reason for another one.
-_NOTHING = 1e-9
-# Of a pass. Where a hundred edges come to their limits at once, a dozen or two find which do.
-_MOST_SOLVES = 32
-# Of a substep, until it is known what touches a collider.
-_MOST_CONTACT_SOLVES = 8
-# After so many, friction only resists.
-_MOST_CONTACT_TURNS = 4
 
 
 @dataclass(frozen=True)
@@ -130,7 +128,7 @@ class ImplicitStep(ABC):
 
     def __init__(
             self, scene: Scene, layout: Layout, families: Collection[str],
-            notable: float = NOTABLE) -> None:
+            notable: float) -> None:
         """Compile the solver."""
         families = tuple(family for family in FAMILIES if family in families)
         self._scene = scene
@@ -142,7 +140,7 @@ class ImplicitStep(ABC):
             foresees_turn=self._newton.foresees_turn)
         self._watch = TurnWatch(scene, layout, families)
         self._free_motion = FreeMotion(scene, layout)
-        self.settling = Settling(notable)
+        self.settling = Settling(notable, max(scene['width'], scene['height']))
         self._energies = Observer(scene, layout, set(families))
         # The law of the last substep, and what it was asked for.
         self._law: tuple[tuple[float, float], EdgeLaw] | None = None

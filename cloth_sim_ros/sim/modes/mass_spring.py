@@ -29,6 +29,17 @@ from cloth_sim_ros.sim.stop import never
 from cloth_sim_ros.sim.stop import Stop
 import numpy as np
 
+# Max. nodes times substeps that are submitted between two interrupts on software [1]: a few
+# milliseconds on one core.
+_NODES_AT_ONCE = 2**18
+# Max. substeps that are submitted between two interrupts on a GPU [1]: all up to the next check.
+_SUBMITTED_AT_ONCE = CHECKED_SUBSTEPS
+# Max. substeps of a tile between two checks [1]: one dispatch of 0.4 to 1 ms on a GPU, where a
+# check takes some 0.1 ms.
+_TILED_AT_ONCE = 256
+# Fraction of a substep that is taken for rounding [1]; float64 rounds a time by 1e-13 of it.
+_ROUNDING = 1e-6
+
 
 class OnePass:
     """The fused layout: mass_spring_step.comp."""
@@ -111,17 +122,6 @@ class OnePass:
         self._step.delete()
         self._recording_step.delete()
         self._held_set = None
-
-
-# Substeps that can't be interrupted, by their nodes: a few milliseconds on one core.
-_NODES_AT_ONCE = 2**18
-# Where to submit them takes no longer, whatever their nodes: as many as lie between two checks.
-_SUBMITTED_AT_ONCE = CHECKED_SUBSTEPS
-# Max. substeps of a tile between two checks, all in one dispatch of 0.4 to 1 ms on a GPU, where a
-# check takes some 0.1 ms.
-_TILED_AT_ONCE = 256
-# Of a substep: what is short of it by less is a whole one.
-_ROUNDING = 1e-6
 
 
 class SubstepPasses(Protocol):

@@ -24,6 +24,11 @@ from cloth_sim_ros.sim.solver.solver_programs import SolverPass
 from cloth_sim_ros.sim.solver.solver_programs import SolverPrograms
 from cloth_sim_ros.sim.state import State
 
+# TODO-ORIGIN
+_LOOKS = 6
+_FLAT = 0.05
+_MOST_UNSOLVED = 1e-4
+
 
 @dataclass(frozen=True)
 class Start:
@@ -134,11 +139,6 @@ class HeldPass:
 # the way from start to solution changes sign once: there the next solve starts, which so comes
 # nearer (Newton's method with a line search; docs/explanation/adaptive.md). That is sure from the
 # second solve of a pass on: the first takes its lines where tensions say, not where it starts.
-
-# Looks along the way, by false position, not nearer than a tenth to the ends of what is left.
-_LOOKS = 6
-# Of the slope at the start: what the slope where the next solve starts may be.
-_FLAT = 0.05
 
 
 @dataclass(frozen=True)
@@ -262,9 +262,6 @@ class LimitSearch:
 
 
 # Which nodes touch a collider in a substep of the implicit step, docs/explanation/contact.md.
-
-# Of the distance of nodes: what one may be moved by without another solve.
-_MOST_UNSOLVED = 1e-4
 
 
 class SolverContacts:

@@ -12,6 +12,15 @@ from cloth_sim_ros.sim.solver.solver_buffers import Levels
 from cloth_sim_ros.sim.solver.solver_programs import SolverPass
 from cloth_sim_ros.sim.solver.solver_programs import SolverPrograms
 
+# TODO-ORIGIN
+_COARSEST_STEPS = 10
+_SPREAD_OF_WEIGHT = 10.0
+_LEAST_SPREAD = 4.0
+_MOST_SPREAD = 60.0
+# Largest eigenvalue of an edge system over its diagonal blocks [1], an upper bound: of an edge
+# with the weight a, 2 a (v1^2 + v2^2) >= a (v1 - v2)^2.
+_LARGEST_EIGENVALUE = 2.0
+
 
 class Preconditioner(Protocol):
     """
@@ -48,13 +57,6 @@ class BlockJacobi:
 
 # Geometric multigrid: smooth, solve what is left on a lattice half as fine, smooth again.
 
-# Chebyshev steps on the coarsest level, and the spread of eigenvalues they are made for.
-_COARSEST_STEPS = 10
-_LEAST_SPREAD = 4.0
-_MOST_SPREAD = 60.0
-# The largest eigenvalue of an edge system over its diagonal blocks: an edge ties two nodes.
-_LARGEST_EIGENVALUE = 2.0
-
 
 class Multigrid:
     """A V-cycle with two Chebyshev steps of block-Jacobi before and after each coarser level."""
@@ -73,7 +75,8 @@ class Multigrid:
         """Set the eigenvalues to damp on the coarsest level."""
         cloth, coarsest = self._levels.cloth, self._levels.layouts[-1]
         share = coarsest.rows * coarsest.cols / (cloth.rows * cloth.cols)
-        spread = min(max(1.0 + 10.0 * law.largest_weight * share, _LEAST_SPREAD), _MOST_SPREAD)
+        spread = 1.0 + _SPREAD_OF_WEIGHT * law.largest_weight * share
+        spread = min(max(spread, _LEAST_SPREAD), _MOST_SPREAD)
         least = _LARGEST_EIGENVALUE / spread
         self._coarsest.use()
         self._coarsest.set_float('middle', (_LARGEST_EIGENVALUE + least) / 2.0)

@@ -58,8 +58,6 @@ _EARLY = 0.3
 # Of the way of such a solve: where less can be gone, those that follow are exact. Hard edges meet
 # first what an early one leaves.
 _HALF = 0.5
-# Of the change of velocity: less than this is missing of tensions by the rounding of lengths.
-_LEAST_MISSING = 5e-6
 
 
 class Solver:
@@ -277,7 +275,7 @@ class Solver:
         if self._is_again and found.measure_start <= allowed:
             return False
         is_early = allowed < found.measure_after <= _EARLY**2 * found.measure_start
-        missing = max(_LACKING * self._tolerance, _LEAST_MISSING)**2 * found.scale
+        missing = (_LACKING * self._tolerance)**2 * found.scale
         self._buffers.bind()
         state.bind_in()
         is_due = self._search.move_start(

@@ -27,7 +27,7 @@ from cloth_sim_ros.sim.solver.solver_fields import numbers
 from cloth_sim_ros.sim.solver.solver_fields import VECTORS
 import numpy as np
 
-# A coarsest level of up to this many nodes a side is solved in one workgroup.
+# Max. nodes a side of the coarsest level [1]: 64 nodes fit one workgroup, which solves them.
 COARSEST_SIDE = 8
 # Max. levels [1]: enough for any cloth that buffers can hold, each has half the side of the one
 # before.
@@ -39,7 +39,8 @@ _ON_SOFTWARE = (4, (8, 2))
 # a program of it takes llvmpipe minutes to compile.
 _ON_SOFTWARE_WITH_MUCH = (2, (8, 2))
 _ON_GPU = (2, (8, 8))
-_BYTES = 16
+# Size of an entry, a vec4 [bytes].
+_ENTRY_BYTES = 16
 
 
 class Levels:
@@ -80,7 +81,7 @@ class Levels:
         stored = np.array([layout.stored for layout in self.layouts])
         ends = np.cumsum([stored * vectors, stored * system], axis=1)
         self._begins = (ends - [stored * vectors, stored * system]).T
-        self.vector_bytes, self.system_bytes = (int(end) * _BYTES for end in ends[:, -1])
+        self.vector_bytes, self.system_bytes = (int(end) * _ENTRY_BYTES for end in ends[:, -1])
 
     @property
     def cloth(self) -> Layout:
@@ -133,7 +134,6 @@ SOLUTION, CHANGE, START, LEFT = (
     _VECTOR[name] for name in ('SOLUTION', 'CHANGE', 'START', 'LEFT'))
 _SYSTEM = numbers(CLOTH_SYSTEM, BEND_SYSTEM)
 TENSION, BEND_TENSION = _SYSTEM['TENSION'], _SYSTEM['BEND_TENSION']
-_ENTRY_BYTES = 16
 
 
 class Scalars(NamedTuple):

@@ -18,12 +18,20 @@ from cloth_sim_ros.sim.layout import Layout
 from cloth_sim_ros.sim.solver.edge_law import EdgeLaw
 from cloth_sim_ros.sim.solver.solver_buffers import Levels
 
-# What smoothing leaves to the coarser levels lies below this, with an eigenvalue of 2 at most.
+# TODO-ORIGIN
 _LEAST = 0.25
-# On coarse levels a bend edge counts with those of four nodes.
+# Edges of each rest length around a node [1]; on coarse levels a bend edge counts with those of
+# four nodes.
 _EDGES_OF_A_NODE = (2.0, 2.0, 4.0, 8.0, 8.0)
-# The squares of a node's parts in the three lines around it: 1, 2 and 1.
+# Sum of the squares of a node's parts in the three lines around it [1]: 1 + 2^2 + 1.
 _LINES_OF_A_NODE = 6.0
+# Invocations of a workgroup [1] of passes over single entries, and entries of each invocation.
+POINT_LOCAL = 32
+POINTS = 8
+# Invocations of the workgroup of reduce.comp [1].
+REDUCE_LOCAL = 16
+# Size of the workgroup counts of one dispatch [bytes]: three uint32.
+_BYTES_PER_DISPATCH = 12
 
 
 def smoothing_steps(law: EdgeLaw) -> tuple[float, float]:
@@ -51,12 +59,6 @@ def smoothing_steps(law: EdgeLaw) -> tuple[float, float]:
 
 
 # Compile the programs of the solver: for the families of edges it takes, on its levels.
-
-POINT_LOCAL = 32
-# Entries of one invocation where entries stand alone.
-POINTS = 8
-REDUCE_LOCAL = 16
-
 
 class SolverPrograms:
     """
@@ -136,9 +138,6 @@ def solver_defines(
 
 
 # One pass of the solver, and the list of workgroup counts that reduce.comp switches off.
-
-_BYTES_PER_DISPATCH = 12
-
 
 class SolverPass:
     """

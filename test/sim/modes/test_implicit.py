@@ -11,7 +11,7 @@ import pytest
 
 
 def _limits(strain, count=40):
-    settling = Settling()
+    settling = Settling(0.01, 1.0)
     settling.begin(strain)
     limits = []
     for _ in range(count):
@@ -37,7 +37,7 @@ def test_begins_and_ends_at_rest():
 
 def test_only_a_new_cloth_counts():
     """A cloth that is stretched by a push would be let go."""
-    settling = Settling()
+    settling = Settling(0.01, 1.0)
     settling.begin(1e-4)
     settling.begin(0.5)
     assert settling.limit == 0.0

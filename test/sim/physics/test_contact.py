@@ -174,8 +174,9 @@ def test_a_cloth_inside_a_body_comes_out_slowly(simulate, within, any_mode):
     simulation = simulate({
         **LYING, **FLOOR, 'mode': any_mode, 'gravity': [0.0, 0.0, 0.0], 'start.z': -0.05})
     simulation.advance(0.02)
-    within('depth after 0.02 s at 1 m/s, less 3 cm [m]',
-           np.abs(simulation.positions()[..., 2] + 0.03).max(), 1e-5)
+    way = 0.02 * math.sqrt(LYING['height'])
+    within('depth after 0.02 s, less that at the speed of moving out [m]',
+           np.abs(simulation.positions()[..., 2] + 0.05 - way).max(), 1e-5)
     simulation.advance(0.1)
     within('depth in the end [m]', np.abs(simulation.positions()[..., 2]).max(), 1e-6)
     within('speed in the end [m/s]', np.abs(simulation.velocities()).max(), 1e-4)

@@ -83,3 +83,14 @@ def test_a_reset_settles_anew(simulate):
     assert cloth.snapshot().settling_work == 0.0
     cloth.advance(0.4)
     assert cloth.snapshot().settling_work == first.settling_work
+
+
+@pytest.mark.parametrize(('bound', 'settles'), [(0.008, True), (0.04, False)])
+def test_what_weight_does_is_held_at_once(simulate, bound, settles):
+    """A cloth of softer hard edges was let go where its own weight had stretched it."""
+    cloth = simulate({
+        'mode': 'constraint', 'rows': 4, 'cols': 4, 'dt': 0.005, 'pins': ['none'],
+        'constraint.strain': bound})
+    cloth.set_state(1.03 * cloth.positions(), np.zeros((4, 4, 3)))
+    cloth.step()
+    assert cloth.snapshot().settling is settles
