@@ -20,15 +20,17 @@ from cloth_sim_ros.sim.state import State
 from cloth_sim_ros.sim.wind import Wind
 import numpy as np
 
-# Of the relative velocity: what air may take of it until it is looked at again.
+# Max. change of the velocity relative to the air until it is looked at again, over it [1]: drag
+# goes with its square, and is off by up to twice as much.
 _CHANGE = 0.1
-# Of the relative velocity: what air takes of it at most while it is not looked at. Up to there the
-# velocity that is left grows with the one there was.
+# Max. part of the relative velocity that air takes while it is not looked at [1]: up to 1/2 of a
+# quadratic drag, v - d v^2 grows with v.
 _MOST_SHARE = 0.5
+# Gravity that the speed of a falling cloth is taken at [m/s2], in scenes without any as well.
 _GRAVITY = 9.81
 # Speed of a node, over that of a cloth that falls its own size: more is not looked for [1].
 _FASTEST = 4.0
-# Of a substep: rounding that is no part of one.
+# Fraction of a substep that is taken for rounding [1].
 _NOTHING = 1e-6
 
 

@@ -46,7 +46,8 @@ _OWN = ('start.pose', 'start.z', 'start.jitter', 'start.seed', 'pins', 'pin_poin
         'pin_points.max_distance')
 # What all cloths of a batch have in common.
 _COMMON = ('rows', 'cols', 'dt')
-_MOST_CLOTHS = 1_000_000  # chosen: so many of the smallest ones fit in no buffer
+# Max. cloths of a batch [1]: so many of the smallest ones fit in no buffer.
+_MOST_CLOTHS = 1_000_000
 # What none of them may have.
 _TIMED = ('pushes.start', 'pin_moves.start', 'grasps.start')
 

@@ -20,6 +20,7 @@ from cloth_sim_ros.sim.scene_fields import SCENE_FIELDS
 import numpy as np
 
 NAMES = 'colliders.names'
+# Max. colliders [1]: those that are near are bits of a uint in collider_bounds.glsl.
 MOST_COLLIDERS = 32
 # How many lengths each shape has, and which.
 SHAPES = {

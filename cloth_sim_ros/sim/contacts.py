@@ -30,20 +30,24 @@ from cloth_sim_ros.sim.state import State
 import numpy as np
 
 STICKS, SLIDES = 1, 2
-# A way through a plane, which has no end [m].
+# Thickness of a plane, which has no end [m]: beyond any way of a node.
 _ENDLESS = 1e9
+# Size of an entry of the contact record, a vec4 [bytes].
 _ENTRY_BYTES = 16
 # Speed at which a node inside a body is moved out, over the root of the size of the cloth
 # [sqrt(m) / s]: a third of sqrt(gravity x size); chosen: a squeezed cloth does not change from
 # 0.25 to 4, one that begins inside a body by 1.5 % (constants.py --only _WAY_OUT_SPEED).
 _WAY_OUT_SPEED = 1.0
-# Substeps are counted in a float.
+# Max. number of substeps that are told apart [1]: float32 counts so far without a gap.
 _MOST_SERIAL = 2**24
-# Of coordinates: what positions are rounded by counts as no way.
+# Rounding of positions over the coordinates [1], which counts as no way: ten times that of
+# contact.glsl.
 _ROUNDING = 4e-6
-# Of the blocks and of the nodes that are near: workgroups along x, y and z, and how many they are.
+# Workgroups along x, y and z, and number, of the blocks and of the nodes that are near.
 _NONE_NEAR = np.array([0, 1, 1, 0, 0, 1, 1, 0], dtype=np.uint32)
-_NODE_GROUPS = 16  # [bytes] where those of the nodes stand
+# Offset of those of the nodes [bytes].
+_NODE_GROUPS = 16
+# Room for each block and node in the lists [bytes].
 _NEAR_BYTES = 8
 
 

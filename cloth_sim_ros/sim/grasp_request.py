@@ -18,7 +18,7 @@ from cloth_sim_ros.sim.pose import Pose
 from cloth_sim_ros.sim.pose import unit_quaternion
 import numpy as np
 
-# In units of what it may be at most.
+# Max. number of a request, over the unit of its field [1].
 _LARGEST = 1e9
 
 

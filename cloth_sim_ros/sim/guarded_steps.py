@@ -28,13 +28,14 @@ from cloth_sim_ros.sim.stop import never
 from cloth_sim_ros.sim.stop import Stop
 import numpy as np
 
-# Of the shortest spacing: a node that moves further in a substep has left what its springs know.
+# Max. way of a node in a substep over the shortest spacing [1]: beyond 1/2,
+# neighbours can pass each other.
 _FAR = 0.5
 # Makes up to so many steps, from the one of a number on; returns how many it has made.
 StepsFrom = Callable[[int, int, Stop], int]
 # Rotation of edges in a substep over the accurate one [1]; below it, rotation is no cause.
 _ROUNDING = 1e-3
-# A strain that no cloth was laid out for.
+# Strain above which a cloth counts as overstretched [1]: ten times its length, as no fabric is.
 _OVERSTRETCHED = 10.0
 
 

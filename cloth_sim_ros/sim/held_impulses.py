@@ -21,14 +21,19 @@ import numpy as np
 
 Node = tuple[int, int]
 _REST = np.zeros(3)
+# Invocations of a workgroup of fold_held.comp [1].
 _LOCAL = 32
+# Size of a vec4 [bytes], and their number for each holder [1].
 _VECTOR_BYTES = 16
 _HOLDER_VECTORS = 4
-# Copies of the sums: read, written, and kept for an undone step.
+# Copies of the sums [1]: read, written, and kept for an undone step.
 _PLACES = 3
-# Substeps between two folds: so many that a fold costs little beside them, in so many entries that
-# the pins of a large cloth take no more memory than its state. Results change by rounding only.
-_MOST_SUBSTEPS, _FEWEST_SUBSTEPS, _ENTRIES = 64, 4, 2**16
+# Range of substeps between two folds [1], within which their entries are as many as below; chosen:
+# a fold costs little beside them, and results change by rounding only.
+_MOST_SUBSTEPS = 64
+_FEWEST_SUBSTEPS = 4
+# Entries of all pins together [1]: 1 MiB, no more memory than the state of a large cloth.
+_ENTRIES = 2**16
 
 
 class HoldsNodes(Protocol):

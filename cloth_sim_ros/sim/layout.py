@@ -17,8 +17,10 @@ from cloth_sim_ros.sim.tuning import Choice
 from cloth_sim_ros.sim.tuning import tuned_choice
 import numpy as np
 
+# Nodes beside a block that its springs reach [1]: bend springs span two.
 HALO = 2
-# Measured on llvmpipe, docs/notes/performance.md; a GPU hides latency with many small invocations.
+# Nodes along each side of a block of one invocation [1], measured on llvmpipe,
+# docs/notes/performance.md; a GPU hides latency with many small invocations.
 _SOFTWARE_BLOCK = 4
 # Of cloths too narrow for half a workgroup of such blocks, and with damped bending, which keeps
 # more of a tile than registers hold: 4 takes three times as long.
@@ -29,6 +31,7 @@ _GPU_BLOCK = 1
 # 1024, and 16 x 8 half as fast at 4096 x 4096.
 _SOFTWARE_LOCAL = (8, 4)
 _GPU_LOCAL = (32, 4)
+# Size of a position or velocity, a vec4 [bytes].
 _BYTES_PER_NODE = 16
 
 

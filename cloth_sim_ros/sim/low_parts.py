@@ -19,8 +19,9 @@ _LEAST_MOTION = 0.125
 # the unit [1]. Compensation takes 2 to 3.5 times as long on llvmpipe, so that it is not made for
 # short substeps of a long dt, which lose some micrometres of a fall at most.
 _LEAST_STEP = 0.5
-# Acceleration [m/s2]: that of a scene without gravity as well.
+# Acceleration [m/s2], in scenes without gravity as well.
 _GRAVITY = 9.81
+# Low parts of a node [1]: three of its position and three of its velocity.
 _FLOATS = 6
 
 

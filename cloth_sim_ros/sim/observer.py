@@ -23,10 +23,13 @@ from cloth_sim_ros.sim.solver.edge_law import set_law
 from cloth_sim_ros.sim.state import State
 import numpy as np
 
+# Invocations of a workgroup along a row and a column [1], and nodes of a column for each.
 _LOCAL = (16, 2)
 _STRIP = 16
+# Sums of observe.comp for each strip [1].
 _SUMS = 5
-# Rows are looked at in slabs, since the records of a large cloth outgrow a storage block.
+# Size of the records that are looked at together [bytes]: those of a large cloth outgrow a storage
+# block.
 _SLAB_BYTES = 32 * 2**20
 
 

@@ -11,11 +11,12 @@ from cloth_sim_ros.sim.arguments import vector
 from cloth_sim_ros.sim.errors import ClothSimError
 import numpy as np
 
-# Farther out float32 holds no cloth any more.
+# Max. coordinate [m]: float32 rounds it by 8 mm, and farther out holds no cloth.
 FARTHEST = 1e5
-# Shorter ones are no rotation.
+# Least length of a quaternion that is a rotation [1].
 _LEAST_QUATERNION = 1e-6
-# What a length of 1 comes to after rounding: made a unit again, it would have other bits.
+# Difference from 1 of the length of a quaternion that is kept as it is [1], some roundings of
+# float64: made a unit again, it would have other bits.
 _ROUNDING = 1e-15
 
 Vector = tuple[float, float, float]

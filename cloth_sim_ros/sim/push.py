@@ -14,16 +14,16 @@ from cloth_sim_ros.sim.errors import ClothSimError
 import numpy as np
 
 REGIONS = ('all', 'sphere')
-# Forces are float32 on the device, which ends at 3e38 [N].
+# Max. force [N]: float32 ends at 3e38.
 _STRONGEST = 1e30
-# What a scene may have as well [m], [s].
+# Max. coordinate [m] and time [s], those of a scene.
 _FARTHEST = 1e6
 _LONGEST = 1e9
 _IN_SECONDS = 'give it in simulated seconds'
-# What a node on the surface of a sphere may lie outside of it, over how far from the origin the
-# sphere reaches: see Push.contains.
+# Distance from a sphere at which a node still counts as on it, over how far from the origin the
+# sphere reaches [1]: one unit in the last place of float32; see Push.contains.
 _ROUNDING = 2.0**-23
-# Units in the last place by which the end of a substep can be off.
+# Rounding of the end of a substep [units in the last place].
 _ROUNDED = 8.0
 
 

@@ -16,9 +16,9 @@ from cloth_sim_ros.sim.layout import Layout
 from cloth_sim_ros.sim.push import Push
 import numpy as np
 
-# Beyond it a sum of pushes would leave float32.
+# Max. acceleration by a push [m/s2]: beyond, a sum of pushes would leave float32.
 _MOST_ACCELERATION = 1e36
-# Each costs time in each substep, and those on a sphere hold their nodes.
+# Max. pushes at a time [1]: each costs time in each substep, and memory for its nodes.
 MOST_PUSHES = 1000
 
 

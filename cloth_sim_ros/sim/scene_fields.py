@@ -13,11 +13,11 @@ from cloth_sim_ros.files.errors import shown
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.pins import PIN_NAMES
 
-# Max. elements of a list [1]: more are a mistake, and take seconds to check.
+# Max. elements of a list [1].
 MOST_ELEMENTS = 100_000
-# Max. substeps of a dt [1]: more take minutes.
+# Max. substeps of a dt [1].
 MOST_SUBSTEPS = 100000
-# Max. speed of the wind along an axis [m/s]: beyond it the laws of air hold no longer.
+# Max. speed of the wind along an axis [m/s]: three times that of sound.
 FASTEST_WIND = 1000.0
 MODES = ('mass_spring', 'constraint', 'adaptive')
 FAMILIES = ('structural', 'shear', 'bend')

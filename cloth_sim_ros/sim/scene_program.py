@@ -22,7 +22,7 @@ from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.state import MOST_MAGNITUDE
 import numpy as np
 
-# Invocations of a workgroup of Strips along a row and a column [1]: measured as Observer's.
+# Invocations of a workgroup of Strips along a row and a column [1].
 _LOCAL = (16, 2)
 # Nodes of a column that one invocation of Strips looks at [1].
 _STRIP = 16

@@ -15,8 +15,10 @@ from cloth_sim_ros.sim.scene_fields import MOST_SUBSTEPS
 from cloth_sim_ros.sim.scene_fields import SCENE_FIELDS
 import numpy as np
 
-# Of the limit, kept by automatic substeps: what a stretched cloth may take away from it.
+# Substep that is chosen, over the limit of the flat cloth [1]: stretched cloths have a lower one
+# (docs/explanation/numerics.md).
 SAFETY = 0.85
+# Wave numbers from 0 to pi along each axis that are tried [1]; an odd number includes pi / 2.
 _SAMPLES = 129
 _SHORTEST_DT = next(field.low for field in SCENE_FIELDS if field.name == 'dt') or 0.0
 _AUTOMATIC = 'auto_substeps: true'

@@ -13,6 +13,7 @@ from cloth_sim_ros.sim.scene_program import SceneProgram
 from cloth_sim_ros.sim.state import State
 import numpy as np
 
+# Invocations of a workgroup of place_pins.comp [1].
 _LOCAL = 32
 # Rounding of the end of a path, in steps of dt [1].
 _NOTHING = 1e-9

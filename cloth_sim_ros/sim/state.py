@@ -22,6 +22,7 @@ import numpy as np
 # stiffest springs, energies and normals of what is below it do not leave float32.
 MOST_MAGNITUDE = 1e12
 
+# Pairs of buffers [1]: two that substeps write in turn, and one with the last state checked.
 _PAIRS = 3
 # A pair of buffers that neither holds the present state nor the one that was kept.
 _SPARE = {

@@ -25,9 +25,11 @@ VARIABLE = 'CLOTH_SIM_TUNING'
 OFF = 'off'
 _OFF = (OFF, 'no', 'false', '0')
 _FOLDER = 'cloth_sim_ros'
+# Max. size of a file [bytes]: a larger one is no tuning.
 _MOST_BYTES = 1 << 16
+# Max. sizes of cloth in a file [1].
 MOST_SIZES = 64
-# Max. length of a file name [1]. It has the device in it for people; the file itself names it.
+# Max. letters of a file's name that are the device's [1], for people: the file has its name, too.
 _MOST_LETTERS = 160
 _FIELDS = {field.name: field for field in SCENE_FIELDS if field.name in (
     'rows', 'loads', 'block')}

@@ -12,9 +12,12 @@ from cloth_sim_ros.sim.scene_program import Strips
 from cloth_sim_ros.sim.state import State
 import numpy as np
 
+# Invocations of a workgroup along a row and a column [1], as in Strips.
 _LOCAL = (16, 2)
+# Sums of rigid_sums.comp [1]: momenta and moments.
 _SUMS = 15
-# Of the largest moment of inertia: below it the cloth is a line, and can't be turned about it.
+# Moment of inertia over the largest one [1], below which the cloth is a line and can't be turned
+# about it.
 _FLAT = 1e-6
 
 

@@ -37,7 +37,7 @@ _SUBMITTED_AT_ONCE = CHECKED_SUBSTEPS
 # Max. substeps of a tile between two checks [1]: one dispatch of 0.4 to 1 ms on a GPU, where a
 # check takes some 0.1 ms.
 _TILED_AT_ONCE = 256
-# Fraction of a substep that is taken for rounding [1]; float64 rounds a time by 1e-13 of it.
+# Fraction of a substep that is taken for rounding [1].
 _ROUNDING = 1e-6
 
 

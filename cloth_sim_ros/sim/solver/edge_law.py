@@ -23,17 +23,17 @@ from cloth_sim_ros.sim.edge_kinds import rest_lengths
 from cloth_sim_ros.sim.scene import FAMILIES
 from cloth_sim_ros.sim.scene import Scene
 
-# Weighs the geometric mass term. From 1/4 on, waves across tight edges are stable at any length of
-# the step; at 1/4 those that are much shorter than it change sign in each step, for ever.
+# Weight of the geometric stiffness, over h^2 [1] (Newmark's beta). From 1/4 on, waves across tight
+# edges are stable at any h; at 1/4 those much shorter than h change sign in each step, for ever.
 BETA = 0.5
-# The weight is that on the ground: a scene without gravity has the same law.
+# Gravity that the weight of a cloth is taken at [m/s2]: a scene without any has the same law.
 STANDARD_GRAVITY = 9.81
-# A cloth that hangs by a whole edge is to stretch by no more than this share of what an edge
-# stretches that carries it alone.
+# Max. strain of a cloth that hangs by a whole edge, over that of one edge that carries it alone
+# [1]; from 34 lines on it makes no difference. A choice of the model: docs/notes/constants.md.
 _HANGING_SHARE = 0.03
-# Larger than any length in rest lengths, and a number to float32.
+# Limit of an edge that has none [rest lengths]: beyond any length, below the 3e38 of float32.
 FAR = 1e30
-# Of each rest length, the family.
+# Family of each rest length.
 _FAMILY_OF = tuple(FAMILIES.index(kind.family) for kind in REST_KINDS)
 
 

@@ -48,15 +48,18 @@ import numpy as np
 PRECONDITIONERS: dict[str, type[Preconditioner]] = {
     'multigrid': Multigrid, 'block_jacobi': BlockJacobi}
 
-# Of the tolerance. What the last iteration leaves is foretold, not measured.
+# Residual at which a solve stops, over the tolerance [1], as that of the last iteration is
+# foretold; chosen: iterations go from +9 % at 0.4 to -2 % at 1 (constants.py --only _AIM).
 _AIM = 0.8
-# Of the tolerance: what tensions may lack of the law. It is lost, unlike what a solve leaves.
+# Error of the tensions at which a pass ends, over the tolerance [1]; chosen: nodes move by < 1 %
+# of their way from 0.1 to 2, solves go from +13 to -11 % (constants.py --only _LACKING).
 _LACKING = 0.5
-# Of what is missing at its start, what a solve may leave that another one goes on from, with other
-# limits in force.
+# Residual of an early solve, over that at its start [1]; chosen: nodes move by 1 % of their way
+# from 0.1 to 0.9, 0 costs 9 % more iterations (constants.py --only _EARLY).
 _EARLY = 0.3
-# Of the way of such a solve: where less can be gone, those that follow are exact. Hard edges meet
-# first what an early one leaves.
+# Part of the way of an early solve that the line search goes [1], below which the solves that
+# follow are exact; chosen: nodes move by < 0.01 % of their way from 0 to 0.75, iterations by 2 %
+# at 1.1 (constants.py --only _HALF).
 _HALF = 0.5
 
 

@@ -18,7 +18,8 @@ from cloth_sim_ros.sim.layout import Layout
 from cloth_sim_ros.sim.solver.edge_law import EdgeLaw
 from cloth_sim_ros.sim.solver.solver_buffers import Levels
 
-# TODO-ORIGIN
+# Least eigenvalue that smoothing damps [1], the largest being 2 at most; what is below is left to
+# coarser levels; chosen, see docs/notes/constants.md.
 _LEAST = 0.25
 # Edges of each rest length around a node [1]; on coarse levels a bend edge counts with those of
 # four nodes.

@@ -14,9 +14,11 @@ from cloth_sim_ros.sim.solver.solver_programs import SolverPrograms
 from cloth_sim_ros.sim.state import State
 import numpy as np
 
-# Of the change that what is applied would make: to rest is to change by nothing, and a residual
-# small beside that is never reached.
+# Least change of velocity that a residual is measured by, over that of gravity [1], as nothing
+# changes at rest; chosen: a moving cloth has the same bits from 0 to 0.1, one at rest takes 4.0
+# iterations a solve at 0, 3.1 at 1e-3 and 2.1 at 0.1 (constants.py --only _LEAST_CHANGE).
 _LEAST_CHANGE = 0.001
+# Figures of tally.comp [1].
 _FIGURES = 5
 
 
