@@ -71,6 +71,10 @@ SCENES: Mapping[str, tuple[Mapping[str, Any], float, float]] = {
               'start.jitter': 0.0}, 0.3, 1.0),
     # The limit of 2 % begins to pull at 0.9 of it; a wider one nearer to it.
     'wide': ({**_SHEET, 'mode': 'adaptive', 'stiffness.structural': 30.0}, 0.6, 1.0),
+    # The springs of a scene without any values, and a limit of 10 %.
+    'swing': ({'rows': 24, 'cols': 24, 'mode': 'adaptive', 'pushes.start': [0.2],
+               'pushes.duration': [0.1], 'pushes.force': [0.0, 6.0, 0.0],
+               'pushes.center': [0.0, 0.0, 1.0], 'pushes.radius': [0.3]}, 0.8, 1.0),
     # Two pins would hold it as wide as it comes.
     'stretched': ({**_STILL, 'mode': 'constraint'}, 0.45, 1.1),
     'small': ({**_STILL, 'mode': 'constraint', 'width': 0.05, 'height': 0.05, 'dt': 0.001},
@@ -143,9 +147,9 @@ CONSTANTS = (
     Constant('_LACKING', f'{_SOLVER}solver.py', ('0.1', '0.25', '1.0', '2.0'), _LIMITED),
     Constant('_AIM', f'{_SOLVER}solver.py', ('0.4', '0.6', '1.0'), ('adaptive', *_HARD)),
     Constant('_NEAR', f'{_MODES}adaptive.py', ('0.45', '0.8', '0.95', '1.0'),
-             _SPRINGS),
+             (*_SPRINGS, 'swing')),
     Constant('_FAR', f'{_MODES}adaptive.py', ('0.0', '0.5', '0.95', '1.0'),
-             _SPRINGS),
+             (*_SPRINGS, 'swing')),
     Constant('_SHARE', f'{_MODES}adaptive.py', ('0.05', '0.2', '0.5'), _SPRINGS),
     Constant('_MOST', f'{_MODES}adaptive.py', ('0.0005', '0.001', '0.004'),
              _SPRINGS),

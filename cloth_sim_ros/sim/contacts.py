@@ -36,7 +36,7 @@ _ENDLESS = 1e9
 _ENTRY_BYTES = 16
 # Speed at which a node inside a body is moved out, over the root of the size of the cloth
 # [sqrt(m) / s]: a third of sqrt(gravity x size); chosen: a squeezed cloth does not change from
-# 0.25 to 4, one that begins inside a body by 1.5 % (constants.py --only _WAY_OUT_SPEED).
+# 0.25 to 4, one that begins inside a body by 1 % (constants.py --only _WAY_OUT_SPEED).
 _WAY_OUT_SPEED = 1.0
 # Max. number of substeps that are told apart [1]: float32 counts so far without a gap.
 _MOST_SERIAL = 2**24

@@ -37,15 +37,18 @@ import numpy as np
 LIMITED = ('structural', 'shear')
 # Strain past its limit of an edge that carries the whole cloth, over the limit, and at most [1];
 # chosen: half of it holds a thrown cloth to 1.29 of its limit instead of 1.51, with 6 % more
-# solves; a quarter to 1.17, with 26 % more (constants.py --only _SHARE _MOST).
+# solves; a quarter to 1.17, with 22 % more (constants.py --only _SHARE _MOST).
 _SHARE = 0.1
 _MOST = 0.002
 # Strain before its limit at which it begins to pull, over that past it [1]; chosen: solves change
-# by +14 % at 0 (a kink) and by -1 % at 2 (constants.py --only _TRANSITION).
+# by +7 % at 0 (a kink) and by 0 % at 2 (constants.py --only _TRANSITION).
 _TRANSITION = 1.0
+# Predicted strain at which an edge is near its limit, over the limit [1], or that at which the
+# limit begins to pull if it is lower; chosen: same bits from 0.9 to 1 where springs come to their
+# limit at once; a cloth that swings takes 8 % fewer solves at 1 (constants.py --only _NEAR).
 _NEAR = 0.9
 # Predicted strain below which edges are left to their springs again, over that at which the limit
-# begins to pull [1]; chosen: same strain from 0.5 to 1, solves change by +3 to -6 %, and by 7 % at
+# begins to pull [1]; chosen: same strain from 0.5 to 1, solves change by +2 to -4 %, and by 4 % at
 # 0, where limited substeps have no end (constants.py --only _FAR).
 _FAR = 8.0 / 9.0
 # Strain at which an edge that was at its limit counts as let go, over the limit [1], and steps
