@@ -79,7 +79,7 @@ SCENES: Mapping[str, tuple[Mapping[str, Any], float, float]] = {
     'stretched': ({**_STILL, 'mode': 'constraint'}, 0.45, 1.1),
     'small': ({**_STILL, 'mode': 'constraint', 'width': 0.05, 'height': 0.05, 'dt': 0.001},
               0.45, 1.1),
-    'sail': ({**_STILL, 'mode': 'constraint', 'width': 20.0, 'height': 20.0}, 0.45, 1.1),
+    'sail': ({**_STILL, 'mode': 'constraint', 'width': 20.0, 'height': 20.0}, 2.0, 1.1),
     'drape': ({**_LOOSE, **_BALL, 'mode': 'constraint', 'start.z': 0.15,
                'colliders.names': ['ball'], 'colliders.ball.friction': 0.3}, 0.5, 1.0),
     'squeezed': ({
@@ -163,7 +163,7 @@ CONSTANTS = (
              ('adaptive', *_HARD)),
     Constant('_LARGEST_TURN', f'{_MODES}edge_watch.py', ('0.002', '0.00375', '0.015', '0.4'),
              ('adaptive', *_HARD)),
-    Constant('_SETTLING_TIME', f'{_MODES}implicit.py', ('0.01', '0.15', '0.6'),
+    Constant('_SETTLING_TIME', f'{_MODES}implicit.py', ('0.01', '0.067', '0.15', '0.6'),
              ('stretched', 'small', 'sail')),
     Constant('_NOTABLE', f'{_MODES}constraint.py', ('0.0', '0.625', '2.5', '100.0'),
              ('constraint', 'stretched')),

@@ -48,7 +48,7 @@ _TRANSITION = 1.0
 # limit at once; a cloth that swings takes 8 % fewer solves at 1 (constants.py --only _NEAR).
 _NEAR = 0.9
 # Predicted strain below which edges are left to their springs again, over that at which the limit
-# begins to pull [1]; chosen: same strain from 0.5 to 1, solves change by +2 to -4 %, and by 4 % at
+# begins to pull [1]; chosen: same strain from 0.5 to 1, solves change by +3 to -4 %, and by 5 % at
 # 0, where limited substeps have no end (constants.py --only _FAR).
 _FAR = 8.0 / 9.0
 # Strain at which an edge that was at its limit counts as let go, over the limit [1], and steps

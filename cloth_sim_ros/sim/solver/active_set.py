@@ -30,9 +30,9 @@ _LOOKS = 6
 # Slope where the next solve starts, over that at the start of this one [1]; chosen: nodes move by
 # 2 % of their way from 0.01 to 0.5, solves by 1 % (constants.py --only _FLAT).
 _FLAT = 0.05
-# Way of a node by a contact that needs no further solve, over the spacing [1]; chosen: 1e-5
-# changes less than half the tolerance does, 1e-6 costs 44 % more solves, 1e-3 moves nodes by 20 %
-# of their way (constants.py --only _MOST_UNSOLVED).
+# Way of a node by a contact that needs no further solve, over the spacing [1]; chosen: from 1e-5
+# to 1e-2 less changes than by half the tolerance, 1e-6 costs 35 % more solves
+# (constants.py --only _MOST_UNSOLVED).
 _MOST_UNSOLVED = 1e-4
 
 

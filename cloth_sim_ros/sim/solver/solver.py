@@ -49,7 +49,7 @@ PRECONDITIONERS: dict[str, type[Preconditioner]] = {
     'multigrid': Multigrid, 'block_jacobi': BlockJacobi}
 
 # Residual at which a solve stops, over the tolerance [1], as that of the last iteration is
-# foretold; chosen: iterations go from +9 % at 0.4 to -2 % at 1 (constants.py --only _AIM).
+# foretold; chosen: iterations go from +12 % at 0.4 to -1 % at 1 (constants.py --only _AIM).
 _AIM = 0.8
 # Error of the tensions at which a pass ends, over the tolerance [1]; chosen: nodes move by < 1 %
 # of their way from 0.1 to 2, solves go from +13 to -11 % (constants.py --only _LACKING).
