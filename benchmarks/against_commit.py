@@ -29,7 +29,7 @@ import time
 from typing import Any
 
 from cloth_sim_ros.node.node_fields import NODE_FIELDS
-from cloth_sim_ros.sim.given_values import load_parameters
+from cloth_sim_ros.sim.model.given_values import load_parameters
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.verb.scene_arguments import parse_change
 import numpy as np

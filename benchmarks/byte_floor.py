@@ -16,8 +16,8 @@ import statistics
 import time
 
 from cloth_sim_ros.gl.context import Context
-from cloth_sim_ros.sim.forcing import Forcing
-from cloth_sim_ros.sim.layout import choose_layout
+from cloth_sim_ros.sim.device.layout import choose_layout
+from cloth_sim_ros.sim.loads.forcing import Forcing
 from cloth_sim_ros.sim.modes.mass_spring import OnePass
 from cloth_sim_ros.sim.scene import FAMILIES
 from cloth_sim_ros.sim.solver.active_set import RightSide

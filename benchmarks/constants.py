@@ -39,7 +39,7 @@ import sys
 from tempfile import TemporaryDirectory
 from typing import Any
 
-from cloth_sim_ros.sim.scene_fields import SCENE_FIELDS
+from cloth_sim_ros.sim.model.scene_fields import SCENE_FIELDS
 import numpy as np
 
 _ROOT = Path(__file__).resolve().parents[1]
@@ -170,7 +170,7 @@ CONSTANTS = (
     Constant('_MOST_SOLVES', f'{_MODES}implicit.py', ('2', '8', '16', '64'), _LIMITED),
     Constant('_MOST_CONTACT_SOLVES', f'{_MODES}implicit.py', ('2', '4', '16', '64'), _TOUCHING),
     Constant('_MOST_CONTACT_TURNS', f'{_MODES}implicit.py', ('1', '2', '8'), _TOUCHING),
-    Constant('_WAY_OUT_SPEED', 'cloth_sim_ros/sim/contacts.py',
+    Constant('_WAY_OUT_SPEED', 'cloth_sim_ros/sim/contact/contacts.py',
              ('0.0', '0.25', '0.5', '2.0', '4.0'), ('drape', 'squeezed', 'sunk')),
     Constant('FACING', 'shaders/include/contact.glsl', ('0.5', '0.8', '0.95', '0.99'),
              ('squeezed', 'friction')),

@@ -14,7 +14,7 @@ from collections.abc import Mapping
 from collections.abc import Sequence
 from typing import Any
 
-from cloth_sim_ros.sim.given_values import load_parameters
+from cloth_sim_ros.sim.model.given_values import load_parameters
 from cloth_sim_ros.study.paper_figures import PAPER_ADAPTIVE
 from cloth_sim_ros.study.paper_figures import PAPER_CONSTRAINT
 from cloth_sim_ros.study.paper_figures import paper_scene_file

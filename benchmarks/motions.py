@@ -20,7 +20,7 @@ import time
 from typing import Any
 
 from cloth_sim_ros.sim.errors import NonFiniteStateError
-from cloth_sim_ros.sim.given_values import load_parameters
+from cloth_sim_ros.sim.model.given_values import load_parameters
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.simulation import Simulation
 import numpy as np

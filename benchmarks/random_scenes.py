@@ -20,11 +20,11 @@ import time
 from typing import Any
 
 from cloth_sim_ros.gl.context import Context
-from cloth_sim_ros.sim.edge_kinds import EDGE_KINDS
 from cloth_sim_ros.sim.errors import ClothSimError
+from cloth_sim_ros.sim.model.edge_kinds import EDGE_KINDS
+from cloth_sim_ros.sim.model.scene_fields import MODES
 from cloth_sim_ros.sim.modes import AVAILABLE
 from cloth_sim_ros.sim.scene import Scene
-from cloth_sim_ros.sim.scene_fields import MODES
 from cloth_sim_ros.sim.simulation import Simulation
 from cloth_sim_ros.study.energy_account import EnergyAccount
 from cloth_sim_ros.study.extremes import tells_of

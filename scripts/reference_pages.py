@@ -26,9 +26,9 @@ from cloth_sim_ros.messages.requests import SUBSCRIPTIONS
 from cloth_sim_ros.messages.topics import Topic
 from cloth_sim_ros.messages.topics import TOPICS
 from cloth_sim_ros.node.node_fields import NODE_FIELDS
-from cloth_sim_ros.sim.colliders import COLLIDER_FIELDS
-from cloth_sim_ros.sim.scene_fields import Field
-from cloth_sim_ros.sim.scene_fields import SCENE_FIELDS
+from cloth_sim_ros.sim.model.colliders import COLLIDER_FIELDS
+from cloth_sim_ros.sim.model.scene_fields import Field
+from cloth_sim_ros.sim.model.scene_fields import SCENE_FIELDS
 from cloth_sim_ros.verb.main import VERBS
 from python_reference import python_page
 

@@ -20,7 +20,7 @@ ROOT = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT / 'test' / 'support'))
 
 from browser import Browser  # noqa: E402
-from cloth_sim_ros.sim.given_values import load_parameters  # noqa: E402
+from cloth_sim_ros.sim.model.given_values import load_parameters  # noqa: E402
 from cloth_sim_ros.sim.scene import Scene  # noqa: E402
 from cloth_sim_ros.view.scene_source import SceneSource  # noqa: E402
 from PIL import Image  # noqa: E402

@@ -10,8 +10,8 @@ import socket
 
 from cloth_sim_ros.gl.context import Context
 from cloth_sim_ros.gl.errors import DeviceError
-from cloth_sim_ros.sim.tuning import OFF
-from cloth_sim_ros.sim.tuning import VARIABLE
+from cloth_sim_ros.sim.device.tuning import OFF
+from cloth_sim_ros.sim.device.tuning import VARIABLE
 from hypothesis import HealthCheck
 from hypothesis import settings
 from hypothesis.internal.conjecture import providers

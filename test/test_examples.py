@@ -10,7 +10,7 @@ import subprocess
 import sys
 
 from cloth_sim_ros import Recording
-from cloth_sim_ros.sim.given_values import load_parameters
+from cloth_sim_ros.sim.model.given_values import load_parameters
 from matplotlib.image import imread
 from node_process import NodeProcess
 import numpy as np

@@ -6,8 +6,8 @@
 from collections.abc import Iterator
 
 from cloth_sim_ros.gl.context import Context
-from cloth_sim_ros.sim.forcing import Forcing
-from cloth_sim_ros.sim.layout import choose_layout
+from cloth_sim_ros.sim.device.layout import choose_layout
+from cloth_sim_ros.sim.loads.forcing import Forcing
 from cloth_sim_ros.sim.modes.mass_spring import OnePass
 from cloth_sim_ros.sim.modes.spring_tiles import SpringTiles
 from cloth_sim_ros.sim.scene import Scene

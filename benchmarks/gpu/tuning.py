@@ -6,7 +6,7 @@
 from collections.abc import Iterator
 
 from cloth_sim_ros.gl.context import Context
-from cloth_sim_ros.sim import layout
+from cloth_sim_ros.sim.device import layout
 from cloth_sim_ros.sim.simulation import Simulation
 from cloth_sim_ros.study.layout_tuning import tune
 from cloth_sim_ros.study.speed import bench_scene

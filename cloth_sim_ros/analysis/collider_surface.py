@@ -6,7 +6,7 @@
 from collections.abc import Callable
 from functools import lru_cache
 
-from cloth_sim_ros.sim.colliders import Collider
+from cloth_sim_ros.sim.model.colliders import Collider
 import numpy as np
 
 _AROUND = 96   # points of a circle: a chord is off by 0.05 % of the radius

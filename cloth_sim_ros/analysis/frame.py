@@ -11,9 +11,9 @@ from typing import Any
 from typing import Literal
 
 from cloth_sim_ros.messages.geometry import push_arrows
-from cloth_sim_ros.sim.colliders import Collider
 from cloth_sim_ros.sim.errors import ClothSimError
-from cloth_sim_ros.sim.push import Push
+from cloth_sim_ros.sim.model.colliders import Collider
+from cloth_sim_ros.sim.model.push import Push
 from cloth_sim_ros.sim.snapshot import FLAG_GRASPED
 from cloth_sim_ros.sim.snapshot import FLAG_PINNED
 import numpy as np

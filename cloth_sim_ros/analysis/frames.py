@@ -18,13 +18,13 @@ from cloth_sim_ros.analysis.recorded_values import recorded_pose
 from cloth_sim_ros.analysis.recorded_values import RESET
 from cloth_sim_ros.analysis.recording import Entry
 from cloth_sim_ros.analysis.recording import Recording
-from cloth_sim_ros.sim.colliders import Collider
-from cloth_sim_ros.sim.colliders import fields_with_colliders
-from cloth_sim_ros.sim.colliders import NAMES
 from cloth_sim_ros.sim.errors import ClothSimError
-from cloth_sim_ros.sim.frame_paths import FrameMove
-from cloth_sim_ros.sim.frame_paths import FramePaths
-from cloth_sim_ros.sim.push import Push
+from cloth_sim_ros.sim.model.colliders import Collider
+from cloth_sim_ros.sim.model.colliders import fields_with_colliders
+from cloth_sim_ros.sim.model.colliders import NAMES
+from cloth_sim_ros.sim.model.frame_paths import FrameMove
+from cloth_sim_ros.sim.model.frame_paths import FramePaths
+from cloth_sim_ros.sim.model.push import Push
 from cloth_sim_ros.sim.scene import Scene
 import numpy as np
 

@@ -8,7 +8,7 @@ from dataclasses import replace
 
 from cloth_sim_ros.analysis.recorded_values import parts
 from cloth_sim_ros.analysis.recording import Entry
-from cloth_sim_ros.sim.push import Push
+from cloth_sim_ros.sim.model.push import Push
 
 PUSH_KEYS = ('inputs/push', 'inputs/command')
 

@@ -9,9 +9,9 @@ from cloth_sim_ros.analysis.frame_table import STATS
 from cloth_sim_ros.files.errors import cut
 from cloth_sim_ros.files.errors import shown
 from cloth_sim_ros.sim.errors import ClothSimError
-from cloth_sim_ros.sim.pose import checked_position
-from cloth_sim_ros.sim.pose import Pose
-from cloth_sim_ros.sim.pose import unit_quaternion
+from cloth_sim_ros.sim.model.pose import checked_position
+from cloth_sim_ros.sim.model.pose import Pose
+from cloth_sim_ros.sim.model.pose import unit_quaternion
 import numpy as np
 
 # What ~/inputs/command can say.

@@ -22,7 +22,7 @@ from cloth_sim_ros.analysis.recording import Recording
 from cloth_sim_ros.messages.frame_names import name_of_body
 from cloth_sim_ros.messages.frame_names import node_of_pin
 from cloth_sim_ros.sim.errors import ClothSimError
-from cloth_sim_ros.sim.push import Push
+from cloth_sim_ros.sim.model.push import Push
 import numpy as np
 
 KEY = 'pins/wrenches'

@@ -11,8 +11,8 @@ from cloth_sim_ros.node.node_fields import checked_node_values
 from cloth_sim_ros.node.node_fields import NODE_FIELDS
 from cloth_sim_ros.sim.arguments import mapping
 from cloth_sim_ros.sim.arguments import path as checked_path
-from cloth_sim_ros.sim.colliders import fields_with_colliders
-from cloth_sim_ros.sim.given_values import load_parameters
+from cloth_sim_ros.sim.model.colliders import fields_with_colliders
+from cloth_sim_ros.sim.model.given_values import load_parameters
 from cloth_sim_ros.sim.scene import refuse_unknown
 from cloth_sim_ros.sim.scene import Scene
 

@@ -17,7 +17,7 @@ from cloth_sim_ros.sim.arguments import real_number
 from cloth_sim_ros.sim.arguments import vector_or_none
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.errors import NonFiniteStateError
-from cloth_sim_ros.sim.pins import FARTHEST
+from cloth_sim_ros.sim.model.pins import FARTHEST
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.simulation import Simulation
 import gymnasium
@@ -27,7 +27,7 @@ import numpy as np
 _DEFAULT = {'rows': 16, 'cols': 16, 'width': 0.4, 'height': 0.4, 'start.pose': 'hanging'}
 _NOTHING = 1e-9  # [m]
 _LONGEST_FRAME = 1e6  # [s]; chosen: eleven days of simulated time are no action
-_FASTEST = 1e6  # [m/s]; as of any pin, sim/pins.py
+_FASTEST = 1e6  # [m/s]; as of any pin, sim/model/pins.py
 
 
 class CarryCloth(gymnasium.Env[Observation, np.ndarray]):

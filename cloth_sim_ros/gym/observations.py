@@ -16,7 +16,7 @@ from cloth_sim_ros.sim.arguments import mapping
 from cloth_sim_ros.sim.arguments import real_number
 from cloth_sim_ros.sim.arguments import vector
 from cloth_sim_ros.sim.errors import ClothSimError
-from cloth_sim_ros.sim.pins import FARTHEST
+from cloth_sim_ros.sim.model.pins import FARTHEST
 from cloth_sim_ros.sim.simulation import Simulation
 from gymnasium import spaces
 import numpy as np

@@ -10,11 +10,11 @@ from dataclasses import replace
 from cloth_sim_ros.messages.frame_names import collider_frame
 from cloth_sim_ros.messages.frame_names import grasp_frame
 from cloth_sim_ros.messages.stamp import stamp
-from cloth_sim_ros.sim.colliders import Collider
-from cloth_sim_ros.sim.contacts import ContactForce
-from cloth_sim_ros.sim.grasps import Grasp
-from cloth_sim_ros.sim.grasps import GraspForce
-from cloth_sim_ros.sim.pose import Pose
+from cloth_sim_ros.sim.contact.contacts import ContactForce
+from cloth_sim_ros.sim.held.grasps import Grasp
+from cloth_sim_ros.sim.held.grasps import GraspForce
+from cloth_sim_ros.sim.model.colliders import Collider
+from cloth_sim_ros.sim.model.pose import Pose
 from geometry_msgs.msg import Point
 from geometry_msgs.msg import Pose as PoseMessage
 from geometry_msgs.msg import Quaternion

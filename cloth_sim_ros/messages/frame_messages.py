@@ -21,11 +21,11 @@ from cloth_sim_ros.messages.pins import MOST_PINS
 from cloth_sim_ros.messages.pins import PinFrames
 from cloth_sim_ros.messages.pins import WrenchMessages
 from cloth_sim_ros.messages.stamp import serialise_clock
-from cloth_sim_ros.sim.colliders import Collider
-from cloth_sim_ros.sim.force_window import ForceWindow
-from cloth_sim_ros.sim.force_window import FrameForces
-from cloth_sim_ros.sim.grasps import Grasp
-from cloth_sim_ros.sim.push import Push
+from cloth_sim_ros.sim.held.force_window import ForceWindow
+from cloth_sim_ros.sim.held.force_window import FrameForces
+from cloth_sim_ros.sim.held.grasps import Grasp
+from cloth_sim_ros.sim.model.colliders import Collider
+from cloth_sim_ros.sim.model.push import Push
 from cloth_sim_ros.sim.simulation import Simulation
 from cloth_sim_ros.sim.snapshot import Snapshot
 import numpy as np

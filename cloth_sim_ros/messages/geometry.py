@@ -6,7 +6,7 @@
 from collections.abc import Iterable
 
 from cloth_sim_ros.messages.cdr_writer import CdrWriter
-from cloth_sim_ros.sim.push import Push
+from cloth_sim_ros.sim.model.push import Push
 from cloth_sim_ros.sim.scene import Scene
 import numpy as np
 

@@ -32,9 +32,9 @@ from cloth_sim_ros.sim.inputs import SetMode
 from cloth_sim_ros.sim.inputs import SetWind
 from cloth_sim_ros.sim.inputs import TakeGrasp
 from cloth_sim_ros.sim.inputs import Unpin
-from cloth_sim_ros.sim.pose import NO_ROTATION
-from cloth_sim_ros.sim.pose import Pose
-from cloth_sim_ros.sim.scene_fields import Field
+from cloth_sim_ros.sim.model.pose import NO_ROTATION
+from cloth_sim_ros.sim.model.pose import Pose
+from cloth_sim_ros.sim.model.scene_fields import Field
 from geometry_msgs.msg import Point
 from geometry_msgs.msg import Pose as PoseMessage
 from geometry_msgs.msg import Vector3

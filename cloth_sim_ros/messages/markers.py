@@ -15,9 +15,9 @@ from cloth_sim_ros.messages.geometry import push_arrows
 from cloth_sim_ros.messages.geometry import strain_colors
 from cloth_sim_ros.messages.geometry import Surface
 from cloth_sim_ros.messages.stamp import stamp
-from cloth_sim_ros.sim.colliders import Collider
-from cloth_sim_ros.sim.grasps import Grasp
-from cloth_sim_ros.sim.push import Push
+from cloth_sim_ros.sim.held.grasps import Grasp
+from cloth_sim_ros.sim.model.colliders import Collider
+from cloth_sim_ros.sim.model.push import Push
 from cloth_sim_ros.sim.snapshot import FLAG_AT_LIMIT
 from cloth_sim_ros.sim.snapshot import FLAG_PINNED
 from cloth_sim_ros.sim.snapshot import Snapshot

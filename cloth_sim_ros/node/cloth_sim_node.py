@@ -44,7 +44,7 @@ from cloth_sim_ros.recording.bag_folder import fresh_name
 from cloth_sim_ros.recording.bag_folder import RecordingOptions
 from cloth_sim_ros.recording.recording_faults import RecordingError
 from cloth_sim_ros.recording.recording_faults import RecordingFull
-from cloth_sim_ros.sim.colliders import fields_with_colliders
+from cloth_sim_ros.sim.model.colliders import fields_with_colliders
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.simulation import Simulation
 from cloth_sim_ros.sim.snapshot import Snapshot
@@ -80,7 +80,7 @@ class ClothSimNode(GuardedNode):
     ~/move_collider (MoveFrame), ~/reset (Trigger), ~/pause (SetBool), ~/step (Step),
     ~/start_recording (StartRecording), ~/stop_recording (Trigger).
 
-    Parameters: those of sim/scene_fields.py and node/node_fields.py.
+    Parameters: those of sim/model/scene_fields.py and node/node_fields.py.
 
     :param memory: what Fast DDS has to send clouds with
 

@@ -12,8 +12,8 @@ import struct
 from cloth_sim_ros.files.errors import shown
 from cloth_sim_ros.messages.stamp import NANOSECONDS
 from cloth_sim_ros.sim.errors import ClothSimError
-from cloth_sim_ros.sim.pose import between
-from cloth_sim_ros.sim.pose import Pose
+from cloth_sim_ros.sim.model.pose import between
+from cloth_sim_ros.sim.model.pose import Pose
 from rclpy.serialization import deserialize_message
 from rclpy.serialization import serialize_message
 from tf2_msgs.msg import TFMessage

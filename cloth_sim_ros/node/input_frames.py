@@ -26,11 +26,11 @@ from cloth_sim_ros.node.frame_tree import read_transforms
 from cloth_sim_ros.node.frame_tree import Sample
 from cloth_sim_ros.node.refusals import IgnoredMessages
 from cloth_sim_ros.sim.errors import ClothSimError
-from cloth_sim_ros.sim.pose import Pose
-from cloth_sim_ros.sim.pose import product
-from cloth_sim_ros.sim.pose import Quaternion
-from cloth_sim_ros.sim.pose import turned
-from cloth_sim_ros.sim.pose import Vector
+from cloth_sim_ros.sim.model.pose import Pose
+from cloth_sim_ros.sim.model.pose import product
+from cloth_sim_ros.sim.model.pose import Quaternion
+from cloth_sim_ros.sim.model.pose import turned
+from cloth_sim_ros.sim.model.pose import Vector
 from cloth_sim_ros.sim.simulation import Simulation
 from cloth_sim_ros.sim.snapshot import Snapshot
 import numpy as np

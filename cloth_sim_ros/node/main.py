@@ -18,7 +18,7 @@ from cloth_sim_ros.node.shared_memory import reclaim_dead_segments
 from cloth_sim_ros.node.shared_memory import refuse_ros_without_memory
 from cloth_sim_ros.node.shared_memory import use_profile
 from cloth_sim_ros.sim.errors import ClothSimError
-from cloth_sim_ros.sim.scene_fields import SCENE_FIELDS
+from cloth_sim_ros.sim.model.scene_fields import SCENE_FIELDS
 
 _DEFAULTS = {field.name: field.default for field in SCENE_FIELDS}
 # Namespaces, node, ros__parameters: no file that ROS takes goes deeper before its names.

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from cloth_sim_ros.sim.errors import ClothSimError
-from cloth_sim_ros.sim.scene_fields import Field
+from cloth_sim_ros.sim.model.scene_fields import Field
 
 # A wait between frames has to fit the timers of ROS.
 SLOWEST = 1e-6

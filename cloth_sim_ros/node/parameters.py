@@ -11,12 +11,12 @@ from typing import Any
 from cloth_sim_ros.messages.inputs import parameter_value
 from cloth_sim_ros.node.node_fields import check_together
 from cloth_sim_ros.node.node_fields import NODE_FIELDS
-from cloth_sim_ros.sim.colliders import fields_with_colliders
 from cloth_sim_ros.sim.errors import ClothSimError
-from cloth_sim_ros.sim.given_values import completed
+from cloth_sim_ros.sim.model.colliders import fields_with_colliders
+from cloth_sim_ros.sim.model.given_values import completed
+from cloth_sim_ros.sim.model.scene_fields import Field
+from cloth_sim_ros.sim.model.scene_fields import SCENE_FIELDS
 from cloth_sim_ros.sim.scene import refuse_unknown
-from cloth_sim_ros.sim.scene_fields import Field
-from cloth_sim_ros.sim.scene_fields import SCENE_FIELDS
 from rcl_interfaces.msg import FloatingPointRange
 from rcl_interfaces.msg import IntegerRange
 from rcl_interfaces.msg import Parameter as ParameterMessage

@@ -23,7 +23,6 @@ from cloth_sim_ros.recording.bag_folder import DIRECTORY_SETTING
 from cloth_sim_ros.recording.bag_folder import RecordingOptions
 from cloth_sim_ros.recording.recording_faults import RecordingError
 from cloth_sim_ros.recording.recording_faults import refusal
-from cloth_sim_ros.sim.colliders import fields_with_colliders
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.inputs import Input
 from cloth_sim_ros.sim.inputs import MoveCollider
@@ -35,6 +34,7 @@ from cloth_sim_ros.sim.inputs import SetMode
 from cloth_sim_ros.sim.inputs import SetWind
 from cloth_sim_ros.sim.inputs import TakeGrasp
 from cloth_sim_ros.sim.inputs import Unpin
+from cloth_sim_ros.sim.model.colliders import fields_with_colliders
 from cloth_sim_ros.sim.simulation import Simulation
 import numpy as np
 from rclpy.serialization import serialize_message

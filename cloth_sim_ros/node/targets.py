@@ -18,7 +18,7 @@ from cloth_sim_ros.node.input_frames import InputFrames
 from cloth_sim_ros.node.on_device import listen_on_device
 from cloth_sim_ros.node.on_device import serve_on_device
 from cloth_sim_ros.node.refusals import IgnoredMessages
-from cloth_sim_ros.sim.frame_paths import FramePath
+from cloth_sim_ros.sim.model.frame_paths import FramePath
 from cloth_sim_ros.sim.simulation import Simulation
 from geometry_msgs.msg import PoseStamped
 from rclpy.node import Node

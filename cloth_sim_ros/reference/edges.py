@@ -10,8 +10,8 @@ from dataclasses import dataclass
 from dataclasses import fields
 from typing import Any
 
-from cloth_sim_ros.sim.materials import WARP
-from cloth_sim_ros.sim.materials import WEFT
+from cloth_sim_ros.sim.model.materials import WARP
+from cloth_sim_ros.sim.model.materials import WEFT
 from cloth_sim_ros.sim.scene import Scene
 import numpy as np
 from scipy import sparse

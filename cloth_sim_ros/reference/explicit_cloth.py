@@ -7,8 +7,8 @@ from cloth_sim_ros.reference.cloth import ReferenceCloth
 from cloth_sim_ros.reference.edge_law import LIMITED
 from cloth_sim_ros.reference.edges import edges_of
 from cloth_sim_ros.reference.forces import air_forces
+from cloth_sim_ros.sim.model.stability import choose_substeps
 from cloth_sim_ros.sim.scene import Scene
-from cloth_sim_ros.sim.stability import choose_substeps
 import numpy as np
 from scipy import sparse
 from scipy.sparse.linalg import splu

@@ -3,10 +3,10 @@
 
 """The forces on a cloth besides those of its edges: pushes, air and bending, in float64."""
 
-from cloth_sim_ros.sim.materials import of_direction
-from cloth_sim_ros.sim.materials import WARP
-from cloth_sim_ros.sim.materials import WEFT
-from cloth_sim_ros.sim.push import Push
+from cloth_sim_ros.sim.model.materials import of_direction
+from cloth_sim_ros.sim.model.materials import WARP
+from cloth_sim_ros.sim.model.materials import WEFT
+from cloth_sim_ros.sim.model.push import Push
 from cloth_sim_ros.sim.scene import Scene
 import numpy as np
 from scipy import sparse

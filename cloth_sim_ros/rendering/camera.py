@@ -14,8 +14,8 @@ from cloth_sim_ros.gl.framebuffer import DepthBuffer
 from cloth_sim_ros.gl.framebuffer import draw_nearest
 from cloth_sim_ros.gl.program import RenderProgram
 from cloth_sim_ros.rendering.node_buffer import NodeBuffer
-from cloth_sim_ros.sim.colliders import Collider
 from cloth_sim_ros.sim.errors import ClothSimError
+from cloth_sim_ros.sim.model.colliders import Collider
 import numpy as np
 
 _NEAREST = 0.02  # of the distance: nothing is drawn nearer to the camera

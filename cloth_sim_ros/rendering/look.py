@@ -12,7 +12,7 @@ from cloth_sim_ros.analysis.strain_stops import STRAIN_STOPS
 from cloth_sim_ros.gl.program import RenderProgram
 from cloth_sim_ros.rendering.camera import View
 from cloth_sim_ros.sim.errors import ClothSimError
-from cloth_sim_ros.sim.push import Push
+from cloth_sim_ros.sim.model.push import Push
 import matplotlib
 from matplotlib.cm import ScalarMappable
 from matplotlib.colors import LinearSegmentedColormap

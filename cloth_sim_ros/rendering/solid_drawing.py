@@ -34,7 +34,7 @@ from cloth_sim_ros.rendering.look import set_light
 from cloth_sim_ros.rendering.look import UNKNOWN_COLOR
 from cloth_sim_ros.rendering.node_buffer import NodeBuffer
 from cloth_sim_ros.rendering.survey import Survey
-from cloth_sim_ros.sim.colliders import Collider
+from cloth_sim_ros.sim.model.colliders import Collider
 import numpy as np
 
 # The floor.

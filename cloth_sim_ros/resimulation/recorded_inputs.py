@@ -24,7 +24,7 @@ from cloth_sim_ros.sim.inputs import SetMode
 from cloth_sim_ros.sim.inputs import SetWind
 from cloth_sim_ros.sim.inputs import TakeGrasp
 from cloth_sim_ros.sim.inputs import Unpin
-from cloth_sim_ros.sim.push import Push
+from cloth_sim_ros.sim.model.push import Push
 
 # The largest number that a message has for a row or a column.
 _LARGEST = 2**32 - 1

@@ -17,10 +17,10 @@ from cloth_sim_ros.analysis.recording import Entry
 from cloth_sim_ros.analysis.recording import Recording
 from cloth_sim_ros.recording.bag_metadata import folder_metadata
 from cloth_sim_ros.recording.bag_metadata import PACKAGE
-from cloth_sim_ros.sim.colliders import fields_with_colliders
 from cloth_sim_ros.sim.errors import ClothSimError
+from cloth_sim_ros.sim.model.colliders import fields_with_colliders
+from cloth_sim_ros.sim.model.scene_fields import Field
 from cloth_sim_ros.sim.scene import Scene
-from cloth_sim_ros.sim.scene_fields import Field
 
 
 def recorded_version(path: Path) -> str:

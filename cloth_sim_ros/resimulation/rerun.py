@@ -19,13 +19,13 @@ from cloth_sim_ros.resimulation.input_replay import StepClock
 from cloth_sim_ros.resimulation.recorded_run import RecordedRun
 from cloth_sim_ros.resimulation.recorded_run import stamp_of
 from cloth_sim_ros.resimulation.run_start import RunStart
+from cloth_sim_ros.sim.device.tuning import BUILT_IN
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.errors import NonFiniteStateError
 from cloth_sim_ros.sim.modes import AVAILABLE
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.simulation import Simulation
 from cloth_sim_ros.sim.snapshot import FLAG_TOUCHING
-from cloth_sim_ros.sim.tuning import BUILT_IN
 
 # Max. nodes [1] of a scene without a recorded point cloud that would confirm its size.
 MOST_UNSEEN_NODES = 1_000_000

@@ -14,10 +14,10 @@ from cloth_sim_ros.resimulation.recorded_inputs import recorded_nodes
 from cloth_sim_ros.resimulation.recorded_inputs import recorded_push
 from cloth_sim_ros.resimulation.recorded_run import RecordedRun
 from cloth_sim_ros.sim.errors import ClothSimError
-from cloth_sim_ros.sim.grasps import Grasp
+from cloth_sim_ros.sim.held.grasps import Grasp
+from cloth_sim_ros.sim.model.pose import Pose
+from cloth_sim_ros.sim.model.push import Push
 from cloth_sim_ros.sim.modes import AVAILABLE
-from cloth_sim_ros.sim.pose import Pose
-from cloth_sim_ros.sim.push import Push
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.simulation import Simulation
 import numpy as np

@@ -7,7 +7,7 @@ from cloth_sim_ros.files.errors import shown
 from cloth_sim_ros.resimulation.frame_check import Difference
 from cloth_sim_ros.resimulation.frame_check import FrameCheck
 from cloth_sim_ros.resimulation.rerun import Rerun
-from cloth_sim_ros.sim.scene_fields import Field
+from cloth_sim_ros.sim.model.scene_fields import Field
 
 _MOST_REFUSED = 5
 

@@ -11,16 +11,16 @@ from typing import Any
 from typing import NoReturn
 from typing import Protocol
 
+from cloth_sim_ros.sim.device.layout import Layout
+from cloth_sim_ros.sim.device.observer import Observer
+from cloth_sim_ros.sim.device.scene_program import SceneProgram
+from cloth_sim_ros.sim.device.scene_program import Strips
 from cloth_sim_ros.sim.errors import NonFiniteStateError
-from cloth_sim_ros.sim.forcing import Forcing
-from cloth_sim_ros.sim.layout import Layout
-from cloth_sim_ros.sim.loads import Loads
+from cloth_sim_ros.sim.loads.forcing import Forcing
+from cloth_sim_ros.sim.loads.loads import Loads
+from cloth_sim_ros.sim.model.stability import safe_substep
 from cloth_sim_ros.sim.modes.mode import Mode
-from cloth_sim_ros.sim.observer import Observer
 from cloth_sim_ros.sim.scene import Scene
-from cloth_sim_ros.sim.scene_program import SceneProgram
-from cloth_sim_ros.sim.scene_program import Strips
-from cloth_sim_ros.sim.stability import safe_substep
 from cloth_sim_ros.sim.state import MOST_MAGNITUDE
 from cloth_sim_ros.sim.state import State
 from cloth_sim_ros.sim.stop import leave_if

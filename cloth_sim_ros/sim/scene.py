@@ -12,27 +12,27 @@ from typing import Any
 from cloth_sim_ros.files.close_name import close_name
 from cloth_sim_ros.files.errors import cut
 from cloth_sim_ros.files.errors import shown
-from cloth_sim_ros.sim import grid
 from cloth_sim_ros.sim.arguments import integer
 from cloth_sim_ros.sim.arguments import mapping
-from cloth_sim_ros.sim.colliders import colliders_of
-from cloth_sim_ros.sim.colliders import fields_with_colliders
 from cloth_sim_ros.sim.errors import ClothSimError
-from cloth_sim_ros.sim.frame_paths import FrameMove
-from cloth_sim_ros.sim.given_values import completed
-from cloth_sim_ros.sim.grasp_request import GraspRequest
-from cloth_sim_ros.sim.grid import near_node
-from cloth_sim_ros.sim.materials import of_direction
-from cloth_sim_ros.sim.materials import spring_stiffness
-from cloth_sim_ros.sim.materials import WARP
-from cloth_sim_ros.sim.materials import WEFT
-from cloth_sim_ros.sim.pins import only_node
-from cloth_sim_ros.sim.pins import PinMove
-from cloth_sim_ros.sim.pins import pinned_nodes
-from cloth_sim_ros.sim.push import Push
-from cloth_sim_ros.sim.scene_fields import FAMILIES
-from cloth_sim_ros.sim.scene_fields import Field
-from cloth_sim_ros.sim.wind import Gust
+from cloth_sim_ros.sim.model import grid
+from cloth_sim_ros.sim.model.colliders import colliders_of
+from cloth_sim_ros.sim.model.colliders import fields_with_colliders
+from cloth_sim_ros.sim.model.frame_paths import FrameMove
+from cloth_sim_ros.sim.model.given_values import completed
+from cloth_sim_ros.sim.model.grasp_request import GraspRequest
+from cloth_sim_ros.sim.model.grid import near_node
+from cloth_sim_ros.sim.model.materials import of_direction
+from cloth_sim_ros.sim.model.materials import spring_stiffness
+from cloth_sim_ros.sim.model.materials import WARP
+from cloth_sim_ros.sim.model.materials import WEFT
+from cloth_sim_ros.sim.model.pins import only_node
+from cloth_sim_ros.sim.model.pins import PinMove
+from cloth_sim_ros.sim.model.pins import pinned_nodes
+from cloth_sim_ros.sim.model.push import Push
+from cloth_sim_ros.sim.model.scene_fields import FAMILIES
+from cloth_sim_ros.sim.model.scene_fields import Field
+from cloth_sim_ros.sim.model.wind import Gust
 import numpy as np
 
 GIVE_SCENE = "write Scene({'rows': 32}), or load_scene(path)"
@@ -152,7 +152,7 @@ class Scene:
 
     @property
     def bending(self) -> tuple[float, float]:
-        """Return what bending along a row and along a column resists [N/m], sim/pin_forces.py."""
+        """Return the resistance to bending along a row and a column [N/m], held/pin_forces.py."""
         (dx, dy), rigidity = self.spacing, self['bending.rigidity']
         return (
             of_direction(rigidity, WARP) * dy / dx**3 if self.cols > 2 else 0.0,

@@ -15,10 +15,10 @@ from cloth_sim_ros.sim.arguments import instance
 from cloth_sim_ros.sim.arguments import iterable
 from cloth_sim_ros.sim.arguments import mapping
 from cloth_sim_ros.sim.errors import ClothSimError
-from cloth_sim_ros.sim.pose import checked_position
-from cloth_sim_ros.sim.pose import Pose
-from cloth_sim_ros.sim.pose import unit_quaternion
-from cloth_sim_ros.sim.push import Push
+from cloth_sim_ros.sim.model.pose import checked_position
+from cloth_sim_ros.sim.model.pose import Pose
+from cloth_sim_ros.sim.model.pose import unit_quaternion
+from cloth_sim_ros.sim.model.push import Push
 from cloth_sim_ros.sim.scene import GIVE_SCENE
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.snapshot import Snapshot

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import hashlib
 import math
 
-from cloth_sim_ros.sim.pin_forces import PinForces
+from cloth_sim_ros.sim.held.pin_forces import PinForces
 import numpy as np
 
 # One node as the shader packs it: the body of a sensor_msgs/PointCloud2.

@@ -8,13 +8,13 @@ from typing import Protocol
 
 from cloth_sim_ros.gl.buffer import Buffer
 from cloth_sim_ros.gl.buffer import BufferRow
-from cloth_sim_ros.sim import bindings
 from cloth_sim_ros.sim.arguments import array
+from cloth_sim_ros.sim.device import bindings
+from cloth_sim_ros.sim.device.layout import HALO
+from cloth_sim_ros.sim.device.layout import Layout
+from cloth_sim_ros.sim.device.low_parts import LowParts
+from cloth_sim_ros.sim.device.low_parts import needs_low_parts
 from cloth_sim_ros.sim.errors import ClothSimError
-from cloth_sim_ros.sim.layout import HALO
-from cloth_sim_ros.sim.layout import Layout
-from cloth_sim_ros.sim.low_parts import LowParts
-from cloth_sim_ros.sim.low_parts import needs_low_parts
 from cloth_sim_ros.sim.scene import Scene
 import numpy as np
 

@@ -34,7 +34,7 @@ from typing import Any
 from cloth_sim_ros.files.errors import MOST_SHOWN
 from cloth_sim_ros.files.errors import shown
 from cloth_sim_ros.sim.errors import ClothSimError
-from cloth_sim_ros.sim.scene_fields import MODES
+from cloth_sim_ros.sim.model.scene_fields import MODES
 import numpy as np
 
 _PATIENCE = 120.0

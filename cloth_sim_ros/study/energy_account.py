@@ -7,14 +7,14 @@ from collections.abc import Mapping
 from collections.abc import Sequence
 from itertools import combinations
 
-from cloth_sim_ros.sim.colliders import Collider
-from cloth_sim_ros.sim.contacts import ContactForce
-from cloth_sim_ros.sim.edge_kinds import EDGE_KINDS
-from cloth_sim_ros.sim.edge_kinds import EdgeKind
+from cloth_sim_ros.sim.contact.contacts import ContactForce
+from cloth_sim_ros.sim.held.pin_forces import edge_pulls
+from cloth_sim_ros.sim.model.colliders import Collider
+from cloth_sim_ros.sim.model.edge_kinds import EDGE_KINDS
+from cloth_sim_ros.sim.model.edge_kinds import EdgeKind
+from cloth_sim_ros.sim.model.pose import rotation_between
+from cloth_sim_ros.sim.model.push import Push
 from cloth_sim_ros.sim.modes import AVAILABLE
-from cloth_sim_ros.sim.pin_forces import edge_pulls
-from cloth_sim_ros.sim.pose import rotation_between
-from cloth_sim_ros.sim.push import Push
 from cloth_sim_ros.sim.scene import FAMILIES
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.simulation import Simulation

@@ -10,8 +10,8 @@ from dataclasses import field
 from itertools import product
 from typing import Any
 
+from cloth_sim_ros.sim.model.scene_fields import MODES
 from cloth_sim_ros.sim.modes import AVAILABLE
-from cloth_sim_ros.sim.scene_fields import MODES
 from cloth_sim_ros.study.random_limits import random_scene
 import numpy as np
 

@@ -15,8 +15,8 @@ from typing import Any
 
 from cloth_sim_ros.gl.context import Context
 from cloth_sim_ros.gl.inventory import take_inventory
-from cloth_sim_ros.sim.edge_kinds import EACH_EDGE
-from cloth_sim_ros.sim.given_values import with_default_fabric
+from cloth_sim_ros.sim.model.edge_kinds import EACH_EDGE
+from cloth_sim_ros.sim.model.given_values import with_default_fabric
 from cloth_sim_ros.sim.modes import AVAILABLE
 from cloth_sim_ros.sim.modes.mass_spring import MassSpring
 from cloth_sim_ros.sim.scene import FAMILIES

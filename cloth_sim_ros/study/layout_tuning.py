@@ -15,10 +15,10 @@ from typing import Any
 
 from cloth_sim_ros.gl.context import Context
 from cloth_sim_ros.gl.errors import DeviceError
-from cloth_sim_ros.sim.layout import choose_layout
+from cloth_sim_ros.sim.device.layout import choose_layout
+from cloth_sim_ros.sim.device.tuning import BUILT_IN
+from cloth_sim_ros.sim.device.tuning import Choice
 from cloth_sim_ros.sim.simulation import Simulation
-from cloth_sim_ros.sim.tuning import BUILT_IN
-from cloth_sim_ros.sim.tuning import Choice
 from cloth_sim_ros.study.speed import bench_scene
 from cloth_sim_ros.study.speed import steps_for
 from cloth_sim_ros.study.speed import time_steps

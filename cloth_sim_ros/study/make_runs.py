@@ -22,7 +22,7 @@ from typing import Any
 
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.errors import NonFiniteStateError
-from cloth_sim_ros.sim.scene_fields import SCENE_FIELDS
+from cloth_sim_ros.sim.model.scene_fields import SCENE_FIELDS
 from cloth_sim_ros.study.results import describe
 from cloth_sim_ros.study.results import DONE
 from cloth_sim_ros.study.results import FAILED

@@ -19,7 +19,7 @@ from argparse import Namespace
 from dataclasses import replace
 from pathlib import Path
 
-from cloth_sim_ros.sim.scene_fields import PRESETS
+from cloth_sim_ros.sim.model.scene_fields import PRESETS
 from cloth_sim_ros.study.results import ResultsFolder
 from cloth_sim_ros.study.trade.choice import ErrorBudget
 from cloth_sim_ros.study.trade.choice import write_choice

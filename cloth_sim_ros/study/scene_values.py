@@ -5,7 +5,7 @@
 
 from typing import Any
 
-from cloth_sim_ros.sim.colliders import fields_with_colliders
+from cloth_sim_ros.sim.model.colliders import fields_with_colliders
 from cloth_sim_ros.sim.scene import Scene
 
 

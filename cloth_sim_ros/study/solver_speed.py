@@ -13,8 +13,8 @@ import time
 from cloth_sim_ros.gl.context import Context
 from cloth_sim_ros.reference.edges import Edges
 from cloth_sim_ros.reference.edges import edges_of
-from cloth_sim_ros.sim.edge_kinds import EDGE_KINDS
-from cloth_sim_ros.sim.edge_kinds import rest_lengths
+from cloth_sim_ros.sim.model.edge_kinds import EDGE_KINDS
+from cloth_sim_ros.sim.model.edge_kinds import rest_lengths
 from cloth_sim_ros.sim.scene import FAMILIES
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.simulation import Simulation

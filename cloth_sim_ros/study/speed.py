@@ -17,11 +17,11 @@ import time
 from typing import Any
 
 from cloth_sim_ros.gl.context import Context
+from cloth_sim_ros.sim.model.stability import SAFETY
+from cloth_sim_ros.sim.model.stability import stability_limit
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.simulation import Simulation
 from cloth_sim_ros.sim.simulation import SINGLE_THREAD_NODES
-from cloth_sim_ros.sim.stability import SAFETY
-from cloth_sim_ros.sim.stability import stability_limit
 
 
 def time_steps(run: Simulation, count: int) -> float:

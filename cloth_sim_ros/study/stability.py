@@ -21,8 +21,8 @@ from pathlib import Path
 from typing import Any
 
 from cloth_sim_ros.sim.errors import ClothSimError
+from cloth_sim_ros.sim.model.scene_fields import MODES
 from cloth_sim_ros.sim.scene import Scene
-from cloth_sim_ros.sim.scene_fields import MODES
 from cloth_sim_ros.study.make_runs import make_runs
 from cloth_sim_ros.study.results import ResultsFolder
 from cloth_sim_ros.study.results import Run

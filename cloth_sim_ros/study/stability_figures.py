@@ -8,9 +8,9 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
+from cloth_sim_ros.sim.model.scene_fields import MODES
 from cloth_sim_ros.sim.modes import AVAILABLE
 from cloth_sim_ros.sim.scene import Scene
-from cloth_sim_ros.sim.scene_fields import MODES
 from cloth_sim_ros.study.results import Result
 from cloth_sim_ros.study.stability_probes import REFUSED
 from cloth_sim_ros.study.stability_probes import STABLE

@@ -14,12 +14,12 @@ from typing import Any
 from cloth_sim_ros.gl.context import Context
 from cloth_sim_ros.reference.edges import edges_of
 from cloth_sim_ros.sim.errors import ClothSimError
+from cloth_sim_ros.sim.model.scene_fields import MODES
+from cloth_sim_ros.sim.model.stability import any_shape_limit
+from cloth_sim_ros.sim.model.stability import spring_substeps
+from cloth_sim_ros.sim.model.stability import stability_limit
 from cloth_sim_ros.sim.modes import AVAILABLE
 from cloth_sim_ros.sim.scene import Scene
-from cloth_sim_ros.sim.scene_fields import MODES
-from cloth_sim_ros.sim.stability import any_shape_limit
-from cloth_sim_ros.sim.stability import spring_substeps
-from cloth_sim_ros.sim.stability import stability_limit
 from cloth_sim_ros.study.results import Result
 from cloth_sim_ros.study.scene_values import scaled_stiffness
 from cloth_sim_ros.study.stability_probes import hang

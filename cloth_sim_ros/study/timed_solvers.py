@@ -15,9 +15,9 @@ from cloth_sim_ros.gl.program import Program
 from cloth_sim_ros.gl.shader_source import ShaderSource
 from cloth_sim_ros.reference.edges import Edges
 from cloth_sim_ros.reference.edges import edges_of
-from cloth_sim_ros.sim.forcing import Forcing
-from cloth_sim_ros.sim.layout import choose_layout
-from cloth_sim_ros.sim.low_parts import needs_low_parts
+from cloth_sim_ros.sim.device.layout import choose_layout
+from cloth_sim_ros.sim.device.low_parts import needs_low_parts
+from cloth_sim_ros.sim.loads.forcing import Forcing
 from cloth_sim_ros.sim.scene import FAMILIES
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.solver.edge_law import EdgeLaw

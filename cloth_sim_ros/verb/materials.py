@@ -15,8 +15,8 @@ For example:
 from argparse import ArgumentParser
 from argparse import Namespace
 
-from cloth_sim_ros.sim.materials import FABRICS
-from cloth_sim_ros.sim.materials import SOURCE
+from cloth_sim_ros.sim.model.materials import FABRICS
+from cloth_sim_ros.sim.model.materials import SOURCE
 
 _HEADER = ('name', 'kg/m2', 'N/m', 'uN m', 'fabric', 'note')
 

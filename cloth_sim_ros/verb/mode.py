@@ -12,7 +12,7 @@ from argparse import ArgumentParser
 from argparse import Namespace
 
 from cloth_sim_interfaces.srv import SetMode
-from cloth_sim_ros.sim.scene_fields import MODES
+from cloth_sim_ros.sim.model.scene_fields import MODES
 from cloth_sim_ros.verb.node_arguments import add_node_arguments
 from cloth_sim_ros.verb.node_arguments import open_node
 

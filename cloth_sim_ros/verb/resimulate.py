@@ -30,8 +30,8 @@ from cloth_sim_ros.resimulation.recorded_run import RecordedRun
 from cloth_sim_ros.resimulation.rerun import Rerun
 from cloth_sim_ros.resimulation.verdict import Verdict
 from cloth_sim_ros.resimulation.verdict import version_lines
-from cloth_sim_ros.sim.colliders import fields_with_colliders
 from cloth_sim_ros.sim.errors import ClothSimError
+from cloth_sim_ros.sim.model.colliders import fields_with_colliders
 from cloth_sim_ros.sim.scene import refuse_unknown
 from cloth_sim_ros.verb import analyze
 from cloth_sim_ros.verb.recording_arguments import add_recording_arguments

@@ -13,11 +13,11 @@ from cloth_sim_ros.api.scene_file import scene_from
 from cloth_sim_ros.files.checked_yaml import parse_yaml
 from cloth_sim_ros.files.errors import cut
 from cloth_sim_ros.files.errors import shown
+from cloth_sim_ros.sim.device.tuning import OFF
+from cloth_sim_ros.sim.device.tuning import VARIABLE
 from cloth_sim_ros.sim.errors import ClothSimError
-from cloth_sim_ros.sim.given_values import load_parameters
+from cloth_sim_ros.sim.model.given_values import load_parameters
 from cloth_sim_ros.sim.scene import Scene
-from cloth_sim_ros.sim.tuning import OFF
-from cloth_sim_ros.sim.tuning import VARIABLE
 
 
 def add_scene_arguments(parser: ArgumentParser) -> None:

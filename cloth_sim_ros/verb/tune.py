@@ -24,13 +24,13 @@ from contextlib import closing
 import json
 
 from cloth_sim_ros.gl.context import Context
+from cloth_sim_ros.sim.device.tuning import is_off
+from cloth_sim_ros.sim.device.tuning import MOST_SIZES
+from cloth_sim_ros.sim.device.tuning import OFF
+from cloth_sim_ros.sim.device.tuning import Tuning
+from cloth_sim_ros.sim.device.tuning import VARIABLE
+from cloth_sim_ros.sim.device.tuning import write_tuning
 from cloth_sim_ros.sim.errors import ClothSimError
-from cloth_sim_ros.sim.tuning import is_off
-from cloth_sim_ros.sim.tuning import MOST_SIZES
-from cloth_sim_ros.sim.tuning import OFF
-from cloth_sim_ros.sim.tuning import Tuning
-from cloth_sim_ros.sim.tuning import VARIABLE
-from cloth_sim_ros.sim.tuning import write_tuning
 from cloth_sim_ros.study.layout_tuning import ROUNDS
 from cloth_sim_ros.study.layout_tuning import SIZES
 from cloth_sim_ros.study.layout_tuning import tune

@@ -17,7 +17,7 @@ from argparse import Namespace
 
 from cloth_sim_ros.files.errors import cut
 from cloth_sim_ros.sim.errors import ClothSimError
-from cloth_sim_ros.sim.wind import checked_wind
+from cloth_sim_ros.sim.model.wind import checked_wind
 from cloth_sim_ros.verb.node_arguments import add_node_arguments
 from cloth_sim_ros.verb.node_arguments import open_node
 from geometry_msgs.msg import Vector3

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 
 // The three spring families and Hooke's law with damping along the spring (paper, Eq. 1).
-// Families and rest lengths are numbered by sim/edge_kinds.py.
+// Families and rest lengths are numbered by sim/model/edge_kinds.py.
 
 // Along a row, along a column, diagonal, two along each:
 uniform float stiffness[5];    // [N/m]

@@ -5,8 +5,8 @@
 
 from cloth_sim_ros.analysis.collider_surface import collider_surface
 from cloth_sim_ros.analysis.collider_surface import ground
-from cloth_sim_ros.sim.colliders import Collider
-from cloth_sim_ros.sim.pose import unit_quaternion
+from cloth_sim_ros.sim.model.colliders import Collider
+from cloth_sim_ros.sim.model.pose import unit_quaternion
 import numpy as np
 import pytest
 

@@ -9,7 +9,7 @@ from types import SimpleNamespace
 from cloth_sim_ros.analysis.frame import Frame
 from cloth_sim_ros.analysis.recording import Recording
 from cloth_sim_ros.sim.errors import ClothSimError
-from cloth_sim_ros.sim.push import Push
+from cloth_sim_ros.sim.model.push import Push
 import numpy as np
 import pytest
 

@@ -16,13 +16,13 @@ from cloth_sim_ros.messages.inputs import parameters_message
 from cloth_sim_ros.messages.inputs import place_message
 from cloth_sim_ros.messages.stamp import stamp
 from cloth_sim_ros.recording.recorder import Recorder
-from cloth_sim_ros.sim.colliders import fields_with_colliders
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.inputs import ClearPushes
 from cloth_sim_ros.sim.inputs import MoveCollider
 from cloth_sim_ros.sim.inputs import Reset
-from cloth_sim_ros.sim.pose import Pose
-from cloth_sim_ros.sim.push import Push
+from cloth_sim_ros.sim.model.colliders import fields_with_colliders
+from cloth_sim_ros.sim.model.pose import Pose
+from cloth_sim_ros.sim.model.push import Push
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.simulation import Simulation
 import numpy as np

@@ -13,7 +13,7 @@ from cloth_sim_ros.messages.inputs import input_message
 from cloth_sim_ros.recording.recorder import Recorder
 from cloth_sim_ros.sim.inputs import PushNodes
 from cloth_sim_ros.sim.inputs import SetMode
-from cloth_sim_ros.sim.push import Push
+from cloth_sim_ros.sim.model.push import Push
 from made_snapshot import make_snapshot
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 import numpy as np

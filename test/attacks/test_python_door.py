@@ -23,7 +23,7 @@ from cloth_sim_ros import Simulation
 from cloth_sim_ros import SimulationRecorder
 from cloth_sim_ros.gl.context import Context
 from cloth_sim_ros.gym import CarryCloth
-from cloth_sim_ros.sim.force_window import ForceWindow
+from cloth_sim_ros.sim.held.force_window import ForceWindow
 from cloth_sim_ros.sim.inputs import Pin
 from hostile_values import HOSTILE
 from hostile_values import hostile

@@ -11,7 +11,7 @@ from typing import Any
 
 from cloth_sim_interfaces.msg import PinTarget
 from cloth_sim_interfaces.msg import Push
-from cloth_sim_ros.sim.scene_fields import MODES
+from cloth_sim_ros.sim.model.scene_fields import MODES
 from cloth_under_test import ClothUnderTest
 from cloth_under_test import SCENE
 from cloth_under_test import SERVICES

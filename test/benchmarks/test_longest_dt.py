@@ -3,9 +3,9 @@
 
 """Up to which dt methods hold: what docs/notes/paper.md says of the paper's limits."""
 
-from cloth_sim_ros.sim.given_values import load_parameters
+from cloth_sim_ros.sim.model.given_values import load_parameters
+from cloth_sim_ros.sim.model.stability import stability_limit
 from cloth_sim_ros.sim.scene import Scene
-from cloth_sim_ros.sim.stability import stability_limit
 from cloth_sim_ros.study.paper_figures import PAPER_ADAPTIVE
 from cloth_sim_ros.study.paper_figures import PAPER_CONSTRAINT
 from cloth_sim_ros.study.paper_figures import paper_scene_file

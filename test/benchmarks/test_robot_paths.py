@@ -5,7 +5,7 @@
 
 import math
 
-from cloth_sim_ros.sim.given_values import load_parameters
+from cloth_sim_ros.sim.model.given_values import load_parameters
 from motions import in_air
 from motions import rag
 from motions import SCENE_FILE

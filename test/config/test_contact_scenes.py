@@ -5,8 +5,8 @@
 
 from pathlib import Path
 
-from cloth_sim_ros.sim.colliders import fields_with_colliders
-from cloth_sim_ros.sim.given_values import load_parameters
+from cloth_sim_ros.sim.model.colliders import fields_with_colliders
+from cloth_sim_ros.sim.model.given_values import load_parameters
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.simulation import Simulation
 import numpy as np

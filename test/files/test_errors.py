@@ -11,10 +11,10 @@ from cloth_sim_ros.files.errors import MOST_SHOWN
 from cloth_sim_ros.files.errors import shown
 from cloth_sim_ros.node.node_fields import NODE_FIELDS
 from cloth_sim_ros.sim.errors import ClothSimError
-from cloth_sim_ros.sim.push import Push
+from cloth_sim_ros.sim.model.push import Push
+from cloth_sim_ros.sim.model.scene_fields import SCENE_FIELDS
 from cloth_sim_ros.sim.scene import refuse_unknown
 from cloth_sim_ros.sim.scene import Scene
-from cloth_sim_ros.sim.scene_fields import SCENE_FIELDS
 import pytest
 from springs import SPRINGS
 

@@ -9,11 +9,11 @@ from cloth_sim_ros.messages.body_frames import body_frames
 from cloth_sim_ros.messages.body_frames import body_poses
 from cloth_sim_ros.messages.body_frames import collider_wrenches
 from cloth_sim_ros.messages.body_frames import grasp_wrenches
-from cloth_sim_ros.sim.colliders import Collider
-from cloth_sim_ros.sim.contacts import ContactForce
-from cloth_sim_ros.sim.grasps import Grasp
-from cloth_sim_ros.sim.grasps import GraspForce
-from cloth_sim_ros.sim.pose import Pose
+from cloth_sim_ros.sim.contact.contacts import ContactForce
+from cloth_sim_ros.sim.held.grasps import Grasp
+from cloth_sim_ros.sim.held.grasps import GraspForce
+from cloth_sim_ros.sim.model.colliders import Collider
+from cloth_sim_ros.sim.model.pose import Pose
 import numpy as np
 import pytest
 

@@ -11,7 +11,7 @@ from cloth_sim_ros.messages.geometry import strain_colors
 from cloth_sim_ros.messages.geometry import Surface
 from cloth_sim_ros.messages.geometry import surface_bytes
 from cloth_sim_ros.messages.geometry import triangles
-from cloth_sim_ros.sim.push import Push
+from cloth_sim_ros.sim.model.push import Push
 from cloth_sim_ros.sim.scene import Scene
 from matplotlib import colormaps
 import numpy as np

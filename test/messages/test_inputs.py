@@ -21,10 +21,10 @@ from cloth_sim_ros.sim.inputs import SetMode
 from cloth_sim_ros.sim.inputs import SetWind
 from cloth_sim_ros.sim.inputs import TakeGrasp
 from cloth_sim_ros.sim.inputs import Unpin
-from cloth_sim_ros.sim.pose import Pose
-from cloth_sim_ros.sim.push import Push
+from cloth_sim_ros.sim.model.pose import Pose
+from cloth_sim_ros.sim.model.push import Push
+from cloth_sim_ros.sim.model.scene_fields import SCENE_FIELDS
 from cloth_sim_ros.sim.scene import Scene
-from cloth_sim_ros.sim.scene_fields import SCENE_FIELDS
 import numpy as np
 import pytest
 from rclpy.parameter import Parameter

@@ -7,7 +7,7 @@ from cloth_sim_ros.messages.inputs import parameter_value
 from cloth_sim_ros.messages.inputs import parameters_message
 from cloth_sim_ros.messages.inputs import serialise_parameter_event
 from cloth_sim_ros.node.parameters import FIELDS
-from cloth_sim_ros.sim.scene_fields import Field
+from cloth_sim_ros.sim.model.scene_fields import Field
 import pytest
 from rcl_interfaces.msg import Parameter
 from rcl_interfaces.msg import ParameterEvent

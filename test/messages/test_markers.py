@@ -8,9 +8,9 @@ from contextlib import closing
 from cloth_sim_ros.messages.geometry import strain_colors
 from cloth_sim_ros.messages.geometry import triangles
 from cloth_sim_ros.messages.markers import MarkersMessage
-from cloth_sim_ros.sim.grasps import Grasp
-from cloth_sim_ros.sim.pose import Pose
-from cloth_sim_ros.sim.push import Push
+from cloth_sim_ros.sim.held.grasps import Grasp
+from cloth_sim_ros.sim.model.pose import Pose
+from cloth_sim_ros.sim.model.push import Push
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.simulation import Simulation
 from cloth_sim_ros.sim.snapshot import FLAG_AT_LIMIT

@@ -16,7 +16,7 @@ from cloth_sim_ros.node.frame_tree import read_transforms
 from cloth_sim_ros.node.frame_tree import Sample
 from cloth_sim_ros.node.frame_tree import seconds
 from cloth_sim_ros.sim.errors import ClothSimError
-from cloth_sim_ros.sim.pose import Pose
+from cloth_sim_ros.sim.model.pose import Pose
 from geometry_msgs.msg import Quaternion
 from geometry_msgs.msg import Transform
 from geometry_msgs.msg import TransformStamped

@@ -17,7 +17,7 @@ from cloth_sim_interfaces.srv import SetPin
 from cloth_sim_interfaces.srv import StartRecording
 from cloth_sim_interfaces.srv import Step
 from cloth_sim_ros.messages.body_frames import pose_message
-from cloth_sim_ros.sim.pose import Pose
+from cloth_sim_ros.sim.model.pose import Pose
 from cloth_under_test import HANDLED
 from cloth_under_test import PAUSED
 from geometry_msgs.msg import Point

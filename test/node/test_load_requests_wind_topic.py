@@ -9,7 +9,7 @@ from pathlib import Path
 
 from cloth_sim_interfaces.srv import StartRecording
 from cloth_sim_interfaces.srv import Step
-from cloth_sim_ros.sim.pose import Pose
+from cloth_sim_ros.sim.model.pose import Pose
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.simulation import Simulation
 from cloth_under_test import ClothUnderTest

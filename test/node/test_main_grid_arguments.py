@@ -6,7 +6,7 @@
 from pathlib import Path
 
 from cloth_sim_ros.node.main import grid_of_arguments
-from cloth_sim_ros.sim.given_values import load_parameters
+from cloth_sim_ros.sim.model.given_values import load_parameters
 import pytest
 
 SCENES = Path(__file__).resolve().parents[2] / 'config'

@@ -14,7 +14,7 @@ from cloth_sim_interfaces.srv import SetMode
 from cloth_sim_interfaces.srv import SetPin
 from cloth_sim_interfaces.srv import Step
 from cloth_sim_ros.recording.bag_reader import BagReader
-from cloth_sim_ros.sim.scene_fields import MODES
+from cloth_sim_ros.sim.model.scene_fields import MODES
 from cloth_under_test import ClothUnderTest
 from cloth_under_test import SCENE
 from geometry_msgs.msg import Vector3

@@ -6,7 +6,7 @@
 from cloth_sim_ros.node.node_fields import check_together
 from cloth_sim_ros.node.node_fields import NODE_FIELDS
 from cloth_sim_ros.sim.errors import ClothSimError
-from cloth_sim_ros.sim.scene_fields import SCENE_FIELDS
+from cloth_sim_ros.sim.model.scene_fields import SCENE_FIELDS
 import pytest
 
 DEFAULTS = {field.name: field.default for field in NODE_FIELDS}

@@ -10,10 +10,10 @@ import time
 
 from cloth_sim_interfaces.msg import ClothStats
 from cloth_sim_ros.gl.context import Context
+from cloth_sim_ros.sim.device.tuning import Choice
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.simulation import Simulation
 from cloth_sim_ros.sim.snapshot import POINT_DTYPE
-from cloth_sim_ros.sim.tuning import Choice
 from cloth_under_test import SCENE
 from node_process import NodeProcess
 import numpy as np

@@ -20,7 +20,7 @@ from cloth_sim_ros.recording.recorder import offered_qos
 from cloth_sim_ros.recording.recorder import Recorder
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.inputs import PushNodes
-from cloth_sim_ros.sim.push import Push as SimPush
+from cloth_sim_ros.sim.model.push import Push as SimPush
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.snapshot import POINT_DTYPE
 from made_cloud import make_cloud

@@ -4,8 +4,8 @@
 """Where the oracle blows up, found by bisection, against where that was predicted."""
 
 from cloth_sim_ros.reference.explicit_cloth import MassSpringReference
+from cloth_sim_ros.sim.model.stability import stability_limit
 from cloth_sim_ros.sim.scene import Scene
-from cloth_sim_ros.sim.stability import stability_limit
 import numpy as np
 import pytest
 

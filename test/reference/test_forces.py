@@ -8,7 +8,7 @@ from cloth_sim_ros.reference.forces import air_forces
 from cloth_sim_ros.reference.forces import push_nodes
 from cloth_sim_ros.reference.forces import push_weight
 from cloth_sim_ros.reference.forces import wind_at
-from cloth_sim_ros.sim.push import Push
+from cloth_sim_ros.sim.model.push import Push
 from cloth_sim_ros.sim.scene import Scene
 import numpy as np
 import pytest

@@ -5,9 +5,9 @@
 
 from cloth_sim_ros.rendering.camera import Camera
 from cloth_sim_ros.rendering.camera import DepthCamera
-from cloth_sim_ros.sim.colliders import Collider
 from cloth_sim_ros.sim.errors import ClothSimError
-from cloth_sim_ros.sim.pose import unit_quaternion
+from cloth_sim_ros.sim.model.colliders import Collider
+from cloth_sim_ros.sim.model.pose import unit_quaternion
 from hypothesis import given
 from hypothesis import strategies
 import numpy as np

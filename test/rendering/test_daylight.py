@@ -14,7 +14,7 @@ from cloth_sim_ros.rendering.renderer import has_bar
 from cloth_sim_ros.rendering.renderer import Style
 from cloth_sim_ros.rendering.sheet import legend_handles
 from cloth_sim_ros.rendering.survey import Survey
-from cloth_sim_ros.sim.colliders import Collider
+from cloth_sim_ros.sim.model.colliders import Collider
 import numpy as np
 import pytest
 

@@ -11,7 +11,7 @@ from cloth_sim_ros.rendering.look import StrainScale
 from cloth_sim_ros.rendering.look import write_forces
 from cloth_sim_ros.rendering.look import write_words
 from cloth_sim_ros.sim.errors import ClothSimError
-from cloth_sim_ros.sim.push import Push
+from cloth_sim_ros.sim.model.push import Push
 import numpy as np
 import pytest
 

@@ -23,7 +23,7 @@ from cloth_sim_ros.rendering.renderer import Style
 from cloth_sim_ros.rendering.renderer import title_of
 from cloth_sim_ros.rendering.source import RecordingSource
 from cloth_sim_ros.rendering.source import StateSource
-from cloth_sim_ros.sim.push import Push
+from cloth_sim_ros.sim.model.push import Push
 from cloth_sim_ros.sim.snapshot import FLAG_AT_LIMIT
 from cloth_sim_ros.sim.snapshot import FLAG_GRASPED
 from cloth_sim_ros.sim.snapshot import FLAG_PINNED

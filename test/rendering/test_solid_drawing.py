@@ -8,8 +8,8 @@ from dataclasses import replace
 from cloth_sim_ros.rendering import look
 from cloth_sim_ros.rendering.camera import Camera
 from cloth_sim_ros.rendering.solid_drawing import ball_radius
-from cloth_sim_ros.sim.colliders import Collider
-from cloth_sim_ros.sim.pose import unit_quaternion
+from cloth_sim_ros.sim.model.colliders import Collider
+from cloth_sim_ros.sim.model.pose import unit_quaternion
 import numpy as np
 import pytest
 

@@ -12,9 +12,9 @@ from cloth_sim_ros.recording.recorder import Recorder
 from cloth_sim_ros.rendering.source import nearest_frames
 from cloth_sim_ros.rendering.source import RecordingSource
 from cloth_sim_ros.rendering.source import StateSource
-from cloth_sim_ros.sim.colliders import fields_with_colliders
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.inputs import SetMode
+from cloth_sim_ros.sim.model.colliders import fields_with_colliders
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.snapshot import FLAG_PINNED
 from hypothesis import given

@@ -9,8 +9,8 @@ from cloth_sim_ros.rendering.camera import Camera
 from cloth_sim_ros.rendering.survey import Extent
 from cloth_sim_ros.rendering.survey import region_rings
 from cloth_sim_ros.rendering.survey import Survey
-from cloth_sim_ros.sim.colliders import Collider
-from cloth_sim_ros.sim.push import Push
+from cloth_sim_ros.sim.model.colliders import Collider
+from cloth_sim_ros.sim.model.push import Push
 from cloth_sim_ros.sim.snapshot import FLAG_AT_LIMIT
 from cloth_sim_ros.sim.snapshot import FLAG_GRASPED
 from cloth_sim_ros.sim.snapshot import FLAG_PINNED

@@ -11,9 +11,9 @@ from cloth_sim_ros.recording.recorder import Recorder
 from cloth_sim_ros.resimulation.recorded_run import recorded_version
 from cloth_sim_ros.resimulation.recorded_run import RecordedScene
 from cloth_sim_ros.sim.errors import ClothSimError
+from cloth_sim_ros.sim.model.scene_fields import Field
+from cloth_sim_ros.sim.model.scene_fields import SCENE_FIELDS
 from cloth_sim_ros.sim.scene import Scene
-from cloth_sim_ros.sim.scene_fields import Field
-from cloth_sim_ros.sim.scene_fields import SCENE_FIELDS
 import pytest
 from rcl_interfaces.msg import Parameter
 from rosbags.rosbag2 import Reader

@@ -18,8 +18,8 @@ from cloth_sim_ros.resimulation.recorded_run import RecordedRun
 from cloth_sim_ros.resimulation.rerun import MOST_FRAMES
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.errors import NonFiniteStateError
+from cloth_sim_ros.sim.model.scene_fields import MODES
 from cloth_sim_ros.sim.scene import Scene
-from cloth_sim_ros.sim.scene_fields import MODES
 from cloth_sim_ros.sim.simulation import Simulation
 from cloth_sim_ros.verb.main import main
 from made_again import assert_same

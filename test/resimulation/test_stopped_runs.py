@@ -5,7 +5,7 @@
 
 from cloth_sim_ros.resimulation.input_replay import Listener
 from cloth_sim_ros.sim.errors import NonFiniteStateError
-from cloth_sim_ros.sim.scene_fields import MODES
+from cloth_sim_ros.sim.model.scene_fields import MODES
 from made_again import assert_same
 from made_again import Director
 from made_again import made_again

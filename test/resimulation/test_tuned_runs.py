@@ -10,7 +10,7 @@ from cloth_sim_ros.node.parameters import FIELDS
 from cloth_sim_ros.recording.recorder import Recorder
 from cloth_sim_ros.resimulation.recorded_run import RecordedRun
 from cloth_sim_ros.resimulation.rerun import Rerun
-from cloth_sim_ros.sim.tuning import Choice
+from cloth_sim_ros.sim.device.tuning import Choice
 from made_again import assert_same
 from made_again import Director
 from made_again import made_again

@@ -12,10 +12,10 @@ import subprocess
 
 from cloth_sim_ros.gl.shader_source import ShaderSource
 from cloth_sim_ros.gl.shared_directory import shader_directory
-from cloth_sim_ros.sim.layout import Layout
+from cloth_sim_ros.sim.device.layout import Layout
+from cloth_sim_ros.sim.device.scene_program import scene_defines
 from cloth_sim_ros.sim.scene import FAMILIES
 from cloth_sim_ros.sim.scene import Scene
-from cloth_sim_ros.sim.scene_program import scene_defines
 from cloth_sim_ros.sim.solver.solver_buffers import Levels
 from cloth_sim_ros.sim.solver.solver_programs import solver_defines
 from cloth_sim_ros.study.timed_solvers import paper_solver_defines

@@ -8,14 +8,14 @@ from collections.abc import Iterator
 
 from cloth_sim_ros.gl.context import Context
 from cloth_sim_ros.sim import modes
+from cloth_sim_ros.sim.device.layout import choose_layout
+from cloth_sim_ros.sim.device.observer import Observer
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.errors import NonFiniteStateError
-from cloth_sim_ros.sim.forcing import Forcing
 from cloth_sim_ros.sim.guarded_steps import GuardedSteps
-from cloth_sim_ros.sim.layout import choose_layout
-from cloth_sim_ros.sim.loads import Loads
+from cloth_sim_ros.sim.loads.forcing import Forcing
+from cloth_sim_ros.sim.loads.loads import Loads
 from cloth_sim_ros.sim.modes.mass_spring import MassSpring
-from cloth_sim_ros.sim.observer import Observer
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.simulation import Simulation
 from cloth_sim_ros.sim.state import State

@@ -19,7 +19,7 @@ from cloth_sim_ros.sim.inputs import PushNodes
 from cloth_sim_ros.sim.inputs import Release
 from cloth_sim_ros.sim.inputs import SetMode
 from cloth_sim_ros.sim.inputs import TakeGrasp
-from cloth_sim_ros.sim.push import Push
+from cloth_sim_ros.sim.model.push import Push
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.simulation import Simulation
 from given_inputs import GIVEN

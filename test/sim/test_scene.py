@@ -3,8 +3,8 @@
 
 """A scene is what its parameters say, or is refused whole."""
 
-from cloth_sim_ros.sim import grid
 from cloth_sim_ros.sim.errors import ClothSimError
+from cloth_sim_ros.sim.model import grid
 from cloth_sim_ros.sim.scene import Scene
 import numpy as np
 import pytest

@@ -17,7 +17,7 @@ from cloth_sim_ros.sim.inputs import ReplaceState
 from cloth_sim_ros.sim.inputs import Reset
 from cloth_sim_ros.sim.inputs import SetMode
 from cloth_sim_ros.sim.inputs import Unpin
-from cloth_sim_ros.sim.push import Push
+from cloth_sim_ros.sim.model.push import Push
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.simulation import Simulation
 import numpy as np

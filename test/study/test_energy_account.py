@@ -4,8 +4,8 @@
 """Whether a moving cloth has more energy than it began with and was given."""
 
 from cloth_sim_ros.gl.context import Context
-from cloth_sim_ros.sim.colliders import Collider
-from cloth_sim_ros.sim.contacts import ContactForce
+from cloth_sim_ros.sim.contact.contacts import ContactForce
+from cloth_sim_ros.sim.model.colliders import Collider
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.simulation import Simulation
 from cloth_sim_ros.study.energy_account import compression_energy

@@ -6,9 +6,9 @@
 from collections.abc import Iterator
 
 from cloth_sim_ros.gl.context import Context
+from cloth_sim_ros.sim.device.tuning import BUILT_IN
+from cloth_sim_ros.sim.device.tuning import Choice
 from cloth_sim_ros.sim.simulation import Simulation
-from cloth_sim_ros.sim.tuning import BUILT_IN
-from cloth_sim_ros.sim.tuning import Choice
 from cloth_sim_ros.study.layout_tuning import tune
 import pytest
 

@@ -9,8 +9,8 @@ import subprocess
 import sys
 import time
 
+from cloth_sim_ros.sim.model.stability import safe_substep
 from cloth_sim_ros.sim.scene import Scene
-from cloth_sim_ros.sim.stability import safe_substep
 from cloth_sim_ros.study.node_cost import PARTS
 from cloth_sim_ros.study.node_cost import processor_time
 from cloth_sim_ros.study.node_cost import scene_values

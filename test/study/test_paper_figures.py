@@ -4,9 +4,9 @@
 """The runs of Fig. 10 and 11 of the paper."""
 
 from cloth_sim_ros.node.node_fields import NODE_FIELDS
-from cloth_sim_ros.sim.given_values import load_parameters
+from cloth_sim_ros.sim.model.given_values import load_parameters
+from cloth_sim_ros.sim.model.stability import stability_limit
 from cloth_sim_ros.sim.scene import Scene
-from cloth_sim_ros.sim.stability import stability_limit
 from cloth_sim_ros.study.paper_figures import FIGURES
 from cloth_sim_ros.study.paper_figures import paper_scene_file
 from pushed_scenes import paper_scene

@@ -7,9 +7,9 @@ from pathlib import Path
 
 from cloth_sim_ros.api.scene_file import load_scene
 from cloth_sim_ros.gl.shared_directory import shared_directory
-from cloth_sim_ros.sim.given_values import load_parameters
+from cloth_sim_ros.sim.model.given_values import load_parameters
+from cloth_sim_ros.sim.model.scene_fields import PRESETS
 from cloth_sim_ros.sim.scene import Scene
-from cloth_sim_ros.sim.scene_fields import PRESETS
 from cloth_sim_ros.study.presets import BUDGETS
 from cloth_sim_ros.study.trade.choice import read_choice
 from cloth_sim_ros.verb.main import main

@@ -3,8 +3,8 @@
 
 """Measured stability limits match the closed forms, and points are distinguished."""
 
+from cloth_sim_ros.sim.model.stability import stability_limit
 from cloth_sim_ros.sim.scene import Scene
-from cloth_sim_ros.sim.stability import stability_limit
 from cloth_sim_ros.study.make_runs import make_runs
 from cloth_sim_ros.study.make_runs import perform
 from cloth_sim_ros.study.results import LINES

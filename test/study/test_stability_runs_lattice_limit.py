@@ -3,8 +3,8 @@
 
 """The limit of a lattice with edges and corners, against chains that have a closed form."""
 
+from cloth_sim_ros.sim.model.stability import stability_limit
 from cloth_sim_ros.sim.scene import Scene
-from cloth_sim_ros.sim.stability import stability_limit
 from cloth_sim_ros.study.stability_runs import lattice_limit
 import numpy as np
 import pytest

@@ -3,7 +3,7 @@
 
 """How far points are from a collider, by formulas that share nothing with the shaders."""
 
-from cloth_sim_ros.sim.colliders import Collider
+from cloth_sim_ros.sim.model.colliders import Collider
 import numpy as np
 from scipy.spatial.transform import Rotation
 

@@ -17,7 +17,7 @@ from cloth_sim_ros.sim.inputs import PushNodes
 from cloth_sim_ros.sim.inputs import Reset
 from cloth_sim_ros.sim.inputs import SetMode
 from cloth_sim_ros.sim.inputs import Unpin
-from cloth_sim_ros.sim.push import Push
+from cloth_sim_ros.sim.model.push import Push
 from cloth_sim_ros.sim.snapshot import FLAG_PINNED
 from cloth_sim_ros.sim.snapshot import POINT_DTYPE
 from made_snapshot import make_snapshot

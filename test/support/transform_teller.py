@@ -7,7 +7,7 @@ from builtin_interfaces.msg import Time
 from cloth_sim_interfaces.srv import MoveFrame
 from cloth_sim_ros.messages.body_frames import pose_message
 from cloth_sim_ros.messages.body_frames import vector
-from cloth_sim_ros.sim.pose import Pose
+from cloth_sim_ros.sim.model.pose import Pose
 from cloth_under_test import ClothUnderTest
 from geometry_msgs.msg import Transform
 from geometry_msgs.msg import TransformStamped

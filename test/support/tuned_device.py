@@ -6,10 +6,10 @@
 from collections.abc import Mapping
 from pathlib import Path
 
-from cloth_sim_ros.sim.tuning import Choice
-from cloth_sim_ros.sim.tuning import Tuning
-from cloth_sim_ros.sim.tuning import VARIABLE
-from cloth_sim_ros.sim.tuning import write_tuning
+from cloth_sim_ros.sim.device.tuning import Choice
+from cloth_sim_ros.sim.device.tuning import Tuning
+from cloth_sim_ros.sim.device.tuning import VARIABLE
+from cloth_sim_ros.sim.device.tuning import write_tuning
 import pytest
 
 

@@ -3,7 +3,7 @@
 
 """The verb lists each fabric with its numbers and their source."""
 
-from cloth_sim_ros.sim.materials import FABRICS
+from cloth_sim_ros.sim.model.materials import FABRICS
 from cloth_sim_ros.verb.main import main
 
 

@@ -15,7 +15,7 @@ from cloth_sim_interfaces.srv import SetMode
 from cloth_sim_interfaces.srv import SetPin
 from cloth_sim_interfaces.srv import StartRecording
 from cloth_sim_interfaces.srv import Step
-from cloth_sim_ros.sim.scene_fields import MODES
+from cloth_sim_ros.sim.model.scene_fields import MODES
 from cloth_sim_ros.verb.main import main
 from geometry_msgs.msg import Point
 from geometry_msgs.msg import Vector3

@@ -10,9 +10,9 @@ from pathlib import Path
 from cloth_sim_ros.analysis.recording import Recording
 from cloth_sim_ros.gl.context import Context
 from cloth_sim_ros.resimulation.recorded_run import RecordedRun
-from cloth_sim_ros.sim.tuning import Choice
-from cloth_sim_ros.sim.tuning import read_tuning
-from cloth_sim_ros.sim.tuning import VARIABLE
+from cloth_sim_ros.sim.device.tuning import Choice
+from cloth_sim_ros.sim.device.tuning import read_tuning
+from cloth_sim_ros.sim.device.tuning import VARIABLE
 from cloth_sim_ros.verb.main import main
 from command import cloth_sim
 import pytest

@@ -7,7 +7,7 @@ from collections.abc import Collection
 import math
 
 from cloth_sim_ros.gl.buffer import Buffer
-from cloth_sim_ros.sim.layout import Layout
+from cloth_sim_ros.sim.device.layout import Layout
 from cloth_sim_ros.sim.modes.implicit import ImplicitStep
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.solver.edge_law import edge_law

@@ -5,13 +5,13 @@
 
 import math
 
-from cloth_sim_ros.sim.edge_kinds import edge_defines
-from cloth_sim_ros.sim.forcing import Forcing
-from cloth_sim_ros.sim.layout import Layout
-from cloth_sim_ros.sim.loads import Loads
+from cloth_sim_ros.sim.device.layout import Layout
+from cloth_sim_ros.sim.device.scene_program import SceneProgram
+from cloth_sim_ros.sim.device.scene_program import Strips
+from cloth_sim_ros.sim.loads.forcing import Forcing
+from cloth_sim_ros.sim.loads.loads import Loads
+from cloth_sim_ros.sim.model.edge_kinds import edge_defines
 from cloth_sim_ros.sim.scene import Scene
-from cloth_sim_ros.sim.scene_program import SceneProgram
-from cloth_sim_ros.sim.scene_program import Strips
 from cloth_sim_ros.sim.state import State
 import numpy as np
 

@@ -4,11 +4,11 @@
 """Keep the momentum of a cloth that nothing holds, whatever the solver has left over."""
 
 from cloth_sim_ros.gl.buffer import shader_writes_visible
-from cloth_sim_ros.sim.forcing import Forcing
-from cloth_sim_ros.sim.layout import Layout
+from cloth_sim_ros.sim.device.layout import Layout
+from cloth_sim_ros.sim.device.scene_program import SceneProgram
+from cloth_sim_ros.sim.device.scene_program import Strips
+from cloth_sim_ros.sim.loads.forcing import Forcing
 from cloth_sim_ros.sim.scene import Scene
-from cloth_sim_ros.sim.scene_program import SceneProgram
-from cloth_sim_ros.sim.scene_program import Strips
 from cloth_sim_ros.sim.state import State
 import numpy as np
 

@@ -11,13 +11,13 @@ from dataclasses import replace
 import math
 from typing import Any
 
-from cloth_sim_ros.sim.forcing import Forcing
-from cloth_sim_ros.sim.layout import Layout
-from cloth_sim_ros.sim.loads import Loads
+from cloth_sim_ros.sim.device.layout import Layout
+from cloth_sim_ros.sim.device.observer import Observer
+from cloth_sim_ros.sim.loads.forcing import Forcing
+from cloth_sim_ros.sim.loads.loads import Loads
 from cloth_sim_ros.sim.modes.edge_watch import TurnWatch
 from cloth_sim_ros.sim.modes.free_motion import FreeMotion
 from cloth_sim_ros.sim.modes.mode import CHECKED_SUBSTEPS
-from cloth_sim_ros.sim.observer import Observer
 from cloth_sim_ros.sim.scene import FAMILIES
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.solver.edge_law import BETA

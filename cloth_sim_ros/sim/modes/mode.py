@@ -8,9 +8,9 @@ from typing import Any
 from typing import Protocol
 
 from cloth_sim_ros.gl.buffer import Buffer
-from cloth_sim_ros.sim.forcing import Forcing
-from cloth_sim_ros.sim.layout import Layout
-from cloth_sim_ros.sim.loads import Loads
+from cloth_sim_ros.sim.device.layout import Layout
+from cloth_sim_ros.sim.loads.forcing import Forcing
+from cloth_sim_ros.sim.loads.loads import Loads
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.solver.edge_law import EdgeLaw
 from cloth_sim_ros.sim.state import State

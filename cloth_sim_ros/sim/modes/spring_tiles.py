@@ -4,11 +4,11 @@
 """Several substeps of small cloths in one dispatch, where a dispatch costs more than a substep."""
 
 from cloth_sim_ros.gl.buffer import shader_writes_visible
-from cloth_sim_ros.sim.forcing import Forcing
-from cloth_sim_ros.sim.layout import Layout
-from cloth_sim_ros.sim.low_parts import needs_low_parts
+from cloth_sim_ros.sim.device.layout import Layout
+from cloth_sim_ros.sim.device.low_parts import needs_low_parts
+from cloth_sim_ros.sim.device.scene_program import SceneProgram
+from cloth_sim_ros.sim.loads.forcing import Forcing
 from cloth_sim_ros.sim.scene import Scene
-from cloth_sim_ros.sim.scene_program import SceneProgram
 from cloth_sim_ros.sim.state import State
 
 # Sides of a tile [nodes]: 32 x 32 nodes fill the 32 KiB of shared memory and the 1,024 invocations

@@ -8,12 +8,12 @@ from dataclasses import replace
 
 from cloth_sim_ros.gl.buffer import shader_writes_visible
 from cloth_sim_ros.gl.program import Program
-from cloth_sim_ros.sim import bindings
-from cloth_sim_ros.sim.forcing import Forcing
-from cloth_sim_ros.sim.forcing import touch_of
-from cloth_sim_ros.sim.layout import Layout
+from cloth_sim_ros.sim.device import bindings
+from cloth_sim_ros.sim.device.layout import Layout
+from cloth_sim_ros.sim.device.scene_program import SceneProgram
+from cloth_sim_ros.sim.loads.forcing import Forcing
+from cloth_sim_ros.sim.loads.forcing import touch_of
 from cloth_sim_ros.sim.scene import Scene
-from cloth_sim_ros.sim.scene_program import SceneProgram
 from cloth_sim_ros.sim.solver.edge_law import EdgeLaw
 from cloth_sim_ros.sim.solver.edge_law import set_law
 from cloth_sim_ros.sim.solver.solver_buffers import Levels

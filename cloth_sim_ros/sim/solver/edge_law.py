@@ -18,8 +18,8 @@ from functools import lru_cache
 from typing import Any
 
 from cloth_sim_ros.gl.program import Program
-from cloth_sim_ros.sim.edge_kinds import REST_KINDS
-from cloth_sim_ros.sim.edge_kinds import rest_lengths
+from cloth_sim_ros.sim.model.edge_kinds import REST_KINDS
+from cloth_sim_ros.sim.model.edge_kinds import rest_lengths
 from cloth_sim_ros.sim.scene import FAMILIES
 from cloth_sim_ros.sim.scene import Scene
 

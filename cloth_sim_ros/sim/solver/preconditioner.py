@@ -5,7 +5,7 @@
 
 from typing import Protocol
 
-from cloth_sim_ros.sim.layout import Layout
+from cloth_sim_ros.sim.device.layout import Layout
 from cloth_sim_ros.sim.solver.edge_law import EdgeLaw
 from cloth_sim_ros.sim.solver.solver_buffers import COARSEST_SIDE
 from cloth_sim_ros.sim.solver.solver_buffers import Levels

@@ -5,11 +5,11 @@
 
 from dataclasses import replace
 
-from cloth_sim_ros.sim import bindings
-from cloth_sim_ros.sim.edge_kinds import EDGE_KINDS
-from cloth_sim_ros.sim.forcing import Forcing
-from cloth_sim_ros.sim.layout import Layout
-from cloth_sim_ros.sim.low_parts import needs_low_parts
+from cloth_sim_ros.sim.device import bindings
+from cloth_sim_ros.sim.device.layout import Layout
+from cloth_sim_ros.sim.device.low_parts import needs_low_parts
+from cloth_sim_ros.sim.loads.forcing import Forcing
+from cloth_sim_ros.sim.model.edge_kinds import EDGE_KINDS
 from cloth_sim_ros.sim.scene import FAMILIES
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.solver.active_set import HeldPass

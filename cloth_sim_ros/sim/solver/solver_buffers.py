@@ -12,9 +12,9 @@ from cloth_sim_ros.gl.errors import DeviceError
 from cloth_sim_ros.gl.program import Program
 from cloth_sim_ros.gl.quick_calls import Call
 from cloth_sim_ros.gl.quick_calls import make
-from cloth_sim_ros.sim import bindings
-from cloth_sim_ros.sim.layout import HALO
-from cloth_sim_ros.sim.layout import Layout
+from cloth_sim_ros.sim.device import bindings
+from cloth_sim_ros.sim.device.layout import HALO
+from cloth_sim_ros.sim.device.layout import Layout
 from cloth_sim_ros.sim.solver.solver_fields import BEND_SYSTEM
 from cloth_sim_ros.sim.solver.solver_fields import BENDING_DAMPING_SYSTEM
 from cloth_sim_ros.sim.solver.solver_fields import CLOTH_SYSTEM

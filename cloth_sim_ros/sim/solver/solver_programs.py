@@ -13,8 +13,8 @@ from cloth_sim_ros.gl.program import Program
 from cloth_sim_ros.gl.quick_calls import Call
 from cloth_sim_ros.gl.quick_calls import make
 from cloth_sim_ros.gl.shader_source import ShaderSource
-from cloth_sim_ros.sim.edge_kinds import edge_defines
-from cloth_sim_ros.sim.layout import Layout
+from cloth_sim_ros.sim.device.layout import Layout
+from cloth_sim_ros.sim.model.edge_kinds import edge_defines
 from cloth_sim_ros.sim.solver.edge_law import EdgeLaw
 from cloth_sim_ros.sim.solver.solver_buffers import Levels
 

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 import math
 
 from cloth_sim_ros.gl.buffer import Buffer
-from cloth_sim_ros.sim import bindings
-from cloth_sim_ros.sim.forcing import Forcing
+from cloth_sim_ros.sim.device import bindings
+from cloth_sim_ros.sim.loads.forcing import Forcing
 from cloth_sim_ros.sim.solver.solver_programs import SolverPass
 from cloth_sim_ros.sim.solver.solver_programs import SolverPrograms
 from cloth_sim_ros.sim.state import State

@@ -8,10 +8,10 @@ import sys
 from typing import Any
 
 from cloth_sim_ros.gl.context import Context
+from cloth_sim_ros.sim.model.stability import safe_substep
 from cloth_sim_ros.sim.scene import FAMILIES
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.simulation import Simulation
-from cloth_sim_ros.sim.stability import safe_substep
 from cloth_sim_ros.study.paper.printed import edge_count
 from cloth_sim_ros.study.paper.printed import printed_speeds
 from cloth_sim_ros.study.paper.printed import PrintedSpeed

@@ -12,7 +12,7 @@ from typing import Protocol
 from cloth_sim_ros.files.checked_yaml import MOST_BYTES
 from cloth_sim_ros.files.regular_file import read_regular
 from cloth_sim_ros.sim.errors import ClothSimError
-from cloth_sim_ros.sim.given_values import load_parameters
+from cloth_sim_ros.sim.model.given_values import load_parameters
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.study.results import Run
 from cloth_sim_ros.study.trade.front import cheapest_within_strain

@@ -9,9 +9,9 @@ from typing import Any
 
 from cloth_sim_ros.reference.explicit_cloth import MassSpringReference
 from cloth_sim_ros.sim.errors import ClothSimError
+from cloth_sim_ros.sim.model.stability import choose_substeps
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.simulation import Simulation
-from cloth_sim_ros.sim.stability import choose_substeps
 from cloth_sim_ros.sim.stop import StepAbandoned
 from cloth_sim_ros.study.make_runs import in_minutes
 from cloth_sim_ros.study.results import ResultsFolder

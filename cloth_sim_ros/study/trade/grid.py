@@ -15,12 +15,12 @@ from cloth_sim_ros.files.checked_yaml import load_yaml
 from cloth_sim_ros.files.errors import cut
 from cloth_sim_ros.files.errors import shown
 from cloth_sim_ros.gl.shared_directory import shared_directory
-from cloth_sim_ros.sim.colliders import fields_with_colliders
 from cloth_sim_ros.sim.errors import ClothSimError
+from cloth_sim_ros.sim.model.colliders import fields_with_colliders
+from cloth_sim_ros.sim.model.scene_fields import SCENE_FIELDS
+from cloth_sim_ros.sim.model.stability import choose_substeps
 from cloth_sim_ros.sim.scene import refuse_unknown
 from cloth_sim_ros.sim.scene import Scene
-from cloth_sim_ros.sim.scene_fields import SCENE_FIELDS
-from cloth_sim_ros.sim.stability import choose_substeps
 from cloth_sim_ros.study.results import Run
 from cloth_sim_ros.study.scene_values import scaled_stiffness
 

@@ -23,11 +23,11 @@ from cloth_sim_ros.node.frame_tree import checked_pose
 from cloth_sim_ros.node.frame_tree import read_transforms
 from cloth_sim_ros.node.interfaces import check_interfaces
 from cloth_sim_ros.node.refusals import no_node
-from cloth_sim_ros.sim.colliders import Collider
-from cloth_sim_ros.sim.colliders import colliders_of
-from cloth_sim_ros.sim.colliders import fields_with_colliders
-from cloth_sim_ros.sim.colliders import NAMES
 from cloth_sim_ros.sim.errors import ClothSimError
+from cloth_sim_ros.sim.model.colliders import Collider
+from cloth_sim_ros.sim.model.colliders import colliders_of
+from cloth_sim_ros.sim.model.colliders import fields_with_colliders
+from cloth_sim_ros.sim.model.colliders import NAMES
 from cloth_sim_ros.view.source import Moment
 from cloth_sim_ros.view.source import Source
 from geometry_msgs.msg import Point

@@ -6,8 +6,8 @@
 from contextlib import closing
 
 from cloth_sim_ros.gl.inventory import take_inventory
-from cloth_sim_ros.sim.edge_kinds import EDGE_KINDS
 from cloth_sim_ros.sim.errors import ClothSimError
+from cloth_sim_ros.sim.model.edge_kinds import EDGE_KINDS
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.simulation import Simulation
 from cloth_sim_ros.sim.snapshot import FLAG_AT_LIMIT

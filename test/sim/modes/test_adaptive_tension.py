@@ -5,8 +5,8 @@
 
 from contextlib import closing
 
-from cloth_sim_ros.sim.edge_kinds import EDGE_KINDS
-from cloth_sim_ros.sim.pin_forces import spring_tension
+from cloth_sim_ros.sim.held.pin_forces import spring_tension
+from cloth_sim_ros.sim.model.edge_kinds import EDGE_KINDS
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.simulation import Simulation
 import numpy as np

@@ -5,8 +5,8 @@
 
 from contextlib import closing
 
-from cloth_sim_ros.sim.layout import choose_layout
-from cloth_sim_ros.sim.loads import Loads
+from cloth_sim_ros.sim.device.layout import choose_layout
+from cloth_sim_ros.sim.loads.loads import Loads
 from cloth_sim_ros.sim.modes.edge_watch import StrainWatch
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.state import State

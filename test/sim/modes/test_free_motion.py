@@ -3,8 +3,8 @@
 
 """The momenta of a cloth that nothing holds are given back to it after a substep."""
 
-from cloth_sim_ros.sim.forcing import Forcing
-from cloth_sim_ros.sim.layout import choose_layout
+from cloth_sim_ros.sim.device.layout import choose_layout
+from cloth_sim_ros.sim.loads.forcing import Forcing
 from cloth_sim_ros.sim.modes.free_motion import FreeMotion
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.state import State

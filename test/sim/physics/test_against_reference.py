@@ -15,9 +15,9 @@ from functools import lru_cache
 import json
 
 from cloth_sim_ros.reference.explicit_cloth import MassSpringReference
+from cloth_sim_ros.sim.model.stability import choose_substeps
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.simulation import Simulation
-from cloth_sim_ros.sim.stability import choose_substeps
 from hypothesis import assume
 from hypothesis import given
 from hypothesis import settings

@@ -5,7 +5,7 @@
 
 from cloth_sim_ros.reference.explicit_cloth import MassSpringReference
 from cloth_sim_ros.reference.implicit_cloth import ImplicitCloth
-from cloth_sim_ros.sim.pin_forces import bending_pulls
+from cloth_sim_ros.sim.held.pin_forces import bending_pulls
 import numpy as np
 import pytest
 

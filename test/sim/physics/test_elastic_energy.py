@@ -5,7 +5,7 @@
 
 from cloth_sim_ros.reference.edge_law import spring_law
 from cloth_sim_ros.reference.implicit_cloth import ImplicitCloth
-from cloth_sim_ros.sim.materials import WARP
+from cloth_sim_ros.sim.model.materials import WARP
 import numpy as np
 import pytest
 

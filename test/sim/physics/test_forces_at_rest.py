@@ -3,7 +3,7 @@
 
 """A cloth that hangs still: its edges carry what is below them, its pins carry all."""
 
-from cloth_sim_ros.sim.edge_kinds import EDGE_KINDS
+from cloth_sim_ros.sim.model.edge_kinds import EDGE_KINDS
 import numpy as np
 import pytest
 

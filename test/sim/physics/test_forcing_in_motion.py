@@ -4,7 +4,7 @@
 """Pushes and pins that come while the cloth moves, against the oracle."""
 
 from cloth_sim_ros.reference.explicit_cloth import MassSpringReference
-from cloth_sim_ros.sim.push import Push
+from cloth_sim_ros.sim.model.push import Push
 from cloth_sim_ros.sim.scene import Scene
 import numpy as np
 from springs import SPRINGS

@@ -5,7 +5,7 @@
 
 from pathlib import Path
 
-from cloth_sim_ros.sim.given_values import load_parameters
+from cloth_sim_ros.sim.model.given_values import load_parameters
 import numpy as np
 import pytest
 

@@ -6,7 +6,7 @@
 from cloth_sim_ros import Batch
 from cloth_sim_ros import Scene
 from cloth_sim_ros import Simulation
-from cloth_sim_ros.sim.low_parts import needs_low_parts
+from cloth_sim_ros.sim.device.low_parts import needs_low_parts
 import numpy as np
 import pytest
 

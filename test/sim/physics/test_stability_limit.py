@@ -3,8 +3,8 @@
 
 """The predicted longest step: below it nothing grows, above it everything does."""
 
+from cloth_sim_ros.sim.model.stability import stability_limit
 from cloth_sim_ros.sim.scene import Scene
-from cloth_sim_ros.sim.stability import stability_limit
 import numpy as np
 import pytest
 

@@ -8,9 +8,9 @@ from collections.abc import Iterator
 from typing import Any
 
 from cloth_sim_ros.gl.context import Context
-from cloth_sim_ros.sim.forcing import Forcing
-from cloth_sim_ros.sim.layout import choose_layout
-from cloth_sim_ros.sim.observer import Observer
+from cloth_sim_ros.sim.device.layout import choose_layout
+from cloth_sim_ros.sim.device.observer import Observer
+from cloth_sim_ros.sim.loads.forcing import Forcing
 from cloth_sim_ros.sim.scene import FAMILIES
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.solver.edge_law import BETA

@@ -6,7 +6,7 @@
 import re
 
 from cloth_sim_ros.gl.errors import DeviceError
-from cloth_sim_ros.sim.layout import Layout
+from cloth_sim_ros.sim.device.layout import Layout
 from cloth_sim_ros.sim.solver.solver_buffers import COARSEST_SIDE
 from cloth_sim_ros.sim.solver.solver_buffers import Levels
 from cloth_sim_ros.sim.solver.solver_buffers import refuse_too_large

@@ -5,7 +5,7 @@
 
 import math
 
-from cloth_sim_ros.sim.forcing import Forcing
+from cloth_sim_ros.sim.loads.forcing import Forcing
 from cloth_sim_ros.sim.solver.tally import report_of
 import numpy as np
 import pytest

@@ -3,7 +3,7 @@
 
 """The paper's implicit step: one linear solve a substep (section 4.2)."""
 
-from cloth_sim_ros.sim.layout import Layout
+from cloth_sim_ros.sim.device.layout import Layout
 from cloth_sim_ros.sim.modes.adaptive import Adaptive
 from cloth_sim_ros.sim.modes.adaptive import LimitedSprings
 from cloth_sim_ros.sim.modes.constraint import Constraint

@@ -8,19 +8,19 @@ from typing import Any
 
 from cloth_sim_ros.gl.buffer import Buffer
 from cloth_sim_ros.gl.buffer import shader_writes_visible
-from cloth_sim_ros.sim import bindings
-from cloth_sim_ros.sim.edge_kinds import EDGE_KINDS
-from cloth_sim_ros.sim.forcing import Forcing
-from cloth_sim_ros.sim.layout import Layout
-from cloth_sim_ros.sim.loads import Loads
+from cloth_sim_ros.sim.device import bindings
+from cloth_sim_ros.sim.device.layout import Layout
+from cloth_sim_ros.sim.device.scene_program import SceneProgram
+from cloth_sim_ros.sim.held.pin_forces import spring_tension
+from cloth_sim_ros.sim.loads.forcing import Forcing
+from cloth_sim_ros.sim.loads.loads import Loads
+from cloth_sim_ros.sim.model.edge_kinds import EDGE_KINDS
+from cloth_sim_ros.sim.model.stability import stability_limit
 from cloth_sim_ros.sim.modes.adaptive import Adaptive
 from cloth_sim_ros.sim.modes.mass_spring import OnePass
-from cloth_sim_ros.sim.pin_forces import spring_tension
 from cloth_sim_ros.sim.scene import Scene
-from cloth_sim_ros.sim.scene_program import SceneProgram
 from cloth_sim_ros.sim.solver.edge_law import EdgeLaw
 from cloth_sim_ros.sim.solver.edge_law import spring_law
-from cloth_sim_ros.sim.stability import stability_limit
 from cloth_sim_ros.sim.state import State
 from cloth_sim_ros.sim.stop import leave_if
 from cloth_sim_ros.sim.stop import never

@@ -5,12 +5,12 @@
 
 from cloth_sim_ros.gl.buffer import Buffer
 from cloth_sim_ros.gl.buffer import shader_writes_visible
-from cloth_sim_ros.sim import bindings
-from cloth_sim_ros.sim.forcing import Forcing
-from cloth_sim_ros.sim.layout import Layout
+from cloth_sim_ros.sim.device import bindings
+from cloth_sim_ros.sim.device.layout import Layout
+from cloth_sim_ros.sim.device.scene_program import SceneProgram
+from cloth_sim_ros.sim.loads.forcing import Forcing
 from cloth_sim_ros.sim.modes.mass_spring import MassSpring
 from cloth_sim_ros.sim.scene import Scene
-from cloth_sim_ros.sim.scene_program import SceneProgram
 from cloth_sim_ros.sim.state import State
 import numpy as np
 

@@ -1,0 +1,433 @@
+# SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
+# SPDX-License-Identifier: Apache-2.0
+
+"""The colliders of a run on the device: where they are, and what they do to the cloth."""
+
+from dataclasses import dataclass
+from dataclasses import replace
+import math
+
+from cloth_sim_ros.gl.buffer import Buffer
+from cloth_sim_ros.gl.buffer import shader_dispatches_visible
+from cloth_sim_ros.gl.buffer import shader_writes_visible
+from cloth_sim_ros.gl.program import Program
+from cloth_sim_ros.gl.quick_calls import make
+from cloth_sim_ros.sim.device import bindings
+from cloth_sim_ros.sim.device.layout import Layout
+from cloth_sim_ros.sim.device.scene_program import SceneProgram
+from cloth_sim_ros.sim.loads.forcing import Forcing
+from cloth_sim_ros.sim.model.colliders import Collider
+from cloth_sim_ros.sim.model.colliders import SHAPES
+from cloth_sim_ros.sim.model.frame_paths import FrameMove
+from cloth_sim_ros.sim.model.frame_paths import FramePath
+from cloth_sim_ros.sim.model.frame_paths import FramePaths
+from cloth_sim_ros.sim.model.frame_paths import MovedFrame
+from cloth_sim_ros.sim.model.pose import Pose
+from cloth_sim_ros.sim.scene import Scene
+from cloth_sim_ros.sim.snapshot import FLAG_TOUCHING
+from cloth_sim_ros.sim.snapshot import Snapshot
+from cloth_sim_ros.sim.state import State
+import numpy as np
+
+STICKS, SLIDES = 1, 2
+# Thickness of a plane, which has no end [m]: beyond any way of a node.
+_ENDLESS = 1e9
+# Size of an entry of the contact record, a vec4 [bytes].
+_ENTRY_BYTES = 16
+# Speed at which a node inside a body is moved out, over the root of the size of the cloth
+# [sqrt(m) / s]: a third of sqrt(gravity x size); chosen: a squeezed cloth does not change from
+# 0.25 to 4, one that begins inside a body by 1 % (constants.py --only _WAY_OUT_SPEED).
+_WAY_OUT_SPEED = 1.0
+# Max. number of substeps that are told apart [1]: float32 counts so far without a gap.
+_MOST_SERIAL = 2**24
+# Rounding of positions over the coordinates [1], which counts as no way: ten times that of
+# contact.glsl.
+_ROUNDING = 4e-6
+# Workgroups along x, y and z, and number, of the blocks and of the nodes that are near.
+_NONE_NEAR = np.array([0, 1, 1, 0, 0, 1, 1, 0], dtype=np.uint32)
+# Offset of those of the nodes [bytes].
+_NODE_GROUPS = 16
+# Room for each block and node in the lists [bytes].
+_NEAR_BYTES = 8
+
+
+@dataclass(frozen=True)
+class ContactForce:
+    """
+    What the cloth does to one collider in the last step of dt, and how it touches it.
+
+    :param name: of the collider
+    :param force: on the collider [N], (3,)
+    :param torque: on it about its centre [N m], (3,)
+    :param sticking: nodes that touched it and had its velocity
+    :param sliding: nodes that touched it and moved along it
+    """
+
+    name: str
+    force: np.ndarray
+    torque: np.ndarray
+    sticking: int
+    sliding: int
+
+
+class Contacts:
+    """
+    Lets colliders act on the cloth, docs/explanation/contact.md.
+
+    A substep asks ``join`` for its colliders. What they have done in a step of dt stands in a
+    buffer until the next one begins.
+    """
+
+    def __init__(self, scene: Scene, layout: Layout) -> None:
+        """Allocate the record of contacts; the pass is compiled when it is first needed."""
+        self.colliders = scene.colliders
+        self._scene = scene
+        self._layout = layout
+        # Of each collider and node; and the substep in which any of them was touched last.
+        self._record = Buffer((len(scene.colliders) * layout.stored + 1) * _ENTRY_BYTES)
+        # The one of the moment of ``keep``, and one that is not in use.
+        self._kept: Buffer | None = None
+        self._spare: Buffer | None = None
+        # A read from the record itself would have it moved to the host's memory.
+        self._polled = Buffer(_ENTRY_BYTES, is_polled=True) if layout.is_asynchronous else None
+        self.clearance = 0.5 * scene['contact.thickness']
+        self.reach = np.array([_reach(collider) for collider in scene.colliders])
+        self._serial = self._decision = 0
+        self._program = SceneProgram('contact.comp', scene, layout)
+        self._near_nodes = SceneProgram('near_nodes.comp', scene, layout)
+        self._near = Buffer(
+            _NONE_NEAR.nbytes + _NEAR_BYTES * (layout.block_count + scene.node_count))
+        self._clear_near = self._near.write_calls(_NONE_NEAR)
+        self._foresight = SceneProgram('foresee_contact.comp', scene, layout)
+        self._set: dict[Program, tuple[_Touch, float]] = {}
+        self._joined: tuple[Forcing, _Touch, Forcing] | None = None
+        self.begin_run()
+
+    def begin_run(self) -> None:
+        """Put the colliders where the scene has them."""
+        self._paths = self._paths_of_scene()
+        self._forget_touch()
+        self.begin_step()
+
+    def begin_step(self) -> None:
+        """Forget what was done in the step before."""
+        if self._record is self._kept:
+            self._record = self._spare or Buffer(self._kept.bytes)
+            self._spare = None
+        self._record.clear()
+
+    def keep(self) -> Buffer:
+        """Return what ``restore`` needs to come back to this moment: what the last step did."""
+        if self._kept is not self._record:
+            self._spare = self._kept
+        self._kept = self._record
+        return self._kept
+
+    def restore(self, kept: Buffer) -> None:
+        """Go back to the moment of ``keep``, the latest one; colliders stay on their ways."""
+        if self._record is not kept:
+            self._record, self._spare = kept, self._record
+
+    def join(self, forcing: Forcing, begin: float, end: float) -> Forcing:
+        """Return ``forcing`` with the colliders of a substep from ``begin`` to ``end`` [s]."""
+        touch = self._touch_in(begin, end)
+        if self._joined is None or self._joined[:2] != (forcing, touch):
+            self._joined = forcing, touch, replace(forcing, touch=touch)
+        return self._joined[2]
+
+    def present(self, time: float) -> tuple[Collider, ...]:
+        """Return the colliders where they are at ``time`` [s]."""
+        return tuple(
+            replace(collider, position=pose.position, orientation=pose.orientation)
+            for collider, pose in zip(self.colliders, self._poses(time)))
+
+    def move(self, move: FrameMove) -> FramePath:
+        """Start the motion of a collider; return its path."""
+        path = self._paths.add(move)
+        self._forget_touch()
+        return path
+
+    def moved(self, now: float) -> tuple[MovedFrame, ...]:
+        """Return those that are not where the scene alone has them ``now`` [s]."""
+        return self._paths.differing(self._paths_of_scene(), now)
+
+    def place(self, name: str, pose: Pose, now: float) -> None:
+        """Have a collider at rest at ``pose`` from ``now`` [s] on, until its next move."""
+        self._paths.add(FrameMove(
+            name, pose.position, pose.orientation, speed=math.inf, angular_speed=math.inf,
+            start=now))
+        self._forget_touch()
+
+    def quiet_until(self, now: float) -> float:
+        """Return until when no collider moves: ``now`` itself where one does, or infinite."""
+        return self._paths.quiet_until(now)
+
+    def begin_explicit(self, touch: '_Touch', step: Program, length: float) -> None:
+        """Have ``step``, which is in use, list what ``act`` acts on in substeps of ``length``."""
+        self.set_in(step, touch, length)
+        for part in (self._near_nodes, self._program):
+            program = part.use()
+            program.set_float('substep', length)
+            program.set_int('block_count', self._layout.block_count)
+            self.set_in(program, touch, length)
+        self._near.bind_storage(bindings.NEAR_BLOCKS)
+        self._near.bind_dispatches()
+
+    def list_none(self) -> None:
+        """Empty the lists of an explicit substep that is about to be made."""
+        make(self._clear_near)
+
+    def act(self) -> None:
+        """Act on an explicit substep that was made, both states of which are bound."""
+        shader_dispatches_visible()
+        self._near_nodes.use().dispatch_indirect(0)
+        shader_dispatches_visible()
+        self._program.use().dispatch_indirect(_NODE_GROUPS)
+        shader_writes_visible()
+
+    def foresee(
+            self, touch: '_Touch', state: State, forcing: Forcing, ahead: float) -> None:
+        """Write the velocities of the next state of ``state``, as they are expected."""
+        program = self._foresight.use_for_step(forcing, ahead)
+        self.set_in(program, touch, ahead)
+        state.bind_in()
+        state.bind_out()
+        program.dispatch(*self._layout.node_groups)
+        shader_writes_visible()
+
+    def set_in(self, program: Program, touch: '_Touch', length: float) -> None:
+        """Set the uniforms of contact.glsl in the program in use for ``length`` [s]."""
+        self._record.bind_storage(bindings.CONTACTS)
+        if program not in self._set:
+            self._set_shapes(program)
+        if self._set.get(program) != (touch, length):
+            program.set_vectors('collider_centre', touch.centres)
+            program.set_vectors('collider_axes', touch.axes)
+            program.set_vectors('collider_velocity', touch.velocities)
+            program.set_vectors('collider_turn', touch.turns)
+            program.set_floats('near_limit', touch.near_limits(length).tolist())
+            program.set_floats('near_share', touch.near_shares(length).tolist())
+            self._set[program] = touch, length
+
+    def set_marks_in(self, program: Program) -> None:
+        """Set what a pass of an implicit step marks that a node touches, or moves, with."""
+        program.set_float('serial', self._serial)
+        program.set_float('decision', self._decision)
+
+    def begin_substep(self) -> None:
+        """Begin to ask anew whether anything is touched."""
+        self._serial = self._serial % _MOST_SERIAL + 1
+
+    def is_touched(self) -> bool:
+        """Return whether a node has touched a collider in the substep, of an implicit step."""
+        return bool(self._marks()[0] == self._serial)
+
+    def begin_decision(self) -> None:
+        """Begin to ask anew whether another solve is due."""
+        self._decision = self._decision % _MOST_SERIAL + 1
+
+    def is_solve_due(self, *, is_exact: bool = False) -> bool:
+        """
+        Return whether the last decision has moved nodes by more than a solve leaves.
+
+        :param is_exact: True where the solve before it had nothing to do: then another one is due
+            only if a node sticks, slides or is let go that did not
+        """
+        due, turned = self._marks()[1:3] == self._decision
+        return bool(due and (turned or not is_exact))
+
+    def forces(self, positions: np.ndarray, time: float) -> tuple[ContactForce, ...]:
+        """
+        Return the force on each collider, the mean over the last step of dt.
+
+        :param positions: of the nodes now, (rows, cols, 3) [m]
+        :param time: simulated, now [s]
+        """
+        records = self._read_record()
+        per_impulse = -self._scene.node_mass / self._scene['dt']
+        found = []
+        poses = self._poses(time)
+        for number, collider in enumerate(self.colliders):
+            record = records[number]
+            forces = per_impulse * record[..., :3].astype(float)
+            arms = positions.astype(float) - np.array(poses[number].position)
+            found.append(ContactForce(
+                collider.name, forces.sum(axis=(0, 1)), np.cross(arms, forces).sum(axis=(0, 1)),
+                int(np.sum(record[..., 3] == STICKS)), int(np.sum(record[..., 3] == SLIDES))))
+        return tuple(found)
+
+    def with_contacts(self, snapshot: Snapshot) -> Snapshot:
+        """Return ``snapshot``, which is of the end of a step, with what touches in it."""
+        positions = snapshot.positions.astype(float)
+        kinds = self._read_record()[..., 3]
+        depth = max((
+            -float((body.distance(positions) - self.clearance).min())
+            for body in self.present(snapshot.time)), default=0.0)
+        records = snapshot.records
+        records['flags'][np.any(kinds > 0.0, axis=0)] |= FLAG_TOUCHING
+        sticking = np.any(kinds == STICKS, axis=0)
+        return replace(
+            snapshot, sticking_nodes=int(np.count_nonzero(sticking)),
+            sliding_nodes=int(np.count_nonzero(np.any(kinds == SLIDES, axis=0) & ~sticking)),
+            deepest_node=max(depth, 0.0))
+
+    def delete(self) -> None:
+        """Release pass and record."""
+        for record in {self._record, self._kept, self._spare}:
+            if record is not None:
+                record.delete()
+        if self._polled is not None:
+            self._polled.delete()
+        self._near.delete()
+        self._near_nodes.delete()
+        self._program.delete()
+        self._foresight.delete()
+
+    def _marks(self) -> np.ndarray:
+        """Return the last entry of the record, (4,): what decides about substeps and solves."""
+        marks = np.empty(4, dtype=np.float32)
+        begin = self._record.bytes - _ENTRY_BYTES
+        if self._polled is None:
+            self._record.read_into(marks, begin)
+        else:
+            self._record.copy_to(self._polled, 0, _ENTRY_BYTES, begin)
+            self._polled.read_into(marks)
+        return marks
+
+    def _read_record(self) -> np.ndarray:
+        """Return change of velocity and kind of contact, (colliders, rows, cols, 4)."""
+        stored = np.empty((len(self.colliders), self._layout.stored, 4), dtype=np.float32)
+        self._record.read_into(stored)
+        return np.stack([self._layout.load(each) for each in stored])
+
+    def _paths_of_scene(self) -> FramePaths:
+        return FramePaths(
+            {collider.name: collider.pose for collider in self.colliders},
+            self._scene.timed_collider_moves())
+
+    def _poses(self, time: float) -> list[Pose]:
+        return [self._paths.pose(collider.name, time) for collider in self.colliders]
+
+    def _forget_touch(self) -> None:
+        self._touch: _Touch | None = None
+        self._same_from, self._same_until = math.inf, -math.inf
+
+    def _touch_in(self, begin: float, end: float) -> '_Touch':
+        touch = self._touch
+        if touch is not None and self._same_from <= begin and end <= self._same_until:
+            return touch
+        names = [collider.name for collider in self.colliders]
+        poses = self._poses(begin)
+        moves = end > begin
+        touch = self._touch = _Touch(
+            self, centres=np.array([pose.position for pose in poses]),
+            axes=np.concatenate([pose.axes for pose in poses]),
+            velocities=np.array([
+                self._paths.velocity(name, begin, end) if moves else np.zeros(3)
+                for name in names]),
+            turns=np.concatenate([
+                self._paths.turn(name, begin, end) if moves else np.zeros((3, 3))
+                for name in names]))
+        # Where nothing moves, it serves until something does.
+        if not (np.any(touch.velocities) or np.any(touch.turns)):
+            self._same_from, self._same_until = begin, max(end, self.quiet_until(begin))
+        else:
+            self._same_until = -math.inf
+        return touch
+
+    def _set_shapes(self, program: Program) -> None:
+        shapes = list(SHAPES)
+        program.set_floats(
+            'collider_shape', [shapes.index(collider.shape) for collider in self.colliders])
+        program.set_vectors('collider_size', [_half_sizes(each) for each in self.colliders])
+        program.set_floats(
+            'collider_friction', [collider.friction for collider in self.colliders])
+        program.set_floats('collider_thickness', [
+            min(collider.thickness, _ENDLESS) for collider in self.colliders])
+        program.set_float('clearance', self.clearance)
+        scene = self._scene
+        program.set_float(
+            'way_out_speed', _WAY_OUT_SPEED * math.sqrt(max(scene['width'], scene['height'])))
+        area = scene['width'] * scene['height'] / scene.node_count
+        program.set_float('compression', scene['contact.compression'] * area / scene.node_mass)
+        program.set_int('record_stride', self._layout.stored)
+
+
+class _Touch:
+    """
+    The colliders in one substep.
+
+    :param centres: as it begins [m], (n, 3)
+    :param axes: their x, y and z axes as it begins, (3 n, 3)
+    :param velocities: mean ones of the centres [m/s], (n, 3)
+    :param turns: rows of what takes an arm to the mean velocity of its end [1/s], (3 n, 3)
+    """
+
+    def __init__(
+            self, contacts: Contacts, *, centres: np.ndarray, axes: np.ndarray,
+            velocities: np.ndarray, turns: np.ndarray) -> None:
+        self._contacts = contacts
+        self.centres = centres
+        self.axes = axes
+        self.velocities = velocities
+        self.turns = turns
+
+    def near_limits(self, length: float) -> np.ndarray:
+        """Return the distances from the centres within which a node at rest is near, (n,) [m]."""
+        reach = self._contacts.reach + self._contacts.clearance
+        largest = np.abs(self.centres).max(axis=-1) + reach
+        # What positions are rounded by, and more.
+        return (
+            reach + length * np.linalg.norm(self.velocities, axis=-1) + _ROUNDING * largest + 1e-8)
+
+    def near_shares(self, length: float) -> np.ndarray:
+        """Return the shares of these distances that are left by the rotation, (n,)."""
+        rates = np.linalg.norm(self.turns.reshape(-1, 9), axis=-1)
+        return np.maximum(1.0 - length * rates, 0.0)
+
+    def set_in(self, program: Program, length: float) -> None:
+        self._contacts.set_in(program, self, length)
+        self._contacts.set_marks_in(program)
+
+    def begin_explicit(self, step: Program, length: float) -> None:
+        self._contacts.begin_explicit(self, step, length)
+
+    def list_none(self) -> None:
+        self._contacts.list_none()
+
+    def act(self) -> None:
+        self._contacts.act()
+
+    def foresee(self, state: State, forcing: Forcing, ahead: float) -> None:
+        self._contacts.foresee(self, state, forcing, ahead)
+
+    def begin_substep(self) -> None:
+        self._contacts.begin_substep()
+
+    def is_touched(self) -> bool:
+        return self._contacts.is_touched()
+
+    def begin_decision(self) -> None:
+        self._contacts.begin_decision()
+
+    def is_solve_due(self, *, is_exact: bool = False) -> bool:
+        return self._contacts.is_solve_due(is_exact=is_exact)
+
+
+def _reach(collider: Collider) -> float:
+    """Return how far it is from the centre of a collider to its farthest point; 0 for a plane."""
+    x, y, z = _half_sizes(collider)
+    if collider.shape == 'plane':
+        return 0.0
+    if collider.shape == 'capsule':
+        return x + y
+    return math.hypot(x, y, z)
+
+
+def _half_sizes(collider: Collider) -> tuple[float, float, float]:
+    """Return what the shader takes for sizes: radius and half the length, or half the sides."""
+    if collider.shape == 'box':
+        x, y, z = collider.size
+        return x / 2.0, y / 2.0, z / 2.0
+    radius, length, _ = (*collider.size, 0.0, 0.0, 0.0)[:3]
+    return radius, length / 2.0, 0.0

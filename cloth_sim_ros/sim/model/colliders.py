@@ -1,0 +1,186 @@
+# SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
+# SPDX-License-Identifier: Apache-2.0
+
+"""What the cloth can touch: shapes, where they are, and the parameters of each."""
+
+from collections.abc import Mapping
+from collections.abc import Sequence
+from dataclasses import dataclass
+from dataclasses import replace
+import math
+import re
+from typing import Any
+
+from cloth_sim_ros.files.errors import shown
+from cloth_sim_ros.sim.errors import ClothSimError
+from cloth_sim_ros.sim.model.pose import Pose
+from cloth_sim_ros.sim.model.pose import unit_quaternion
+from cloth_sim_ros.sim.model.scene_fields import Field
+from cloth_sim_ros.sim.model.scene_fields import SCENE_FIELDS
+import numpy as np
+
+NAMES = 'colliders.names'
+# Max. colliders [1]: those that are near are bits of a uint in collider_bounds.glsl.
+MOST_COLLIDERS = 32
+# How many lengths each shape has, and which.
+SHAPES = {
+    'plane': '', 'sphere': 'radius', 'capsule': 'radius, length between its ends',
+    'box': 'side along x, y and z', 'cylinder': 'radius, length'}
+NAME_PATTERN = re.compile(r'[a-z][a-z0-9_]{0,39}')
+
+# NAME stands for each of colliders.names.
+COLLIDER_FIELDS = (
+    Field('colliders.NAME.shape', str, 'sphere', 'shape; a plane is its z = 0 and keeps the cloth '
+          'above, capsules and cylinders have their axis along z', choices=tuple(SHAPES)),
+    Field('colliders.NAME.size', float, (), 'sphere: radius; capsule: radius, length of its axis; '
+          'cylinder: radius, length; box: side lengths; plane: none', 'm', low=1e-4, high=1e5,
+          is_array=True),
+    Field('colliders.NAME.position', float, (0.0, 0.0, 0.0), 'centre, x y z', 'm',
+          low=-1e5, high=1e5, is_array=True),
+    Field('colliders.NAME.orientation', float, (0.0, 0.0, 0.0, 1.0), 'rotation as a quaternion '
+          'x y z w of any length but 0', low=-1e3, high=1e3, is_array=True),
+    Field('colliders.NAME.friction', float, 0.3, 'coefficient of Coulomb friction, static and '
+          'sliding', low=0.0, high=1e3),
+)
+
+
+def fields_with_colliders(
+        given: Mapping[str, Any], fields: tuple[Field, ...] = SCENE_FIELDS) -> tuple[Field, ...]:
+    """
+    Return ``fields`` and those of each collider that ``given`` names.
+
+    Names that are wrong have none: ``check_names`` says what is wrong with them.
+    """
+    names = given.get(NAMES)
+    if isinstance(names, str) or not isinstance(names, Sequence):
+        return fields
+    some = dict.fromkeys(name for name in names[:MOST_COLLIDERS] if _is_name(name))
+    return fields + tuple(
+        replace(field, name=field.name.replace('NAME', name))
+        for name in some for field in COLLIDER_FIELDS)
+
+
+def check_names(names: Sequence[str]) -> None:
+    """Raise ClothSimError unless each of ``names`` can be that of a collider, and no two agree."""
+    if len(names) > MOST_COLLIDERS:
+        raise ClothSimError(
+            f'{NAMES} has {len(names)} entries: give at most {MOST_COLLIDERS} colliders')
+    for name in names:
+        if not _is_name(name):
+            raise ClothSimError(
+                f'{NAMES} has {shown(name)}: give lower-case letters, digits and underscores, '
+                'beginning with a letter, 40 at most')
+    if len(set(names)) < len(names):
+        raise ClothSimError(f'{NAMES} has a name twice: give each collider its own')
+
+
+def _is_name(name: Any) -> bool:
+    return isinstance(name, str) and name != 'names' and bool(NAME_PATTERN.fullmatch(name))
+
+
+@dataclass(frozen=True)
+class Collider:
+    """
+    A rigid body that the cloth touches and does not move.
+
+    :param name: of its own in the scene
+    :param shape: one of SHAPES
+    :param size: lengths of the shape [m], () for a plane
+    :param position: of its centre [m]
+    :param orientation: unit quaternion x y z w
+    :param friction: coefficient of Coulomb friction
+    """
+
+    name: str
+    shape: str
+    size: tuple[float, ...]
+    position: tuple[float, float, float]
+    orientation: tuple[float, float, float, float]
+    friction: float
+
+    @property
+    def thickness(self) -> float:
+        """Return how far a way through it is at least [m]; infinite for a plane."""
+        if self.shape == 'plane':
+            return math.inf
+        if self.shape == 'box':
+            return min(self.size)
+        if self.shape == 'cylinder':
+            return min(2.0 * self.size[0], self.size[1])
+        return 2.0 * self.size[0]
+
+    @property
+    def pose(self) -> Pose:
+        """Return where it is."""
+        return Pose(self.position, self.orientation)
+
+    def distance(self, points: np.ndarray) -> np.ndarray:
+        """
+        Return how far ``points``, (..., 3) [m], are from its surface [m], (...); negative inside.
+
+        Outside, and in bodies without edges, it is exact; inside others that of the nearest side.
+        """
+        p = self.pose.seen_from(points)
+        if self.shape == 'plane':
+            return p[..., 2]
+        half = self.size[-1] / 2.0
+        if self.shape == 'box':
+            return _from_sides(np.abs(p) - np.array(self.size) / 2.0)
+        if self.shape == 'cylinder':
+            across = np.hypot(p[..., 0], p[..., 1])
+            return _from_sides(
+                np.stack([across - self.size[0], np.abs(p[..., 2]) - half], axis=-1))
+        if self.shape == 'capsule':
+            p[..., 2] -= np.clip(p[..., 2], -half, half)
+        return np.linalg.norm(p, axis=-1) - self.size[0]
+
+    @property
+    def axes(self) -> np.ndarray:
+        """Return its x, y and z axis as the rows of a matrix, (3, 3)."""
+        return self.pose.axes
+
+
+def colliders_of(values: Mapping[str, Any]) -> tuple[Collider, ...]:
+    """
+    Return the colliders that checked scene ``values`` describe, in the order of their names.
+
+    :raises ClothSimError: when a name, size, position or orientation is wrong
+    """
+    check_names(values[NAMES])
+    return tuple(_collider(values, name) for name in values[NAMES])
+
+
+def collider_defines(colliders: Sequence[Collider]) -> dict[str, int]:
+    """Return what shaders that know ``colliders`` compile in."""
+    present = {collider.shape for collider in colliders}
+    return {
+        'COLLIDERS': len(colliders),
+        **{f'HAS_{shape.upper()}': int(shape in present) for shape in SHAPES}}
+
+
+def _from_sides(q: np.ndarray) -> np.ndarray:
+    """Return the distance of what is ``q`` before each of some sides, (..., sides)."""
+    return np.linalg.norm(np.maximum(q, 0.0), axis=-1) + np.minimum(q.max(axis=-1), 0.0)
+
+
+def _collider(values: Mapping[str, Any], name: str) -> Collider:
+    group = f'colliders.{name}'
+    shape, size = values[f'{group}.shape'], values[f'{group}.size']
+    lengths = SHAPES[shape]
+    wanted = {'': 0, 'radius': 1, 'side along x, y and z': 3}.get(lengths, 2)
+    if len(size) != wanted:
+        raise ClothSimError(
+            f'{group}.size needs {wanted} for a {shape}, got {len(size)}: give '
+            f'[{lengths}]' if wanted else
+            f'{group}.size is given, and a plane has none: leave it out')
+    px, py, pz = _numbers(values, f'{group}.position', 3, '[x, y, z]')
+    return Collider(
+        name, shape, tuple(size), (px, py, pz),
+        unit_quaternion(values[f'{group}.orientation'], f'{group}.orientation'),
+        values[f'{group}.friction'])
+
+
+def _numbers(values: Mapping[str, Any], name: str, count: int, form: str) -> tuple[float, ...]:
+    if len(values[name]) != count:
+        raise ClothSimError(f'{name} needs {count} numbers, got {len(values[name])}: write {form}')
+    return values[name]
