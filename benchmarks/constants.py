@@ -75,7 +75,7 @@ SCENES: Mapping[str, tuple[Mapping[str, Any], float, float]] = {
     'swing': ({'rows': 24, 'cols': 24, 'mode': 'adaptive', 'pushes.start': [0.2],
                'pushes.duration': [0.1], 'pushes.force': [0.0, 6.0, 0.0],
                'pushes.center': [0.0, 0.0, 1.0], 'pushes.radius': [0.3]}, 0.8, 1.0),
-    # Two pins would hold it as wide as it comes.
+    # Two pins would keep its initial width.
     'stretched': ({**_STILL, 'mode': 'constraint'}, 0.45, 1.1),
     'small': ({**_STILL, 'mode': 'constraint', 'width': 0.05, 'height': 0.05, 'dt': 0.001},
               0.45, 1.1),
@@ -194,7 +194,7 @@ CONSTANTS = (
              ('constraint', 'adaptive', 'friction', 'rest')),
 )
 
-# Runs the scenes that it reads, and prints what it has found of each, one line each.
+# Runs the scenes that it reads, and prints one line of results for each.
 _WORKER = """
 import json, sys, time
 from cloth_sim_ros.sim.scene import Scene
@@ -234,7 +234,7 @@ def run_scenes(
         root: Path, scenes: Sequence[str],
         looseness: float = 1.0) -> list[dict[str, Any]] | str:
     """
-    Return what the code below ``root`` makes of ``scenes``, or why it makes nothing.
+    Return the results of ``scenes`` with the code below ``root``, or why there are none.
 
     ``looseness`` is a factor of their ``solver.tolerance``.
 

@@ -11,7 +11,7 @@ import cloth_sim_ros
 
 _FIELD = re.compile(r':(param|returns?|raises) ?(\w*): *')
 _TITLES = {'param': '', 'return': 'Returns ', 'returns': 'Returns ', 'raises': 'Raises '}
-# Module names in annotations are left out: they tell the reader nothing.
+# Module names in annotations are left out: the reader does not need them.
 _MODULE = re.compile(r'\b(?:[a-z_]+\.)+(?=[A-Z])')
 # A default that is a function: its address differs from run to run.
 _FUNCTION = re.compile(r'<function (\w+) at 0x[0-9a-f]+>')

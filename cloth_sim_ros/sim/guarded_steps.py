@@ -28,7 +28,7 @@ from cloth_sim_ros.sim.stop import never
 from cloth_sim_ros.sim.stop import Stop
 import numpy as np
 
-# Max. way of a node in a substep over the shortest spacing [1]: beyond 1/2,
+# Max. displacement of a node in a substep over the shortest spacing [1]: beyond 1/2,
 # neighbours can pass each other.
 _FAR = 0.5
 # Makes up to so many steps, from the one of a number on; returns how many it has made.
@@ -109,7 +109,7 @@ def explain(
     :param gained_speed: by pushes in the step after it [m/s]
     """
     speeds = _lengths(records, 'vx', 'vy', 'vz')
-    # Of the nodes that were lost, the fastest: a blow-up spreads from node to node.
+    # The fastest of the lost nodes: a blow-up spreads from node to node.
     row, col = (int(at) for at in np.unravel_index(
         np.argmax(np.where(_is_lost(lost), speeds, -1.0)), speeds.shape))
     time = steps * scene['dt']

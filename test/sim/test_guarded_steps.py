@@ -127,7 +127,7 @@ def test_moving_pins_go_back_too(simulate, mode):
 
 
 def test_contact_forces_are_those_of_the_state_that_is_kept(simulate, mode):
-    """A stop showed those of the lost step, 9e7 N in mode adaptive in place of 0.04 N."""
+    """A stop showed those of the lost step, 9e7 N in mode adaptive instead of 0.04 N."""
     found = []
     for force in (None, _ABSURD):
         simulation = simulate({

@@ -30,7 +30,7 @@ from cloth_sim_ros.sim.state import State
 import numpy as np
 
 STICKS, SLIDES = 1, 2
-# Thickness of a plane, which has no end [m]: beyond any way of a node.
+# Thickness of a plane, which has no end [m]: larger than any displacement of a node.
 _ENDLESS = 1e9
 # Size of an entry of the contact record, a vec4 [bytes].
 _ENTRY_BYTES = 16
@@ -38,7 +38,7 @@ _ENTRY_BYTES = 16
 # [sqrt(m) / s]: a third of sqrt(gravity x size); chosen: a squeezed cloth does not change from
 # 0.25 to 4, one that begins inside a body by 1 % (constants.py --only _WAY_OUT_SPEED).
 _WAY_OUT_SPEED = 1.0
-# Max. number of substeps that are told apart [1]: float32 counts so far without a gap.
+# Max. number of substeps that are counted [1]: the largest exact integer of float32.
 _MOST_SERIAL = 2**24
 # Rounding of positions over the coordinates [1], which counts as no way: ten times that of
 # contact.glsl.
@@ -83,7 +83,7 @@ class Contacts:
         self.colliders = scene.colliders
         self._scene = scene
         self._layout = layout
-        # Of each collider and node; and the substep in which any of them was touched last.
+        # Marks of each collider and node; and the last substep in which one was touched.
         self._record = Buffer((len(scene.colliders) * layout.stored + 1) * _ENTRY_BYTES)
         # The one of the moment of ``keep``, and one that is not in use.
         self._kept: Buffer | None = None

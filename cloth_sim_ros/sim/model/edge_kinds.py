@@ -109,7 +109,7 @@ def edges_at(nodes: np.ndarray, rows: int, cols: int) -> EdgesAt:
     return _edges_at(np.asarray(nodes, dtype=np.int64).tobytes(), rows, cols)
 
 
-# Of the pins and of a grasp or two, for each cloth of a process.
+# Max. cached results [1]: pins and a grasp or two for each cloth of a process.
 @lru_cache(maxsize=16)
 def _edges_at(nodes: bytes, rows: int, cols: int) -> EdgesAt:
     given = np.frombuffer(nodes, dtype=np.int64).reshape(-1, 2)

@@ -117,7 +117,7 @@ class LimitedSprings(ImplicitStep):
 
     def spend_calm(self, seconds: float) -> None:
         """Go on by ``seconds`` in which no edge came near its limit."""
-        self.settling.spend(seconds)
+        self.settling.advance(seconds)
         # It has closed in on nothing.
         self._settled_from = self.settling.limit
 
@@ -261,7 +261,7 @@ class LimitedSubsteps(Protocol):
         """Return the tension of every edge [N]."""
 
     def forget(self) -> None:
-        """Take the next state as it comes."""
+        """Drop what was kept from earlier steps."""
 
     def delete(self) -> None:
         """Release everything."""
@@ -366,7 +366,7 @@ class Adaptive:
             if calm:
                 self._is_limited = False
                 self._spring_substeps(state, now, length, calm, loads, stop)
-                self._watch.spend(calm)
+                self._watch.advance(calm)
                 self._limit.spend_calm(calm * length)
                 done += calm * length
                 substeps += calm
@@ -427,7 +427,7 @@ class Adaptive:
             self, state: State, now: float, left: float, loads: Loads) -> bool:
         """Return whether edges that were near their limit stay away from it for ``left`` [s]."""
         strains = self._watch.strains(state, loads.forcing(state, now, now + left), left)
-        # Written so that what is no number is not far.
+        # Written so that NaN is not far.
         return max(strains) < _FAR * self._near
 
     def _spring_substeps(

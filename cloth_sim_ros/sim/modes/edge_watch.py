@@ -67,7 +67,7 @@ class StrainWatch:
             self._look_ahead(state, now, length, loads)
         return self._left
 
-    def spend(self, substeps: int) -> None:
+    def advance(self, substeps: int) -> None:
         """Tell that ``substeps`` of the calm ones were made."""
         self._left -= substeps
 

@@ -85,10 +85,10 @@ class Settling:
 
     def first(self, strain: float) -> float:
         """Return the limit that a cloth of the largest ``strain`` begins with; 0 for none."""
-        # What is no number is held at once, and seen.
+        # NaN has no limit to settle from; the check of the state finds it.
         return strain if strain > self._notable else 0.0
 
-    def spend(self, length: float) -> None:
+    def advance(self, length: float) -> None:
         """Go on by ``length`` [s]."""
         if self._first:
             self._age += length
@@ -148,7 +148,7 @@ class ImplicitStep(ABC):
         self._free_motion = FreeMotion(scene, layout)
         self.settling = Settling(notable, max(scene['width'], scene['height']))
         self._energies = Observer(scene, layout, set(families))
-        # The law of the last substep, and what it was asked for.
+        # The law of the last substep, with its arguments.
         self._law: tuple[tuple[float, float], EdgeLaw] | None = None
         # Where the substep under way leaves its entries of held.glsl; below 0: nowhere.
         self._held_at = -1
@@ -222,7 +222,7 @@ class ImplicitStep(ABC):
                 else:
                     self._free_motion.restore(state, loads.still, length)
             self.last_length = length
-            self.settling.spend(length)
+            self.settling.advance(length)
 
     @staticmethod
     def step_ahead(state: State, gravity: Forcing, most: int) -> int:
@@ -250,7 +250,7 @@ class ImplicitStep(ABC):
         self.forget()
 
     def forget(self) -> None:
-        """Take the next state as it comes, stretched or not."""
+        """Drop what was kept from earlier steps; the next state may be stretched."""
         self.substeps = 1 if self._scene['auto_substeps'] else self._scene['substeps']
         self.substep_margin = 0.0
         self.last_length = 0.0
@@ -341,7 +341,7 @@ class ImplicitStep(ABC):
             wanted = seconds / longest - _NOTHING if longest > 0.0 else math.inf
             wanted = max(wanted, air_margin - _NOTHING)
             most = self._scene['constraint.max_substeps']
-            # What is no number becomes the most, too.
+            # NaN becomes the maximum, too.
             self.substeps = most
             if wanted < most:
                 self.substeps = min(self._scene['refine'] * max(1, math.ceil(wanted)), most)

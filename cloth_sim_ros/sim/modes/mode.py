@@ -126,4 +126,4 @@ class Mode(Protocol):
         """
 
     def delete(self) -> None:
-        """Give back what the mode allocated."""
+        """Release what the mode allocated."""

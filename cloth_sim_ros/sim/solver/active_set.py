@@ -179,7 +179,7 @@ class LimitSearch:
             self, scene: Scene, state: Layout, programs: SolverPrograms, levels: Levels, *,
             foresees_turn: bool) -> None:
         """Prepare."""
-        # Of a further solve it makes no difference, with velocities of 0.
+        # In a further solve it makes no difference, with velocities of 0.
         defines = {**programs.defines, 'FORESEES_TURN': int(foresees_turn)}
         self._look_at = SceneProgram('solver/limit_search.comp', scene, state, defines)
         self._move = SceneProgram('solver/start_between.comp', scene, state, defines)
@@ -216,7 +216,7 @@ class LimitSearch:
         self._set(law, start, is_further=is_further)
         share = 1.0
         look = self._look(share, buffers)
-        # Written so that what is no number is not looked at again. Where nothing moves and nothing
+        # Written so that NaN is not looked at again. Where nothing moves and nothing
         # is applied there is no way to go.
         if not ((is_early or look.missing > missing) and look.curvature > 0.0):
             return False

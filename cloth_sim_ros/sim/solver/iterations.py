@@ -69,7 +69,7 @@ class Iterations:
         """
         Choose where the next solve starts.
 
-        :param left_share: of what the pass before has left, that this one is to find as well
+        :param left_share: share of the residual of the pass before to be solved for as well [1]
         """
         self._begin.set_int('start_field', start.field)
         self._begin.set_float('guess', start.share)

@@ -43,7 +43,7 @@ class Preconditioner(Protocol):
         """Compile the passes."""
 
     def set_law(self, law: EdgeLaw) -> None:
-        """Take up what depends on the weights of the edges, besides the weights."""
+        """Set what depends on the weights of the edges, besides the weights."""
 
 
 class BlockJacobi:
@@ -57,7 +57,7 @@ class BlockJacobi:
         self.cycle: list[SolverPass] = []
 
     def set_law(self, law: EdgeLaw) -> None:
-        """Take up nothing."""
+        """Set nothing."""
 
 
 # Geometric multigrid: smooth, solve what is left on a lattice half as fine, smooth again.

@@ -173,7 +173,7 @@ class Solver:
         """
         Make system and right side, and prepare the preconditioner.
 
-        Return False, and prepare nothing, where a further solve would mend what is rounded.
+        Return False, and prepare nothing, where a further solve would only correct rounding.
 
         :param forcing: what accelerates the nodes besides the edges
         :param kick: that it acts for [s]; the length of the step when None
@@ -255,7 +255,7 @@ class Solver:
         self._held.run(self._law, forcing, kick, held_at, is_further=is_further)
 
     def find_tensions(self) -> None:
-        """Find what edges pull with by the solution; later steps go by it."""
+        """Find the tensions of edges from the solution; later steps use them."""
         self._buffers.bind()
         self._tally.add(self._tolerance, is_final=True)
         self._find.run()
@@ -375,14 +375,14 @@ class Solver:
             self._contacts.delete()
 
     def _take_over(self) -> None:
-        """Let the pass that begins find what the one before has left, too."""
+        """Add the residual of the pass before to the right side of this one."""
         self._is_cut_short = False
         self._left_share = float(self._left_in is not None)
         if self._left_in == RESIDUAL:
             self._buffers.copy(RESIDUAL, LEFT)
 
     def _find_first_tensions(self, forcing: Forcing, kick: float) -> None:
-        """Let tensions be what edges pull with as they are, before a step has found any."""
+        """Set the tensions to those of the present lengths, before a step has found any."""
         self._buffers.write(SOLUTION, np.zeros((self._cloth.rows, self._cloth.cols, 3)))
         undamped = replace(self._law, damping=(0.0,) * len(self._law.damping))
         self._right_side.run(undamped, forcing, kick, Start(CHANGE, 0.0), is_further=True)

@@ -47,7 +47,7 @@ class Levels:
     """
     The cloth and, if asked for, ever coarser levels.
 
-    :param state: how the state is stored, which tells what suits the device
+    :param state: how the state is stored, by which blocks are chosen
     :param coarsen: False keeps to the cloth alone
     :param has_bend: whether there are bend edges in the system
     :param has_rigidity: whether there is rigidity in it
@@ -194,7 +194,7 @@ class SolverBuffers:
         make(self._bind_calls)
 
     def clear(self) -> None:
-        """Make all zero, as at the start: what is no number would stay where it is multiplied."""
+        """Set all to zero, as at the start: a NaN would stay where it is multiplied."""
         self._release()
         for buffer in (self._scalars, self._dispatches):
             buffer.clear()

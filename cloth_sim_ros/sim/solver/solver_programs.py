@@ -47,7 +47,7 @@ def smoothing_steps(law: EdgeLaw) -> tuple[float, float]:
     ones, and the first is exact.
 
     Beyond the largest eigenvalue foreseen, smoothing makes errors grow and the preconditioner has
-    negative eigenvalues: the solver would tell of small residuals and be wrong.
+    negative eigenvalues: the solver would report small residuals and be wrong.
     """
     edges = sum(count * weight for count, weight in zip(_EDGES_OF_A_NODE, law.weights))
     bending = _LINES_OF_A_NODE * sum(law.bending_bounds)

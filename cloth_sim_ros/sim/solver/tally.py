@@ -91,7 +91,7 @@ class Tally:
         Count the solve whose scalars are bound.
 
         :param tolerance: that it was to stop at
-        :param is_final: False where another one goes on from its solution
+        :param is_final: False where another one starts from its solution
         """
         self._buffer.bind_storage(bindings.SOLVER_TALLY)
         self._pass.set_float('tolerance_square', tolerance**2)

@@ -16,7 +16,7 @@ def _limits(strain, count=40):
     limits = []
     for _ in range(count):
         limits.append(settling.limit)
-        settling.spend(0.01)
+        settling.advance(0.01)
     return np.array(limits)
 
 

@@ -56,7 +56,7 @@ def test_it_is_that_of_the_edges_of_the_mode(simulate, any_mode, edges, within):
         assert seen.total_energy == seen.elastic_energy
 
 
-# Of harder edges, a cloth as stretched as this one settles first.
+# With harder edges, a cloth as stretched as this one settles first.
 @pytest.mark.parametrize('strain', [0.008, 0.0045, 0.1])
 def test_a_hard_edge_stores_what_it_takes_to_stretch_it(simulate, within, strain):
     """A cloth that is caught would seem to lose what its hard edges give back."""

@@ -35,7 +35,7 @@ _DEFINES = {'LOCAL_X': _LOCAL[0], 'LOCAL_Y': _LOCAL[1]}
 _CROSSING = next(kind.number for kind in EDGE_KINDS if kind.name == 'crossing')
 # Enough for the linear system of a small cloth; the error falls by some 10 % a sweep.
 _SWEEPS = 60
-# Of a substep: rounding that is no reason for another one.
+# Rounding that is no reason for another substep [1], in substeps.
 _NOTHING = 1e-9
 
 
