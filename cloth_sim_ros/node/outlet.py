@@ -8,6 +8,7 @@ from collections.abc import Collection
 from typing import Any
 
 from cloth_sim_ros.messages.topics import TOPICS
+from cloth_sim_ros.node.quick_publish import publish
 from cloth_sim_ros.node.recording_session import RecordingSession
 from rclpy._rclpy_pybind11 import InvalidHandle
 from rclpy._rclpy_pybind11 import RCLError
@@ -78,7 +79,7 @@ class Outlet:
             self._recording.write(key, data, sim_time, number)
         if to_topic and key in self._publishers:
             try:
-                self._publishers[key].publish(data)
+                publish(self._publishers[key], data)
             except (InvalidHandle, RCLError):
                 # Once ROS is shut down nobody hears it, and the rest still has to be recorded.
                 if self._node.context.ok():

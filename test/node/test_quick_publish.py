@@ -1,0 +1,86 @@
+# SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
+# SPDX-License-Identifier: Apache-2.0
+
+"""Messages that go to the middleware past rclpy."""
+
+import threading
+import time
+
+from cloth_sim_ros.node.quick_publish import publish
+import pytest
+import rclpy
+from rclpy._rclpy_pybind11 import InvalidHandle
+from rclpy._rclpy_pybind11 import RCLError
+from rclpy.context import Context
+from rclpy.executors import SingleThreadedExecutor
+from rclpy.qos import QoSProfile
+from rclpy.serialization import serialize_message
+from std_msgs.msg import UInt8MultiArray
+
+PATIENCE = 300.0
+
+
+@pytest.fixture
+def node():
+    """Lend a node in a graph of its own context."""
+    context = Context()
+    rclpy.init(context=context)
+    made = rclpy.create_node('quick_publish_under_test', context=context)
+    yield made
+    made.destroy_node()
+    rclpy.try_shutdown(context=context)
+
+
+@pytest.mark.parametrize('size', [0, 1, 100_000])
+def test_messages_arrive_whole(node, size):
+    """A length or an address that is off by one would be a crash, or another message."""
+    heard = []
+    node.create_subscription(UInt8MultiArray, '~/bytes', heard.append, QoSProfile(depth=10))
+    publisher = node.create_publisher(UInt8MultiArray, '~/bytes', QoSProfile(depth=10))
+    executor = SingleThreadedExecutor(context=node.context)
+    executor.add_node(node)
+    end = time.monotonic() + PATIENCE
+    while not publisher.get_subscription_count() and time.monotonic() < end:
+        executor.spin_once(0.1)
+    sent = [UInt8MultiArray(data=bytes([number]) * size) for number in range(5)]
+    for message in sent:
+        publish(publisher, serialize_message(message))
+    while len(heard) < len(sent) and time.monotonic() < end:
+        executor.spin_once(0.1)
+    assert heard == sent
+
+
+def test_another_thread_works_meanwhile(node):
+    """The device thread would stand still while the middleware copies a message."""
+    publisher = node.create_publisher(UInt8MultiArray, '~/bytes', QoSProfile(depth=1))
+    data = serialize_message(UInt8MultiArray(data=bytes(30_000_000)))
+    counts, is_over = [0], threading.Event()
+
+    def count():
+        while not is_over.is_set():
+            counts[0] += 1
+
+    thread = threading.Thread(target=count)
+    thread.start()
+    try:
+        while not counts[0]:
+            time.sleep(0.001)
+        before = counts[0]
+        publish(publisher, data)
+        assert counts[0] > before
+    finally:
+        is_over.set()
+        thread.join()
+
+
+def test_a_publisher_that_is_gone_is_an_error(node):
+    """A null pointer would end the process."""
+    publisher = node.create_publisher(UInt8MultiArray, '~/bytes', QoSProfile(depth=1))
+    data = serialize_message(UInt8MultiArray())
+    node.destroy_publisher(publisher)
+    with pytest.raises(InvalidHandle):
+        publish(publisher, data)
+    publisher = node.create_publisher(UInt8MultiArray, '~/bytes', QoSProfile(depth=1))
+    rclpy.shutdown(context=node.context)
+    with pytest.raises((RCLError, InvalidHandle)):
+        publish(publisher, data)
