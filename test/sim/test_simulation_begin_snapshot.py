@@ -157,7 +157,7 @@ def test_what_is_held_is_in_it(simulate):
 
 def test_a_cloth_of_several_slabs_is_whole(simulate, monkeypatch: pytest.MonkeyPatch):
     """Of a cloth too large for one storage block, only the first rows would be there."""
-    monkeypatch.setattr('cloth_sim_ros.sim.observer._SLAB_BYTES', 44 * 20 * 16)
+    monkeypatch.setattr('cloth_sim_ros.sim.device.observer._SLAB_BYTES', 44 * 20 * 16)
     simulation = simulate(rows=40)
     now, finish = simulation.snapshot(), simulation.begin_snapshot()
     simulation.step()
