@@ -24,11 +24,6 @@ from std_srvs.srv import SetBool
 from std_srvs.srv import Trigger
 
 AT_ONCE = [200, pytest.param(500, marks=pytest.mark.long)]
-CALLS = (
-    (GetParameters, 'get_parameters', {'names': ['mode']}),
-    (ApplyPush, 'apply_push', {'force': Vector3(z=0.01), 'duration': 0.01}),
-    (SetPin, 'set_pin', {'row': 3, 'col': 4}),
-    (SetBool, 'pause', {'data': False}))
 # What is asked for, and whether all of it can be done.
 REQUESTS: dict[str, tuple[type, str, Callable[[int], dict[str, Any]], bool]] = {
     'pushes': (ApplyPush, 'apply_push', lambda number: {
@@ -79,24 +74,27 @@ def test_each_of_many_requests_is_answered(cloth, what, at_once):
 
 @pytest.mark.parametrize('mode', ['mass_spring', pytest.param(
     'constraint', marks=pytest.mark.long), pytest.param('adaptive', marks=pytest.mark.long)])
-def test_a_frame_that_takes_too_long_starves_nobody(client, tmp_path, mode):
-    """A cloth that is too large for the machine would keep its callers waiting for seconds."""
+def test_steps_that_take_long_starve_no_parameters(client, tmp_path, mode):
+    """
+    A cloth that is too large for the machine would keep its callers waiting for seconds.
+
+    What concerns the cloth waits for the step under way: test/node/test_two_threads.py.
+    """
     scene = {**SCENE, 'rows': 256, 'cols': 256, 'mode': mode}
     with NodeProcess(tmp_path, scene, '-r', '__ns:=/large') as node:
         state = client.watch(ClothState, '/large/cloth_sim/state', kept=True)
         client.spin_until(lambda: any(
             message.run_state == 'running' for message in state.messages), 'the run begins')
         took = []
-        for number in range(32):
-            kind, name, fields = CALLS[number % len(CALLS)]
+        for _ in range(32):
             before = processor_time(node.pid)
-            client.call(kind, f'/large/cloth_sim/{name}', **fields)
+            client.call(GetParameters, '/large/cloth_sim/get_parameters', names=['mode'])
             took.append((processor_time(node.pid) - before) * 1e3)
             client.spin_for(0.05)
-        print(f'{mode}: processor time until an answer: median {np.median(took):.0f} ms, '
+        print(f'{mode}: ROS thread until an answer: median {np.median(took):.0f} ms, '
               f'p95 {np.percentile(took, 95):.0f} ms, longest {max(took):.0f} ms')
         # A client that has to wait for a processor of its own reads the answer later than it came.
-        assert np.median(took) <= 100.0
+        assert np.median(took) <= 20.0
 
 
 def _is_done(future: Any) -> bool:

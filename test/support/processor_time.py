@@ -10,18 +10,11 @@ import re
 
 def processor_time(pid: int) -> float:
     """
-    Return the time that the main thread of a process and those of its driver have run so far [s].
+    Return the time that the main thread of a process has run so far [s].
 
-    A thread that compiles a mode, or that writes a recording, holds no answer up.
+    Of a node, that is the ROS thread; the others step, compile a mode or write a recording.
     """
-    total = 0
-    for task in Path(f'/proc/{pid}/task').iterdir():
-        try:
-            if int(task.name) == pid or (task / 'comm').read_text().startswith('llvmpipe'):
-                total += int(_schedule(task)[0])
-        except (OSError, ValueError):
-            pass  # the thread has ended meanwhile
-    return total * 1e-9
+    return int(_schedule(Path(f'/proc/{pid}/task/{pid}'))[0]) * 1e-9
 
 
 def waited_for_a_processor() -> float:
