@@ -374,8 +374,10 @@ def test_frames_of_pins_while_pins_and_transforms_change(client: GraphClient, tm
                 ApplyPush, f'{cloth.name}/apply_push').call_async(push))
             futures.append(ask(cloth, SetPin, 'set_pin', row=row, col=5, release=True))
             client.spin_for(0.01)
-        client.spin_until(lambda: all(
-            future.done() for future in futures + pushed), 'the answers')
+            # A client keeps ten answers of a service; more that come at once are lost.
+            if number % 4 == 3:
+                client.spin_until(lambda: all(
+                    future.done() for future in futures + pushed), 'the answers')
         assert all(future.result().success for future in futures)
         # A push may come before its pin or after; then it says so.
         for future in pushed:
