@@ -10,6 +10,7 @@ after each dispatch, would stand still for as long (docs/notes/performance.md).
 """
 
 from ctypes import byref
+from ctypes import c_char
 from ctypes import c_char_p
 from ctypes import c_size_t
 from ctypes import c_void_p
@@ -29,9 +30,19 @@ class _SerializedMessage(Structure):
         ('allocator', 5 * c_void_p)]
 
 
-# The library that rclpy has loaded already.
+class _ErrorString(Structure):
+    """rcutils_error_string_t."""
+
+    _fields_ = [('text', 1024 * c_char)]
+
+
+# Libraries that rclpy has loaded already.
 _publish = CDLL('librcl.so').rcl_publish_serialized_message
 _publish.argtypes = (c_void_p, c_void_p, c_void_p)
+_get_error = CDLL('librcutils.so').rcutils_get_error_string
+_get_error.restype = _ErrorString
+_reset_error = CDLL('librcutils.so').rcutils_reset_error
+_reset_error.restype = None
 
 
 def publish(publisher: Publisher, data: bytes) -> None:
@@ -44,4 +55,7 @@ def publish(publisher: Publisher, data: bytes) -> None:
     with publisher.handle:
         code = _publish(publisher.handle.pointer, byref(message), None)
     if code:
-        raise RCLError(f'Failed to publish: rcl error {code}')
+        reason = _get_error().text.decode(errors='replace')
+        # Left there, it would be taken for one of the next call that fails.
+        _reset_error()
+        raise RCLError(f'Failed to publish: {reason}')

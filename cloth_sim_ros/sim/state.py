@@ -86,11 +86,6 @@ class State:
         self.write(positions, np.zeros_like(positions))
 
     @property
-    def free_count(self) -> int:
-        """Nodes that are not pinned."""
-        return int(self.pinned.size - np.count_nonzero(self.pinned))
-
-    @property
     def buffer(self) -> Buffer:
         """Return a buffer of as many bytes as any that has four floats for each node."""
         return self._positions[0]

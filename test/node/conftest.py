@@ -19,6 +19,9 @@ from graph_fixtures import discovery  # noqa: F401
 from graph_fixtures import passing  # noqa: F401
 from node_process import NodeProcess
 import pytest
+import rclpy
+from rclpy.context import Context
+from rclpy.node import Node
 
 
 @pytest.fixture(scope='session')
@@ -73,3 +76,14 @@ def simulation() -> Iterator[Simulation]:
     simulation = Simulation(Scene(SCENE))
     yield simulation
     simulation.close()
+
+
+@pytest.fixture
+def lone_node() -> Iterator[Node]:
+    """Lend a node of this process, in a graph of its own context."""
+    context = Context()
+    rclpy.init(context=context)
+    made = rclpy.create_node('lone_node', context=context)
+    yield made
+    made.destroy_node()
+    rclpy.try_shutdown(context=context)

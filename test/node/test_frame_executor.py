@@ -7,24 +7,11 @@ from threading import Timer
 import time
 
 from cloth_sim_ros.node.frame_executor import FrameExecutor
-import pytest
 import rclpy
-from rclpy.context import Context
 from std_msgs.msg import String
 from std_srvs.srv import Trigger
 
 PATIENCE = 300.0
-
-
-@pytest.fixture
-def node():
-    """Lend a node in a graph of its own context."""
-    context = Context()
-    rclpy.init(context=context)
-    made = rclpy.create_node('frame_executor_under_test', context=context)
-    yield made
-    made.destroy_node()
-    rclpy.try_shutdown(context=context)
 
 
 def spin_until(executor, condition):
@@ -35,7 +22,7 @@ def spin_until(executor, condition):
     return condition()
 
 
-def test_every_kind_of_entity_is_served(node):
+def test_every_kind_of_entity_is_served(lone_node):
     """A request, a message or a timer would be forgotten beside the others."""
     heard, answered, ticks = [], [], []
 
@@ -43,12 +30,12 @@ def test_every_kind_of_entity_is_served(node):
         answered.append(1)
         return response
 
-    executor = FrameExecutor(node)
-    node.create_service(Trigger, '~/serve', answer)
-    node.create_subscription(String, '~/text', lambda _: heard.append(1), 10)
-    node.create_timer(0.01, lambda: ticks.append(1))
-    client = node.create_client(Trigger, '~/serve')
-    publisher = node.create_publisher(String, '~/text', 10)
+    executor = FrameExecutor(lone_node)
+    lone_node.create_service(Trigger, '~/serve', answer)
+    lone_node.create_subscription(String, '~/text', lambda _: heard.append(1), 10)
+    lone_node.create_timer(0.01, lambda: ticks.append(1))
+    client = lone_node.create_client(Trigger, '~/serve')
+    publisher = lone_node.create_publisher(String, '~/text', 10)
     assert spin_until(executor, client.service_is_ready)
     assert spin_until(executor, lambda: publisher.get_subscription_count() == 1)
     future = client.call_async(Trigger.Request())
@@ -56,22 +43,22 @@ def test_every_kind_of_entity_is_served(node):
     assert spin_until(executor, lambda: future.done() and heard and ticks and answered)
 
 
-def test_entities_that_come_late_are_waited_for(node):
+def test_entities_that_come_late_are_waited_for(lone_node):
     """A topic that is subscribed to at run time, as of a grasp, would stay silent."""
-    executor = FrameExecutor(node)
+    executor = FrameExecutor(lone_node)
     executor.spin_once(0.0)
     ticks = []
-    timer = node.create_timer(0.01, lambda: ticks.append(1))
+    timer = lone_node.create_timer(0.01, lambda: ticks.append(1))
     assert spin_until(executor, lambda: len(ticks) > 2)
-    node.destroy_timer(timer)
+    lone_node.destroy_timer(timer)
     executor.spin_once(0.0)
 
 
-def test_a_guard_condition_of_another_thread_is_served_once(node):
+def test_a_guard_condition_of_another_thread_is_served_once(lone_node):
     """A mode compiled on a thread would not take over, or a fault be reported for ever."""
-    executor = FrameExecutor(node)
+    executor = FrameExecutor(lone_node)
     called = []
-    condition = node.create_guard_condition(lambda: called.append(1))
+    condition = lone_node.create_guard_condition(lambda: called.append(1))
     trigger = Timer(0.2, condition.trigger)
     trigger.start()
     assert spin_until(executor, lambda: called)
@@ -81,9 +68,9 @@ def test_a_guard_condition_of_another_thread_is_served_once(node):
     assert len(called) == 1
 
 
-def test_coroutines_are_finished(node):
+def test_coroutines_are_finished(lone_node):
     """A request that is answered later, as ~/step, would never be."""
-    executor = FrameExecutor(node)
+    executor = FrameExecutor(lone_node)
     waited = rclpy.task.Future(executor=executor)
 
     async def answer(_, response):
@@ -91,8 +78,8 @@ def test_coroutines_are_finished(node):
         response.success = True
         return response
 
-    node.create_service(Trigger, '~/later', answer)
-    client = node.create_client(Trigger, '~/later')
+    lone_node.create_service(Trigger, '~/later', answer)
+    client = lone_node.create_client(Trigger, '~/later')
     assert spin_until(executor, client.service_is_ready)
     future = client.call_async(Trigger.Request())
     for _ in range(20):
@@ -103,15 +90,15 @@ def test_coroutines_are_finished(node):
     assert future.result().success
 
 
-def test_what_a_guard_condition_brings_is_answered_at_once(node):
+def test_what_a_guard_condition_brings_is_answered_at_once(lone_node):
     """An answer would wait for the next timer, up to a second."""
     brought = rclpy.task.Future()
 
     async def wait():
         await brought
 
-    executor = FrameExecutor(node)
-    condition = node.create_guard_condition(lambda: brought.set_result(None))
+    executor = FrameExecutor(lone_node)
+    condition = lone_node.create_guard_condition(lambda: brought.set_result(None))
     task = executor.create_task(wait)
     executor.spin_once(0.0)
     assert not task.done()
@@ -121,7 +108,7 @@ def test_what_a_guard_condition_brings_is_answered_at_once(node):
     assert brought.done() and task.done()
 
 
-def test_a_task_that_waits_is_not_asked_again_and_again(node):
+def test_a_task_that_waits_is_not_asked_again_and_again(lone_node):
     """The thread that steps would lose time to one that only asks."""
     polls, ticks = [], []
 
@@ -134,9 +121,9 @@ def test_a_task_that_waits_is_not_asked_again_and_again(node):
     async def wait():
         await Wait()
 
-    executor = FrameExecutor(node)
+    executor = FrameExecutor(lone_node)
     task = executor.create_task(wait)
-    node.create_timer(0.05, lambda: ticks.append(1))
+    lone_node.create_timer(0.05, lambda: ticks.append(1))
     while not task.done():
         executor.spin_once()
     # In that time, a loop that never sleeps would have asked thousands of times.
