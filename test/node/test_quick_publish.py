@@ -3,6 +3,7 @@
 
 """Messages that go to the middleware past rclpy."""
 
+import sys
 import threading
 import time
 
@@ -40,15 +41,22 @@ def test_messages_arrive_whole(lone_node, size):
 
 def test_another_thread_works_meanwhile(lone_node):
     """The device thread would stand still while the middleware copies a message."""
+    lone_node.create_subscription(UInt8MultiArray, '~/bytes', print, QoSProfile(depth=1))
     publisher = lone_node.create_publisher(UInt8MultiArray, '~/bytes', QoSProfile(depth=1))
+    end = time.monotonic() + PATIENCE
+    while not publisher.get_subscription_count() and time.monotonic() < end:
+        time.sleep(0.01)
     data = serialize_message(UInt8MultiArray(data=bytes(30_000_000)))
     counts, is_over = [0], threading.Event()
 
     def count():
         while not is_over.is_set():
             counts[0] += 1
+            time.sleep(1e-5)  # which lets go of the lock
 
-    thread = threading.Thread(target=count)
+    thread, interval = threading.Thread(target=count), sys.getswitchinterval()
+    # Nobody is made to let go of it.
+    sys.setswitchinterval(1000.0)
     thread.start()
     try:
         while not counts[0]:
@@ -58,6 +66,7 @@ def test_another_thread_works_meanwhile(lone_node):
         assert counts[0] > before
     finally:
         is_over.set()
+        sys.setswitchinterval(interval)
         thread.join()
 
 
