@@ -4,9 +4,9 @@
 """
 Publish serialised messages while the other thread works.
 
-rclpy holds Python's lock while the middleware copies and sends a message, over a millisecond for
-the frame of a small cloth, and copies it once more before. The device thread, which needs the lock
-after each dispatch, would stand still for as long (docs/notes/performance.md).
+rclpy holds Python's lock while the middleware copies and sends a message, and copies it once more
+before. The device thread, which needs the lock after each dispatch, would stand still for as long
+(docs/notes/performance.md).
 """
 
 from ctypes import byref
