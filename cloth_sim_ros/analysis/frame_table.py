@@ -12,9 +12,10 @@ STATS = (
     'dt', 'substeps', 'stability_margin', 'kinetic_energy', 'elastic_energy',
     'gravitational_energy', 'total_energy', 'max_strain', 'solver_iterations',
     'solver_residual', 'solver_reached', 'active_constraints', 'active_fraction',
-    'constraint_switches', 'lengths_are_held', 'settling', 'settling_work', 'stalled_pins',
-    'air_margin', 'sticking_nodes', 'sliding_nodes', 'deepest_node', 'step_wall_time',
-    'real_time_factor')
+    'constraint_switches', 'calm_substeps', 'listed_substeps', 'whole_substeps', 'listed_edges',
+    'limit_rounds', 'limit_unreached', 'strain_over_bound', 'lengths_are_held', 'settling',
+    'settling_work', 'stalled_pins', 'air_margin', 'sticking_nodes', 'sliding_nodes',
+    'deepest_node', 'step_wall_time', 'real_time_factor')
 # Columns computed from ~/points.
 POINTS = ('mean_strain', 'mean_height')
 COLUMNS = ('time', 'resets', *STATS, *POINTS)

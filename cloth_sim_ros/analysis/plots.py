@@ -222,6 +222,13 @@ _PLOTS = {
     'constraints': ('Edges at their strain limit', (
         Panel('active constraints', (Line('active_constraints', 'active'),)),
         Panel('switches in the last step', (Line('constraint_switches', 'switches'),)))),
+    'limits': ('How the strain limit was held', (
+        Panel('substeps of the last step', (
+            Line('calm_substeps', 'calm'), Line('listed_substeps', 'edges listed'),
+            Line('whole_substeps', 'whole cloth'), Line('limit_unreached', 'not reached'))),
+        Panel('edges listed in a substep', (Line('listed_edges', 'edges'),)),
+        Panel('rounds of a substep', (Line('limit_rounds', 'rounds'),)),
+        Panel('largest strain / limit', (Line('strain_over_bound', 'strain'),)))),
     'solver': ('Linear solver', (
         Panel('iterations, most of a solve', (Line('solver_iterations', 'iterations'),)),
         Panel('relative residual, worst solve', (Line('solver_residual', 'residual'),), 'log'))),
@@ -231,9 +238,11 @@ _PLOTS = {
         Panel('real-time factor', (
             Line('real_time_factor', 'simulated / wall', above_zero=True),), 'auto'))),
 }
-# Columns that are above 0 if a run has the feature.
+# Columns of which one is above 0 if a run has the feature.
 _SIGNS = {
-    'constraints': 'active_constraints', 'solver': 'solver_iterations', 'pace': 'step_wall_time'}
+    'constraints': ('active_constraints',), 'solver': ('solver_iterations',),
+    'limits': ('calm_substeps', 'listed_substeps', 'whole_substeps'),
+    'pace': ('step_wall_time',)}
 
 
 def run_plots(run: Run) -> Iterator[tuple[str, Figure]]:
@@ -250,7 +259,7 @@ def run_plots(run: Run) -> Iterator[tuple[str, Figure]]:
 def _has_part(run: Run, name: str) -> bool:
     if name == 'constraints' and 'adaptive' in run.modes.modes:
         return True
-    return name not in _SIGNS or bool(np.nanmax(run.columns[_SIGNS[name]]) > 0.0)
+    return name not in _SIGNS or any((run.columns[sign] > 0.0).any() for sign in _SIGNS[name])
 
 
 def _heading(run: Run) -> str:

@@ -32,7 +32,8 @@ _DOTS_PER_INCH = 110
 _POINTS_AT_ONCE = 2000
 _WHOLE = {
     'resets', 'substeps', 'solver_iterations', 'solver_reached', 'active_constraints',
-    'constraint_switches', 'lengths_are_held', 'settling', 'stalled_pins'}
+    'constraint_switches', 'calm_substeps', 'listed_substeps', 'whole_substeps', 'listed_edges',
+    'limit_rounds', 'limit_unreached', 'lengths_are_held', 'settling', 'stalled_pins'}
 _COMPARED = (
     'times', 'rms_distance', 'max_distance', 'strain_difference', 'energy_difference')
 

@@ -136,6 +136,9 @@ class Summary:
     :param real_time_factor: median of the frames that ran; 0 when none did
     :param step_wall_time: median wall time of one dt [s]
     :param most_active: edges at their limit, in the frame with most
+    :param most_listed: edges near their limit that a substep solved for, in the frame with most
+    :param limit_unreached: frames in which the rounds of such a substep did not suffice
+    :param strain_over_bound: largest strain over the limit of its mode; 0 without such a limit
     :param solver_iterations: most of any frame; 0 without a solver
     :param solver_residual: worst of any frame
     :param solver_missed: frames in which a solve stopped before the residual asked for
@@ -172,6 +175,9 @@ class Summary:
     real_time_factor: float
     step_wall_time: float
     most_active: float
+    most_listed: float
+    limit_unreached: int
+    strain_over_bound: float
     solver_iterations: float
     solver_residual: float
     solver_missed: int
@@ -214,6 +220,9 @@ class Summary:
             real_time_factor=told.median_above_0('real_time_factor', 0.0),
             step_wall_time=told.median_above_0('step_wall_time', np.nan),
             most_active=told.largest('active_constraints'),
+            most_listed=told.largest('listed_edges'),
+            limit_unreached=int(np.count_nonzero(columns['limit_unreached'] > 0.0)),
+            strain_over_bound=told.largest('strain_over_bound'),
             solver_iterations=told.largest('solver_iterations'),
             solver_residual=told.largest('solver_residual'),
             solver_missed=int(np.count_nonzero(columns['solver_reached'] == 0.0))
@@ -295,6 +304,12 @@ def summary_lines(summary: Summary) -> dict[str, str]:
             f'{summary.solver_residual:.3g}, {summary.solver_missed} frames above the tolerance')
     if summary.most_active > 0:
         lines['constraints'] = f'at most {summary.most_active:.0f} active'
+    if summary.most_listed > 0:
+        lines['listed edges'] = f'at most {summary.most_listed:.0f} in a substep'
+    if summary.strain_over_bound > 0:
+        lines['strain limit'] = f'at most {summary.strain_over_bound:.3g} times the limit'
+    if summary.limit_unreached:
+        lines['limit tolerance'] = f'not reached in {summary.limit_unreached} frames'
     if summary.lengths_lost:
         lines['lengths'] = f'far off in {summary.lengths_lost} frames'
     if summary.settling:

@@ -170,7 +170,18 @@ def _solver(snapshot: Snapshot) -> _Verdict:
         'residual': float(snapshot.solver_residual),
         'tolerance reached': bool(snapshot.solver_reached),
         'active constraints': int(snapshot.active_constraints),
+        'listed edges': int(snapshot.listed_edges),
+        'limit rounds': int(snapshot.limit_rounds),
+        'limit unreached': int(snapshot.limit_unreached),
     }
+    if snapshot.limit_unreached:
+        return WARN, (
+            f'{snapshot.limit_unreached} substeps of a step missed the tolerance of the strain '
+            f'limit after {snapshot.limit_rounds} rounds: use a shorter dt'), values
+    if snapshot.solver_iterations == 0 and snapshot.listed_edges:
+        return OK, (
+            f'{snapshot.listed_edges} edges near their limit in {snapshot.limit_rounds} rounds'
+        ), values
     if snapshot.solver_iterations == 0:
         return OK, f'{snapshot.mode} has nothing to solve', values
     text = f'residual {snapshot.solver_residual:.2g} in {snapshot.solver_iterations} iterations'

@@ -80,6 +80,16 @@ class Snapshot(Measures):
     :param active_fraction: of all springs
     :param constraint_switches: activations and deactivations in the last step
         (docs/explanation/adaptive.md)
+    :param calm_substeps: of the last step, in which no edge came near its limit; this and the
+        next five are those of mode adaptive, and 0 in other modes
+    :param listed_substeps: of the last step, in which only the edges near their limit were
+        solved for, in rounds
+    :param whole_substeps: of the last step, in which the whole cloth was solved for
+    :param listed_edges: most edges near their limit that a substep of the last step solved for; 0
+        where there were none, or the whole cloth was solved for
+    :param limit_rounds: most rounds that such a substep took
+    :param limit_unreached: substeps of the last step whose rounds did not suffice for the
+        tolerance
     :param stalled_pins: pins under way that stood still in the last step, as edges pulled at them
         with more than ``pin.max_force``
     :param air_margin: a substep over the longest in which air acts on a pinned cloth with all its
@@ -111,6 +121,12 @@ class Snapshot(Measures):
     active_constraints: int = 0
     active_fraction: float = 0.0
     constraint_switches: int = 0
+    calm_substeps: int = 0
+    listed_substeps: int = 0
+    whole_substeps: int = 0
+    listed_edges: int = 0
+    limit_rounds: int = 0
+    limit_unreached: int = 0
     stalled_pins: int = 0
     air_margin: float = 0.0
     sticking_nodes: int = 0
@@ -129,6 +145,12 @@ class Snapshot(Measures):
         """
         return not self.max_strain > (
             _MOST_OVER_BOUND * self.strain_bound if self.strain_bound else _MOST_HARD_STRAIN)
+
+    @property
+    def strain_over_bound(self) -> float:
+        """Return ``max_strain / strain_bound``; 0 in a mode without a limit of strain."""
+        has_limit = 0.0 < self.strain_bound < math.inf
+        return self.max_strain / self.strain_bound if has_limit else 0.0
 
     @property
     def positions(self) -> np.ndarray:

@@ -37,6 +37,7 @@ def run(tmp_path_factory):
         in_constraint = number > 50
         snapshot = make_snapshot(
             4, 4, time=time, kinetic_energy=1.0 + time, active_constraints=number % 7,
+            listed_substeps=0 if in_constraint else 3, strain_bound=0.0 if in_constraint else 0.1,
             solver_iterations=9 if in_constraint else 0,
             solver_residual=10.0**-(3 + number % 3) if in_constraint else 0.0)
         recorder.write('points', PointsMessage(4, 4, 'world').serialise(snapshot), time)
@@ -63,7 +64,7 @@ def figures(run):
 def test_there_is_a_plot_of_each_part(figures):
     """A part of the run would not be shown."""
     assert set(figures) == {
-        'energies', 'strain', 'constraints', 'solver', 'pace', 'strain_histogram'}
+        'energies', 'strain', 'constraints', 'limits', 'solver', 'pace', 'strain_histogram'}
 
 
 def test_axes_tell_what_they_show_and_in_which_unit(figures):
@@ -72,7 +73,8 @@ def test_axes_tell_what_they_show_and_in_which_unit(figures):
         axes.get_ylabel() for figure in figures.values() for axes in figure.axes}
     assert labels == {
         'energy [J]', 'strain [%]', 'active constraints', 'switches in the last step',
-        'iterations, most of a solve', 'relative residual, worst solve',
+        'substeps of the last step', 'edges listed in a substep', 'rounds of a substep',
+        'largest strain / limit', 'iterations, most of a solve', 'relative residual, worst solve',
         'wall time of a step [ms]', 'real-time factor', 'fraction of the nodes in each of 50 bins'}
     assert {figure.axes[-1].get_xlabel() for figure in figures.values()} == {
         'simulated time [s]', 'strain, largest of the springs at a node [%]'}
@@ -83,7 +85,7 @@ def test_lines_are_the_figures_of_the_run(run, figures):
     """A line would be of another quantity, or in another unit."""
     for name, place, column, scale in (
             ('energies', 0, 'kinetic_energy', 1.0), ('strain', 0, 'max_strain', 100.0),
-            ('pace', 0, 'step_wall_time', 1e3)):
+            ('limits', 1, 'listed_substeps', 1.0), ('pace', 0, 'step_wall_time', 1e3)):
         line = figures[name].axes[0].lines[place]
         drawn = line.get_ydata()
         np.testing.assert_allclose(drawn[~np.isnan(drawn)], scale * run.columns[column])

@@ -122,16 +122,20 @@ def test_what_is_unknown_is_said_to_be(summary):
 def test_parts_that_a_run_has_are_told(summary):
     """Solver, constraints, switches and gaps would have to be looked for in the plots."""
     assert not {
-        'solver', 'constraints', 'lengths', 'settling', 'stalled pins', 'mode switches', 'gaps',
-        'problems',
+        'solver', 'constraints', 'listed edges', 'strain limit', 'limit tolerance', 'lengths',
+        'settling', 'stalled pins', 'mode switches', 'gaps', 'problems',
     } & set(summary_lines(summary))
     lines = summary_lines(replace(
         summary, solver_iterations=12.0, solver_residual=1e-3, solver_missed=4, most_active=7.0,
+        most_listed=40.0, strain_over_bound=1.125, limit_unreached=5,
         lengths_lost=3, settling=4, settling_work=1.25, stalled=2,
         switches=[(1.5, 'adaptive', 'constraint')],
         gaps=[(float(n), n + 0.5) for n in range(6)], problems=['a is truncated']))
     assert lines['solver'].startswith('at most 12 iterations, worst residual 0.001, 4 frames')
     assert lines['constraints'] == 'at most 7 active'
+    assert lines['listed edges'] == 'at most 40 in a substep'
+    assert lines['strain limit'] == 'at most 1.12 times the limit'
+    assert lines['limit tolerance'] == 'not reached in 5 frames'
     assert lines['lengths'] == 'far off in 3 frames'
     assert lines['settling'] == 'in 4 frames, by a limit that did 1.25 J of work'
     assert lines['stalled pins'] == 'in 2 frames'

@@ -92,7 +92,9 @@ def test_another_grid_is_refused():
 NUMBERS = {
     'solver_iterations': 11, 'solver_residual': 1e-3, 'solver_reached': False,
     'active_constraints': 12,
-    'active_fraction': 0.25, 'constraint_switches': 13, 'strain_bound': 0.0, 'settling': True,
+    'active_fraction': 0.25, 'constraint_switches': 13, 'calm_substeps': 15,
+    'listed_substeps': 16, 'whole_substeps': 17, 'listed_edges': 18, 'limit_rounds': 19,
+    'limit_unreached': 20, 'strain_bound': 0.05, 'settling': True,
     'settling_work': 0.75, 'stalled_pins': 14, 'air_margin': 2.5}
 
 

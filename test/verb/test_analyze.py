@@ -18,6 +18,7 @@ from cloth_sim_ros.analysis.plots import run_plots
 from cloth_sim_ros.analysis.recording import Recording
 from cloth_sim_ros.analysis.run import Run
 from cloth_sim_ros.analysis.summary import Summary
+from cloth_sim_ros.recording.message_definition import message_definition
 from cloth_sim_ros.verb.main import main
 from copied_bag import copy_bag
 from foreign_bag import made
@@ -294,6 +295,34 @@ def test_stats_of_another_version(tmp_path, capsys):
     assert '2.5 J at the start' in shown
     assert '0.125 at the end' in shown
     assert 'stats of another version: without active_constraints' in shown
+
+
+LIMITS = (
+    'calm_substeps', 'listed_substeps', 'whole_substeps', 'listed_edges', 'limit_rounds',
+    'limit_unreached', 'strain_over_bound')
+
+
+def test_stats_from_before_limit_figures(tmp_path, capsys):
+    """What an older node did not measure would count as 0: that its limit was never missed."""
+    lines = message_definition('cloth_sim_interfaces/msg/ClothStats').splitlines()
+    old = '\n'.join(line for line in lines if not any(name in line for name in LIMITS))
+    values = {
+        name: getattr(ClothStats(total_energy=2.5, active_constraints=9), name)
+        for name in ClothStats.get_fields_and_field_types() if name not in (*LIMITS, 'header')}
+    stats = made(
+        'cloth_sim_interfaces/msg/ClothStats', old, **values,
+        header={'stamp': {'sec': 3, 'nanosec': 0}, 'frame_id': 'world'})
+    bag, out = write_bag(tmp_path / 'bag', [('/cloth_sim/stats', stats)]), tmp_path / 'out'
+    assert main(['analyze', str(bag), '--out', str(out)]) == 0
+    shown = capsys.readouterr().out
+    assert f'stats of another version: without {", ".join(sorted(LIMITS))}' in shown
+    assert 'at most 9 active' in shown
+    header, row = (out / 'bag' / 'frames.csv').read_text(encoding='utf-8').splitlines()
+    assert 'active_constraints' in header and not set(LIMITS) & set(header.split(','))
+    files = {file.name for file in (out / 'bag').iterdir()}
+    assert 'constraints.png' in files and 'limits.png' not in files
+    summary = json.loads((out / 'bag' / 'summary.json').read_text(encoding='utf-8'))
+    assert summary['strain_over_bound'] is summary['most_listed'] is None
 
 
 @pytest.mark.parametrize('name, content', [
