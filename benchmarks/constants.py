@@ -12,11 +12,12 @@ processor time is printed for orientation.
 Columns of the table: RMS distance of the final positions over the RMS way of the nodes, change of
 the energy over M g times the size of the cloth [1], largest strain over its limit (that of the
 hard edges under the weight in mode constraint) once the start has settled [1], deepest node of a
-dt, mean over the run [um], solves and iterations per dt, processor time over that of the default,
-switches of limits per dt, and the number of dt in which a solve did not reach its tolerance.
-Differences and the strain are the largest of the scenes, the others are means. The row
-"tolerance / 2" is a yardstick: what half the ``solver.tolerance`` of the scenes changes, with the
-default of the constant.
+dt, mean over the run [um], solves and iterations per dt, rounds over the edges at their limit in
+the substep of a dt that took most, processor time over that of the default, switches of limits
+per dt, and the number of dt in which a solve did not reach its tolerance. Differences and the
+strain are the largest of the scenes, the others are means. The row "tolerance / 2" is a
+yardstick: what half the ``solver.tolerance`` of the scenes changes, with the default of the
+constant.
 
 For example:
   python benchmarks/constants.py
@@ -66,10 +67,15 @@ _BALL = {'colliders.ball.shape': 'sphere', 'colliders.ball.size': [0.12]}
 SCENES: Mapping[str, tuple[Mapping[str, Any], float, float]] = {
     'constraint': ({**_SHEET, 'mode': 'constraint'}, 0.6, 1.0),
     'adaptive': ({**_SHEET, 'mode': 'adaptive', 'adaptive.threshold': 0.02}, 0.6, 1.0),
+    # The implicit step of the whole cloth, and passes over the lattice, whatever they cost.
+    'whole': ({**_SHEET, 'mode': 'adaptive', 'adaptive.scheme': 'whole',
+               'adaptive.threshold': 0.02}, 0.6, 1.0),
+    'lattice': ({**_SHEET, 'mode': 'adaptive', 'adaptive.scheme': 'lattice',
+                 'adaptive.threshold': 0.02}, 0.6, 1.0),
     # It hangs as it starts: what changes is rounding.
     'rest': ({**_STILL, 'mode': 'constraint', 'pins': ['top_edge'], 'start.pose': 'hanging',
               'start.jitter': 0.0}, 0.3, 1.0),
-    # The limit of 2 % begins to pull at 0.9 of it; a wider one nearer to it.
+    # The limit of 2 % has come into force at 1.2 of it; a wider one nearer to it.
     'wide': ({**_SHEET, 'mode': 'adaptive', 'stiffness.structural': 30.0}, 0.6, 1.0),
     # The springs of a scene without any values, and a limit of 10 %.
     'swing': ({'rows': 24, 'cols': 24, 'mode': 'adaptive', 'pushes.start': [0.2],
@@ -89,17 +95,20 @@ SCENES: Mapping[str, tuple[Mapping[str, Any], float, float]] = {
         'collider_moves.start': [0.05], 'collider_moves.name': ['ball'],
         'collider_moves.target': [0.0, 0.0, 0.121]}, 0.4, 1.0),
     'friction': ({
-        **_LOOSE, **_FLOOR, **_BALL, 'mode': 'adaptive', 'adaptive.threshold': 0.02,
-        'start.z': 0.15, 'colliders.names': ['floor', 'ball'], 'colliders.floor.friction': 1.0,
+        **_LOOSE, **_FLOOR, **_BALL, 'mode': 'adaptive', 'adaptive.scheme': 'whole',
+        'adaptive.threshold': 0.02, 'start.z': 0.15, 'colliders.names': ['floor', 'ball'],
+        'colliders.floor.friction': 1.0,
         'colliders.ball.friction': 1.0}, 0.5, 1.0),
     'sunk': ({
         **_LOOSE, **_FLOOR, 'rows': 12, 'cols': 12, 'mode': 'constraint', 'start.z': -0.02,
         'colliders.names': ['floor'], 'colliders.floor.orientation': [0.0, 0.05, 0.0, 1.0]},
         0.3, 1.0),
 }
-_LIMITED = ('adaptive', 'stretched', 'friction')
+_LIMITED = ('whole', 'stretched', 'friction')
 _HARD = ('constraint', 'drape')
-_SPRINGS = ('adaptive', 'wide', 'friction')
+_SPRINGS = ('adaptive', 'whole', 'wide')
+# In which edges are listed.
+_LISTED = ('adaptive', 'wide', 'swing', 'lattice')
 _TOUCHING = ('drape', 'squeezed', 'friction')
 
 
@@ -141,28 +150,50 @@ class Constant:
 
 _SOLVER = 'cloth_sim_ros/sim/solver/'
 _MODES = 'cloth_sim_ros/sim/modes/'
+_LIMITS = 'cloth_sim_ros/sim/limits/'
 CONSTANTS = (
     Constant('_EARLY', f'{_SOLVER}solver.py', ('0.0', '0.1', '0.5', '0.9'), _LIMITED),
     Constant('_HALF', f'{_SOLVER}solver.py', ('0.0', '0.25', '0.75', '1.1'), _LIMITED),
     Constant('_LACKING', f'{_SOLVER}solver.py', ('0.1', '0.25', '1.0', '2.0'), _LIMITED),
-    Constant('_AIM', f'{_SOLVER}solver.py', ('0.4', '0.6', '1.0'), ('adaptive', *_HARD)),
-    Constant('_NEAR', f'{_MODES}adaptive.py', ('0.45', '0.8', '0.95', '1.0'),
-             (*_SPRINGS, 'swing')),
-    Constant('_FAR', f'{_MODES}adaptive.py', ('0.0', '0.5', '0.95', '1.0'),
-             (*_SPRINGS, 'swing')),
-    Constant('_SHARE', f'{_MODES}adaptive.py', ('0.05', '0.2', '0.5'), _SPRINGS),
-    Constant('_MOST', f'{_MODES}adaptive.py', ('0.0005', '0.001', '0.004'),
-             _SPRINGS),
-    Constant('_TRANSITION', f'{_MODES}adaptive.py', ('0.0', '0.5', '2.0'),
-             _SPRINGS),
-    Constant('_RELEASE', f'{_MODES}adaptive.py', ('0.0', '0.25', '0.75', '1.0'),
-             _SPRINGS),
-    Constant('_FADING_STEPS', f'{_MODES}adaptive.py', ('2', '4', '16', '64'),
-             _SPRINGS),
+    Constant('_AIM', f'{_SOLVER}solver.py', ('0.4', '0.6', '1.0'), ('whole', *_HARD)),
+    Constant('_SHARE', f'{_LIMITS}limit_law.py', ('0.05', '0.2', '0.5'), _SPRINGS),
+    Constant('_MOST', f'{_LIMITS}limit_law.py', ('0.0005', '0.001', '0.004'), _SPRINGS),
+    Constant('_TRANSITION', f'{_MODES}limited_springs.py', ('0.0', '0.5', '2.0'), ('whole',)),
+    Constant('_RELEASE', f'{_LIMITS}limit_marks.py', ('0.0', '0.25', '0.75', '1.0'), _SPRINGS),
+    Constant('NEAR', f'{_LIMITS}limit_program.py', ('0.7', '0.8', '0.95', '1.0'), _LISTED),
+    Constant('_WIDE', f'{_LIMITS}limit_program.py', ('0.0', '0.25', '0.75', '0.9'), _LISTED),
+    Constant('_TOLERANCE', f'{_LIMITS}limit_program.py', ('1e-6', '1e-4', '1e-3'), _LISTED),
+    Constant('_REDUCTION', f'{_LIMITS}limit_program.py',
+             ('(0.01, 0.1)', '(0.1, 0.1)', '(0.5, 0.5)', '(0.9, 0.9)'), _LISTED),
+    Constant('_LOOSE', f'{_LIMITS}limit_program.py', ('0.0', '0.001', '0.1'), _LISTED),
+    Constant('_MOTION', f'{_LIMITS}limit_program.py', ('0.001', '0.1', '1.0'), _LISTED),
+    Constant('CLOSING', f'{_LIMITS}limit_program.py', ('0.02', '0.05', '0.2', '0.5'), _LISTED),
+    Constant('MOST_ROUNDS', f'{_LIMITS}limit_program.py', ('25', '100', '1600'), _LISTED),
+    Constant('MOST_SCALE', f'{_LIMITS}limit_program.py', ('0.0', '1.0', '4.0'), _LISTED),
+    Constant('MISSED', 'shaders/include/limit_law.glsl', ('0.01', '0.2', '1e9'), _LISTED),
+    Constant('_MOST_PASSES', f'{_LIMITS}active_limits.py', ('1', '4', '64'), _LISTED),
+    Constant('_MANY', f'{_LIMITS}active_limits.py', ('0.0', '0.3', '4.0'), _LISTED[:3]),
+    Constant('_FEWER', f'{_LIMITS}active_limits.py', ('0.2', '1.2'), _LISTED[:3]),
+    Constant('_ROUNDS_AT_ONCE', f'{_LIMITS}lattice_rounds.py', ('1', '2', '8', '16'),
+             ('lattice',)),
+    Constant('_LOOK', f'{_MODES}adaptive.py', ('4', '8', '32', '64'), _LISTED),
+    Constant('_REVIEW', f'{_MODES}adaptive.py', ('2', '4', '16', '32'), _LISTED),
+    Constant('_LISTED_COST', f'{_MODES}adaptive.py', ('0.0', '4.0'), _LISTED[:3]),
+    Constant('_ROUND_COST', f'{_MODES}adaptive.py', ('1.0', '6.0', '12.0'), _LISTED[:3]),
+    Constant('_WHOLE_COST', f'{_MODES}adaptive.py', ('40.0', '80.0', '300.0', '600.0'),
+             _LISTED[:3]),
+    Constant('_RETURN', f'{_MODES}adaptive.py', ('0.1', '0.25', '0.75', '1.0'), _LISTED[:3]),
+    Constant('_FIRST', f'{_MODES}adaptive.py', ('2', '4', '8'), _LISTED),
+    Constant('_LONGER', f'{_MODES}adaptive.py', ('0.25', '0.75', '1.0'), _LISTED),
+    Constant('_SOME', f'{_MODES}adaptive.py', ('0.0', '0.01', '0.1', '1.0'), _LISTED),
+    Constant('_ROUGH', f'{_MODES}adaptive.py', ('0.005', '0.01', '0.05', '0.2'), _LISTED),
+    Constant('_ROUGH_FOR', f'{_MODES}adaptive.py', ('8', '16', '64', '128'), _LISTED),
+    Constant('_NOTABLE', f'{_MODES}adaptive.py', ('1.0', '1.02', '1.2', '100.0'),
+             (*_LISTED, 'whole')),
     Constant('_MEAN_TURN', f'{_MODES}edge_watch.py', ('0.0005', '0.001', '0.004', '0.1'),
-             ('adaptive', *_HARD)),
+             ('whole', *_HARD)),
     Constant('_LARGEST_TURN', f'{_MODES}edge_watch.py', ('0.002', '0.00375', '0.015', '0.4'),
-             ('adaptive', *_HARD)),
+             ('whole', *_HARD)),
     Constant('_SETTLING_TIME', f'{_MODES}implicit.py', ('0.01', '0.067', '0.15', '0.6'),
              ('stretched', 'small', 'sail')),
     Constant('_NOTABLE', f'{_MODES}constraint.py', ('0.0', '0.625', '2.5', '100.0'),
@@ -176,22 +207,22 @@ CONSTANTS = (
              ('squeezed', 'friction')),
     Constant('NEARLY', 'shaders/solver/contact.comp', ('0.0', '0.25', '0.75', '1.0'), _TOUCHING),
     Constant('_HANGING_SHARE', f'{_SOLVER}edge_law.py', ('0.015', '0.06', '1.0'),
-             ('constraint', 'adaptive')),
+             ('constraint', 'whole')),
     Constant('_MOST_UNSOLVED', f'{_SOLVER}active_set.py', ('1e-6', '1e-5', '1e-3', '1e-2'),
              _TOUCHING),
     Constant('_FLAT', f'{_SOLVER}active_set.py', ('0.01', '0.025', '0.1', '0.5'), _LIMITED),
     Constant('_LOOKS', f'{_SOLVER}active_set.py', ('1', '3', '12'), _LIMITED),
     Constant('_SPREAD_OF_WEIGHT', f'{_SOLVER}preconditioner.py', ('2.5', '5.0', '20.0', '40.0'),
-             ('adaptive', *_HARD)),
-    Constant('_COARSEST_STEPS', f'{_SOLVER}preconditioner.py', ('5', '20'), ('adaptive', *_HARD)),
+             ('whole', *_HARD)),
+    Constant('_COARSEST_STEPS', f'{_SOLVER}preconditioner.py', ('5', '20'), ('whole', *_HARD)),
     Constant('_LEAST_SPREAD', f'{_SOLVER}preconditioner.py', ('2.0', '8.0', '60.0'),
-             ('adaptive', *_HARD)),
+             ('whole', *_HARD)),
     Constant('_MOST_SPREAD', f'{_SOLVER}preconditioner.py', ('4.0', '30.0', '120.0'),
-             ('adaptive', *_HARD)),
+             ('whole', *_HARD)),
     Constant('_LEAST', f'{_SOLVER}solver_programs.py', ('0.0625', '0.125', '0.5', '1.0'),
-             ('adaptive', *_HARD)),
+             ('whole', *_HARD)),
     Constant('_LEAST_CHANGE', f'{_SOLVER}tally.py', ('0.0', '1e-4', '1e-2', '0.1'),
-             ('constraint', 'adaptive', 'friction', 'rest')),
+             ('constraint', 'whole', 'friction', 'rest')),
 )
 
 # Runs the scenes that it reads, and prints one line of results for each.
@@ -206,13 +237,15 @@ for line in sys.stdin:
     cloth.warm_up()
     if factor != 1.0:
         cloth.set_state(factor * cloth.positions(), np.zeros_like(cloth.positions()))
-    found = dict(solves=0, iterations=0.0, strain=0.0, deepest=0.0, switches=0, unreached=0)
+    found = dict(solves=0, iterations=0.0, strain=0.0, deepest=0.0, switches=0, unreached=0,
+                 rounds=0)
     begin = time.process_time()
     steps = round(seconds / cloth.scene['dt'])
     for _ in range(steps):
         cloth.step()
         now = cloth.snapshot()
         found['solves'] += now.solves
+        found['rounds'] += now.limit_rounds
         found['iterations'] += now.solves * now.mean_iterations
         limit = now.strain_bound or cloth.scene['constraint.strain']
         if not now.settling:
@@ -240,7 +273,8 @@ def run_scenes(
 
     Of each scene: ``positions`` at its end and at the ``start`` [m], ``energy`` [J], ``weight``
     times size [J], ``strain`` over the limit [1], ``deepest`` node [m], ``processor`` time [s],
-    and sums over all ``steps`` of ``solves``, ``iterations``, ``switches`` and ``unreached``.
+    and sums over all ``steps`` of ``solves``, ``iterations``, ``rounds``,
+    ``switches`` and ``unreached``.
     """
     environment = {
         **os.environ, 'PYTHONPATH': str(root), 'LP_NUM_THREADS': '0', 'CLOTH_SIM_TUNING': 'off'}
@@ -271,6 +305,7 @@ class Row:
     deepest: float
     solves: float
     iterations: float
+    rounds: float
     processor: float
     switches: float
     unreached: int
@@ -280,7 +315,8 @@ class Row:
         return (
             f'{self.moved:.1e} | {self.energy:+.1e} | {self.strain:.3f} '
             f'| {1e6 * self.deepest:.3g} | {self.solves:.2f} | {self.iterations:.1f} '
-            f'| {self.processor:.2f} | {self.switches:.2f} | {self.unreached} |')
+            f'| {self.rounds:.1f} | {self.processor:.2f} | {self.switches:.2f} '
+            f'| {self.unreached} |')
 
 
 def compare(found: Sequence[Mapping[str, Any]], usual: Sequence[Mapping[str, Any]]) -> Row:
@@ -294,11 +330,11 @@ def compare(found: Sequence[Mapping[str, Any]], usual: Sequence[Mapping[str, Any
     steps = sum(each['steps'] for each in found)
     per_step = {
         name: sum(each[name] for each in found) / steps
-        for name in ('solves', 'iterations', 'switches')}
+        for name in ('solves', 'iterations', 'rounds', 'switches')}
     return Row(
         max(moves), max(energies, key=abs), max(each['strain'] for each in found),
         max(each['deepest'] for each in found), per_step['solves'], per_step['iterations'],
-        sum(each['processor'] for each in found)
+        per_step['rounds'], sum(each['processor'] for each in found)
         / sum(each['processor'] for each in usual),
         per_step['switches'], sum(each['unreached'] for each in found))
 
@@ -357,8 +393,8 @@ def main() -> None:
     parser.add_argument('--scenes', nargs='+', metavar='SCENE', choices=tuple(SCENES),
                         default=tuple(SCENES), help=f'of {", ".join(SCENES)}')
     args = parser.parse_args()
-    print('| constant | value | moved | energy | strain | deepest | solves | iterations | time '
-          '| switches | unreached |\n|' + 11 * '---|')
+    print('| constant | value | moved | energy | strain | deepest | solves | iterations '
+          '| rounds | time | switches | unreached |\n|' + 12 * '---|')
     with TemporaryDirectory() as folder:
         # So that an edit during the run changes nothing.
         root = Path(folder)

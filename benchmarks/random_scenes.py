@@ -167,6 +167,7 @@ def main() -> None:
     parser.add_argument('--first', type=int, default=0, help='seed of the first scene')
     parser.add_argument('--seed', type=int, help='draws the seeds of the scenes')
     parser.add_argument('--count', type=int, default=60)
+    parser.add_argument('--modes', nargs='+', choices=MODES, default=MODES)
     args = parser.parse_args()
     seeds = range(args.first, args.first + args.count)
     if args.seed is not None:
@@ -176,7 +177,7 @@ def main() -> None:
     print('|---|---|---|---|---|---|---|---|---|')
     runs = wrong = refused = 0
     for seed in seeds:
-        for mode in MODES:
+        for mode in args.modes:
             values = {**draw_scene(seed), 'mode': mode}
             name = f'| {seed} | {values["rows"]} x {values["cols"]} | {values["dt"]:.2g} | {mode}'
             try:

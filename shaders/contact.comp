@@ -3,7 +3,8 @@
 
 #version 430 core
 // Let the colliders act on an explicit substep that has been made, before it is the present state,
-// at the nodes that near_nodes.comp lists.
+// at the nodes that near_nodes.comp lists. NOTES_CHANGES 1: note what they do to a node, as what edges
+// near their limit do to it is noted.
 
 #include "lattice.glsl"
 #include "state_in.glsl"
@@ -17,6 +18,9 @@ layout(std430, binding = POSITION_OUT) buffer PositionOut { vec4 position_out[];
 layout(std430, binding = VELOCITY_OUT) buffer VelocityOut { vec4 velocity_out[]; };
 
 #include "contact_record.glsl"
+#if NOTES_CHANGES
+layout(std430, binding = LIMIT_CHANGES) buffer Changes { vec4 changes[]; };
+#endif
 
 uniform float substep;    // [s]
 uniform int block_count;  // in all
@@ -39,6 +43,9 @@ void main() {
         to = changed_position(index, to, substep * (contact.velocity - velocity_out[index].xyz));
 #else
         to = x + substep * contact.velocity;
+#endif
+#if NOTES_CHANGES
+        changes[index].xyz += contact.velocity - v;
 #endif
         velocity_out[index].xyz = contact.velocity;
     }

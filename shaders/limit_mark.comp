@@ -18,7 +18,11 @@ layout(local_size_x = LOCAL_X, local_size_y = LOCAL_Y) in;
 
 layout(std430, binding = AT_LIMIT) buffer AtLimit { uint at_limit[]; };
 
-uniform float onset;    // strain from which on a limit pulls
+// Changes of velocity of limit_give.glsl, and in w which edges of a node have an impulse.
+layout(std430, binding = LIMIT_CHANGES) readonly buffer Changes { vec4 changes[]; };
+
+uniform bool has_changes;
+uniform float onset;    // strain from which on a limit pulls, where there are no changes
 uniform float release;  // of the limit: an edge stays engaged above this strain
 
 float strain(int row, int col, int row2, int col2, int rest) {
@@ -28,12 +32,18 @@ float strain(int row, int col, int row2, int col2, int rest) {
     return from.w * to.w * abs(l / rest_length[rest] - 1.0);
 }
 
-uint mark(uint before, int edge, float strain) {
+uint mark(uint before, uint pulled, int edge, float strain) {
     uint bit = 1u << edge;
-    if (strain > onset) {
+    if (has_changes ? (pulled & bit) != 0u : strain > onset) {
         return bit | bit << ENGAGED;
     }
     return strain > release * limit ? before & bit << ENGAGED : 0u;
+}
+
+// The edges that start at a node and have an impulse, of extension or compression.
+uint pulled_at(int index) {
+    uint pulled = has_changes ? uint(changes[index].w) : 0u;
+    return pulled | pulled >> 4;
 }
 
 void main() {
@@ -44,14 +54,17 @@ void main() {
     }
     int index = node_index(row, col);
     uint before = at_limit[index];
+    uint pulled = pulled_at(index);
     uint marks = 0u;
 #if HAS_STRUCTURAL
-    marks |= mark(before, EDGE_ROW, strain(row, col, row, col + 1, REST_ROW));
-    marks |= mark(before, EDGE_COLUMN, strain(row, col, row + 1, col, REST_COLUMN));
+    marks |= mark(before, pulled, EDGE_ROW, strain(row, col, row, col + 1, REST_ROW));
+    marks |= mark(before, pulled, EDGE_COLUMN, strain(row, col, row + 1, col, REST_COLUMN));
 #endif
 #if HAS_SHEAR
-    marks |= mark(before, EDGE_DIAGONAL, strain(row, col, row + 1, col + 1, REST_DIAGONAL));
-    marks |= mark(before, EDGE_CROSSING, strain(row, col + 1, row + 1, col, REST_DIAGONAL));
+    marks |= mark(before, pulled, EDGE_DIAGONAL, strain(row, col, row + 1, col + 1, REST_DIAGONAL));
+    marks |= mark(
+        before, pulled_at(index + 1), EDGE_CROSSING,
+        strain(row, col + 1, row + 1, col, REST_DIAGONAL));
 #endif
     at_limit[index] = marks | (before >> ENGAGED & 15u) << ENGAGED_BEFORE;
 }

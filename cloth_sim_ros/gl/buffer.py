@@ -16,6 +16,7 @@ from cloth_sim_ros.gl.quick_calls import bind_buffer
 from cloth_sim_ros.gl.quick_calls import bind_buffer_base
 from cloth_sim_ros.gl.quick_calls import bind_texture
 from cloth_sim_ros.gl.quick_calls import Call
+from cloth_sim_ros.gl.quick_calls import clear_buffer
 from cloth_sim_ros.gl.quick_calls import copy_buffer
 from cloth_sim_ros.gl.quick_calls import memory_barrier
 from cloth_sim_ros.gl.quick_calls import multi_bind
@@ -28,6 +29,8 @@ from OpenGL.GL.ARB.buffer_storage import glBufferStorage
 _STORAGE = int(GL.GL_SHADER_STORAGE_BUFFER)
 _DISPATCHES = int(GL.GL_DISPATCH_INDIRECT_BUFFER)
 _TEXTURE_BUFFER = int(GL.GL_TEXTURE_BUFFER)
+_R32UI, _RED_INTEGER = int(GL.GL_R32UI), int(GL.GL_RED_INTEGER)
+_UNSIGNED_INT = int(GL.GL_UNSIGNED_INT)
 _COPIED, _COPY = int(GL.GL_COPY_READ_BUFFER), int(GL.GL_COPY_WRITE_BUFFER)
 _FIRST_UNIT = int(GL.GL_TEXTURE0)
 _READS = int(GL.GL_BUFFER_UPDATE_BARRIER_BIT)
@@ -136,6 +139,13 @@ class Buffer:
             GL.glClearBufferData(
                 GL.GL_SHADER_STORAGE_BUFFER, GL.GL_R32UI, GL.GL_RED_INTEGER, GL.GL_UNSIGNED_INT,
                 None)
+        self._is_filled = True
+
+    def clear_first(self, size: int) -> None:
+        """Make the first ``size`` bytes zero."""
+        memory_barrier(_READS)
+        bind_buffer(_STORAGE, self.name)
+        clear_buffer(_STORAGE, _R32UI, 0, size, _RED_INTEGER, _UNSIGNED_INT, 0)
         self._is_filled = True
 
     def copy(self, begin: int, into: int, size: int) -> None:

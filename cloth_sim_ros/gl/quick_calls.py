@@ -63,6 +63,11 @@ write_buffer = _quick(
 copy_buffer = _quick(
     'glCopyBufferSubData', gl_type.GLenum, gl_type.GLenum, gl_type.GLintptr, gl_type.GLintptr,
     gl_type.GLsizeiptr)
+# A target, the format of its texels, an offset and how many bytes, then the format, the type and
+# the address of what fills them: 0 for zeros.
+clear_buffer = _quick(
+    'glClearBufferSubData', gl_type.GLenum, gl_type.GLenum, gl_type.GLintptr, gl_type.GLsizeiptr,
+    gl_type.GLenum, gl_type.GLenum, c_size_t)
 activate_texture = _quick('glActiveTexture', gl_type.GLenum)
 bind_texture = _quick('glBindTexture', gl_type.GLenum, gl_type.GLuint)
 

@@ -10,9 +10,9 @@ One law for hard edges, strain limits and implicit springs.
 lambda > 0 pulls. E is a compliance that belongs to the scene, not to the step: the energy of an
 edge is a function of its length, so a change of the step neither makes nor takes any.
 
-A limit comes into force over a transition of w on either side of it. There what is beyond it
+A limit comes into force over a transition of w on either side of l_max. There what is beyond it
 counts as (l - l_max + w)^2 / (4 w), so that the slope of lambda grows from that of the spring to
-that of the limit.
+that of the limit. For a strain limit, l_max - w is the limit: an edge at it stores nothing there.
 """
 
 from dataclasses import dataclass
@@ -30,8 +30,8 @@ STANDARD_GRAVITY = 9.81
 WHOLE_EDGE = 0.03
 # Families with a strain limit. The length of a bend spring is not a strain of the cloth.
 LIMITED = ('structural', 'shear')
-# Strain beyond the limit of an edge that carries the whole cloth: as a fraction of the limit, and
-# at most [1]. The transition below the limit is as wide.
+# Strain beyond l_max of an edge that carries the whole cloth: as a fraction of the limit, and at
+# most [1]. It is half the transition too, which begins at the limit.
 BEYOND_LIMIT = 0.1
 MOST_BEYOND = 0.002
 
@@ -161,12 +161,18 @@ def limited_law(scene: Scene, limit: float | None = None) -> EdgeLaw:
             'keep their length')
     edges = edges_of(scene)
     limited = edges.of(LIMITED)
-    beyond = min(BEYOND_LIMIT * scene['adaptive.threshold'], MOST_BEYOND)
+    beyond = strain_past_limit(scene)
+    middle = limit + beyond
     return EdgeLaw(
-        edges, np.where(limited & (limit < 1.0), edges.rest_length * (1.0 - limit), -np.inf),
-        np.where(limited, edges.rest_length * (1.0 + limit), np.inf),
+        edges, np.where(limited & (middle < 1.0), edges.rest_length * (1.0 - middle), -np.inf),
+        np.where(limited, edges.rest_length * (1.0 + middle), np.inf),
         edges.stiffness, edges.damping, limit_compliance(scene, edges, beyond),
         beyond * edges.rest_length)
+
+
+def strain_past_limit(scene: Scene) -> float:
+    """Return the strain by which an edge that carries the whole cloth passes its limit."""
+    return min(BEYOND_LIMIT * scene['adaptive.threshold'], MOST_BEYOND)
 
 
 def spring_law(scene: Scene) -> EdgeLaw:

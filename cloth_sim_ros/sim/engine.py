@@ -74,7 +74,7 @@ class Engine:
         :param later: True leaves it to that to wait for the device; the state may change before
         """
         mode = self.mode
-        law, marks = mode.energy_law(state), mode.limit_marks()
+        law, marks = mode.energy_law(state), mode.limit_marks(state)
         known = {
             **mode.report(), 'mode': mode.name, 'time': time, 'steps': steps, 'dt': dt,
             'substeps': mode.substeps, 'stability_margin': mode.substep_margin,

@@ -195,6 +195,10 @@ class State:
         """Let the next dispatches read the velocities to come instead of the present ones."""
         self._velocities[self._next].bind_texture(bindings.VELOCITY_IN)
 
+    def bind_out_textures(self) -> None:
+        """Let the next dispatches read the state to come, beside the present one."""
+        self._pairs[self._next].bind_textures(bindings.POSITION_OUT)
+
     def bind_expected(self) -> None:
         """Let the next dispatch read the present positions, with the velocities to come."""
         self._bind(bindings.POSITION_IN, self._positions[self._now])

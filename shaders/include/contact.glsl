@@ -172,7 +172,7 @@ float lacking(int i, vec3 x, vec3 v, float h) {
 }
 
 // The velocity w relative to the surface i after contact and friction.
-vec3 held(int i, vec3 w, float closest, float h, out int kind) {
+vec3 held_on_surface(int i, vec3 w, float closest, float h, out int kind) {
     vec4 near = surface[i];
     float friction = collider_friction[touched[i]];
     float least = -max(near.w - closest, 0.0) / h;
@@ -216,7 +216,7 @@ float act_in_turn(vec3 x, float h, inout Contact found) {
     for (int i = 0; i < touched_count; ++i) {
         int kind;
         vec3 without = found.velocity - given[i];
-        vec3 with = carried[i] + held(
+        vec3 with = carried[i] + held_on_surface(
             i, without - carried[i], rounding(x, touched[i]), h, kind);
         given[i] = kind == FREE ? vec3(0.0) : with - without;
         found.velocity = kind == FREE ? without : with;

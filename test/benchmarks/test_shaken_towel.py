@@ -8,21 +8,29 @@ from shaken_towel import shake
 from shaken_towel import TOWEL
 
 
-def test_a_towel_at_its_limit_is_measured():
+@pytest.mark.parametrize('scheme', ['list', 'lattice', 'whole'])
+def test_a_towel_at_its_limit_is_measured(scheme):
     """The benchmark would measure a towel that comes to no limit, or none that is shaken."""
-    towel = shake(0.15, rows=6, cols=6)
+    towel = shake(0.15, rows=6, cols=6, **{'adaptive.scheme': scheme})
     assert towel.median == pytest.approx(TOWEL['adaptive.threshold'], rel=0.3)
     assert towel.largest < 2.0 * TOWEL['adaptive.threshold']
-    assert towel.solves >= 1.0
-    assert towel.iterations > 0.0
+    if scheme == 'whole':
+        assert towel.whole > 0.5
+        assert towel.solves >= 1.0
+        assert towel.iterations > 0.0
+    else:
+        assert towel.listed > 0.5
+        assert towel.whole == 0.0
+        assert towel.rounds >= 1.0
     assert towel.seconds > 0.0
-    still = shake(0.15, rows=6, cols=6, **{'adaptive.threshold': 0.5})
-    assert still.solves < towel.solves
+    still = shake(
+        0.15, rows=6, cols=6, **{'adaptive.threshold': 0.5, 'adaptive.scheme': scheme})
+    assert still.listed == still.whole == still.rounds == still.solves == 0.0
 
 
 def test_limits_are_found_in_few_iterations():
     """Each pass would look for the limits in force anew, by what hair-fine lengths say of them."""
-    towel = shake(0.25, rows=12, cols=12)
+    towel = shake(0.25, rows=12, cols=12, **{'adaptive.scheme': 'whole'})
     iterations = towel.solves * towel.iterations
     print(f'measured {iterations:.1f} of 25 allowed: iterations in a substep, in '
           f'{towel.solves:.1f} solves')

@@ -41,11 +41,12 @@ LIMIT_HARDNESS = 9.81 / (0.002 * 0.03)
     ('hard', 1.002, 2.0, HARDNESS * 0.002),
     ('hard', 0.998, 2.0, -HARDNESS * 0.002),
     ('limited', 1.05, 2.0, 40.0 * 0.05 + 0.3 * 2.0),
-    ('limited', 1.104, 0.0, 40.0 * 0.104 + LIMIT_HARDNESS * 0.004),
-    ('limited', 0.896, 0.0, -40.0 * 0.104 - LIMIT_HARDNESS * 0.004),
-    # From 0.002 before the limit on it comes into force, which is half of that at the limit.
-    ('limited', 1.1, 0.0, 40.0 * 0.1 + LIMIT_HARDNESS * 0.002 / 4.0),
-    ('limited', 1.0979, 0.0, 40.0 * 0.0979)])
+    # Fully in force from 0.004 beyond the limit on, as if it were at 0.102.
+    ('limited', 1.105, 0.0, 40.0 * 0.105 + LIMIT_HARDNESS * 0.003),
+    ('limited', 0.895, 0.0, -40.0 * 0.105 - LIMIT_HARDNESS * 0.003),
+    # Halfway there it pulls with a quarter of that half width, and at the limit not yet.
+    ('limited', 1.102, 0.0, 40.0 * 0.102 + LIMIT_HARDNESS * 0.002 / 4.0),
+    ('limited', 1.1, 0.0, 40.0 * 0.1)])
 def test_tension(law, length, rate, tension):
     """An edge does not pull with k (l - L0) + k_d dl/dt, and what its limits add."""
     assert _tension(LAWS[law](_two_nodes()), length, rate) == pytest.approx(tension, rel=1e-9)

@@ -44,7 +44,8 @@ _SCENES = {
 }
 # Those that no other scene asks for.
 _OF_CONTACT = (
-    'contact.comp', 'foresee_contact.comp', 'near_nodes.comp', 'solver/contact.comp',
+    'contact.comp', 'foresee_contact.comp', 'near_blocks.comp', 'near_nodes.comp',
+    'solver/contact.comp',
     'solver/hold.comp', 'solver/reaction.comp')
 # Where integers are counted by atomics, and no result depends on the order.
 _COUNTING = {
@@ -56,6 +57,11 @@ _COUNTING = {
     'include/block_bound.glsl': [
         'atomicAdd(near_block_count, 1u)',
         'atomicAdd(block_groups_x, place % BLOCKS_AT_ONCE == 0u ? 1u : 0u)'],
+    # Of the marked blocks, each of which is listed by itself, and a count that is compared with 0.
+    'limit/look.comp': [
+        'atomicExchange(lists[block], 1u)', 'atomicAdd(marked_count, 1u)',
+        'atomicAdd(list_groups_x, place % LIST_LOCAL == 0u ? 1u : 0u)'],
+    'limit/list.comp': ['atomicAdd(newly_listed, added)'],
     'near_nodes.comp': [
         'atomicAdd(near_node_count, 1u)',
         'atomicAdd(node_groups_x, entry % NEAR_LOCAL == 0u ? 1u : 0u)'],
@@ -68,6 +74,15 @@ _FORMS = {
     'paper/spring_velocity.comp': {},
     'paper/spring_velocity.comp, recording': {'HAS_HELD': 1},
     'mass_spring_tile.comp': {'TILE_SIDE': 32},
+    'contact.comp': {'NOTES_CHANGES': 0},
+    'contact.comp, after limits': {'NOTES_CHANGES': 1},
+    'limit/look.comp': {'STRIP': 16, 'LIST_LOCAL': '8u'},
+    'limit/list.comp': {'LIST_LOCAL': 8},
+    'limit/solve.comp': {'LOCAL': 256},
+    'limit/solve.comp, recording': {'LOCAL': 8, 'HAS_HELD': 1},
+    'limit/edges.comp': {'FINDS_GAIN': 0},
+    'limit/edges.comp, gain': {'FINDS_GAIN': 1},
+    'limit/finish.comp, recording': {'HAS_HELD': 1},
     'observe.comp': {'RECORDS_WANTED': 1, 'STRIP': 16},
     'place_pins.comp': {'PINS_LOCAL': 32},
     'paper/force.comp': {},

@@ -45,7 +45,9 @@ _MOST_SERIAL = 2**24
 _ROUNDING = 4e-6
 # Workgroups along x, y and z, and number, of the blocks and of the nodes that are near.
 _NONE_NEAR = np.array([0, 1, 1, 0, 0, 1, 1, 0], dtype=np.uint32)
-# Offset of those of the nodes [bytes].
+# Place of the number of nodes.
+_NEAR_NODES = 7
+# Offset of the workgroups of the nodes [bytes].
 _NODE_GROUPS = 16
 # Room for each block and node in the lists [bytes].
 _NEAR_BYTES = 8
@@ -93,8 +95,10 @@ class Contacts:
         self.clearance = 0.5 * scene['contact.thickness']
         self.reach = np.array([_reach(collider) for collider in scene.colliders])
         self._serial = self._decision = 0
-        self._program = SceneProgram('contact.comp', scene, layout)
+        self._program = SceneProgram('contact.comp', scene, layout, {'NOTES_CHANGES': 0})
+        self._noting_program = SceneProgram('contact.comp', scene, layout, {'NOTES_CHANGES': 1})
         self._near_nodes = SceneProgram('near_nodes.comp', scene, layout)
+        self._near_blocks = SceneProgram('near_blocks.comp', scene, layout)
         self._near = Buffer(
             _NONE_NEAR.nbytes + _NEAR_BYTES * (layout.block_count + scene.node_count))
         self._clear_near = self._near.write_calls(_NONE_NEAR)
@@ -171,19 +175,50 @@ class Contacts:
             program.set_int('block_count', self._layout.block_count)
             self.set_in(program, touch, length)
         self._near.bind_storage(bindings.NEAR_BLOCKS)
-        self._near.bind_dispatches()
 
     def list_none(self) -> None:
         """Empty the lists of an explicit substep that is about to be made."""
         make(self._clear_near)
 
+    def act_after_limits(
+            self, touch: '_Touch', state: State, length: float, changes: Buffer) -> None:
+        """
+        Act on an explicit substep whose velocities have been changed since it was made.
+
+        :param changes: of limit_give.glsl, where what is done to nodes is added
+        """
+        self.list_none()
+        program = self._near_blocks.use()
+        program.set_float('substep', length)
+        self.set_in(program, touch, length)
+        state.bind_in()
+        if self._layout.texture_loads:
+            state.bind_out_textures()
+        program.dispatch(*self._layout.groups)
+        noting = self._noting_program.use()
+        noting.set_float('substep', length)
+        noting.set_int('block_count', self._layout.block_count)
+        self.set_in(noting, touch, length)
+        changes.bind_storage(bindings.LIMIT_CHANGES)
+        self._act(self._noting_program)
+
     def act(self) -> None:
         """Act on an explicit substep that was made, both states of which are bound."""
+        self._act(self._program)
+
+    def _act(self, act: SceneProgram) -> None:
+        self._near.bind_dispatches()
         shader_dispatches_visible()
         self._near_nodes.use().dispatch_indirect(0)
         shader_dispatches_visible()
-        self._program.use().dispatch_indirect(_NODE_GROUPS)
+        act.use().dispatch_indirect(_NODE_GROUPS)
         shader_writes_visible()
+
+    def has_acted(self) -> bool:
+        """Wait for ``act``, and return whether a node was so near that it may have acted on it."""
+        head = np.empty_like(_NONE_NEAR)
+        self._near.read_into(head)
+        return bool(head[_NEAR_NODES])
 
     def foresee(
             self, touch: '_Touch', state: State, forcing: Forcing, ahead: float) -> None:
@@ -280,6 +315,8 @@ class Contacts:
             self._polled.delete()
         self._near.delete()
         self._near_nodes.delete()
+        self._near_blocks.delete()
+        self._noting_program.delete()
         self._program.delete()
         self._foresight.delete()
 
@@ -395,8 +432,14 @@ class _Touch:
     def list_none(self) -> None:
         self._contacts.list_none()
 
+    def act_after_limits(self, state: State, length: float, changes: Buffer) -> None:
+        self._contacts.act_after_limits(self, state, length, changes)
+
     def act(self) -> None:
         self._contacts.act()
+
+    def has_acted(self) -> bool:
+        return self._contacts.has_acted()
 
     def foresee(self, state: State, forcing: Forcing, ahead: float) -> None:
         self._contacts.foresee(self, state, forcing, ahead)

@@ -29,5 +29,12 @@ HELD = 6
 SOLVER_HELD = 7
 HELD_SUMS = 2
 HELD_OWN = 3
+LIMIT_LISTS = 9
+LIMIT_IMPULSES = 10
+LIMIT_CHANGES = 11
+LIMIT_TALLY = 12
+LIMIT_IMPULSES_OUT = 14
+LIMIT_PREVIOUS = 15
+LIMIT_FIGURES = 16
 
 DEFINES = {name: value for name, value in list(globals().items()) if name.isupper()}

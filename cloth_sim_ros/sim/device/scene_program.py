@@ -122,9 +122,14 @@ class Strips:
     def __init__(self, layout: Layout, figures: int) -> None:
         """Allocate room for the figures."""
         strips = -(-layout.rows // _STRIP)
-        self._groups = -(-layout.cols // _LOCAL[0]), -(-strips // _LOCAL[1])
+        self._groups = self.groups(layout)
         self._figures = np.empty((strips * layout.cols, figures), dtype=np.float32)
         self._buffer = Buffer(self._figures.nbytes, is_polled=True)
+
+    @staticmethod
+    def groups(layout: Layout) -> tuple[int, int]:
+        """Return the workgroups of such a pass along a row and down the columns."""
+        return -(-layout.cols // _LOCAL[0]), -(-layout.rows // (_STRIP * _LOCAL[1]))
 
     @staticmethod
     def defines() -> dict[str, object]:

@@ -27,8 +27,14 @@ class Touch(Protocol):
     def list_none(self) -> None:
         """Empty that list: an explicit substep is about to be made."""
 
+    def act_after_limits(self, state: 'State', length: float, changes: Buffer) -> None:
+        """Act on such a substep after its velocities were changed, and add up what is done."""
+
     def act(self) -> None:
         """Act on an explicit substep that was made, both states of which are bound."""
+
+    def has_acted(self) -> bool:
+        """Return whether colliders may have acted on a node in the explicit substep."""
 
     def foresee(self, state: 'State', forcing: 'Forcing', ahead: float) -> None:
         """Write the velocities that nodes have on their way through ``ahead`` [s] from now."""

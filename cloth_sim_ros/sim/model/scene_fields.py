@@ -215,8 +215,10 @@ SCENE_FIELDS = (
     Field('solver.preconditioner', str, 'multigrid', 'preconditioner of the linear solver; '
           'block_jacobi needs many more iterations', choices=('multigrid', 'block_jacobi')),
     Field('adaptive.scheme', str, 'constraint', 'how the strain limit is enforced: constraint '
-          '(implicit step) or paper (explicit steps that pull a spring to its rest length)',
-          choices=('constraint', 'paper')),
+          '(the fastest of the next three at each time), list (the edges at their limit one by '
+          'one), lattice (those edges, in passes over all nodes), whole (an implicit step of the '
+          'whole cloth) or paper (edges beyond it are pulled to their rest length)',
+          choices=('constraint', 'list', 'lattice', 'whole', 'paper')),
     Field('adaptive.threshold', float, 0.1, 'strain limit at which a structural or shear spring '
           'becomes a constraint in mode adaptive', low=0.005, high=0.5),
     Field('air.density', float, 0.0, 'air density, 1.225 at sea level; 0 for no air; 1.225 by '

@@ -4,27 +4,30 @@
 """Adaptive: springs within a strain limit, constraints at it (paper, section 4.3)."""
 
 from collections.abc import Collection
+from dataclasses import dataclass
 import math
 from typing import Any
-from typing import Protocol
 
 from cloth_sim_ros.gl.buffer import Buffer
-from cloth_sim_ros.gl.buffer import shader_writes_visible
-from cloth_sim_ros.sim.device import bindings
 from cloth_sim_ros.sim.device.layout import Layout
-from cloth_sim_ros.sim.device.scene_program import SceneProgram
 from cloth_sim_ros.sim.held.pin_forces import spring_tension
+from cloth_sim_ros.sim.limits.active_limits import ActiveLimits
+from cloth_sim_ros.sim.limits.limit_marks import LimitMarks
+from cloth_sim_ros.sim.limits.limit_program import Limits
+from cloth_sim_ros.sim.limits.limit_program import NEAR
 from cloth_sim_ros.sim.loads.forcing import Forcing
 from cloth_sim_ros.sim.loads.loads import Loads
-from cloth_sim_ros.sim.model.edge_kinds import EDGE_KINDS
 from cloth_sim_ros.sim.model.stability import spring_substeps
 from cloth_sim_ros.sim.model.stability import stability_limit
 from cloth_sim_ros.sim.modes.edge_watch import StrainWatch
-from cloth_sim_ros.sim.modes.implicit import ImplicitStep
+from cloth_sim_ros.sim.modes.edge_watch import TurnWatch
+from cloth_sim_ros.sim.modes.free_motion import FreeMotion
+from cloth_sim_ros.sim.modes.implicit import Settling
+from cloth_sim_ros.sim.modes.limited_springs import LimitedSprings
 from cloth_sim_ros.sim.modes.mass_spring import OnePass
 from cloth_sim_ros.sim.modes.mode import CHECKED_SUBSTEPS
+from cloth_sim_ros.sim.scene import FAMILIES
 from cloth_sim_ros.sim.scene import Scene
-from cloth_sim_ros.sim.solver.edge_law import edge_law
 from cloth_sim_ros.sim.solver.edge_law import EdgeLaw
 from cloth_sim_ros.sim.solver.edge_law import spring_law
 from cloth_sim_ros.sim.state import State
@@ -33,245 +36,65 @@ from cloth_sim_ros.sim.stop import never
 from cloth_sim_ros.sim.stop import Stop
 import numpy as np
 
-# Families with a strain limit. The length of a bend spring is not a strain of the cloth.
-LIMITED = ('structural', 'shear')
-# Strain past its limit of an edge that carries the whole cloth, over the limit, and at most [1];
-# chosen: half of it holds a thrown cloth to 1.29 of its limit instead of 1.51, with 6 % more
-# solves; a quarter to 1.17, with 22 % more (constants.py --only _SHARE _MOST).
-_SHARE = 0.1
-_MOST = 0.002
-# Strain before its limit at which it begins to pull, over that past it [1]; chosen: solves change
-# by +7 % at 0 (a kink) and by 0 % at 2 (constants.py --only _TRANSITION).
-_TRANSITION = 1.0
-# Predicted strain at which an edge is near its limit, over the limit [1], or that at which the
-# limit begins to pull if it is lower; chosen: same bits from 0.9 to 1 where springs come to their
-# limit at once; a cloth that swings takes 8 % fewer solves at 1 (constants.py --only _NEAR).
-_NEAR = 0.9
-# Predicted strain below which edges are left to their springs again, over that at which the limit
-# begins to pull [1]; chosen: same strain from 0.5 to 1, solves change by +3 to -4 %, and by 5 % at
-# 0, where limited substeps have no end (constants.py --only _FAR).
-_FAR = 8.0 / 9.0
-# Strain at which an edge that was at its limit counts as let go, over the limit [1], and steps
-# without any edge at its limit after which all count so [1]: definitions of a count, no results.
-_RELEASE = 0.5
-_FADING_STEPS = 8
+# Max. substeps between two looks at how fast edges turn [1], and substeps after which it is chosen
+# how to go on [1]: a cloth without a listed edge in them counts as calm.
+_LOOK = 16
+_REVIEW = 8
+# Time of a substep with listed edges, and of a round over one edge, over that of a pass of springs
+# and over that for a node; time of an implicit substep over that of such a pass [1]; measured on
+# llvmpipe with one thread (docs/notes/performance.md).
+_LISTED_COST = 1.9
+_ROUND_COST = 3.0
+_WHOLE_COST = 150.0
+# Listed edges over those for which the whole cloth was solved for first, below which it is no more
+# [1].
+_RETURN = 0.5
+# Substeps between two looks at whether edges are listed, while none has been [1].
+_FIRST = 1
+# Parts that a substep of springs is divided into over those before, below which they become fewer
+# [1].
+_LONGER = 0.5
+# Listed edges over nodes [1], up to which they have no say in the length of a substep: springs
+# near their stability limit gain energy where that changes time and again.
+_SOME = 0.03
+# Way that a node is accelerated by in a substep over the limit of the shortest edge [1], above
+# which a solve throws further edges past their limit, so that more solves are needed.
+_ROUGH = 0.02
+# Substeps that are taken for rough [1] after a pin, a push or a collider has thrown nodes, or an
+# edge was found far beyond its limit.
+_ROUGH_FOR = 32
+# Strain over the limit above which a new cloth is let down to it in some time [1].
+_NOTABLE = 1.05
+# Substeps after a limit has closed in [1], in which 1e-3 of what edges are beyond it is left.
+_CLOSING_FOR = 64
+# Max. substep margin that is reported [1]; a finite number where edges turn at once.
+_LARGEST_MARGIN = 1e9
 # Fraction of a dt that is taken for rounding [1].
 _NOTHING = 1e-9
-# Invocations of a workgroup of limit_mark.comp along a row and a column [1], as in Strips.
-_LOCAL = (16, 2)
-# First bit in a mark of the edges that are held, engaged, and were engaged one step before.
-_HELD = 0
-_ENGAGED = 4
-_BEFORE = 8
-# Bits of the edges of one cell [1]: four.
-_EDGES = 0xF
 
 
-def strain_past_limit(scene: Scene) -> float:
-    """Return the strain by which an edge that carries the whole cloth passes its limit."""
-    return min(_SHARE * scene['adaptive.threshold'], _MOST)
-
-
-def transition_of(scene: Scene) -> float:
-    """Return the strain before a limit from which on it comes into force."""
-    return _TRANSITION * strain_past_limit(scene)
-
-
-def onset_of(scene: Scene) -> float:
-    """Return the strain from which on the limit pulls."""
-    return float(scene['adaptive.threshold'] - transition_of(scene))
-
-
-class LimitedSprings(ImplicitStep):
+@dataclass
+class Made:
     """
-    Springs of ``families`` with the scene's ``adaptive.threshold``.
+    The substeps of a dt, by how they were made.
 
-    A cloth that comes with more strain than the limit leaves it under its weight is held to that,
-    which closes in. Nothing pulls at first, as its energy is that of springs.
+    :param calm: of springs alone
+    :param listed: with the edges that came near their limit solved for
+    :param whole: implicit ones of the whole cloth
     """
 
-    def __init__(self, scene: Scene, layout: Layout, families: Collection[str]) -> None:
-        """Compile the solver."""
-        self._families = families
-        super().__init__(
-            scene, layout, families,
-            notable=scene['adaptive.threshold'] + strain_past_limit(scene))
-
-    @property
-    def strain_bound(self) -> float:
-        """Return the strain limit."""
-        return float(self._scene['adaptive.threshold'])
-
-    @property
-    def is_settling(self) -> bool:
-        """Return whether the limit that holds now is a wider one."""
-        return self._limit(self.settling.limit) > self.strain_bound
-
-    def law(self, length: float, settling: float) -> EdgeLaw:
-        """Return the law of springs with their limit, or what is left of the strain they had."""
-        return edge_law(
-            self._scene, length, springs=self._families, limited=LIMITED,
-            limit=self._limit(settling),
-            strain=strain_past_limit(self._scene), transition=transition_of(self._scene),
-            geometric=self._newton.beta)
-
-    def spend_calm(self, seconds: float) -> None:
-        """Go on by ``seconds`` in which no edge came near its limit."""
-        self.settling.advance(seconds)
-        # It has closed in on nothing.
-        self._settled_from = self.settling.limit
-
-    def pulls_in(self, state: State) -> bool:
-        """Return whether the limit pulls at some edge of a new ``state``."""
-        return self.largest_strain(state) > onset_of(self._scene)
-
-    def _limit(self, settling: float) -> float:
-        return max(
-            self._scene['adaptive.threshold'],
-            settling + transition_of(self._scene) if settling else 0.0)
-
-
-# Which edges are at their limit at the end of a step, and which were one step before.
-
-
-class LimitMarks:
-    """
-    The marks of limit_mark.comp; nothing is done for a cloth that has none.
-
-    :param onset: strain from which on the limit pulls
-    """
-
-    def __init__(self, scene: Scene, layout: Layout, onset: float) -> None:
-        """Allocate the marks; the pass is compiled when it is first needed."""
-        self._layout = layout
-        self._onset = onset
-        self._program = SceneProgram('limit_mark.comp', scene, layout, {
-            'LOCAL_X': _LOCAL[0], 'LOCAL_Y': _LOCAL[1]})
-        self._groups = -(-layout.cols // _LOCAL[0]), -(-layout.rows // _LOCAL[1])
-        self._edges = sum(
-            max(scene.rows - abs(kind.drow), 0) * max(scene.cols - abs(kind.dcol), 0)
-            for kind in EDGE_KINDS
-            if kind.family in LIMITED and scene.models(kind.family))
-        self._marks = np.zeros(layout.stored, dtype=np.uint32)
-        self.buffer = Buffer(self._marks)
-        # Steps until the marks are all zero again. In the last but one all edges are let go.
-        self._fading = 0
-
-    @property
-    def are_empty(self) -> bool:
-        """Return whether no edge is engaged, nor was one a step before."""
-        return self._fading == 0
-
-    def update(self, state: State, *, some: bool) -> None:
-        """Mark the edges of ``state``; ``some`` is False when none can be at its limit."""
-        if self.are_empty and not some:
-            return
-        self._fading = _FADING_STEPS if some else self._fading - 1
-        if self.are_empty:
-            self._clear()
-        else:
-            state.bind_in()
-            self.buffer.bind_storage(bindings.AT_LIMIT)
-            program = self._program.use()
-            program.set_float('onset', self._onset)
-            program.set_float('release', _RELEASE if self._fading > 1 else math.inf)
-            program.dispatch(*self._groups)
-            shader_writes_visible()
-
-    def count(self) -> dict[str, float]:
-        """Return the Snapshot's figures of constraints."""
-        if self.are_empty:
-            return {}
-        self.buffer.read_into(self._marks)
-        held, now, before = (
-            self._marks >> first & _EDGES for first in (_HELD, _ENGAGED, _BEFORE))
-        active = _count_bits(held)
-        return {
-            'active_constraints': active,
-            'active_fraction': active / max(self._edges, 1),
-            'constraint_switches': _count_bits(now ^ before),
-        }
-
-    def forget(self) -> None:
-        """Mark nothing, as at the start."""
-        self._fading = 0
-        self._clear()
-
-    def delete(self) -> None:
-        """Release pass and marks."""
-        self.buffer.delete()
-        self._program.delete()
-
-    def _clear(self) -> None:
-        self.buffer.write(np.zeros_like(self._marks))
-
-
-def _count_bits(values: np.ndarray) -> int:
-    return int(np.unpackbits(values.astype(np.uint8)).sum())
-
-
-class LimitedSubsteps(Protocol):
-    """
-    What makes substeps while edges are at their limit; see ImplicitStep and LimitedSprings.
-
-    ``substeps`` are those of the last ``advance``, ``last_length`` is that of the last one [s].
-    """
-
-    substeps: int
-    last_length: float
-    stability_limit: float
-    substep_margin: float
-
-    @property
-    def strain_bound(self) -> float:
-        """Get the strain limit."""
-
-    def energy_law(self, state: State) -> EdgeLaw:
-        """Return the law by which the edges of ``state`` store energy."""
-
-    def pulls_in(self, state: State) -> bool:
-        """Return whether the limit pulls at some edge of a new ``state``."""
-
-    def advance(
-            self, state: State, begin: float, seconds: float, loads: Loads,
-            stop: Stop = never) -> None:
-        """Step ``state`` on by ``seconds``."""
-
-    def run_all_passes(self, state: State, loads: Loads, stop: Stop = never) -> None:
-        """Make a substep of a ``state`` that nobody needs."""
-
-    def resume(self, last_length: float) -> None:
-        """Go on after explicit substeps, the last of ``last_length`` [s]."""
-
-    def spend_calm(self, seconds: float) -> None:
-        """Go on by ``seconds`` in which no edge came near its limit."""
-
-    def clear_tally(self) -> None:
-        """Begin to count solves anew."""
-
-    def report(self) -> dict[str, Any]:
-        """Return how the solves of the last dt ended."""
-
-    def settling_report(self) -> dict[str, Any]:
-        """Return whether a limit has closed in during the last dt, and the work it has done."""
-
-    def tension(
-            self, positions: np.ndarray, velocities: np.ndarray,
-            nodes: np.ndarray | None = None) -> np.ndarray:
-        """Return the tension of every edge [N]."""
-
-    def forget(self) -> None:
-        """Drop what was kept from earlier steps."""
-
-    def delete(self) -> None:
-        """Release everything."""
+    calm: int = 0
+    listed: int = 0
+    whole: int = 0
 
 
 class Adaptive:
     """
-    Explicit mass-spring substeps while no edge comes near its limit, implicit ones while some do.
+    Substeps of springs, after which the edges that come to their limit are held there.
 
-    ``substeps`` are those of the last step.
+    While no edge is foreseen near its limit, springs are all (calm). Where the edges at their
+    limit take longer than the whole cloth would take, it is solved for by the implicit step
+    (whole). ``substeps`` are those of the last step.
     """
 
     name = 'adaptive'
@@ -282,35 +105,28 @@ class Adaptive:
     def __init__(self, scene: Scene, layout: Layout, *, check_stability: bool = True) -> None:
         """Choose the substeps and compile the passes."""
         self._spring_limit = stability_limit(scene)
-        self.substeps = spring_substeps(scene, self.name, check_stability=check_stability)
+        self._fewest = self.substeps = spring_substeps(
+            scene, self.name, check_stability=check_stability)
+        self.strain_bound: float = scene['adaptive.threshold']
         self._scene = scene
+        self._layout = layout
         self._dt: float = scene['dt']
         self._length = self._dt / self.substeps
-        self._fewest_substeps = self.substeps
         self._springs = OnePass(scene, layout)
-        onset = self.onset(scene)
-        self._near = min(_NEAR * scene['adaptive.threshold'], onset)
-        self._watch = StrainWatch(scene, layout, self._near)
-        self._limit = self.make_limit(scene, layout, self._length)
-        self._marks = LimitMarks(scene, layout, onset)
-        # The last substep was a limited one; some of the last step were.
-        self._is_limited = self._made_limited = False
-        # Length of the last substep [s]; 0 where none was.
-        self._before = 0.0
-
-    @staticmethod
-    def onset(scene: Scene) -> float:
-        """Return the strain from which on the limit pulls."""
-        return onset_of(scene)
-
-    @staticmethod
-    def make_limit(scene: Scene, layout: Layout, length: float) -> LimitedSubsteps:
-        """
-        Compile and return what makes the limited substeps.
-
-        :param length: of an explicit substep [s]
-        """
-        return LimitedSprings(scene, layout, scene.families)
+        self._watch = StrainWatch(scene, layout, NEAR * self.strain_bound)
+        self._turns = TurnWatch(
+            scene, layout, tuple(family for family in FAMILIES if family in scene.families))
+        self._scheme: str = scene['adaptive.scheme']
+        self._limits = ActiveLimits(
+            scene, layout, are_many={'list': False, 'lattice': True}.get(self._scheme))
+        self._marks = LimitMarks(scene, layout)
+        self._free_motion = FreeMotion(scene, layout)
+        self._limits_now = Limits(self._length, self.strain_bound)
+        self._settling = Settling(
+            _NOTABLE * self.strain_bound, max(scene['width'], scene['height']))
+        # Compiled when it is first needed.
+        self._whole: LimitedSprings | None = None
+        self.forget()
 
     @staticmethod
     def edge_model(scene: Scene) -> str:
@@ -322,60 +138,50 @@ class Adaptive:
         """Return those that have springs."""
         return scene.families
 
-    def energy_law(self, state: State) -> EdgeLaw:
-        """Return that of the springs, and of their limit where it holds, or will at once."""
-        is_new = self._before == 0.0
-        if self._is_limited or (is_new and self._limit.pulls_in(state)):
-            return self._limit.energy_law(state)
-        return spring_law(self._scene, self._length)
-
     @staticmethod
     def check(scene: Scene, *, check_stability: bool = True) -> None:
         """Raise ClothSimError when dt is too long for the springs of ``scene``."""
         spring_substeps(scene, Adaptive.name, check_stability=check_stability)
 
+    def energy_law(self, state: State) -> EdgeLaw:
+        """Return that of the springs, and of their limits where the whole cloth is solved for."""
+        if self._is_whole and self._whole is not None:
+            return self._whole.energy_law(state)
+        return spring_law(self._scene, self._length)
+
     @property
     def stability_limit(self) -> float:
         """Return the longest stable substep of the kind that the last step has made [s]."""
-        return self._limit.stability_limit if self._made_limited else self._spring_limit
+        return math.inf if self._is_whole else self._spring_limit
 
     @property
     def substep_margin(self) -> float:
         """Return the longest substep over what it should be."""
-        if self._made_limited:
-            return self._limit.substep_margin
-        return self._length / self._spring_limit
-
-    @property
-    def strain_bound(self) -> float:
-        """Return the strain limit."""
-        return self._limit.strain_bound
+        if self._is_whole and self._whole is not None:
+            return self._whole.substep_margin
+        return max(self._longest / self._spring_limit, self._turn_margin)
 
     def step(self, state: State, begin: float, loads: Loads, stop: Stop = never) -> None:
         """Step ``state`` on by one dt."""
-        self._limit.clear_tally()
-        self._made_limited = False
-        done, substeps = 0.0, 0
+        self._made = Made()
+        self._limits.begin_step()
+        self._is_marked, self._longest, self._turn_margin = False, 0.0, 0.0
+        if self._whole is not None:
+            self._whole.clear_tally()
+        self._was_settling = self._is_settling
+        if self._is_whole and self._are_fewer(state, begin, loads):
+            self._leave_whole()
+        done = 0.0
         while self._dt - done > _NOTHING * self._dt:
+            leave_if(stop)
             now, left = begin + done, self._dt - done
-            count = math.ceil(left / self._length - _NOTHING)
-            length = left / count
-            calm = 0
-            if not self._is_limited or self._is_far_from_limit(state, now, left, loads):
-                calm = min(count, self._watch.calm_substeps(state, now, length, loads))
-            if calm:
-                self._is_limited = False
-                self._spring_substeps(state, now, length, calm, loads, stop)
-                self._watch.advance(calm)
-                self._limit.spend_calm(calm * length)
-                done += calm * length
-                substeps += calm
+            if self._is_whole:
+                done += self._step_whole(state, now, left, loads, stop)
+            elif self._is_listed:
+                done += self._step_listed(state, now, left, loads, stop)
             else:
-                self._limited_substeps(state, now, left, loads, stop)
-                done += left
-                substeps += self._limit.substeps
-        self.substeps = substeps
-        self._marks.update(state, some=self._made_limited)
+                done += self._step_calm(state, now, left, loads, stop)
+        self.substeps = self._made.calm + self._made.listed + self._made.whole
 
     @staticmethod
     def step_ahead(state: State, gravity: Forcing, most: int) -> int:
@@ -383,72 +189,331 @@ class Adaptive:
         return 0
 
     def run_all_passes(self, state: State, loads: Loads, stop: Stop = never) -> None:
-        """Make substeps with and without limit of a ``state`` that nobody needs."""
-        self._watch.strains(state, loads.still, self._length)
+        """Make substeps in all ways of a ``state`` that nobody needs."""
+        still = loads.still
+        self._watch.strains(state, still, self._length)
         leave_if(stop)
-        self._springs.substep(state, loads.still, self._length, self._length)
+        self._turns.look(state, still, self._length)
         leave_if(stop)
-        self._limit.run_all_passes(state, loads, stop)
-        self._marks.update(state, some=True)
+        self._springs.substep(state, still, self._length, self._length)
+        limits = Limits(self._length, self.strain_bound)
+        for are_many in (False, True):
+            leave_if(stop)
+            self._springs.run(state, still, self._length, acts=False)
+            self._limits.run_all_passes(
+                state, limits, still.touch, self._springs.held_at, are_many=are_many)
+            self._act_on_touch(state, still, self._length)
+            state.swap()
+        leave_if(stop)
+        self._free_motion.aim_at(state, still, still, self._length)
+        self._free_motion.restore(state, still, self._length)
+        leave_if(stop)
+        self._marks.update(state, self.strain_bound, self._limits.changes)
+        self._compiled_whole().run_all_passes(state, loads, stop)
         self.forget()
 
     def forget(self) -> None:
         """Hold no edge and expect nothing of the state."""
-        self.substeps = self._fewest_substeps
+        self.substeps = self._fewest
+        self._made = Made()
+        self._longest = self._length
+        # Length of the last substep [s]; 0 where none was.
         self._before = 0.0
-        self._is_limited = self._made_limited = False
+        self._is_listed = self._is_whole = self._was_settling = False
+        # Whether edges were listed in the substeps before the last review, and not just one or
+        # two.
+        self._has_held = self._are_some = False
+        self._is_marked = True
+        # Edges that were listed when the whole cloth was solved for first.
+        self._listed_then = 0
+        # Listed substeps since their tally was read, and until the next look at the edges.
+        self._unreviewed = self._until_look = 0
+        self._look_edits = -1
+        # Substeps that are yet to be taken for rough.
+        self._rough_left = 0
+        # Into how many a substep of springs is divided where edges turn.
+        self._parts = 1
+        self._turn_length = self._length
+        # A substep over the longest in which edges at their limit turn little.
+        self._turn_margin = 0.0
+        # Substeps after settling in which the rest of an excess is taken away.
+        self._closing_left = 0
+        self._settling_work = 0.0
+        self._settling.forget()
         self._watch.forget()
-        self._limit.forget()
+        self._limits.release()
         self._marks.forget()
+        self._free_motion.forget()
+        if self._whole is not None:
+            self._whole.forget()
 
     def report(self) -> dict[str, Any]:
-        """Return how the solves ended, and how many edges are at their limit or changed."""
-        solves = self._limit.report() if self._made_limited else {}
-        return {**self._limit.settling_report(), **solves, **self._marks.count()}
+        """Return how edges were held in the last step, and how many are or changed."""
+        solves, work = {}, self._settling_work
+        if self._whole is not None:
+            work += self._whole.settling_report()['settling_work']
+            if self._made.whole:
+                solves = self._whole.report()
+        tally = self._limits.tally_of_step()
+        found = {
+            **solves, **self._marks.report(),
+            'settling': self._was_settling or self._is_settling, 'settling_work': work,
+            'calm_substeps': self._made.calm, 'listed_substeps': self._made.listed,
+            'whole_substeps': self._made.whole, 'listed_edges': tally.most_listed,
+            'limit_rounds': tally.most_rounds, 'limit_unreached': tally.unreached}
+        if tally.unreached:
+            found['solver_reached'] = False
+        return found
 
-    def limit_marks(self) -> Buffer | None:
+    def limit_marks(self, state: State) -> Buffer | None:
         """Return which edges are at their limit; None if none are."""
-        return None if self._marks.are_empty else self._marks.buffer
+        if not self._is_marked:
+            self._is_marked = True
+            if self._is_whole:
+                self._marks.update(state, self._limit, None)
+            elif self._is_listed:
+                self._marks.update(state, self._limit, self._limits.changes)
+            else:
+                self._marks.clear()
+        return self._marks.buffer
 
     def tension(
             self, positions: np.ndarray, velocities: np.ndarray,
             nodes: np.ndarray | None = None) -> np.ndarray:
         """Return the tension of every edge, of its spring and of what holds it [N]."""
-        if self._is_limited:
-            return self._limit.tension(positions, velocities, nodes)
-        return spring_tension(self._scene, positions, velocities, nodes)
+        if self._is_whole and self._whole is not None:
+            return self._whole.tension(positions, velocities, nodes)
+        springs = spring_tension(self._scene, positions, velocities, nodes)
+        if not (self._is_listed and self._before):
+            return springs
+        pulls = self._limits.pulls(positions)
+        return (springs + self._scene.node_mass / self._before * pulls).astype(np.float32)
 
     def delete(self) -> None:
         """Release everything."""
-        for part in (self._springs, self._watch, self._limit, self._marks):
-            part.delete()
+        for part in (
+                self._springs, self._watch, self._turns, self._limits, self._marks,
+                self._free_motion, self._whole):
+            if part is not None:
+                part.delete()
+        self._whole = None
 
-    def _is_far_from_limit(
-            self, state: State, now: float, left: float, loads: Loads) -> bool:
-        """Return whether edges that were near their limit stay away from it for ``left`` [s]."""
-        strains = self._watch.strains(state, loads.forcing(state, now, now + left), left)
-        # Written so that NaN is not far.
-        return max(strains) < _FAR * self._near
+    @property
+    def _limit(self) -> float:
+        """Return the strain limit that holds now."""
+        return max(self.strain_bound, self._settling.limit)
 
-    def _spring_substeps(
-            self, state: State, now: float, length: float, count: int,
-            loads: Loads, stop: Stop) -> None:
-        for index in range(count):
+    @property
+    def _is_settling(self) -> bool:
+        return self._settling.limit > self.strain_bound or self._closing_left > 0
+
+    # Springs alone.
+
+    def _step_calm(
+            self, state: State, now: float, left: float, loads: Loads, stop: Stop) -> float:
+        """Make substeps of springs while no edge comes near its limit; return their time [s]."""
+        count = math.ceil(left / self._length - _NOTHING)
+        length = left / count
+        calm = min(count, self._watch.calm_substeps(state, now, length, loads))
+        if calm == 0:
+            self._free_motion.forget()
+            self._is_listed, self._unreviewed, self._until_look = True, 0, 0
+            self._has_held = self._are_some = False
+            if self._scheme == 'whole':
+                self._listed_then = 1
+                self._begin_whole(state, loads.still)
+            return 0.0
+        for index in range(calm):
             leave_if(stop)
             start = now + index * length
-            # A velocity belongs to the middle of its substep, so forces act from there to the
-            # next.
-            kick = length
-            if self._before and abs(self._before - length) > _NOTHING * length:
-                kick = 0.5 * (self._before + length)
             self._springs.substep(
-                state, loads.forcing(state, start, start + length, kick), length, kick)
+                state, *self._forcing(state, start, length, loads), self._kick(length))
             self._before = length
+        self._watch.advance(calm)
+        self._look_edits = state.edits
+        self._settling.is_new = False
+        self._settling.advance(calm * length)
+        self._closing_left = 0
+        self._made.calm += calm
+        self._longest = max(self._longest, length)
+        return calm * length
 
-    def _limited_substeps(
-            self, state: State, now: float, left: float, loads: Loads, stop: Stop) -> None:
-        if not self._is_limited:
-            self._limit.resume(self._before)
-        self._is_limited = self._made_limited = True
-        self._limit.advance(state, now, left, loads, stop)
-        self._before = self._limit.last_length
+    # Springs, and the edges that come near their limit.
+
+    def _step_listed(
+            self, state: State, now: float, left: float, loads: Loads, stop: Stop) -> float:
+        """Make some substeps in which edges are held; return their time [s]."""
+        count = math.ceil(left / self._turned_length(state, now, left, loads) - _NOTHING)
+        length = left / count
+        if abs(length - self._limits_now.length) <= _NOTHING * length:
+            # Each other length would be set anew in all passes.
+            length = self._limits_now.length
+        some = min(count, max(self._until_look, 1), _REVIEW if self._has_held else _FIRST)
+        is_free = not state.pinned.any()
+        for index in range(some):
+            leave_if(stop)
+            forcing, _ = self._forcing(state, now + index * length, length, loads)
+            if is_free:
+                self._free_motion.aim_at(state, forcing, loads.still, self._kick(length))
+            self._springs.run(state, forcing, length, self._kick(length), acts=False)
+            self._set_limits(length, forcing)
+            self._limits.act(state, self._limits_now, forcing.touch, self._springs.held_at)
+            self._act_on_touch(state, forcing, length)
+            state.swap()
+            self._before = length
+            if is_free:
+                self._keep_momentum(state, forcing, loads.still, length)
+            self._advance_settling(length)
+        self._until_look -= some
+        self._rough_left = max(self._rough_left - some, 0)
+        self._made.listed += some
+        self._longest = max(self._longest, length)
+        self._unreviewed += some
+        if not self._has_held and self._unreviewed < _REVIEW:
+            listed = self._limits.listed()
+            if listed:
+                self._has_held, self._are_some, self._until_look = True, self._is_some(listed), 0
+        if self._unreviewed >= _REVIEW or self._is_settling:
+            self._review(length, state, loads)
+        return some * length
+
+    def _advance_settling(self, length: float) -> None:
+        """Go on by a listed substep of ``length`` [s]."""
+        if self._settling.limit > self.strain_bound:
+            self._closing_left = _CLOSING_FOR
+        else:
+            self._closing_left = max(self._closing_left - 1, 0)
+        self._settling.advance(length)
+
+    def _set_limits(self, length: float, forcing: Forcing) -> None:
+        """Set the limits of a substep of ``length`` [s]; most are like the one before."""
+        strain, now = self._limit, self._limits_now
+        way = math.hypot(*forcing.everywhere) * length**2
+        is_rough = self._rough_left > 0 or way > _ROUGH * strain * min(self._scene.spacing)
+        if (now.length, now.strain, now.is_rough) != (length, strain, is_rough):
+            self._limits_now = Limits(length, strain, is_rough)
+
+    def _turned_length(self, state: State, now: float, left: float, loads: Loads) -> float:
+        """Return the longest substep [s] that springs take and in which edges turn little."""
+        is_quiet = loads.quiet_until(now) > now
+        if self._until_look <= 0 or state.edits != self._look_edits or not is_quiet:
+            is_edited = self._look_edits not in (-1, state.edits)
+            # A pin that sets off, a push, or a collider that moves throws nodes.
+            if is_edited or not is_quiet:
+                self._limits.look_anew()
+                self._rough_left = _ROUGH_FOR
+            ahead = min(left, _LOOK * self._length)
+            longest, strain = self._turns.look(
+                state, loads.forcing(state, now, now + ahead), ahead)
+            self._settling.begin(strain)
+            self._until_look, self._look_edits = _LOOK, state.edits
+            parts, turned = 1, longest
+            if self._are_some and self._scene['auto_substeps']:
+                shortest = self._dt / self._scene['constraint.max_substeps']
+                longest = max(longest / self._scene['refine'], shortest)
+                parts = max(1, math.ceil(self._length / longest))
+            # Springs keep their energy in substeps of equal length.
+            if parts > self._parts or parts <= _LONGER * self._parts:
+                self._parts = parts
+            self._turn_length = self._length / self._parts
+            if self._are_some:
+                margin = min(self._turn_length / max(turned, 1e-30), _LARGEST_MARGIN)
+                self._turn_margin = max(self._turn_margin, margin)
+        return self._turn_length
+
+    def _review(self, length: float, state: State, loads: Loads) -> None:
+        """Choose how to go on by what the last substeps, of ``length`` [s], took."""
+        substeps, self._unreviewed = self._unreviewed, 0
+        tally = self._limits.tally()
+        if self._was_settling or self._is_settling:
+            self._settling_work += self._scene.node_mass * tally.energy
+        if tally.missed:
+            self._rough_left = _ROUGH_FOR
+        self._has_held = tally.substeps > 0
+        self._are_some = self._is_some(tally.most_listed)
+        if not self._has_held:
+            self._is_listed = False
+            self._limits.forget()
+            return
+        rounds = tally.edge_rounds / (substeps * self._scene.node_count)
+        whole_length = min(self._dt, max(self._turn_length, length))
+        if self._scheme != 'constraint':
+            return
+        # What throws the cloth is over soon, and a list holds it better meanwhile.
+        if self._rough_left > 0:
+            return
+        if _LISTED_COST + _ROUND_COST * rounds > _WHOLE_COST * length / whole_length:
+            self._listed_then = tally.most_listed
+            self._begin_whole(state, loads.still)
+
+    def _is_some(self, listed: int) -> bool:
+        """Return whether so many listed edges matter to how the cloth moves."""
+        return listed > _SOME * self._scene.node_count
+
+    # The whole cloth.
+
+    def _compiled_whole(self) -> LimitedSprings:
+        if self._whole is None:
+            self._whole = LimitedSprings(self._scene, self._layout, self._settling)
+        return self._whole
+
+    def _begin_whole(self, state: State, still: Forcing) -> None:
+        whole = self._compiled_whole()
+        _, strain = self._turns.look(state, still, self._length)
+        if strain > _NOTABLE * self._limit:
+            # What an edge is beyond its limit has no energy yet.
+            self._settling.begin_anew(strain)
+        self._closing_left = 0
+        self._is_whole = True
+        whole.clear_tally()
+        whole.take_over(self._before)
+
+    def _step_whole(
+            self, state: State, now: float, left: float, loads: Loads, stop: Stop) -> float:
+        """Make implicit substeps for ``left`` [s], and return that."""
+        assert self._whole is not None
+        self._whole.advance(state, now, left, loads, stop)
+        self._before = self._whole.last_length
+        self._made.whole += self._whole.substeps
+        self._longest = max(self._longest, self._before)
+        return left
+
+    def _are_fewer(self, state: State, now: float, loads: Loads) -> bool:
+        """Return whether far fewer edges come near their limit than when this was begun."""
+        limits = Limits(self._length, self._limit)
+        self._springs.run(
+            state, loads.forcing(state, now, now + self._length), self._length, is_kept=False)
+        return self._limits.count(state, limits) < _RETURN * self._listed_then
+
+    def _leave_whole(self) -> None:
+        self._is_whole, self._is_listed = False, self._scheme != 'whole'
+        self._has_held = self._are_some = self._is_listed
+        self._unreviewed = self._until_look = 0
+        self._limits.forget()
+        self._free_motion.forget()
+
+    def _kick(self, length: float) -> float:
+        """Return for how long [s] forces act in a substep of ``length`` [s]."""
+        # A velocity belongs to the middle of its substep, so forces act from there to the next.
+        if self._before and abs(self._before - length) > _NOTHING * length:
+            return 0.5 * (self._before + length)
+        return length
+
+    def _forcing(
+            self, state: State, start: float, length: float,
+            loads: Loads) -> tuple[Forcing, float]:
+        return loads.forcing(state, start, start + length, self._kick(length)), length
+
+    def _keep_momentum(
+            self, state: State, forcing: Forcing, still: Forcing, length: float) -> None:
+        """Give a cloth that nothing holds or touches the momenta that it must have."""
+        if forcing.touch is not None and forcing.touch.has_acted():
+            self._free_motion.forget()
+        else:
+            self._free_motion.restore(state, still, length)
+
+    def _act_on_touch(self, state: State, forcing: Forcing, length: float) -> None:
+        """Let colliders have the last word on a substep in which edges were held."""
+        changes = self._limits.changes
+        if forcing.touch is not None and changes is not None:
+            forcing.touch.act_after_limits(state, length, changes)

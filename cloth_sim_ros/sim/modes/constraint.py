@@ -12,6 +12,7 @@ from cloth_sim_ros.sim.modes.implicit import ImplicitStep
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.solver.edge_law import edge_law
 from cloth_sim_ros.sim.solver.edge_law import EdgeLaw
+from cloth_sim_ros.sim.state import State
 
 # Strain up to which edges are held at once, over that under the weight of the cloth, s [1]: above
 # 1, so that a cloth that hangs is not let go, and then s / 2 x 1.25^2 of weight x size is energy
@@ -61,5 +62,5 @@ class Constraint(ImplicitStep):
         are_all_hard = {'structural', 'shear'} <= set(self._scene['constraint.hard'])
         return 0.0 if are_all_hard else math.inf
 
-    def limit_marks(self) -> Buffer | None:
+    def limit_marks(self, state: State) -> Buffer | None:
         """Return None: an edge has no limit to come to, it is a constraint always."""

@@ -83,6 +83,10 @@ class Settling:
             self._first = self.first(strain)
         self.is_new = False
 
+    def begin_anew(self, strain: float) -> None:
+        """Begin with the largest ``strain`` of a cloth that comes from another integrator."""
+        self._first, self._age, self.is_new = strain, 0.0, False
+
     def first(self, strain: float) -> float:
         """Return the limit that a cloth of the largest ``strain`` begins with; 0 for none."""
         # NaN has no limit to settle from; the check of the state finds it.

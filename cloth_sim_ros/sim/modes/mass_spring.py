@@ -84,12 +84,17 @@ class OnePass:
 
     def run(
             self, state: State, forcing: Forcing, length: float,
-            kick: float | None = None) -> None:
-        """Write the state after ``length`` [s], without making it the present one."""
-        self.held_at = state.next_held_entry()
+            kick: float | None = None, *, acts: bool = True, is_kept: bool = True) -> None:
+        """
+        Write the state after ``length`` [s], without making it the present one.
+
+        :param acts: False leaves it to the caller to let colliders act on it
+        :param is_kept: False for a state that will not be the present one
+        """
+        self.held_at = state.next_held_entry() if is_kept else -1
         step = self._begin(
             forcing, length, length if kick is None else kick, records=self.held_at >= 0)
-        self._make(state, step, forcing, self.held_at)
+        self._make(state, step, forcing, self.held_at, acts=acts and is_kept)
 
     def _begin(
             self, forcing: Forcing, length: float, kick: float, *, records: bool) -> Program:
@@ -100,7 +105,9 @@ class OnePass:
             step.use()
         return step
 
-    def _make(self, state: State, step: Program, forcing: Forcing, held_at: int) -> None:
+    def _make(
+            self, state: State, step: Program, forcing: Forcing, held_at: int, *,
+            acts: bool = True) -> None:
         state.bind_in()
         state.bind_out()
         touch = forcing.touch
@@ -112,7 +119,7 @@ class OnePass:
             step.set_int('held_at', held_at)
             self._held_set = held_at
         step.dispatch(*self._groups)
-        if touch is None:
+        if touch is None or not acts:
             shader_writes_visible()
         else:
             touch.act()
@@ -235,7 +242,7 @@ class MassSpring:
         """Return nothing: there is no solver."""
         return {}
 
-    def limit_marks(self) -> Buffer | None:
+    def limit_marks(self, state: State) -> Buffer | None:
         """Return None: springs have no limit."""
 
     def tension(

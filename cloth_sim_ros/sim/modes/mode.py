@@ -108,8 +108,12 @@ class Mode(Protocol):
     def report(self) -> dict[str, Any]:
         """Return what the Snapshot says of solver and constraints, where it is not 0."""
 
-    def limit_marks(self) -> Buffer | None:
-        """Return which edges are at their limit, as limit_mark.comp does; None if none are."""
+    def limit_marks(self, state: State) -> Buffer | None:
+        """
+        Return which edges of ``state`` are at their limit, as limit_mark.comp does.
+
+        None if none are. ``report`` counts those that this has found last.
+        """
 
     def tension(
             self, positions: np.ndarray, velocities: np.ndarray,

@@ -24,18 +24,25 @@ def run(simulate, values, seconds):
     return seen
 
 
-@pytest.mark.parametrize('mode', ['constraint', 'adaptive'])
+@pytest.mark.parametrize(('mode', 'scheme'), [
+    ('constraint', 'constraint'),
+    *(('adaptive', scheme) for scheme in ('constraint', 'list', 'lattice', 'whole'))])
 @pytest.mark.parametrize('seed', [0, 1])
 @pytest.mark.parametrize('dt', [0.005, pytest.param(0.00125, marks=pytest.mark.long)])
-def test_settling_work_is_all_energy_gained(simulate, within, mode, seed, dt):
+def test_settling_work_is_all_energy_gained(simulate, within, mode, scheme, seed, dt):
     """A taut chain of 254 J gained 4.1 J at 5 ms and 9.2 J at 1.25 ms, without a word."""
-    seen = run(simulate, {**TAUT, 'mode': mode, 'dt': dt, 'start.seed': seed}, 0.6)
+    seen = run(simulate, {
+        **TAUT, 'mode': mode, 'adaptive.scheme': scheme, 'dt': dt, 'start.seed': seed}, 0.6)
     energies = np.array([each.total_energy for each in seen])
     work = np.array([each.settling_work for each in seen])
     gain = energies - energies[0]
-    assert gain.max() > 0.5
+    # The springs of mode adaptive take up what hard edges are thrown with.
+    assert gain.max() > 0.5 or mode == 'adaptive'
+    assert seen[1].settling and work.any()
     from_nothing = np.maximum(gain - work, 0.0).max()
-    within('gained besides the work of the limit [J]', from_nothing, ROUNDING * energies[0])
+    # Explicit velocities belong to the middle of a substep, so that their energy swings.
+    share = 1e-3 if mode == 'adaptive' and scheme != 'whole' else ROUNDING
+    within('gained besides the work of the limit [J]', from_nothing, share * energies[0])
     # Where it does nothing any more, it has ended, and said so all the time before.
     works = np.flatnonzero(np.diff(work))
     assert all(each.settling for each in seen[1:works[-1] + 1])

@@ -4,7 +4,6 @@
 """The methods of the paper as it has them: what the modes of this project are compared with."""
 
 from cloth_sim_ros.sim.modes.mode import Mode
-from cloth_sim_ros.sim.modes.paper.one_solve import OneSolveAdaptive
 from cloth_sim_ros.sim.modes.paper.one_solve import PaperConstraint
 from cloth_sim_ros.sim.modes.paper.strain_limit import PaperAdaptive
 from cloth_sim_ros.sim.modes.paper.two_passes import PaperMassSpring
@@ -20,6 +19,4 @@ def paper_mode(name: str, scene: Scene) -> type[Mode] | None:
         return PaperConstraint
     if name == 'adaptive' and scene['adaptive.scheme'] == 'paper':
         return PaperAdaptive
-    if name == 'adaptive' and has_one_solve:
-        return OneSolveAdaptive
     return None

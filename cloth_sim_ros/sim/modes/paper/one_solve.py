@@ -3,9 +3,6 @@
 
 """The paper's implicit step: one linear solve a substep (section 4.2)."""
 
-from cloth_sim_ros.sim.device.layout import Layout
-from cloth_sim_ros.sim.modes.adaptive import Adaptive
-from cloth_sim_ros.sim.modes.adaptive import LimitedSprings
 from cloth_sim_ros.sim.modes.constraint import Constraint
 from cloth_sim_ros.sim.modes.implicit import Newton
 from cloth_sim_ros.sim.scene import Scene
@@ -21,21 +18,3 @@ class PaperConstraint(Constraint):
     def newton(scene: Scene) -> Newton:
         """Return the paper's one solve."""
         return ONE_SOLVE
-
-
-class OneSolveLimit(LimitedSprings):
-    """The limited substeps of mode adaptive with one solve each."""
-
-    @staticmethod
-    def newton(scene: Scene) -> Newton:
-        """Return the paper's one solve."""
-        return ONE_SOLVE
-
-
-class OneSolveAdaptive(Adaptive):
-    """Mode adaptive with ``constraint.newton_iterations: 1``."""
-
-    @staticmethod
-    def make_limit(scene: Scene, layout: Layout, length: float) -> OneSolveLimit:
-        """Compile and return substeps with one solve each."""
-        return OneSolveLimit(scene, layout, scene.families)

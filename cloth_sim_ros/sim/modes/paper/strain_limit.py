@@ -3,7 +3,7 @@
 
 """The paper's adaptive scheme (Tab. 9): an edge beyond the limit is pulled to its rest length."""
 
-import math
+from collections.abc import Collection
 from typing import Any
 
 from cloth_sim_ros.gl.buffer import Buffer
@@ -12,12 +12,15 @@ from cloth_sim_ros.sim.device import bindings
 from cloth_sim_ros.sim.device.layout import Layout
 from cloth_sim_ros.sim.device.scene_program import SceneProgram
 from cloth_sim_ros.sim.held.pin_forces import spring_tension
+from cloth_sim_ros.sim.limits.limit_marks import LimitMarks
 from cloth_sim_ros.sim.loads.forcing import Forcing
 from cloth_sim_ros.sim.loads.loads import Loads
 from cloth_sim_ros.sim.model.edge_kinds import EDGE_KINDS
+from cloth_sim_ros.sim.model.stability import spring_substeps
 from cloth_sim_ros.sim.model.stability import stability_limit
-from cloth_sim_ros.sim.modes.adaptive import Adaptive
+from cloth_sim_ros.sim.modes.edge_watch import StrainWatch
 from cloth_sim_ros.sim.modes.mass_spring import OnePass
+from cloth_sim_ros.sim.modes.mode import CHECKED_SUBSTEPS
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.solver.edge_law import EdgeLaw
 from cloth_sim_ros.sim.solver.edge_law import spring_law
@@ -35,8 +38,8 @@ _DEFINES = {'LOCAL_X': _LOCAL[0], 'LOCAL_Y': _LOCAL[1]}
 _CROSSING = next(kind.number for kind in EDGE_KINDS if kind.name == 'crossing')
 # Enough for the linear system of a small cloth; the error falls by some 10 % a sweep.
 _SWEEPS = 60
-# Rounding that is no reason for another substep [1], in substeps.
-_NOTHING = 1e-9
+# Strain over the limit from which on an edge is near it [1].
+_NEAR = 0.9
 
 
 class PaperSweeps:
@@ -133,99 +136,154 @@ class PaperLimit:
     :param length: of each substep [s]
     """
 
-    substeps = 0  # of the last advance
-    last_length = 0.0  # [s]
-
     def __init__(
             self, scene: Scene, layout: Layout, length: float) -> None:
         """Compile the passes."""
-        self._scene = scene
         self._length = length
-        self.strain_bound: float = scene['adaptive.threshold']
-        self.stability_limit = stability_limit(scene)
-        self.substep_margin = length / self.stability_limit
         self._springs = _Springs(scene, layout)
         self._sweeps = PaperSweeps(scene, layout)
-
-    def energy_law(self, state: State) -> EdgeLaw:
-        """Return that of the springs: what holds an edge at its limit stores nothing."""
-        return spring_law(self._scene, self._length)
-
-    @staticmethod
-    def pulls_in(state: State) -> bool:
-        """Return False: what holds an edge at its limit stores nothing."""
-        return False
 
     def advance(
             self, state: State, begin: float, seconds: float, loads: Loads,
             stop: Stop = never) -> None:
-        """Step ``state`` on by ``seconds``."""
-        self.substeps = math.ceil(seconds / self._length - _NOTHING)
-        length = seconds / self.substeps
-        for substep in range(self.substeps):
+        """Step ``state`` on by ``seconds``, some substeps."""
+        for substep in range(round(seconds / self._length)):
             leave_if(stop)
-            start = begin + substep * length
-            kick = 0.5 * ((self.last_length or length) + length)
-            self._substep(state, loads.forcing(state, start, start + length, kick), length, kick)
-            self.last_length = length
+            start = begin + substep * self._length
+            self._substep(state, loads.forcing(state, start, start + self._length))
 
-    def run_all_passes(self, state: State, loads: Loads, stop: Stop = never) -> None:
+    def run_all_passes(self, state: State, loads: Loads) -> None:
         """Make a substep of a ``state`` that nobody needs."""
-        self._substep(state, loads.still, self._length, self._length)
+        self._substep(state, loads.still)
 
-    def resume(self, last_length: float) -> None:
-        """Go on after springs alone, the last substep of which had ``last_length`` [s]."""
-        self.last_length = last_length
-
-    def clear_tally(self) -> None:
-        """Count nothing: there are no solves."""
-
-    def report(self) -> dict[str, Any]:
-        """Return nothing."""
-        return {}
-
-    @staticmethod
-    def settling_report() -> dict[str, Any]:
-        """Return nothing: an edge is held at once."""
-        return {}
-
-    @staticmethod
-    def spend_calm(seconds: float) -> None:
-        """Do nothing: no limit closes in."""
-
-    def _substep(self, state: State, forcing: Forcing, length: float, kick: float) -> None:
-        self._sweeps.clear()
-        self._springs.run(state, forcing, length, kick)
-        self._sweeps.run(state, _SWEEPS, length, kick)
-        self._sweeps.finish(state, length, kick, self._springs.held_at)
-
-    def tension(
-            self, positions: np.ndarray, velocities: np.ndarray,
-            nodes: np.ndarray | None = None) -> np.ndarray:
-        """Return what each edge was pulled back with in the last substep, or its spring's [N]."""
-        springs = spring_tension(self._scene, positions, velocities, nodes)
-        held = self._sweeps.read_tensions()
-        return np.where(held == 0.0, springs, held)
-
-    def forget(self) -> None:
-        """Begin anew."""
-        self.last_length = 0.0
+    def tensions(self) -> np.ndarray:
+        """Return what each edge was pulled back with in the last substep [N], 0 if it was not."""
+        return self._sweeps.read_tensions()
 
     def delete(self) -> None:
         """Release passes and buffers."""
         self._springs.delete()
         self._sweeps.delete()
 
+    def _substep(self, state: State, forcing: Forcing) -> None:
+        self._sweeps.clear()
+        self._springs.run(state, forcing, self._length)
+        self._sweeps.run(state, _SWEEPS, self._length, self._length)
+        self._sweeps.finish(state, self._length, self._length, self._springs.held_at)
 
-class PaperAdaptive(Adaptive):
-    """Mode adaptive with the limit of the paper: ``adaptive.scheme: paper``."""
+
+class PaperAdaptive:
+    """
+    Mode adaptive with the limit of the paper, ``adaptive.scheme: paper``.
+
+    Springs alone while no edge comes near its limit, the paper's substeps while some do.
+    """
+
+    name = 'adaptive'
+    is_implicit = False
+    has_memory = True
+    checked_substeps = CHECKED_SUBSTEPS
+
+    def __init__(self, scene: Scene, layout: Layout, *, check_stability: bool = True) -> None:
+        """Choose the substeps and compile the passes."""
+        self.stability_limit = stability_limit(scene)
+        self.substeps = spring_substeps(scene, self.name, check_stability=check_stability)
+        self.strain_bound: float = scene['adaptive.threshold']
+        self._scene = scene
+        self._dt: float = scene['dt']
+        self._length = self._dt / self.substeps
+        self.substep_margin = self._length / self.stability_limit
+        self._springs = OnePass(scene, layout)
+        self._watch = StrainWatch(scene, layout, _NEAR * self.strain_bound)
+        self._limit = PaperLimit(scene, layout, self._length)
+        self._marks = LimitMarks(scene, layout)
+        self._is_limited = self._is_marked = False
 
     @staticmethod
-    def onset(scene: Scene) -> float:
-        """Return the limit itself: it has a kink there."""
-        return float(scene['adaptive.threshold'])
+    def edge_model(scene: Scene) -> str:
+        """Return that edges are springs within a limit."""
+        return 'limited'
 
     @staticmethod
-    def make_limit(scene: Scene, layout: Layout, length: float) -> PaperLimit:
-        """Compile and return the paper's substeps."""
-        return PaperLimit(scene, layout, length)
+    def edge_families(scene: Scene) -> Collection[str]:
+        """Return those that have springs."""
+        return scene.families
+
+    @staticmethod
+    def check(scene: Scene, *, check_stability: bool = True) -> None:
+        """Raise ClothSimError when dt is too long for the springs of ``scene``."""
+        spring_substeps(scene, PaperAdaptive.name, check_stability=check_stability)
+
+    def energy_law(self, state: State) -> EdgeLaw:
+        """Return that of the springs: what holds an edge at its limit stores nothing."""
+        return spring_law(self._scene, self._length)
+
+    def step(self, state: State, begin: float, loads: Loads, stop: Stop = never) -> None:
+        """Step ``state`` on by one dt."""
+        self._is_marked = False
+        made = 0
+        while made < self.substeps:
+            leave_if(stop)
+            now = begin + made * self._length
+            left = self.substeps - made
+            calm = min(left, self._watch.calm_substeps(state, now, self._length, loads))
+            self._is_limited = calm == 0
+            for index in range(calm):
+                start = now + index * self._length
+                self._springs.substep(
+                    state, loads.forcing(state, start, start + self._length), self._length)
+            if calm:
+                self._watch.advance(calm)
+            else:
+                self._limit.advance(state, now, left * self._length, loads, stop)
+            made += calm or left
+
+    @staticmethod
+    def step_ahead(state: State, gravity: Forcing, most: int) -> int:
+        """Return 0: each step goes by what the one before has found."""
+        return 0
+
+    def run_all_passes(self, state: State, loads: Loads, stop: Stop = never) -> None:
+        """Make substeps with and without limit of a ``state`` that nobody needs."""
+        self._watch.strains(state, loads.still, self._length)
+        leave_if(stop)
+        self._springs.substep(state, loads.still, self._length)
+        leave_if(stop)
+        self._limit.run_all_passes(state, loads)
+        self._marks.update(state, self.strain_bound, None)
+        self.forget()
+
+    def forget(self) -> None:
+        """Hold no edge and expect nothing of the state."""
+        self._is_limited = self._is_marked = False
+        self._watch.forget()
+        self._marks.forget()
+
+    def report(self) -> dict[str, Any]:
+        """Return how many edges are at their limit or changed."""
+        return self._marks.report()
+
+    def limit_marks(self, state: State) -> Buffer | None:
+        """Return which edges are at their limit; None if none are."""
+        if not self._is_marked:
+            self._is_marked = True
+            if self._is_limited:
+                self._marks.update(state, self.strain_bound, None)
+            else:
+                self._marks.clear()
+        return self._marks.buffer
+
+    def tension(
+            self, positions: np.ndarray, velocities: np.ndarray,
+            nodes: np.ndarray | None = None) -> np.ndarray:
+        """Return what each edge was pulled back with in the last substep, or its spring's [N]."""
+        springs = spring_tension(self._scene, positions, velocities, nodes)
+        if not self._is_limited:
+            return springs
+        held = self._limit.tensions()
+        return np.where(held == 0.0, springs, held)
+
+    def delete(self) -> None:
+        """Release everything."""
+        for part in (self._springs, self._watch, self._limit, self._marks):
+            part.delete()

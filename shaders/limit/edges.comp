@@ -1,0 +1,114 @@
+// SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
+// SPDX-License-Identifier: Apache-2.0
+
+#version 430 core
+// A round over the listed edges all over the lattice: the impulse of each by the velocities of its
+// nodes. FINDS_GAIN 1: what the impulses of the substep before take from the energy by them, and
+// whether edges were missed in it, instead.
+// BLOCK x BLOCK nodes an invocation, with the edges that start there.
+
+#include "lattice.glsl"
+#include "state_in.glsl"
+#include "spring_law.glsl"
+#include "strain_limit.glsl"
+#include "limit_lists.glsl"
+#include "limit_law.glsl"
+#include "limit_lattice.glsl"
+
+layout(local_size_x = LOCAL_X, local_size_y = LOCAL_Y) in;
+
+#if LOADS_TEXTURE
+layout(binding = LIMIT_CHANGES) uniform samplerBuffer changes;
+vec4 load_work(int index) { return texelFetch(changes, WORK_AT + index); }
+#else
+layout(std430, binding = LIMIT_CHANGES) readonly buffer Changes { vec4 changes[]; };
+vec4 load_work(int index) { return changes[WORK_AT + index]; }
+#endif
+#if !FINDS_GAIN
+layout(std430, binding = LIMIT_IMPULSES_OUT) writeonly buffer ImpulsesOut { vec4 impulses_out[]; };
+#endif
+layout(std430, binding = LIMIT_FIGURES) writeonly buffer Figures { vec2 block_figures[]; };
+
+uniform float substep;  // [s]
+
+#define TILE_COLS (BLOCK + 2)
+#define TILE_ROWS (BLOCK + 1)
+
+vec4 place[TILE_ROWS][TILE_COLS];
+vec4 velocity[TILE_ROWS][TILE_COLS];
+
+// Impulses of the edges that start at a node, after the last round, and before it.
+Impulses4 last, previous;
+Impulses4 found;
+// Of the block: how far the round overshoots, and the largest change of a length by it [m].
+vec2 figures;
+
+void act_on(int row, int col, int drow, int dcol, int edge, uint mask) {
+    vec4 from = velocity[row][col];
+    vec4 to = velocity[row + drow][col + dcol];
+    bool is_in = (mask & 17u << edge) != 0u;
+    int code = edge + ((mask & 16u << edge) != 0u ? SHORTEST : 0);
+    Edge it = edge_between(
+        place[row][col].xyz, place[row + drow][col + dcol].xyz, code);
+#if FINDS_GAIN
+    figures.x += is_in
+        ? gain_of(it, code, of_edge(last, edge), to.xyz - from.xyz, substep, parts.x) : 0.0;
+    figures.y += is_in && is_missed(it, code, of_edge(last, edge)) ? 1.0 : 0.0;
+#else
+    vec3 y = parts.x * of_edge(last, edge) + parts.y * of_edge(previous, edge);
+    float per_impulse = substep * (from.w + to.w);
+    vec3 z = impulse_for(
+        it, code, substep * (to.xyz - from.xyz) + per_impulse * y, per_impulse);
+    z = is_in ? z : vec3(0.0);
+    vec3 step = z - y;
+    vec3 before = (parts.x + parts.y) * of_edge(last, edge);
+    figures.x -= is_in ? (from.w + to.w) * dot(step, z - before) : 0.0;
+    figures.y = max(figures.y, is_in ? length(step) * per_impulse : 0.0);
+    found = set_edge(found, edge, z);
+#endif
+}
+
+// Of EACH_SHORT_EDGE: those of bending reach beyond the tile, and llvmpipe drops loads of an array
+// that code which never runs would index beyond its end.
+#define ACT(LISTED, EDGE, DROW, DCOL, FAMILY, REST) \
+    act_on(row, col, DROW, DCOL, EDGE, LISTED);
+
+void main() {
+    ivec2 block = ivec2(gl_GlobalInvocationID.xy);
+    ivec2 first = block * BLOCK;
+    if (first.x >= COLS || first.y >= ROWS) {
+        return;
+    }
+    figures = vec2(0.0);
+    for (uint asks = has_listed_edges(block) ? 1u : 0u; asks != 0u; asks &= asks - 1u) {
+        for (int row = 0; row < TILE_ROWS; ++row) {
+            for (int col = 0; col < TILE_COLS; ++col) {
+                int index = node_index(first.y + row, first.x + col - 1);
+                place[row][col] = load_position(index);
+                velocity[row][col] = load_work(index);
+            }
+        }
+        for (int row = 0; row < BLOCK; ++row) {
+            for (int col = 1; col <= BLOCK; ++col) {
+                int index = node_index(first.y + row, first.x + col - 1);
+                uint mask = MASK(index);
+                last = Impulses4(
+                    load_impulses(3 * index), load_impulses(3 * index + 1),
+                    load_impulses(3 * index + 2));
+#if !FINDS_GAIN
+                previous = Impulses4(
+                    load_previous(3 * index), load_previous(3 * index + 1),
+                    load_previous(3 * index + 2));
+#endif
+                found = Impulses4(vec4(0.0), vec4(0.0), vec4(0.0));
+                EACH_SHORT_EDGE(ACT, mask)
+#if !FINDS_GAIN
+                impulses_out[3 * index] = found.first;
+                impulses_out[3 * index + 1] = found.second;
+                impulses_out[3 * index + 2] = found.third;
+#endif
+            }
+        }
+    }
+    block_figures[block.y * BLOCKS_ACROSS + block.x] = figures;
+}

@@ -1,0 +1,110 @@
+// SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
+// SPDX-License-Identifier: Apache-2.0
+
+#version 430 core
+// Mark the blocks with edges that may come near a limit in an explicit substep that has been made,
+// or in some that follow: STRIP nodes of a column an invocation.
+
+#include "lattice.glsl"
+#include "spring_law.glsl"
+#include "strain_limit.glsl"
+#include "limit_lists.glsl"
+
+layout(local_size_x = LOCAL_X, local_size_y = LOCAL_Y) in;
+
+#if LOADS_TEXTURE
+layout(binding = POSITION_OUT) uniform samplerBuffer position_out;
+layout(binding = VELOCITY_OUT) uniform samplerBuffer velocity_out;
+vec4 load_next_position(int index) { return texelFetch(position_out, index); }
+layout(binding = LIMIT_CHANGES) uniform samplerBuffer changes;
+vec3 load_next_velocity(int index) { return texelFetch(velocity_out, index).xyz; }
+vec3 load_change(int index) { return texelFetch(changes, index).xyz; }
+#else
+layout(std430, binding = POSITION_OUT) readonly buffer PositionOut { vec4 position_out[]; };
+layout(std430, binding = VELOCITY_OUT) readonly buffer VelocityOut { vec4 velocity_out[]; };
+vec4 load_next_position(int index) { return position_out[index]; }
+layout(std430, binding = LIMIT_CHANGES) readonly buffer Changes { vec4 changes[]; };
+vec3 load_next_velocity(int index) { return velocity_out[index].xyz; }
+vec3 load_change(int index) { return changes[index].xyz; }
+#endif
+
+uniform float substep;  // [s]
+uniform float ahead;  // [s] that the look reaches beyond the substep
+uniform float wide;   // strain over the limit from which on a block is marked
+
+struct Node {
+    vec4 now;   // [m], and in w 0 for a ghost
+    vec3 then;  // [m]
+};
+
+Node load_node(int row, int col) {
+    int index = node_index(row, col);
+    vec4 x = load_next_position(index);
+    vec3 v = load_next_velocity(index);
+#if HAS_CONTACT
+    // What colliders stopped in the substep before, they stop in this one.
+    vec3 change = load_change(index);
+    x.xyz += substep * change;
+    v += change;
+#endif
+    return Node(x, x.xyz + ahead * v);
+}
+
+bool is_wide(Node from, Node to, int rest) {
+    vec3 now = to.now.xyz - from.now.xyz;
+    vec3 then = to.then - from.then;
+    vec2 squares = vec2(dot(now, now), dot(then, then));
+    bool is_off = max(squares.x, squares.y) > square_at(rest, wide * limit)
+        || min(squares.x, squares.y) < square_at(rest, -wide * limit);
+    return is_off && from.now.w * to.now.w > 0.0;
+}
+
+// Mark the block of a node, and those around it: impulses reach one edge further in each substep.
+void mark(int row, int col) {
+    ivec2 middle = ivec2(col, row) / BLOCK;
+    ivec2 first = max(middle - 1, ivec2(0));
+    ivec2 last = min(middle + 1, ivec2(COLS - 1, ROWS - 1) / BLOCK);
+    for (int y = first.y; y <= last.y; ++y) {
+        for (int x = first.x; x <= last.x; ++x) {
+            int block = y * BLOCKS_ACROSS + x;
+            if (lists[block] == 0u && atomicExchange(lists[block], 1u) == 0u) {
+                uint place = atomicAdd(marked_count, 1u);
+                lists[MARKED_AT + int(place)] = uint(block);
+                atomicAdd(list_groups_x, place % LIST_LOCAL == 0u ? 1u : 0u);
+            }
+        }
+    }
+}
+
+void main() {
+    int col = int(gl_GlobalInvocationID.x);
+    int first = int(gl_GlobalInvocationID.y) * STRIP;
+    if (first >= ROWS || col >= COLS) {
+        return;
+    }
+    Node here = load_node(first, col);
+    Node right = load_node(first, col + 1);
+    uint rows = 0u;       // that have a wide edge which starts in this column, a bit each
+    uint crossings = 0u;  // or in the next one
+    for (int row = 0; row < STRIP; ++row) {
+        Node below = load_node(first + row + 1, col);
+        Node below_right = load_node(first + row + 1, col + 1);
+        bool is_any = false;
+#if HAS_STRUCTURAL
+        is_any = is_wide(here, right, REST_ROW) || is_wide(here, below, REST_COLUMN);
+#endif
+#if HAS_SHEAR
+        is_any = is_any || is_wide(here, below_right, REST_DIAGONAL);
+        crossings |= is_wide(right, below, REST_DIAGONAL) ? 1u << row : 0u;
+#endif
+        rows |= is_any ? 1u << row : 0u;
+        here = below;
+        right = below_right;
+    }
+    for (; rows != 0u; rows &= rows - 1u) {
+        mark(first + findLSB(rows), col);
+    }
+    for (; crossings != 0u; crossings &= crossings - 1u) {
+        mark(first + findLSB(crossings), col + 1);
+    }
+}
