@@ -20,9 +20,9 @@ NEAR = 0.9
 # Strain over the limit, now or as many substeps ahead as a block has nodes along a side, from
 # which on the edges of a block and of those around it are looked at in each of these substeps [1].
 _WIDE = 0.5
-# Change of a length by a round below which no further one is made [1], over the way that a node
-# falls in a substep: the force at the pin of 15 hanging edges then trembles by 1e-4 of the weight,
-# and at 1e-3 by 1e-3 (force_tremor.py).
+# Change of a length by a round below which no further one is made [1], over the distance that a
+# node falls in a substep: the force at the pin of 15 hanging edges then trembles by 1e-4 of the
+# weight, and at 1e-3 by 1e-3 (force_tremor.py).
 _TOLERANCE = 1e-5
 # What else suffices, so that each substep takes over what is left: a share of the first change of
 # the substep [1], at rest and in motion, up to a share of the limit of the shortest edge [1]; and

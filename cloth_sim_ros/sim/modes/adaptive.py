@@ -63,9 +63,13 @@ _ROUGH = 0.02
 # Substeps that are taken for rough [1] after a pin, a push or a collider has thrown nodes, or an
 # edge was found far beyond its limit.
 _ROUGH_FOR = 32
+# Max. rough substeps in a row that put off the whole-cloth step [1]: pins that are shaken throw
+# the cloth all the time; 128 let edges reach 1.76 times their limit, not 1.36 (limits.py).
+_ROUGH_MOST = 512
 # Strain over the limit above which a new cloth is let down to it in some time [1].
 _NOTABLE = 1.05
-# Substeps after a limit has closed in [1], in which 1e-3 of what edges are beyond it is left.
+# Substeps that still count as settling after a limit has closed in [1]: they reduce the strain
+# beyond it to 1e-3.
 _CLOSING_FOR = 64
 # Max. substep margin that is reported [1]; a finite number where edges turn at once.
 _LARGEST_MARGIN = 1e9
@@ -231,6 +235,8 @@ class Adaptive:
         self._look_edits = -1
         # Substeps that are yet to be taken for rough.
         self._rough_left = 0
+        # Such substeps in a row that were made.
+        self._rough_made = 0
         # Into how many a substep of springs is divided where edges turn.
         self._parts = 1
         self._turn_length = self._length
@@ -327,7 +333,7 @@ class Adaptive:
             leave_if(stop)
             start = now + index * length
             self._springs.substep(
-                state, *self._forcing(state, start, length, loads), self._kick(length))
+                state, self._forcing(state, start, length, loads), length, self._kick(length))
             self._before = length
         self._watch.advance(calm)
         self._look_edits = state.edits
@@ -352,7 +358,7 @@ class Adaptive:
         is_free = not state.pinned.any()
         for index in range(some):
             leave_if(stop)
-            forcing, _ = self._forcing(state, now + index * length, length, loads)
+            forcing = self._forcing(state, now + index * length, length, loads)
             if is_free:
                 self._free_motion.aim_at(state, forcing, loads.still, self._kick(length))
             self._springs.run(state, forcing, length, self._kick(length), acts=False)
@@ -365,6 +371,7 @@ class Adaptive:
                 self._keep_momentum(state, forcing, loads.still, length)
             self._advance_settling(length)
         self._until_look -= some
+        self._rough_made = self._rough_made + some if self._rough_left > 0 else 0
         self._rough_left = max(self._rough_left - some, 0)
         self._made.listed += some
         self._longest = max(self._longest, length)
@@ -422,7 +429,7 @@ class Adaptive:
         return self._turn_length
 
     def _review(self, length: float, state: State, loads: Loads) -> None:
-        """Choose how to go on by what the last substeps, of ``length`` [s], took."""
+        """Choose the kind of the next substeps by the cost of the last, of ``length`` [s]."""
         substeps, self._unreviewed = self._unreviewed, 0
         tally = self._limits.tally()
         if self._was_settling or self._is_settling:
@@ -439,8 +446,8 @@ class Adaptive:
         whole_length = min(self._dt, max(self._turn_length, length))
         if self._scheme != 'constraint':
             return
-        # What throws the cloth is over soon, and a list holds it better meanwhile.
-        if self._rough_left > 0:
+        # A list holds a cloth better that is thrown, which is mostly over soon.
+        if 0 < self._rough_made < _ROUGH_MOST:
             return
         if _LISTED_COST + _ROUND_COST * rounds > _WHOLE_COST * length / whole_length:
             self._listed_then = tally.most_listed
@@ -499,10 +506,8 @@ class Adaptive:
             return 0.5 * (self._before + length)
         return length
 
-    def _forcing(
-            self, state: State, start: float, length: float,
-            loads: Loads) -> tuple[Forcing, float]:
-        return loads.forcing(state, start, start + length, self._kick(length)), length
+    def _forcing(self, state: State, start: float, length: float, loads: Loads) -> Forcing:
+        return loads.forcing(state, start, start + length, self._kick(length))
 
     def _keep_momentum(
             self, state: State, forcing: Forcing, still: Forcing, length: float) -> None:
