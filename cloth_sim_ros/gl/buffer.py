@@ -18,6 +18,7 @@ from cloth_sim_ros.gl.quick_calls import bind_texture
 from cloth_sim_ros.gl.quick_calls import Call
 from cloth_sim_ros.gl.quick_calls import clear_buffer
 from cloth_sim_ros.gl.quick_calls import copy_buffer
+from cloth_sim_ros.gl.quick_calls import make
 from cloth_sim_ros.gl.quick_calls import memory_barrier
 from cloth_sim_ros.gl.quick_calls import multi_bind
 from cloth_sim_ros.gl.quick_calls import read_buffer
@@ -143,10 +144,14 @@ class Buffer:
 
     def clear_first(self, size: int) -> None:
         """Make the first ``size`` bytes zero."""
-        memory_barrier(_READS)
-        bind_buffer(_STORAGE, self.name)
-        clear_buffer(_STORAGE, _R32UI, 0, size, _RED_INTEGER, _UNSIGNED_INT, 0)
+        make(self.clear_first_calls(size))
+
+    def clear_first_calls(self, size: int) -> list[Call]:
+        """Return the calls that make the first ``size`` bytes zero."""
         self._is_filled = True
+        return [
+            (memory_barrier, (_READS,)), (bind_buffer, (_STORAGE, self.name)),
+            (clear_buffer, (_STORAGE, _R32UI, 0, size, _RED_INTEGER, _UNSIGNED_INT, 0))]
 
     def copy(self, begin: int, into: int, size: int) -> None:
         """Copy ``size`` bytes from ``begin`` to ``into``; the two parts have to lie apart."""
@@ -225,6 +230,24 @@ class BufferRow:
         else:
             self._calls.bind_buffers(
                 _STORAGE, first, len(self._buffers), self._names.address)
+
+    def storage_calls(self, first: int) -> list[Call]:
+        """Return the calls that ``bind_storage`` makes."""
+        if self._calls is None:
+            return [
+                buffer.storage_call(place) for place, buffer in enumerate(self._buffers, first)]
+        return [(self._calls.bind_buffers, (
+            _STORAGE, first, len(self._buffers), self._names.address))]
+
+    def texture_calls(self, first: int) -> list[Call]:
+        """Return the calls that ``bind_textures`` makes."""
+        self.bind_textures(first)
+        if self._calls is None or self._textures is None:
+            return [
+                call for unit, buffer in enumerate(self._buffers, first)
+                for call in buffer.texture_calls(unit)]
+        return [(
+            self._calls.bind_textures, (first, len(self._buffers), self._textures.address))]
 
     def bind_textures(self, first: int) -> None:
         """Let shaders read them as the samplerBuffers of the units from ``first`` on."""

@@ -73,6 +73,10 @@ class LinkedProgram:
         """Set an int uniform of the program in use."""
         quick_calls.set_uniform_int(self._location(name), value)
 
+    def set_int_anywhere(self, name: str, value: int) -> None:
+        """Set an int uniform, whatever program is in use."""
+        quick_calls.set_program_int(self._program, self._location(name), value)
+
     def set_floats(self, name: str, values: Sequence[float]) -> None:
         """Set the first floats of an array uniform of the program in use."""
         flat = np.ascontiguousarray(values, dtype=np.float32)

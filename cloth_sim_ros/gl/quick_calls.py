@@ -43,6 +43,9 @@ make_current: Callable[..., int] = PLATFORM.constructFunction(
     'eglMakeCurrent', PLATFORM.EGL, c_uint, 4 * (c_size_t,))
 use_program = _quick('glUseProgram', gl_type.GLuint)
 set_uniform_int = _quick('glUniform1i', gl_type.GLint, gl_type.GLint)
+# Sets an int of a program that need not be in use.
+set_program_int = _quick(
+    'glProgramUniform1i', gl_type.GLuint, gl_type.GLint, gl_type.GLint)
 set_uniform_float = _quick('glUniform1f', gl_type.GLint, gl_type.GLfloat)
 # A place, how many vectors, and the address of their components.
 set_uniform_floats = _quick_vectors('glUniform1fv')

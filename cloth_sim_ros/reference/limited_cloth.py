@@ -138,7 +138,7 @@ class LimitProjection:
 
 
 def _closed_in(lengths: np.ndarray, bound: np.ndarray, side: float) -> np.ndarray:
-    """Return the ``bound``, or what CLOSING leaves of the excess of a length [m]."""
+    """Return the ``bound`` of a length [m], or the length less CLOSING of its excess."""
     return bound + side * (1.0 - CLOSING) * np.maximum(side * (lengths - bound), 0.0)
 
 
@@ -160,7 +160,7 @@ class LimitedSpringsReference(MassSpringReference):
         self._project = LimitProjection(
             self.limited, self.inverse_masses, scene['adaptive.threshold'],
             limit_compliance(scene, self.limited, strain_past_limit(scene)))
-        # Of the limits in the last substep [N s], (edges, 3).
+        # Impulses of the limits in the last substep [N s], (edges, 3).
         self.impulses = np.zeros((len(self.limited), 3))
         # Mean force of each pin on the cloth over the last dt [N], (rows, cols, 3).
         self.reactions = np.zeros_like(self.positions)

@@ -279,6 +279,11 @@ class Engines:
         """Return the law by which edges store energy now, in the mode that advances the state."""
         return self.in_use.mode.energy_law(self._state)
 
+    def last_length(self) -> float:
+        """Return the length of the last substep [s], or of the first one where none was."""
+        mode = self.in_use.mode
+        return mode.last_length or self._scene['dt'] / mode.substeps
+
     def forget(self) -> None:
         """Drop what the mode in use has kept from earlier steps."""
         if self.current is not None:

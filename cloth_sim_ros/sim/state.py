@@ -8,6 +8,7 @@ from typing import Protocol
 
 from cloth_sim_ros.gl.buffer import Buffer
 from cloth_sim_ros.gl.buffer import BufferRow
+from cloth_sim_ros.gl.quick_calls import Call
 from cloth_sim_ros.sim.arguments import array
 from cloth_sim_ros.sim.device import bindings
 from cloth_sim_ros.sim.device.layout import HALO
@@ -182,6 +183,28 @@ class State:
         self._pairs[self._next].bind_storage(bindings.POSITION_OUT)
         self.bind_low_parts()
 
+    @property
+    def pair(self) -> tuple[int, int]:
+        """Return which of its buffers are read, and which are written."""
+        return self._now, self._next
+
+    def step_calls(self) -> list[Call]:
+        """Return the calls that ``bind_in`` and ``bind_out`` make; low parts are left out."""
+        now, following = self._pairs[self._now], self._pairs[self._next]
+        read = (
+            now.texture_calls(bindings.POSITION_IN) if self._layout.texture_loads
+            else now.storage_calls(bindings.POSITION_IN))
+        return [*read, *following.storage_calls(bindings.POSITION_OUT)]
+
+    def out_texture_calls(self) -> list[Call]:
+        """Return the calls that ``bind_out_textures`` makes."""
+        return self._pairs[self._next].texture_calls(bindings.POSITION_OUT)
+
+    @property
+    def has_low_parts(self) -> bool:
+        """Return whether passes change low parts of positions and velocities."""
+        return self._low is not None
+
     def bind_low_parts(self) -> None:
         """Let the next dispatch change the low parts, where there are some."""
         if self._low is not None:
@@ -209,6 +232,13 @@ class State:
         if self.impulses is None or not self.impulses.is_recording:
             return -1
         return self.impulses.reserve(1, place)[0]
+
+    def next_held_entries(self, count: int) -> Sequence[int]:
+        """Return the same for up to ``count`` substeps, 1 at least."""
+        if self.impulses is None or not self.impulses.is_recording:
+            return (-1,) * count
+        first, some, apart = self.impulses.reserve(count)
+        return range(first, first + some * apart, apart)
 
     def swap(self) -> None:
         """Make what was written the present state."""

@@ -83,6 +83,9 @@ def _normals(body: Collider, positions: np.ndarray) -> np.ndarray:
 _ROUNDING = 2e-7
 # Fraction of a step that counts as the whole step [1]: times are sums of dt, and rounded.
 _WHOLE = 1.0 - 1e-9
+# Fraction of a step [1] from which on nodes are taken to move steadily for the rest of it, not
+# while a push acts.
+_MOST_OF_IT = 0.5
 
 
 class EnergyAccount:
@@ -92,8 +95,8 @@ class EnergyAccount:
     Every mode has its velocities half a substep before its positions, so the energy E swings to
     and fro: near the stability limit of springs by as much as there is, in an implicit mode by
     some percent at its longest substeps. What symplectic Euler keeps, exactly where forces are
-    linear, is H = E + h sum(m v . a) / 2. That is accounted for, with the tensions of the last
-    substep.
+    linear, is H = E + h sum(m v . a) / 2. That is accounted for, with length and tensions of the
+    last substep, and the mean power of the air in the last step.
 
     The work of pins that move is that of the forces on them at the end of each step; that of a
     limit which closes in on a cloth that came stretched is found from the pulls at both ends of a
@@ -113,6 +116,8 @@ class EnergyAccount:
         self._pushed: dict[Push, np.ndarray] = {}
         self._work = 0.0
         self._air_work = 0.0
+        # Mean power of the air on the cloth in the last step [W].
+        self._air_power = 0.0
         run.loads.keep_account()
         self._substeps = 0
         self._law = run.engines.energy_law()
@@ -129,6 +134,11 @@ class EnergyAccount:
         # A gain within rounding is not counted.
         excess = self._gain - self._rounding()
         return excess / self._most if excess > 0.0 else 0.0
+
+    @property
+    def energy(self) -> float:
+        """Return what symplectic Euler keeps, at present [J]."""
+        return self._energy(self.seen)
 
     @property
     def air_work(self) -> float:
@@ -158,11 +168,9 @@ class EnergyAccount:
         self._substeps += count * self._run.substeps
         now = self._look()
         moved = now.positions.astype(float) - before.positions
-        mean_velocities = 0.5 * (now.velocities.astype(float) + before.velocities)
-        for nodes, force, share in shares:
-            # A push that begins or ends within a step changes velocities while it acts.
-            way = moved if share > _WHOLE else share * (end - begin) * mean_velocities
-            self._work += float(force @ way[nodes].mean(axis=0))
+        for push, nodes, share in shares:
+            way = _moved_under(push, (begin, end), (before, now), share)
+            self._work += float(np.array(push.force) @ way[nodes].mean(axis=0))
         if self._has_pin_moves and now.pin_forces is not None:
             rows, cols = now.pin_forces.nodes.T
             self._work -= float(np.sum(now.pin_forces.forces * moved[rows, cols]))
@@ -177,6 +185,7 @@ class EnergyAccount:
         self._law = law
         air_work = self._run.loads.work()
         self._work += air_work - self._air_work
+        self._air_power = (air_work - self._air_work) / (end - begin)
         self._air_work = air_work
         self.seen = now
         energy = self._energy(now) - self._begin_energy
@@ -185,8 +194,8 @@ class EnergyAccount:
 
     def _shares(
             self, begin: float, end: float,
-            before: Snapshot) -> list[tuple[np.ndarray, np.ndarray, float]]:
-        """Return the nodes of each push that acts, its force [N], and the share it acts in."""
+            before: Snapshot) -> list[tuple[Push, np.ndarray, float]]:
+        """Return each push that acts, its nodes, and the fraction of the time it acts for."""
         shares = []
         for push in (applied.push for applied in self._run.pushes):
             share = push.overlap(begin, end)
@@ -195,7 +204,7 @@ class EnergyAccount:
             if push not in self._pushed:
                 self._pushed[push] = push.contains(before.positions) & ~self._run.pinned_nodes()
             if self._pushed[push].any():
-                shares.append((self._pushed[push], np.array(push.force), share))
+                shares.append((push, self._pushed[push], share))
         return shares
 
     def _is_worked_on(self, steps: int) -> bool:
@@ -234,7 +243,8 @@ class EnergyAccount:
         """Return h sum(m v . a) / 2 [J]."""
         free, forces = self._forces(seen)
         velocities = seen.velocities[tuple(free.T)].astype(float)
-        return 0.5 * self._run.dt / seen.substeps * float(np.sum(velocities * forces))
+        power = float(np.sum(velocities * forces)) + self._air_power
+        return 0.5 * self._run.engines.last_length() * power
 
     def _forces(self, seen: Snapshot) -> tuple[np.ndarray, np.ndarray]:
         """Return the free nodes, (n, 2), and the forces of gravity and edges on them [N]."""
@@ -263,6 +273,20 @@ class EnergyAccount:
         weight = scene.node_mass * scene.node_count * float(np.linalg.norm(scene['gravity']))
         energy += 0.3 * reach * weight * self._substeps
         return energy + 1e-6 * abs(self.begin.gravitational_energy)
+
+
+def _moved_under(
+        push: Push, times: tuple[float, float], seen: tuple[Snapshot, Snapshot],
+        share: float) -> np.ndarray:
+    """Return how far nodes have moved while ``push`` acted between two ``times`` [m]."""
+    (begin, end), (before, now) = times, seen
+    first, last = before.velocities.astype(float), now.velocities.astype(float)
+    if share < _MOST_OF_IT:
+        return share * (end - begin) * 0.5 * (first + last)
+    moved = now.positions.astype(float) - before.positions
+    if share > _WHOLE:
+        return moved
+    return moved - max(push.start - begin, 0.0) * first - max(end - push.end, 0.0) * last
 
 
 def _closing_work(

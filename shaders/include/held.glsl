@@ -13,7 +13,7 @@
 
 layout(std430, binding = HELD_BINDING) buffer Held { vec4 held[]; };
 
-uniform int held_at;  // where the entries of the substep begin
+uniform int held_at;  // where the entries of the substep begin; -1: nowhere, in shaders that ask
 
 int held_entry(int index) { return held_at + int(held[index >> 2][index & 3]) - 1; }
 

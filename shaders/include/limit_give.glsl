@@ -5,9 +5,7 @@
 
 #include "low_parts.glsl"
 #include "limit_contact.glsl"
-#if HAS_HELD
 #include "held.glsl"
-#endif
 
 layout(std430, binding = POSITION_OUT) buffer PositionOut { vec4 position_out[]; };
 layout(std430, binding = VELOCITY_OUT) buffer VelocityOut { vec4 velocity_out[]; };
@@ -38,11 +36,9 @@ vec2 give(int index) {
         position_out[index].xyz = changed_position(
             index, position_out[index].xyz, substep * change);
     }
-#if HAS_HELD
-    if (gives && is_held_by_pin(load_position(index), v)) {
+    if (gives && held_at >= 0 && is_held_by_pin(load_position(index), v)) {
         held[held_entry(index)].xyz += given;
     }
-#endif
     // By the mean of the velocities before and after all that acts in the substep.
     float energy = dot(0.5 * (load_velocity(index).xyz + v.xyz + change), change);
     return vec2(float(bitCount(mask)), energy);

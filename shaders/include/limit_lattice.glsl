@@ -20,14 +20,14 @@ vec4 load_impulses(int texel) { return impulse_texels[texel]; }
 vec4 load_previous(int texel) { return previous_texels[texel]; }
 #endif
 
-// Of the impulses after the last round, and of those before it: what the next round begins with.
+// Fractions of the impulses after the last round and before it whose sum the next one starts from.
 uniform vec2 parts;
 
 vec4 load_start(int texel) {
     return parts.x * load_impulses(texel) + parts.y * load_previous(texel);
 }
 
-// Of the four edges that start at a node.
+// Impulses of the four edges that start at a node [m/s].
 struct Impulses4 {
     vec4 first;
     vec4 second;

@@ -12,9 +12,8 @@
 
 // First the workgroups of limit/list.comp, the number of marked blocks, and how many edges have
 // come to those listed before in the substep; whether each block is marked, how many listed edges
-// start there, and the masks of the stored nodes; the marked blocks, in no order; then what
-// limit/solve.comp makes of the masks: the listed edges, as CODES * node + code, and the nodes at
-// them.
+// start there, and the masks of the stored nodes; the marked blocks, in no order; then, by
+// limit/solve.comp, the listed edges, as CODES * node + code, and the nodes at them.
 layout(std430, binding = LIMIT_LISTS) buffer LimitLists {
     uint list_groups_x;
     uint list_groups_y;

@@ -3,8 +3,8 @@
 
 #version 430 core
 // A round over the listed edges all over the lattice: the impulse of each by the velocities of its
-// nodes. FINDS_GAIN 1: what the impulses of the substep before take from the energy by them, and
-// whether edges were missed in it, instead.
+// nodes; or what the impulses of the substep before take from the energy by them, and whether edges
+// were missed in it.
 // BLOCK x BLOCK nodes an invocation, with the edges that start there.
 
 #include "lattice.glsl"
@@ -24,12 +24,11 @@ vec4 load_work(int index) { return texelFetch(changes, WORK_AT + index); }
 layout(std430, binding = LIMIT_CHANGES) readonly buffer Changes { vec4 changes[]; };
 vec4 load_work(int index) { return changes[WORK_AT + index]; }
 #endif
-#if !FINDS_GAIN
 layout(std430, binding = LIMIT_IMPULSES_OUT) writeonly buffer ImpulsesOut { vec4 impulses_out[]; };
-#endif
 layout(std430, binding = LIMIT_FIGURES) writeonly buffer Figures { vec2 block_figures[]; };
 
 uniform float substep;  // [s]
+uniform bool finds_gain;
 
 #define TILE_COLS (BLOCK + 2)
 #define TILE_ROWS (BLOCK + 1)
@@ -40,7 +39,7 @@ vec4 velocity[TILE_ROWS][TILE_COLS];
 // Impulses of the edges that start at a node, after the last round, and before it.
 Impulses4 last, previous;
 Impulses4 found;
-// Of the block: how far the round overshoots, and the largest change of a length by it [m].
+// How far the round overshoots in the block, and the largest change of a length by it [m].
 vec2 figures;
 
 void act_on(int row, int col, int drow, int dcol, int edge, uint mask) {
@@ -50,11 +49,12 @@ void act_on(int row, int col, int drow, int dcol, int edge, uint mask) {
     int code = edge + ((mask & 16u << edge) != 0u ? SHORTEST : 0);
     Edge it = edge_between(
         place[row][col].xyz, place[row + drow][col + dcol].xyz, code);
-#if FINDS_GAIN
-    figures.x += is_in
-        ? gain_of(it, code, of_edge(last, edge), to.xyz - from.xyz, substep, parts.x) : 0.0;
-    figures.y += is_in && is_missed(it, code, of_edge(last, edge)) ? 1.0 : 0.0;
-#else
+    // As in solver/contact.comp, software would run the body of a branch for every edge.
+    for (uint asks = finds_gain && is_in ? 1u : 0u; asks != 0u; asks &= asks - 1u) {
+        figures.x += gain_of(it, code, of_edge(last, edge), to.xyz - from.xyz, substep, parts.x);
+        figures.y += is_missed(it, code, of_edge(last, edge)) ? 1.0 : 0.0;
+    }
+    is_in = is_in && !finds_gain;
     vec3 y = parts.x * of_edge(last, edge) + parts.y * of_edge(previous, edge);
     float per_impulse = substep * (from.w + to.w);
     vec3 z = impulse_for(
@@ -65,10 +65,9 @@ void act_on(int row, int col, int drow, int dcol, int edge, uint mask) {
     figures.x -= is_in ? (from.w + to.w) * dot(step, z - before) : 0.0;
     figures.y = max(figures.y, is_in ? length(step) * per_impulse : 0.0);
     found = set_edge(found, edge, z);
-#endif
 }
 
-// Of EACH_SHORT_EDGE: those of bending reach beyond the tile, and llvmpipe drops loads of an array
+// For EACH_SHORT_EDGE: edges of bending reach beyond the tile, and llvmpipe drops loads of an array
 // that code which never runs would index beyond its end.
 #define ACT(LISTED, EDGE, DROW, DCOL, FAMILY, REST) \
     act_on(row, col, DROW, DCOL, EDGE, LISTED);
@@ -95,18 +94,16 @@ void main() {
                 last = Impulses4(
                     load_impulses(3 * index), load_impulses(3 * index + 1),
                     load_impulses(3 * index + 2));
-#if !FINDS_GAIN
                 previous = Impulses4(
                     load_previous(3 * index), load_previous(3 * index + 1),
                     load_previous(3 * index + 2));
-#endif
                 found = Impulses4(vec4(0.0), vec4(0.0), vec4(0.0));
                 EACH_SHORT_EDGE(ACT, mask)
-#if !FINDS_GAIN
-                impulses_out[3 * index] = found.first;
-                impulses_out[3 * index + 1] = found.second;
-                impulses_out[3 * index + 2] = found.third;
-#endif
+                for (uint asks = finds_gain ? 0u : 1u; asks != 0u; asks &= asks - 1u) {
+                    impulses_out[3 * index] = found.first;
+                    impulses_out[3 * index + 1] = found.second;
+                    impulses_out[3 * index + 2] = found.third;
+                }
             }
         }
     }

@@ -4,6 +4,8 @@
 #version 430 core
 // Find the impulses that hold the listed edges within their limits at the end of a substep, and
 // give them to their nodes: one workgroup, docs/explanation/adaptive.md.
+// LISTS 1: list them before, where ``lists_first`` is set. A dispatch of limit/list.comp takes as
+// long as the listing, on software and a small cloth.
 
 #include "lattice.glsl"
 #include "state_in.glsl"
@@ -33,6 +35,20 @@ struct Tally {
 layout(std430, binding = LIMIT_TALLY) buffer Tallies { Tally tallies[2]; };
 
 #include "limit_tolerance.glsl"
+
+#if LISTS
+#if LOADS_TEXTURE
+layout(binding = POSITION_OUT) uniform samplerBuffer next_position;
+layout(binding = LIMIT_CHANGES) uniform samplerBuffer changes_before;
+vec4 load_next_position(int index) { return texelFetch(next_position, index); }
+vec4 load_change(int index) { return texelFetch(changes_before, index); }
+#else
+vec4 load_next_position(int index) { return position_out[index]; }
+vec4 load_change(int index) { return changes[index]; }
+#endif
+uniform bool lists_first;
+#include "limit_list.glsl"
+#endif
 
 uniform float most_scale;  // of the impulses of the substep before at most
 uniform int round_limit;
@@ -168,6 +184,12 @@ float pull_on(int entry, float part) {
 }
 
 void main() {
+#if LISTS
+    for (int i = LANE; lists_first && i < int(marked_count); i += LOCAL) {
+        list_block(int(lists[MARKED_AT + i]));
+    }
+    barrier();
+#endif
     ivec2 size = fill_lists();
     int edges = size.x, nodes = size.y;
     if (LANE == 0 && begins_step != 0) {

@@ -138,7 +138,7 @@ def test_an_edge_beyond_its_limit_comes_back_by_a_tenth():
 
 
 def test_two_pins_that_tear_are_refused():
-    """It would go on for ever, or return what keeps no limit."""
+    """Rounds would never end, or their result would exceed the limit."""
     scene = Scene({**SCENE, 'rows': 1, 'cols': 3, 'pins': ['top_left', 'top_right']})
     positions = scene.rest_positions().reshape(-1, 3)
     positions *= 1.5
@@ -161,7 +161,7 @@ def test_a_cloth_within_its_limit_is_mass_spring():
 
 
 def test_a_hanging_cloth_pulls_at_its_pins_with_its_weight():
-    """The force of pins lacks what limits pull, or counts it twice."""
+    """The pull of the limits is missing in the force of pins, or counted twice."""
     scene = Scene({
         **SCENE, 'start.pose': 'hanging', 'pins': ['top_edge'], 'damping.structural': 0.5,
         'damping.shear': 0.5})

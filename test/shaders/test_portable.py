@@ -57,11 +57,11 @@ _COUNTING = {
     'include/block_bound.glsl': [
         'atomicAdd(near_block_count, 1u)',
         'atomicAdd(block_groups_x, place % BLOCKS_AT_ONCE == 0u ? 1u : 0u)'],
-    # Of the marked blocks, each of which is listed by itself, and a count that is compared with 0.
+    # Counts the marked blocks, each of which is listed by itself; one is compared with 0.
     'limit/look.comp': [
         'atomicExchange(lists[block], 1u)', 'atomicAdd(marked_count, 1u)',
         'atomicAdd(list_groups_x, place % LIST_LOCAL == 0u ? 1u : 0u)'],
-    'limit/list.comp': ['atomicAdd(newly_listed, added)'],
+    'include/limit_list.glsl': ['atomicAdd(newly_listed, added)'],
     'near_nodes.comp': [
         'atomicAdd(near_node_count, 1u)',
         'atomicAdd(node_groups_x, entry % NEAR_LOCAL == 0u ? 1u : 0u)'],
@@ -78,11 +78,8 @@ _FORMS = {
     'contact.comp, after limits': {'NOTES_CHANGES': 1},
     'limit/look.comp': {'STRIP': 16, 'LIST_LOCAL': '8u'},
     'limit/list.comp': {'LIST_LOCAL': 8},
-    'limit/solve.comp': {'LOCAL': 256},
-    'limit/solve.comp, recording': {'LOCAL': 8, 'HAS_HELD': 1},
-    'limit/edges.comp': {'FINDS_GAIN': 0},
-    'limit/edges.comp, gain': {'FINDS_GAIN': 1},
-    'limit/finish.comp, recording': {'HAS_HELD': 1},
+    'limit/solve.comp': {'LOCAL': 256, 'LISTS': 0},
+    'limit/solve.comp, listing': {'LOCAL': 8, 'LISTS': 1},
     'observe.comp': {'RECORDS_WANTED': 1, 'STRIP': 16},
     'place_pins.comp': {'PINS_LOCAL': 32},
     'paper/force.comp': {},

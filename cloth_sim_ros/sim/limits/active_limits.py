@@ -7,9 +7,12 @@ from dataclasses import dataclass
 from dataclasses import replace
 
 from cloth_sim_ros.gl.buffer import Buffer
+from cloth_sim_ros.gl.buffer import DISPATCHES_VISIBLE
 from cloth_sim_ros.gl.buffer import shader_dispatches_visible
 from cloth_sim_ros.gl.buffer import shader_writes_visible
+from cloth_sim_ros.gl.buffer import WRITES_VISIBLE
 from cloth_sim_ros.gl.program import Program
+from cloth_sim_ros.gl.quick_calls import Call
 from cloth_sim_ros.sim.device.layout import Layout
 from cloth_sim_ros.sim.device.scene_program import Strips
 from cloth_sim_ros.sim.limits.lattice_rounds import LatticeRounds
@@ -28,6 +31,8 @@ import numpy as np
 # a tenth longer.
 _SOFTWARE_LOCAL = 8
 _GPU_LOCAL = 256
+# Max. nodes [1] of a cloth whose edges are listed by that workgroup, too, on software.
+_FEW_NODES = 4096
 # Max. solves of a substep [1], after each of which the edges are listed that it throws too far.
 _MOST_PASSES = 16
 # Invocations of a workgroup of limit/list.comp [1].
@@ -95,28 +100,32 @@ class ActiveLimits:
         """Prepare."""
         self._scene = scene
         self._layout = layout
-        defines = {'LOCAL': _GPU_LOCAL if layout.is_asynchronous else _SOFTWARE_LOCAL}
+        # Whether limit/solve.comp lists the edges, too: not where colliders' changes of velocity
+        # are to be dropped between the two.
+        self._is_one_pass = not (
+            layout.is_asynchronous or scene.has_contact or scene.node_count > _FEW_NODES)
+        defines = {
+            'LOCAL': _GPU_LOCAL if layout.is_asynchronous else _SOFTWARE_LOCAL,
+            'LISTS': int(self._is_one_pass)}
         self._look = LimitProgram(
             'limit/look.comp', scene, layout,
             {**Strips.defines(), 'LIST_LOCAL': f'{_LIST_LOCAL}u'})
         self._list = LimitProgram(
             'limit/list.comp', scene, layout, {'LIST_LOCAL': _LIST_LOCAL})
-        self._add = LimitProgram(
-            'limit/list.comp', scene, layout, {'LIST_LOCAL': _LIST_LOCAL}, adds=True)
         self._strips = Strips.groups(layout)
         # Substeps until all edges are to be looked at.
         self._until_look = 0
         self._solve = LimitProgram('limit/solve.comp', scene, layout, defines)
-        self._recording_solve = LimitProgram(
-            'limit/solve.comp', scene, layout, {**defines, 'HAS_HELD': 1})
         self._work_limit = _MOST_WORK_IN_CONTACT if scene.has_contact else _MOST_WORK
         self._buffers: LimitBuffers | None = None
         self._lattice: LatticeRounds | None = None
-        # Of passes over the lattice, since ``tally`` was asked last, and in the present step.
+        # Counts of the passes over the lattice since ``tally`` was asked last, and in this step.
         self._tally, self._tally_of_step = LimitTally(), LimitTally()
         # Whether limit/solve.comp has yet to begin its tally of the present step.
         self._begins_step = True
-        self._solve_set: tuple[Program, bool, bool] | None = None
+        self._solve_set: tuple[bool, bool, bool] | None = None
+        # Whether edges are yet to be listed by limit/solve.comp.
+        self._lists_first = False
         self._are_many = are_many
         # Whether passes go over the lattice.
         self.are_many = bool(are_many)
@@ -130,7 +139,7 @@ class ActiveLimits:
         """
         if limits.is_rough:
             self.look_anew()
-        self._list_edges(state, limits)
+        self._list_edges(state, limits, in_own_pass=self.are_many)
         if not limits.is_rough:
             self._forget_contacts()
             self._solve_for_listed(limits, touch, held_at, gives=True)
@@ -146,10 +155,57 @@ class ActiveLimits:
         if active:
             self._count(LimitTally(substeps=1, most_active=active, energy=energy))
 
+    def begin_alike(self, limits: Limits) -> Program:
+        """
+        Set what ``look_calls`` and ``calls`` run, and bind what they need in any state.
+
+        :return: limit/solve.comp, which asks for ``held_at`` as ``act`` does
+        """
+        self._look.use(limits)
+        if not self._is_one_pass:
+            self._list.use(limits)
+        self._lists_first = self._is_one_pass
+        program = self._solve.use(limits)
+        program.set_int('held_at', -1)
+        self._set_solve(program, gives=True)
+        self._lists.bind_what_stays()
+        return program
+
+    def take_look(self) -> bool:
+        """Return whether ``look_calls`` come before ``calls`` in the substep that begins."""
+        is_due = self._until_look == 0
+        self._until_look = (self._layout.block if is_due else self._until_look) - 1
+        return is_due
+
+    def look_calls(self, state: State) -> list[Call]:
+        """Return the calls that mark blocks anew, in a substep that was written."""
+        return [
+            *self._out_calls(state), *self._lists.mark_none_calls(),
+            *self._look.made.calls(*self._strips), DISPATCHES_VISIBLE]
+
+    def calls(self, state: State) -> list[Call]:
+        """Return the calls that hold edges in a substep that was written."""
+        listing = [] if self._is_one_pass else [
+            *self._list.made.indirect_calls(0), WRITES_VISIBLE]
+        return [*self._out_calls(state), *listing, *self._solve.made.calls(1, 1), WRITES_VISIBLE]
+
+    def end_first(self) -> None:
+        """Add to the tally of the step from now on; the first of the ``calls`` have begun it."""
+        if self._begins_step:
+            self._begins_step = False
+            self._set_solve(self._solve.made, gives=True)
+
+    def made(self, count: int) -> None:
+        """Count ``count`` times that ``calls`` were made."""
+        self._lists_first = False
+        if not self._is_one_pass:
+            self._list.made.submitted(count)
+        self._solve.made.submitted(count)
+
     def count(self, state: State, limits: Limits) -> int:
         """Return how many edges of a substep that is written come near their limit."""
         self.look_anew()
-        self._list_edges(state, limits)
+        self._list_edges(state, limits, in_own_pass=True)
         self.look_anew()
         return self._on_lattice().count()
 
@@ -214,7 +270,7 @@ class ActiveLimits:
             are_many: bool) -> None:
         """Hold edges of a substep that nobody needs, in a list or on the lattice."""
         self.look_anew()
-        self._list_edges(state, limits)
+        self._list_edges(state, limits, in_own_pass=True)
         self._add_edges(limits)
         if are_many:
             self._on_lattice().run_all_passes(limits, touch, held_at)
@@ -247,8 +303,7 @@ class ActiveLimits:
     def delete(self) -> None:
         """Release passes and memory."""
         for part in (
-                self._list, self._look, self._add, self._solve, self._recording_solve,
-                self._lattice, self._buffers):
+                self._list, self._look, self._solve, self._lattice, self._buffers):
             if part is not None:
                 part.delete()
         self._buffers = self._lattice = self._solve_set = None
@@ -268,8 +323,12 @@ class ActiveLimits:
             self._buffers = LimitBuffers(self._layout)
         return self._buffers
 
-    def _list_edges(self, state: State, limits: Limits) -> None:
-        """List the edges that come near their limit in a substep that is written."""
+    def _list_edges(self, state: State, limits: Limits, *, in_own_pass: bool) -> None:
+        """
+        List the edges that come near their limit in a substep that is written.
+
+        :param in_own_pass: False leaves it to limit/solve.comp where that can do it
+        """
         self._lists.bind(state)
         if self._until_look == 0:
             self._until_look = self._layout.block
@@ -277,9 +336,11 @@ class ActiveLimits:
             self._look.use(limits).dispatch(*self._strips)
             shader_dispatches_visible()
         self._until_look -= 1
-        self._lists.lists.bind_dispatches()
-        self._list.use(limits).dispatch_indirect(0)
-        shader_writes_visible()
+        self._lists_first = self._is_one_pass and not in_own_pass
+        if not self._lists_first:
+            self._lists.lists.bind_dispatches()
+            self._list.use(limits).dispatch_indirect(0)
+            shader_writes_visible()
 
     def _forget_contacts(self) -> None:
         """Forget what colliders did to nodes in the substep before: edges are listed by now."""
@@ -289,7 +350,7 @@ class ActiveLimits:
     def _add_edges(self, limits: Limits) -> None:
         """List those, too, that pass their limit by the impulses that were found."""
         self._lists.lists.bind_dispatches()
-        self._add.use(limits).dispatch_indirect(0)
+        self._list.use(limits, adds=True).dispatch_indirect(0)
         shader_writes_visible()
 
     def _solve_for_listed(
@@ -310,19 +371,26 @@ class ActiveLimits:
 
     def _act_on_list(
             self, limits: Limits, touch: Touch | None, held_at: int, *, gives: bool) -> None:
-        solve = self._solve if held_at < 0 else self._recording_solve
-        program = solve.use(limits, touch)
-        if held_at >= 0:
-            program.set_int('held_at', held_at)
-        how = program, self._begins_step, gives
+        program = self._solve.use(limits, touch)
+        program.set_int('held_at', held_at)
+        self._set_solve(program, gives=gives)
+        self._begins_step = self._lists_first = False
+        program.dispatch(1)
+        shader_writes_visible()
+
+    def _set_solve(self, program: Program, *, gives: bool) -> None:
+        """Set what limit/solve.comp, which is in use, does besides finding impulses."""
+        how = self._begins_step, self._lists_first, gives
         if how != self._solve_set:
+            program.set_int('lists_first', int(self._lists_first))
             program.set_int('work_limit', self._work_limit)
             program.set_int('begins_step', int(self._begins_step))
             program.set_int('gives', int(gives))
             self._solve_set = how
-        self._begins_step = False
-        program.dispatch(1)
-        shader_writes_visible()
+
+    def _out_calls(self, state: State) -> list[Call]:
+        """Return the calls that let dispatches read a substep that was written."""
+        return state.out_texture_calls() if self._layout.texture_loads else []
 
     def _on_lattice(self) -> LatticeRounds:
         if self._lattice is None:

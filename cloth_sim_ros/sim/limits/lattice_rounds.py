@@ -57,11 +57,8 @@ class LatticeRounds:
         self._layout = layout
         self._buffers = buffers
         self._nodes = LimitProgram('limit/nodes.comp', scene, layout)
-        self._gain = LimitProgram('limit/edges.comp', scene, layout, {'FINDS_GAIN': 1})
-        self._edges = LimitProgram('limit/edges.comp', scene, layout, {'FINDS_GAIN': 0})
+        self._edges = LimitProgram('limit/edges.comp', scene, layout)
         self._finish = LimitProgram('limit/finish.comp', scene, layout)
-        self._recording_finish = LimitProgram(
-            'limit/finish.comp', scene, layout, {'HAS_HELD': 1})
         self._others = tuple(Buffer(buffers.impulses.bytes) for _ in range(2))
         self._figures = np.empty((layout.block_count, 2), dtype=np.float32)
         self._figures_buffer = Buffer(self._figures.nbytes, is_polled=True)
@@ -96,9 +93,7 @@ class LatticeRounds:
 
     def delete(self) -> None:
         """Release passes and room."""
-        programs = (
-            self._nodes, self._gain, self._edges, self._finish, self._recording_finish)
-        for program in programs:
+        for program in (self._nodes, self._edges, self._finish):
             program.delete()
         for buffer in (*self._others, self._figures_buffer):
             buffer.delete()
@@ -147,10 +142,7 @@ class LatticeRounds:
             self, limits: Limits, touch: Touch | None, impulses: Buffer,
             part: float) -> tuple[float, float]:
         self._run_nodes(limits, touch, (impulses, impulses), (part, 0.0), counts_edges=True)
-        gain = self._gain.use(limits)
-        gain.set_pair('parts', (part, 0.0))
-        gain.dispatch(*self._layout.groups)
-        shader_writes_visible()
+        self._run_edges(limits, (part, 0.0), finds_gain=True)
         return self._look()
 
     def _round(
@@ -158,10 +150,7 @@ class LatticeRounds:
             parts: tuple[float, float], out: Buffer) -> None:
         self._run_nodes(limits, touch, impulses, parts, counts_edges=False)
         out.bind_storage(bindings.LIMIT_IMPULSES_OUT)
-        edges = self._edges.use(limits)
-        edges.set_pair('parts', parts)
-        edges.dispatch(*self._layout.groups)
-        shader_writes_visible()
+        self._run_edges(limits, parts, finds_gain=False)
 
     def _run_nodes(
             self, limits: Limits, touch: Touch | None, impulses: tuple[Buffer, Buffer],
@@ -172,6 +161,14 @@ class LatticeRounds:
         nodes.set_pair('parts', parts)
         nodes.set_int('counts_edges', int(counts_edges))
         nodes.dispatch(*self._layout.groups)
+        shader_writes_visible()
+
+    def _run_edges(
+            self, limits: Limits, parts: tuple[float, float], *, finds_gain: bool) -> None:
+        edges = self._edges.use(limits)
+        edges.set_pair('parts', parts)
+        edges.set_int('finds_gain', int(finds_gain))
+        edges.dispatch(*self._layout.groups)
         shader_writes_visible()
 
     def _look(self) -> tuple[float, float]:
@@ -190,11 +187,8 @@ class LatticeRounds:
         """
         self._figures_buffer.bind_storage(bindings.LIMIT_FIGURES)
         self._buffers.impulses.bind_storage(bindings.LIMIT_IMPULSES)
-        if held_at < 0:
-            finish = self._finish.use(limits)
-        else:
-            finish = self._recording_finish.use(limits)
-            finish.set_int('held_at', held_at)
+        finish = self._finish.use(limits)
+        finish.set_int('held_at', held_at)
         finish.set_int('gives', int(gives))
         finish.dispatch(*self._layout.groups)
         shader_writes_visible()

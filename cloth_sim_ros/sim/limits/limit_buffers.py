@@ -5,6 +5,7 @@
 
 from cloth_sim_ros.gl.buffer import Buffer
 from cloth_sim_ros.gl.buffer import BufferRow
+from cloth_sim_ros.gl.quick_calls import Call
 from cloth_sim_ros.gl.quick_calls import make
 from cloth_sim_ros.sim.device import bindings
 from cloth_sim_ros.sim.device.layout import Layout
@@ -32,7 +33,7 @@ class LimitBuffers:
 
     ``lists`` has what limit_lists.glsl says, ``impulses`` three floats for each edge [m/s],
     ``changes`` the change of velocity of each node by them, and room as limit_give.glsl says,
-    ``tally`` what that has done: since the host has looked, and in the present step of dt.
+    ``tally`` the counts of limit/solve.comp: since the host has looked, and in the present dt.
     """
 
     def __init__(self, layout: Layout) -> None:
@@ -59,8 +60,11 @@ class LimitBuffers:
 
     def mark_none(self) -> None:
         """Begin to mark blocks anew."""
-        self.lists.clear_first(self._looked_at)
-        make(self._write_head)
+        make(self.mark_none_calls())
+
+    def mark_none_calls(self) -> list[Call]:
+        """Return the calls that ``mark_none`` makes."""
+        return [*self.lists.clear_first_calls(self._looked_at), *self._write_head]
 
     def take_newly_listed(self) -> int:
         """Wait for limit/list.comp; return how many edges have come to those listed before."""
@@ -77,6 +81,13 @@ class LimitBuffers:
         self._row.bind_storage(bindings.LIMIT_LISTS)
         if self._layout.texture_loads:
             state.bind_out_textures()
+            self.changes.bind_texture(bindings.LIMIT_CHANGES)
+
+    def bind_what_stays(self) -> None:
+        """Let the next dispatches do so in any state, whose buffers are bound by themselves."""
+        self._row.bind_storage(bindings.LIMIT_LISTS)
+        self.lists.bind_dispatches()
+        if self._layout.texture_loads:
             self.changes.bind_texture(bindings.LIMIT_CHANGES)
 
     def bind_for_reading(self, buffer: Buffer, place: int) -> None:

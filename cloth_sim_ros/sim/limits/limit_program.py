@@ -24,9 +24,10 @@ _WIDE = 0.5
 # node falls in a substep: the force at the pin of 15 hanging edges then trembles by 1e-4 of the
 # weight, and at 1e-3 by 1e-3 (force_tremor.py).
 _TOLERANCE = 1e-5
-# What else suffices, so that each substep takes over what is left: a share of the first change of
-# the substep [1], at rest and in motion, up to a share of the limit of the shortest edge [1]; and
-# the first change from which on a cloth counts as moving, over the way that a node falls [1].
+# Changes of a length that suffice, too, so that each substep continues the rounds of the one
+# before: over the first change of the substep [1], at rest and in motion, but no more than a
+# fraction of the limit of the shortest edge [1]; and the first change from which on a cloth counts
+# as moving, over the distance that a node falls in a substep [1].
 _REDUCTION = (0.1, 0.5)
 _LOOSE = 0.01
 _MOTION = 0.01
@@ -61,17 +62,16 @@ class LimitProgram:
     A pass, compiled when it is first used.
 
     :param name: of the shader
-    :param adds: whether it lists edges beside those listed in the substep
     """
 
     def __init__(
             self, name: str, scene: Scene, layout: Layout,
-            defines: Mapping[str, object] | None = None, *, adds: bool = False) -> None:
+            defines: Mapping[str, object] | None = None) -> None:
         """Remember what to compile."""
         self._pass = SceneProgram(name, scene, layout, defines)
         self._layout = layout
-        self._adds = adds
         self._set: Limits | None = None
+        self._adds: bool | None = None
         gravity = float(np.linalg.norm(scene['gravity'])) or _STANDARD_GRAVITY
         law = limit_law(scene, scene['adaptive.threshold'])
         self._stiffness = [law.limit_stiffness[rest] for rest in range(3)]
@@ -84,15 +84,18 @@ class LimitProgram:
         share = _REDUCTION[first > motion]
         return max(tolerance, min(loose, share * first))
 
-    def use(self, limits: Limits, touch: Touch | None = None) -> Program:
-        """Return the program, in use and set to a substep."""
+    def use(
+            self, limits: Limits, touch: Touch | None = None, *, adds: bool = False) -> Program:
+        """
+        Return the program, in use and set to a substep.
+
+        :param adds: whether it lists edges beside those listed in the substep
+        """
         program = self._pass.use()
         if limits is not self._set and limits != self._set:
             program.set_float('substep', limits.length)
             program.set_float('limit', limits.strain)
             program.set_int('block_count', self._layout.block_count)
-            program.set_float('near', 1.0 if self._adds else NEAR)
-            program.set_int('adds', int(self._adds))
             program.set_float('ahead', self._layout.block * limits.length)
             program.set_float('wide', 0.0 if limits.is_rough else _WIDE)
             program.set_float('closing', CLOSING)
@@ -105,9 +108,18 @@ class LimitProgram:
             program.set_float('most_scale', MOST_SCALE)
             program.set_int('round_limit', MOST_ROUNDS)
             self._set = limits
+        if adds is not self._adds:
+            program.set_float('near', 1.0 if adds else NEAR)
+            program.set_int('adds', int(adds))
+            self._adds = adds
         if touch is not None:
             touch.set_in(program, limits.length)
         return program
+
+    @property
+    def made(self) -> Program:
+        """Return the program, in use, as it is set."""
+        return self._pass.use()
 
     def _compliances(self, length: float) -> list[float]:
         """Return what edges pass their limit by for each impulse, where they stay there [s]."""
@@ -121,4 +133,4 @@ class LimitProgram:
     def delete(self) -> None:
         """Release the program."""
         self._pass.delete()
-        self._set = None
+        self._set = self._adds = None

@@ -24,6 +24,7 @@ from cloth_sim_ros.sim.modes.edge_watch import TurnWatch
 from cloth_sim_ros.sim.modes.free_motion import FreeMotion
 from cloth_sim_ros.sim.modes.implicit import Settling
 from cloth_sim_ros.sim.modes.limited_springs import LimitedSprings
+from cloth_sim_ros.sim.modes.listed_substeps import ListedSubsteps
 from cloth_sim_ros.sim.modes.mass_spring import OnePass
 from cloth_sim_ros.sim.modes.mode import CHECKED_SUBSTEPS
 from cloth_sim_ros.sim.scene import FAMILIES
@@ -98,7 +99,8 @@ class Adaptive:
 
     While no edge is foreseen near its limit, springs are all (calm). Where the edges at their
     limit take longer than the whole cloth would take, it is solved for by the implicit step
-    (whole). ``substeps`` are those of the last step.
+    (whole). ``substeps`` are those of the last step, ``last_length`` is that of the last of them
+    [s], 0 where none was.
     """
 
     name = 'adaptive'
@@ -123,6 +125,7 @@ class Adaptive:
         self._scheme: str = scene['adaptive.scheme']
         self._limits = ActiveLimits(
             scene, layout, are_many={'list': False, 'lattice': True}.get(self._scheme))
+        self._alike = ListedSubsteps(self._springs, self._limits)
         self._marks = LimitMarks(scene, layout)
         self._free_motion = FreeMotion(scene, layout)
         self._limits_now = Limits(self._length, self.strain_bound)
@@ -221,8 +224,7 @@ class Adaptive:
         self.substeps = self._fewest
         self._made = Made()
         self._longest = self._length
-        # Length of the last substep [s]; 0 where none was.
-        self._before = 0.0
+        self.last_length = 0.0
         self._is_listed = self._is_whole = self._was_settling = False
         # Whether edges were listed in the substeps before the last review, and not just one or
         # two.
@@ -248,6 +250,7 @@ class Adaptive:
         self._settling.forget()
         self._watch.forget()
         self._limits.release()
+        self._alike.forget()
         self._marks.forget()
         self._free_motion.forget()
         if self._whole is not None:
@@ -290,10 +293,10 @@ class Adaptive:
         if self._is_whole and self._whole is not None:
             return self._whole.tension(positions, velocities, nodes)
         springs = spring_tension(self._scene, positions, velocities, nodes)
-        if not (self._is_listed and self._before):
+        if not (self._is_listed and self.last_length):
             return springs
         pulls = self._limits.pulls(positions)
-        return (springs + self._scene.node_mass / self._before * pulls).astype(np.float32)
+        return (springs + self._scene.node_mass / self.last_length * pulls).astype(np.float32)
 
     def delete(self) -> None:
         """Release everything."""
@@ -334,7 +337,7 @@ class Adaptive:
             start = now + index * length
             self._springs.substep(
                 state, self._forcing(state, start, length, loads), length, self._kick(length))
-            self._before = length
+            self.last_length = length
         self._watch.advance(calm)
         self._look_edits = state.edits
         self._settling.is_new = False
@@ -355,21 +358,14 @@ class Adaptive:
             # Each other length would be set anew in all passes.
             length = self._limits_now.length
         some = min(count, max(self._until_look, 1), _REVIEW if self._has_held else _FIRST)
-        is_free = not state.pinned.any()
-        for index in range(some):
+        made = 0
+        while made < some:
             leave_if(stop)
-            forcing = self._forcing(state, now + index * length, length, loads)
-            if is_free:
-                self._free_motion.aim_at(state, forcing, loads.still, self._kick(length))
-            self._springs.run(state, forcing, length, self._kick(length), acts=False)
-            self._set_limits(length, forcing)
-            self._limits.act(state, self._limits_now, forcing.touch, self._springs.held_at)
-            self._act_on_touch(state, forcing, length)
-            state.swap()
-            self._before = length
-            if is_free:
-                self._keep_momentum(state, forcing, loads.still, length)
-            self._advance_settling(length)
+            start = now + made * length
+            alike = self._make_alike(state, start, length, some - made, loads, stop)
+            if alike == 0:
+                self._make_listed(state, start, length, loads)
+            made += alike or 1
         self._until_look -= some
         self._rough_made = self._rough_made + some if self._rough_left > 0 else 0
         self._rough_left = max(self._rough_left - some, 0)
@@ -383,6 +379,39 @@ class Adaptive:
         if self._unreviewed >= _REVIEW or self._is_settling:
             self._review(length, state, loads)
         return some * length
+
+    def _make_alike(
+            self, state: State, start: float, length: float, most: int, loads: Loads,
+            stop: Stop) -> int:
+        """Make up to ``most`` substeps under the same loads at once; return how many."""
+        if self._kick(length) != length or self._is_settling or not state.pinned.any():
+            return 0
+        count = int(min(most, (loads.quiet_until(start) - start) / length + _NOTHING))
+        if count == 0:
+            return 0
+        forcing = self._forcing(state, start, length, loads)
+        self._set_limits(length, forcing)
+        if not self._alike.can_make(state, forcing, self._limits_now):
+            return 0
+        made = self._alike.make(state, forcing, self._limits_now, count, stop)
+        self.last_length = length
+        return made
+
+    def _make_listed(self, state: State, start: float, length: float, loads: Loads) -> None:
+        """Make a substep in which edges are held."""
+        is_free = not state.pinned.any()
+        forcing = self._forcing(state, start, length, loads)
+        if is_free:
+            self._free_motion.aim_at(state, forcing, loads.still, self._kick(length))
+        self._springs.run(state, forcing, length, self._kick(length), acts=False)
+        self._set_limits(length, forcing)
+        self._limits.act(state, self._limits_now, forcing.touch, self._springs.held_at)
+        self._act_on_touch(state, forcing, length)
+        state.swap()
+        self.last_length = length
+        if is_free:
+            self._keep_momentum(state, forcing, loads.still, length)
+        self._advance_settling(length)
 
     def _advance_settling(self, length: float) -> None:
         """Go on by a listed substep of ``length`` [s]."""
@@ -409,15 +438,16 @@ class Adaptive:
             if is_edited or not is_quiet:
                 self._limits.look_anew()
                 self._rough_left = _ROUGH_FOR
-            ahead = min(left, _LOOK * self._length)
-            longest, strain = self._turns.look(
-                state, loads.forcing(state, now, now + ahead), ahead)
-            self._settling.begin(strain)
             self._until_look, self._look_edits = _LOOK, state.edits
-            parts, turned = 1, longest
+            parts, turned = 1, math.inf
+            if self._are_some or self._settling.is_new:
+                ahead = min(left, _LOOK * self._length)
+                turned, strain = self._turns.look(
+                    state, loads.forcing(state, now, now + ahead), ahead)
+                self._settling.begin(strain)
             if self._are_some and self._scene['auto_substeps']:
                 shortest = self._dt / self._scene['constraint.max_substeps']
-                longest = max(longest / self._scene['refine'], shortest)
+                longest = max(turned / self._scene['refine'], shortest)
                 parts = max(1, math.ceil(self._length / longest))
             # Springs keep their energy in substeps of equal length.
             if parts > self._parts or parts <= _LONGER * self._parts:
@@ -473,16 +503,16 @@ class Adaptive:
         self._closing_left = 0
         self._is_whole = True
         whole.clear_tally()
-        whole.take_over(self._before)
+        whole.take_over(self.last_length)
 
     def _step_whole(
             self, state: State, now: float, left: float, loads: Loads, stop: Stop) -> float:
         """Make implicit substeps for ``left`` [s], and return that."""
         assert self._whole is not None
         self._whole.advance(state, now, left, loads, stop)
-        self._before = self._whole.last_length
+        self.last_length = self._whole.last_length
         self._made.whole += self._whole.substeps
-        self._longest = max(self._longest, self._before)
+        self._longest = max(self._longest, self.last_length)
         return left
 
     def _are_fewer(self, state: State, now: float, loads: Loads) -> bool:
@@ -502,8 +532,8 @@ class Adaptive:
     def _kick(self, length: float) -> float:
         """Return for how long [s] forces act in a substep of ``length`` [s]."""
         # A velocity belongs to the middle of its substep, so forces act from there to the next.
-        if self._before and abs(self._before - length) > _NOTHING * length:
-            return 0.5 * (self._before + length)
+        if self.last_length and abs(self.last_length - length) > _NOTHING * length:
+            return 0.5 * (self.last_length + length)
         return length
 
     def _forcing(self, state: State, start: float, length: float, loads: Loads) -> Forcing:

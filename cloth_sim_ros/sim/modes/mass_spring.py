@@ -10,7 +10,9 @@ from typing import Protocol
 
 from cloth_sim_ros.gl.buffer import Buffer
 from cloth_sim_ros.gl.buffer import shader_writes_visible
+from cloth_sim_ros.gl.buffer import WRITES_VISIBLE
 from cloth_sim_ros.gl.program import Program
+from cloth_sim_ros.gl.quick_calls import Call
 from cloth_sim_ros.sim.device.layout import Layout
 from cloth_sim_ros.sim.device.scene_program import SceneProgram
 from cloth_sim_ros.sim.held.pin_forces import spring_tension
@@ -70,17 +72,14 @@ class OnePass:
 
     def substeps(self, state: State, forcing: Forcing, length: float, count: int) -> None:
         """Step ``state`` on ``count`` times by ``length`` [s], under the same forcing."""
-        impulses = state.impulses
         made = 0
         while made < count:
-            held_at, some, apart = (
-                (-1, count, 0) if impulses is None or not impulses.is_recording
-                else impulses.reserve(count - made))
-            step = self._begin(forcing, length, length, records=apart > 0)
-            for entry in range(held_at, held_at + some * apart, apart) if apart else (-1,) * some:
+            entries = state.next_held_entries(count - made)
+            step = self._begin(forcing, length, length, records=entries[0] >= 0)
+            for entry in entries:
                 self._make(state, step, forcing, entry)
                 state.swap()
-            made += some
+            made += len(entries)
 
     def run(
             self, state: State, forcing: Forcing, length: float,
@@ -95,6 +94,21 @@ class OnePass:
         step = self._begin(
             forcing, length, length if kick is None else kick, records=self.held_at >= 0)
         self._make(state, step, forcing, self.held_at, acts=acts and is_kept)
+
+    def begin(self, forcing: Forcing, length: float, *, records: bool) -> Program:
+        """Return the pass of substeps of ``length`` [s] in which no collider acts, set to them."""
+        return self._begin(forcing, length, length, records=records)
+
+    def calls(self, state: State, step: Program) -> list[Call]:
+        """Return the calls that make a substep with what ``begin`` has returned."""
+        return [*state.step_calls(), *step.calls(*self._groups), WRITES_VISIBLE]
+
+    def made(self, step: Program, count: int, last_entry: int) -> None:
+        """Count ``count`` times that ``calls`` were made, at last with ``last_entry`` held."""
+        step.submitted(count)
+        self.held_at = last_entry
+        if last_entry >= 0:
+            self._held_set = last_entry
 
     def _begin(
             self, forcing: Forcing, length: float, kick: float, *, records: bool) -> Program:
@@ -157,7 +171,7 @@ class MassSpring:
         self._scene = scene
         self.stability_limit = stability_limit(scene)
         self.substeps = spring_substeps(scene, self.name, check_stability=check_stability)
-        self._length: float = scene['dt'] / self.substeps
+        self.last_length = self._length = scene['dt'] / self.substeps
         self.substep_margin = self._length / self.stability_limit
         self._passes = self.make_passes(scene, layout)
         self._tiles: SpringTiles | None = None

@@ -47,6 +47,10 @@ class Mode(Protocol):
         """Get how many there are in a dt."""
 
     @property
+    def last_length(self) -> float:
+        """Get the length of the last substep [s]; 0 where none was."""
+
+    @property
     def checked_substeps(self) -> int:
         """Get how many lie between two checks of the state at most."""
 

@@ -70,6 +70,4 @@ def test_a_cloth_of_the_default_scene_gains_no_energy(context, scheme):
         for _ in range(60):
             account.step(1)
         assert np.isfinite(simulation.positions()).all()
-    # Scheme whole misses 1e-3 by 1.2e-3, in two steps in which its substeps become several times
-    # as long. The cause is open.
-    within('energy gained, relative', account.gained, 3e-3 if scheme == 'whole' else 1e-3)
+    within('energy gained, relative', account.gained, 1e-3)

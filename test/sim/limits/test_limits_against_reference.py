@@ -77,8 +77,8 @@ def step_both(simulation, cloth, tolerance):
         assert snapshot.listed_substeps == simulation.substeps == cloth.substeps
         assert snapshot.solver_reached
         held.append(np.count_nonzero(np.linalg.norm(cloth.impulses, axis=1)))
-        # A substep leaves an error of the tolerance in the lengths along a line of edges, which
-        # the next ones take up as an error of where they begin.
+        # A substep leaves an error of the tolerance in the lengths along a line of edges, from
+        # which the next ones start.
         lines = max(cloth.scene.rows, cloth.scene.cols)
         off = (tolerance + 2.0 * ROUNDING) * lines
         within('positions [m]', np.abs(snapshot.positions - cloth.positions).max(),
@@ -90,7 +90,7 @@ def step_both(simulation, cloth, tolerance):
 
 @pytest.fixture
 def exact(monkeypatch):
-    """Let the device go on with its rounds as far as float32 goes."""
+    """Let the device make rounds up to the accuracy of float32."""
     monkeypatch.setattr(limit_program, '_LOOSE', 0.0)
     monkeypatch.setattr(limit_program, '_REDUCTION', (0.0, 0.0))
     monkeypatch.setattr(limit_program, '_TOLERANCE', 2e-3)

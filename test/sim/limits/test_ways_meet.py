@@ -21,7 +21,7 @@ SCENE = {
     'adaptive.threshold': 0.02, 'stiffness.structural': 3.0, 'stiffness.shear': 1.0,
     'stiffness.bend': 0.3, 'damping.structural': 0.02, 'damping.shear': 0.02,
     'damping.bend': 0.003, 'air.density': 0.0, 'dt': 0.005, 'solver.tolerance': 1e-4}
-# Of the cloth times its side [J].
+# Weight of the cloth times its side [J].
 WEIGHT = 0.2 * SIDE**2 * 9.81 * SIDE
 
 

@@ -118,7 +118,7 @@ def test_an_edge_that_impulses_hold_stores_nothing(simulate, within, scheme, gra
     # An edge that carries both nodes is a strain of 0.03 of 0.002 past its limit.
     stiffness = mass * 2 * 9.81 / 0.002 / 0.03 / 0.5
     beyond = (mass * gravity - 1.0 * stretch) / stiffness
-    # Rounds end at 1e-5 of the way that a node falls in a substep.
+    # Rounds end at 1e-5 of the distance that a node falls in a substep.
     within('stretch, off that beyond the limit [m]', abs(stretch - 0.05 * 0.5 - beyond),
            2e-7 + 1e-5 * gravity * 0.01**2)
     within('elastic energy, relative to that of the spring',

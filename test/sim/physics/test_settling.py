@@ -4,6 +4,7 @@
 """A cloth that comes with more strain than its mode allows, while a limit closes in on it."""
 
 from cloth_sim_ros.messages.frame import stats_message
+from cloth_sim_ros.study.energy_account import EnergyAccount
 import numpy as np
 import pytest
 
@@ -31,18 +32,22 @@ def run(simulate, values, seconds):
 @pytest.mark.parametrize('dt', [0.005, pytest.param(0.00125, marks=pytest.mark.long)])
 def test_settling_work_is_all_energy_gained(simulate, within, mode, scheme, seed, dt):
     """A taut chain of 254 J gained 4.1 J at 5 ms and 9.2 J at 1.25 ms, without a word."""
-    seen = run(simulate, {
-        **TAUT, 'mode': mode, 'adaptive.scheme': scheme, 'dt': dt, 'start.seed': seed}, 0.6)
-    energies = np.array([each.total_energy for each in seen])
+    simulation = simulate({
+        **TAUT, 'mode': mode, 'adaptive.scheme': scheme, 'dt': dt, 'start.seed': seed})
+    account = EnergyAccount(simulation)
+    seen, kept = [account.seen], [account.energy]
+    for _ in range(round(0.6 / dt)):
+        seen.append(account.step())
+        kept.append(account.energy)
+    gain = np.array(kept) - kept[0]
     work = np.array([each.settling_work for each in seen])
-    gain = energies - energies[0]
-    # The springs of mode adaptive take up what hard edges are thrown with.
+    # The springs of mode adaptive store the energy that throws hard edges.
     assert gain.max() > 0.5 or mode == 'adaptive'
     assert seen[1].settling and work.any()
     from_nothing = np.maximum(gain - work, 0.0).max()
-    # Explicit velocities belong to the middle of a substep, so that their energy swings.
-    share = 1e-3 if mode == 'adaptive' and scheme != 'whole' else ROUNDING
-    within('gained besides the work of the limit [J]', from_nothing, share * energies[0])
+    # What edges store past a limit that is held by lists is not known, so not in their energy.
+    share = 5e-4 if mode == 'adaptive' and scheme != 'whole' else ROUNDING
+    within('gained besides the work of the limit [J]', from_nothing, share * seen[0].total_energy)
     # Where it does nothing any more, it has ended, and said so all the time before.
     works = np.flatnonzero(np.diff(work))
     assert all(each.settling for each in seen[1:works[-1] + 1])

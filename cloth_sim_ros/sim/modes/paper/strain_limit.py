@@ -191,7 +191,7 @@ class PaperAdaptive:
         self.strain_bound: float = scene['adaptive.threshold']
         self._scene = scene
         self._dt: float = scene['dt']
-        self._length = self._dt / self.substeps
+        self.last_length = self._length = self._dt / self.substeps
         self.substep_margin = self._length / self.stability_limit
         self._springs = OnePass(scene, layout)
         self._watch = StrainWatch(scene, layout, _NEAR * self.strain_bound)
