@@ -144,14 +144,14 @@ class Buffer:
 
     def clear_first(self, size: int) -> None:
         """Make the first ``size`` bytes zero."""
-        make(self.clear_first_calls(size))
+        make(self.clear_calls(0, size))
 
-    def clear_first_calls(self, size: int) -> list[Call]:
-        """Return the calls that make the first ``size`` bytes zero."""
+    def clear_calls(self, offset: int, size: int) -> list[Call]:
+        """Return the calls that make ``size`` bytes from ``offset`` on zero."""
         self._is_filled = True
         return [
             (memory_barrier, (_READS,)), (bind_buffer, (_STORAGE, self.name)),
-            (clear_buffer, (_STORAGE, _R32UI, 0, size, _RED_INTEGER, _UNSIGNED_INT, 0))]
+            (clear_buffer, (_STORAGE, _R32UI, offset, size, _RED_INTEGER, _UNSIGNED_INT, 0))]
 
     def copy(self, begin: int, into: int, size: int) -> None:
         """Copy ``size`` bytes from ``begin`` to ``into``; the two parts have to lie apart."""

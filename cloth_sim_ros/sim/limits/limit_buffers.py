@@ -40,8 +40,8 @@ class LimitBuffers:
         """Allocate all of them, without an impulse."""
         stored = layout.stored
         self._layout = layout
-        # What a look begins with: no marked block, and no listed edge.
-        self._looked_at = (_HEAD + 2 * layout.block_count + stored) * _WORD
+        # Marks, counts and masks [bytes], which a look begins with zero.
+        self._looked_at = (2 * layout.block_count + stored) * _WORD
         self.lists = Buffer(
             (_HEAD + 3 * layout.block_count + (2 + EDGES) * stored) * _WORD)
         self._write_head = self.lists.write_calls(_NONE_MARKED)
@@ -64,7 +64,8 @@ class LimitBuffers:
 
     def mark_none_calls(self) -> list[Call]:
         """Return the calls that ``mark_none`` makes."""
-        return [*self.lists.clear_first_calls(self._looked_at), *self._write_head]
+        # Apart: what is filled and then written may keep the fill (Buffer._finish_fill).
+        return [*self.lists.clear_calls(_HEAD * _WORD, self._looked_at), *self._write_head]
 
     def take_newly_listed(self) -> int:
         """Wait for limit/list.comp; return how many edges have come to those listed before."""
@@ -105,6 +106,7 @@ class LimitBuffers:
         """Drop all impulses."""
         for buffer in self._all:
             buffer.clear()
+        self.lists.write(_NONE_MARKED)
 
     def delete(self) -> None:
         """Release all of them."""
