@@ -185,6 +185,7 @@ CONSTANTS = (
     Constant('_RETURN', f'{_MODES}adaptive.py', ('0.1', '0.25', '0.75', '1.0'), _LISTED[:3]),
     Constant('_FIRST', f'{_MODES}adaptive.py', ('2', '4', '8'), _LISTED),
     Constant('_LONGER', f'{_MODES}adaptive.py', ('0.25', '0.75', '1.0'), _LISTED),
+    Constant('_KEPT_FOR', f'{_MODES}adaptive.py', ('0', '64', '4096'), _LISTED),
     Constant('_SOME', f'{_MODES}adaptive.py', ('0.0', '0.01', '0.1', '1.0'), _LISTED),
     Constant('_ROUGH', f'{_MODES}adaptive.py', ('0.005', '0.01', '0.05', '0.2'), _LISTED),
     Constant('_ROUGH_FOR', f'{_MODES}adaptive.py', ('8', '16', '64', '128'), _LISTED),
