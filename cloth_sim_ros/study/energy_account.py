@@ -81,11 +81,6 @@ def _normals(body: Collider, positions: np.ndarray) -> np.ndarray:
 
 # Relative rounding of float32 [1], of two operations.
 _ROUNDING = 2e-7
-# Fraction of a step that counts as the whole step [1]: times are sums of dt, and rounded.
-_WHOLE = 1.0 - 1e-9
-# Fraction of a step [1] from which on nodes are taken to move steadily for the rest of it, not
-# while a push acts.
-_MOST_OF_IT = 0.5
 
 
 class EnergyAccount:
@@ -163,14 +158,14 @@ class EnergyAccount:
     def _step(self, count: int) -> None:
         before, begin = self.seen, self._run.time
         end = begin + count * self._run.dt
-        shares = self._shares(begin, end, before)
+        pushed = self._pushed_between(begin, end, before)
         self._run.step(count)
         self._substeps += count * self._run.substeps
         now = self._look()
         moved = now.positions.astype(float) - before.positions
-        for push, nodes, share in shares:
-            way = _moved_under(push, (begin, end), (before, now), share)
-            self._work += float(np.array(push.force) @ way[nodes].mean(axis=0))
+        for push, nodes in pushed:
+            moved_under = _moved_under(push, (begin, end), (before, now))
+            self._work += float(np.array(push.force) @ moved_under[nodes].mean(axis=0))
         if self._has_pin_moves and now.pin_forces is not None:
             rows, cols = now.pin_forces.nodes.T
             self._work -= float(np.sum(now.pin_forces.forces * moved[rows, cols]))
@@ -192,20 +187,18 @@ class EnergyAccount:
         self._gain = max(self._gain, energy - self._work) if now.finite else np.inf
         self._most = max(self._most, self._moving(now))
 
-    def _shares(
-            self, begin: float, end: float,
-            before: Snapshot) -> list[tuple[Push, np.ndarray, float]]:
-        """Return each push that acts, its nodes, and the fraction of the time it acts for."""
-        shares = []
+    def _pushed_between(
+            self, begin: float, end: float, before: Snapshot) -> list[tuple[Push, np.ndarray]]:
+        """Return each push that acts, and its nodes."""
+        pushed = []
         for push in (applied.push for applied in self._run.pushes):
-            share = push.overlap(begin, end)
-            if share <= 0.0:
+            if push.overlap(begin, end) <= 0.0:
                 continue
             if push not in self._pushed:
                 self._pushed[push] = push.contains(before.positions) & ~self._run.pinned_nodes()
             if self._pushed[push].any():
-                shares.append((push, self._pushed[push], share))
-        return shares
+                pushed.append((push, self._pushed[push]))
+        return pushed
 
     def _is_worked_on(self, steps: int) -> bool:
         begin, end = self._run.time, self._run.time + steps * self._run.dt
@@ -276,17 +269,21 @@ class EnergyAccount:
 
 
 def _moved_under(
-        push: Push, times: tuple[float, float], seen: tuple[Snapshot, Snapshot],
-        share: float) -> np.ndarray:
-    """Return how far nodes have moved while ``push`` acted between two ``times`` [m]."""
+        push: Push, times: tuple[float, float], seen: tuple[Snapshot, Snapshot]) -> np.ndarray:
+    """
+    Return how far nodes have moved while ``push`` acted between two ``times`` [m].
+
+    On the cubic that has their positions and velocities at both times.
+    """
     (begin, end), (before, now) = times, seen
-    first, last = before.velocities.astype(float), now.velocities.astype(float)
-    if share < _MOST_OF_IT:
-        return share * (end - begin) * 0.5 * (first + last)
+    length = end - begin
     moved = now.positions.astype(float) - before.positions
-    if share > _WHOLE:
-        return moved
-    return moved - max(push.start - begin, 0.0) * first - max(end - push.end, 0.0) * last
+    first, last = (length * each.velocities.astype(float) for each in seen)
+    since, until = (
+        min(max((time - begin) / length, 0.0), 1.0) for time in (push.start, push.end))
+    return (
+        first * (until - since) + (3.0 * moved - 2.0 * first - last) * (until**2 - since**2)
+        + (first + last - 2.0 * moved) * (until**3 - since**3))
 
 
 def _closing_work(
