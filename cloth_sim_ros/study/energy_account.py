@@ -95,7 +95,7 @@ class EnergyAccount:
 
     The work of pins that move is that of the forces on them at the end of each step; that of a
     limit which closes in on a cloth that came stretched is found from the pulls at both ends of a
-    step.
+    step, or is the ``settling_work`` of impulses, which have no law.
 
     :param run: as it begins; it is stepped by ``step`` alone
     """
@@ -177,6 +177,9 @@ class EnergyAccount:
         self._work += _closing_work(
             self._run.scene, self._moving_edges(), (self._law, before.positions),
             (law, now.positions))
+        if not (law.has_limits or self._law.has_limits):
+            # Impulses that let a stretched cloth down to its limit, as the mode accounts for them.
+            self._work += now.settling_work - before.settling_work
         self._law = law
         air_work = self._run.loads.work()
         self._work += air_work - self._air_work
