@@ -189,6 +189,7 @@ CONSTANTS = (
     Constant('_SOME', f'{_MODES}adaptive.py', ('0.0', '0.01', '0.1', '1.0'), _LISTED),
     Constant('_ROUGH', f'{_MODES}adaptive.py', ('0.005', '0.01', '0.05', '0.2'), _LISTED),
     Constant('_ROUGH_FOR', f'{_MODES}adaptive.py', ('8', '16', '64', '128'), _LISTED),
+    Constant('_DEAR', f'{_MODES}adaptive.py', ('1.0', '3.0', '1e9'), _LISTED),
     Constant('_ROUGH_MOST', f'{_MODES}adaptive.py', ('32', '128', '4096'), _LISTED),
     Constant('_NOTABLE', f'{_MODES}adaptive.py', ('1.0', '1.02', '1.2', '100.0'),
              (*_LISTED, 'whole')),

@@ -69,6 +69,10 @@ _ROUGH_FOR = 32
 # Max. rough substeps in a row that put off the whole-cloth step [1]: pins that are shaken throw
 # the cloth all the time; 128 let edges reach 1.76 times their limit, not 1.36 (limits.py).
 _ROUGH_MOST = 512
+# Cost of lists over that of the whole cloth [1], above which rough substeps do not put it off,
+# either: a shaken towel takes 0.8 of the time (shaken_towel.py --seconds 4); with 3, edges reach
+# 1.68 times their limit, not 1.35 (limits.py).
+_DEAR = 6.0
 # Strain over the limit above which a new cloth is let down to it in some time [1].
 _NOTABLE = 1.05
 # Substeps that still count as settling after a limit has closed in [1]: they reduce the strain
@@ -486,10 +490,11 @@ class Adaptive:
         whole_length = min(self._dt, max(self._turn_length, length))
         if self._scheme != 'constraint':
             return
+        listed_cost = _LISTED_COST + _ROUND_COST * rounds
+        whole_cost = _WHOLE_COST * length / whole_length
         # A list holds a cloth better that is thrown, which is mostly over soon.
-        if 0 < self._rough_made < _ROUGH_MOST:
-            return
-        if _LISTED_COST + _ROUND_COST * rounds > _WHOLE_COST * length / whole_length:
+        is_put_off = 0 < self._rough_made < _ROUGH_MOST and listed_cost < _DEAR * whole_cost
+        if listed_cost > whole_cost and not is_put_off:
             self._listed_then = tally.most_listed
             self._begin_whole(state, loads.still)
 
