@@ -307,6 +307,7 @@ class Adaptive:
 
     def delete(self) -> None:
         """Release everything."""
+        self._alike.forget()
         for part in (
                 self._springs, self._watch, self._turns, self._limits, self._marks,
                 self._free_motion, self._whole):

@@ -97,6 +97,8 @@ class OnePass:
 
     def begin(self, forcing: Forcing, length: float, *, records: bool) -> Program:
         """Return the pass of substeps of ``length`` [s] in which no collider acts, set to them."""
+        # Whoever makes the calls sets it, and may leave before ``made``.
+        self._held_set = None
         return self._begin(forcing, length, length, records=records)
 
     def calls(self, state: State, step: Program) -> list[Call]:

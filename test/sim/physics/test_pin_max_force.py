@@ -44,8 +44,8 @@ def test_a_taut_chain_stops_the_pins(simulate, within, mode):
         most = max(most, float(np.linalg.norm(now.pin_forces.forces, axis=-1).max()))
     # Force is looked at once a dt, in which both ends go on.
     a_step = 2.0 * SPEED * DT / LINKS * STIFFEST[mode]
-    # Listed substeps close a tenth of an excess each: while it is stretched, an edge pulls harder
-    # by what it is stretched in ten substeps (docs/explanation/adaptive.md).
+    # Force of the damper of a limit [N]: its stiffness times the elongation of an edge in ten
+    # listed substeps (docs/explanation/adaptive.md).
     closing = 10.0 / simulation.substeps * a_step if mode == 'adaptive' else 0.0
     # Damping pulls as well, as do the nodes that are sped up, while it is pulled.
     within('force of a pin', most, BOUND + 2.0 * a_step + closing + 0.5)
