@@ -44,7 +44,7 @@ setup(
     entry_points={
         'console_scripts': [
             'cloth_sim = cloth_sim_ros.verb.main:main',
-            'cloth_sim_node = cloth_sim_ros.node.main:main',
+            'cloth_sim_node = cloth_sim_ros.node.command:main',
         ],
     },
 )

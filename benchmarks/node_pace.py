@@ -8,17 +8,18 @@ The node runs as fast as possible (real_time_factor 0). Another process reads it
 figures are simulated seconds a second of wall time, one a measurement; checkouts take turns.
 
 For example:
-  git worktree add --detach /tmp/former abfb2b5
+  git worktree add --detach /tmp/former abfb2b5 && /tmp/former/scripts/setup.sh
   python benchmarks/node_pace.py --sizes 32 64 128 --beside /tmp/former
 """
 
 from argparse import ArgumentParser
 import json
 import subprocess
-import sys
 import tempfile
 import time
 
+from cloth_sim_ros.study.node_cost import environment
+from cloth_sim_ros.study.node_cost import interpreter
 from cloth_sim_ros.study.node_cost import scene_values
 
 _TOPICS = ('points', 'markers', 'stats', 'pins/wrenches')
@@ -33,13 +34,16 @@ def pace(checkout: str, size: int, seconds: float) -> float:
             **scene_values(size, {}), 'real_time_factor': 0.0, 'publish.rate': 50.0,
             'recording.enabled': True, 'recording.directory': folder}
         node = subprocess.Popen(
-            [sys.executable, '-m', 'cloth_sim_ros.node', '--ros-args',
+            [interpreter(checkout), '-m', 'cloth_sim_ros.node', '--ros-args',
              *(part for name, value in values.items()
                for part in ('-p', f'{name}:={json.dumps(value)}'))],
-            cwd=checkout or None, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+            cwd=checkout or None, env=environment(checkout), stdout=subprocess.DEVNULL,
+            stderr=subprocess.DEVNULL)
         reader = subprocess.Popen(
-            [sys.executable, '-m', 'cloth_sim_ros.study.topic_listener', '/cloth_sim', *_TOPICS],
-            stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
+            [interpreter(checkout), '-m', 'cloth_sim_ros.study.topic_listener', '/cloth_sim',
+             *_TOPICS],
+            cwd=checkout or None, env=environment(checkout), stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE, text=True)
         try:
             time.sleep(_START + seconds)
             found = json.loads(reader.communicate()[0].splitlines()[-1])

@@ -5,6 +5,6 @@
 
 import sys
 
-from cloth_sim_ros.node.main import main
+from cloth_sim_ros.node.command import main
 
 sys.exit(main())

@@ -1,17 +1,17 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-"""The command `cloth_sim_node`: start the node, or say in one line why it can't start."""
+"""Start the node, or say in one line why it can't start."""
 
 from collections.abc import Sequence
 from itertools import pairwise
-import signal
 import sys
 from typing import Any
 
 from cloth_sim_ros.files.checked_yaml import load_yaml
 from cloth_sim_ros.files.checked_yaml import parse_yaml
 from cloth_sim_ros.gl.errors import DeviceError
+from cloth_sim_ros.node.early_stop import leave_when_interrupted
 from cloth_sim_ros.node.missing_module import way_out
 from cloth_sim_ros.node.shared_memory import frame_bytes
 from cloth_sim_ros.node.shared_memory import reclaim_dead_segments
@@ -67,8 +67,7 @@ def _leaves(content: Any, depth: int = 0) -> list[tuple[str, Any]]:
 
 def main(args: Sequence[str] | None = None) -> int:
     """Run the node until SIGINT or SIGTERM and return the exit code."""
-    # Until the node can take care of it, an interrupt ends the process without a traceback.
-    signal.signal(signal.SIGINT, signal.SIG_DFL)
+    leave_when_interrupted()
     args = sys.argv if args is None else args
     try:
         # Before ROS starts, and first what gives room to the second.

@@ -156,7 +156,7 @@ def _measure_round(cost: NodeCost, values: Mapping[str, Any], seconds: float) ->
             keys: tuple[str, ...] = ()
             for part in cost.parts:
                 keys += _ADDED[part.part]
-                _measure_part(part, keys, process, seconds)
+                _measure_part(part, keys, process, cost.checkout, seconds)
     # On both sides of the node, as the clock rate and other load change.
     bare = 0.5 * (first + _measure_bare(cost, values, seconds))
     cost.bare.append(bare)
@@ -195,6 +195,22 @@ def bare_cost(values: Mapping[str, Any], seconds: float) -> tuple[float, str, in
         return spent, simulation.device, simulation.substeps
 
 
+def interpreter(checkout: str) -> str:
+    """Return the Python of ``checkout``: its own where it is set up, or that of this process."""
+    own = Path(checkout, '.venv', 'bin', 'python')
+    return str(own) if checkout and own.exists() else sys.executable
+
+
+def environment(checkout: str) -> dict[str, str]:
+    """Return the environment in which the Python of ``checkout`` finds its own messages."""
+    own = Path(checkout, '.venv')
+    if not (checkout and own.exists()):
+        return dict(os.environ)
+    return {**os.environ, **{
+        name: os.pathsep.join(filter(None, (str(own), os.environ.get(name))))
+        for name in ('AMENT_PREFIX_PATH', 'CMAKE_PREFIX_PATH')}}
+
+
 @contextmanager
 def _running_node(
         values: Mapping[str, Any], checkout: str,
@@ -203,11 +219,12 @@ def _running_node(
     given = {**values, 'publish.rate': RATE, 'recording.directory': folder}
     log = tempfile.TemporaryFile('w+')
     process = subprocess.Popen(
-        [sys.executable, '-m', 'cloth_sim_ros.node', '--ros-args', '-r', f'__node:={_TARGET}',
+        [interpreter(checkout), '-m', 'cloth_sim_ros.node', '--ros-args',
+         '-r', f'__node:={_TARGET}',
          *(part for name, value in given.items()
            for part in ('-p', f'{name}:={json.dumps(value)}'))],
         # Python looks for modules to run in the working directory first.
-        stdout=log, stderr=log, text=True, cwd=checkout or None)
+        stdout=log, stderr=log, text=True, cwd=checkout or None, env=environment(checkout))
     try:
         yield process
     except ClothSimError as error:
@@ -221,13 +238,14 @@ def _running_node(
 
 @contextmanager
 def _listening(
-        keys: Sequence[str], node: subprocess.Popen[str], *,
+        keys: Sequence[str], node: subprocess.Popen[str], checkout: str, *,
         record: bool = False) -> Iterator[dict[str, Any]]:
     """Subscribe to ``keys`` for the time of the block; what came is in the dict after it."""
     listener = subprocess.Popen(
-        [sys.executable, '-m', 'cloth_sim_ros.study.topic_listener', _TARGET, *keys,
+        [interpreter(checkout), '-m', 'cloth_sim_ros.study.topic_listener', _TARGET, *keys,
          *(['--record'] if record else [])],
-        stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
+        stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True, cwd=checkout or None,
+        env=environment(checkout))
     assert listener.stdin is not None and listener.stdout is not None
     found: dict[str, Any] = {}
     try:
@@ -250,11 +268,11 @@ def _listening(
 
 
 def _measure_part(
-        part: PartCost, keys: Sequence[str], node: subprocess.Popen[str],
+        part: PartCost, keys: Sequence[str], node: subprocess.Popen[str], checkout: str,
         seconds: float) -> None:
     if keys:
         while True:
-            with _listening(keys, node, record=part.part == _ALL) as found:
+            with _listening(keys, node, checkout, record=part.part == _ALL) as found:
                 begin, end, spent = _spend(node, seconds)
             frames = [
                 frame for frame in found['arrivals']['points'] if begin <= frame[0] <= end]
@@ -270,11 +288,11 @@ def _measure_part(
         part.lost += sent - len({stamp for _, stamp in frames})
     else:
         # Subscriptions before and after the measurement give the pace.
-        with _listening(['stats'], node) as found:
+        with _listening(['stats'], node, checkout) as found:
             pass
         first = found['arrivals']['stats'][-1]
         begin, end, spent = _spend(node, seconds)
-        with _listening(['stats'], node) as found:
+        with _listening(['stats'], node, checkout) as found:
             pass
         last = found['arrivals']['stats'][0]
     pace = (last[1] - first[1]) / (last[0] - first[0])

@@ -6,6 +6,8 @@
 from signal import SIGINT
 from signal import SIGKILL
 from signal import SIGTERM
+import subprocess
+import sys
 import time
 
 from cloth_sim_interfaces.msg import ClothStats
@@ -130,6 +132,19 @@ def test_a_node_started_again_records_beside_what_is_there(tmp_path):
             assert file.read_bytes() == content
         kept.update({file: file.read_bytes() for file in path.iterdir()})
     assert sorted(path.name for path in (tmp_path / 'bags').iterdir()) == ['run', 'run_1', 'run_2']
+
+
+def test_an_interrupt_while_importing_is_a_clean_stop():
+    """A launch that is stopped at once would report a failed node, or a traceback."""
+    with subprocess.Popen(
+            [sys.executable, '-X', 'importtime', '-m', 'cloth_sim_ros.node'],
+            stderr=subprocess.PIPE, text=True) as node:
+        # The first module behind the handler.
+        seen = [next(line for line in node.stderr if 'cloth_sim_ros.files' in line)]
+        node.send_signal(SIGINT)
+        seen += node.stderr.readlines()
+    assert node.returncode == 0, seen[-5:]
+    assert not [line for line in seen if not line.startswith('import time:')]
 
 
 def test_an_interrupt_while_starting_is_a_clean_stop(tmp_path):
