@@ -61,7 +61,7 @@ def tremor(values: Mapping[str, Any], seconds: float) -> tuple[float, float, flo
             switches += snapshot.constraint_switches
             held += snapshot.active_constraints
         scene = simulation.scene
-    weight = -scene.node_count * scene.node_mass * scene['gravity'][2]
+    weight = -scene.mass * scene['gravity'][2]
     moved = np.ptp(np.stack(positions), axis=0).max()
     return (
         float(np.mean(forces) / weight), float(np.std(forces) / weight), float(moved),

@@ -36,7 +36,7 @@ def main() -> None:
         middle = towel.positions()[scene.rows // 2, scene.cols // 2]
         push = towel.push(
             (0.0, 3.0, 0.0), duration=0.3, region='sphere', center=middle, radius=0.15)
-        print(f'{scene.rows} x {scene.cols} nodes, {scene.node_count * scene.node_mass:.3f} kg, '
+        print(f'{scene.rows} x {scene.cols} nodes, {scene.mass:.3f} kg, '
               f'{push.nodes} of them pushed')
         towel.advance(args.seconds)
         last = towel.snapshot()

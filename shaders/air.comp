@@ -4,9 +4,9 @@
 
 // The accelerations that air gives to the nodes, on top of what pushes on regions add: each node
 // gathers from its triangles. A cell is cut both ways, so that no direction is preferred: four
-// triangles of half the weight, three of them with a corner at a node of the cell. Each node has an
-// equal share of mass and area, so nodes at a border count twice in their triangles, at a corner
-// four times.
+// triangles of half the weight, three of them with a corner at a node of the cell. Nodes of equal
+// mass have equal areas, so those at a border count twice in their triangles, at a corner four
+// times. With cells a node has the area of its triangles, and each counts once.
 // MEASURES_RATE: find the fastest rate at which air would slow a triangle instead, in strips.
 
 #include "lattice.glsl"
@@ -37,8 +37,12 @@ struct Node {
 // row_of_cloth: counted from the first row of the cloth that the node is of.
 Node load_node(int row, int col, int row_of_cloth) {
     int index = node_index(row, col);
+#if HAS_CELLS
+    float counts = 1.0;
+#else
     float counts = (row_of_cloth == 0 || row_of_cloth == stack.x - 1 ? 2.0 : 1.0)
         * (col == 0 || col == COLS - 1 ? 2.0 : 1.0);
+#endif
     return Node(load_position(index), vec4(counts * load_velocity(index).xyz, counts));
 }
 
@@ -50,10 +54,15 @@ vec3 triangle(Node corner, Node one, Node other) {
     return air_acceleration(area, past - (1.0 / v.w) * v.xyz);
 }
 
-// The triangles of a cell that have a corner here.
-vec3 cell(Node here, Node side, Node other_side, Node across) {
-    // 0 where the cell is beyond the border.
+// The triangles of a cell that have a corner here; first and last are its upper left and its lower
+// right corner.
+vec3 cell(Node here, Node side, Node other_side, Node across, Node first, Node last) {
+    // 0 where the cell is beyond the border, or a hole.
+#if HAS_CELLS
+    float present = edge_share(first.position, last.position, EDGE_DIAGONAL);
+#else
     float present = side.position.w * other_side.position.w * across.position.w;
+#endif
 #if MEASURES_RATE
     if (present == 0.0) {
         return vec3(0.0);
@@ -69,10 +78,13 @@ vec3 given_at(int row, int col, Node here) {
     Node right = load_node(row, col + 1, of_cloth);
     Node above = load_node(row - 1, col, of_cloth - 1);
     Node below = load_node(row + 1, col, of_cloth + 1);
-    vec3 given = cell(here, left, above, load_node(row - 1, col - 1, of_cloth - 1));
-    given += cell(here, right, above, load_node(row - 1, col + 1, of_cloth - 1));
-    given += cell(here, left, below, load_node(row + 1, col - 1, of_cloth + 1));
-    given += cell(here, right, below, load_node(row + 1, col + 1, of_cloth + 1));
+    Node across = load_node(row - 1, col - 1, of_cloth - 1);
+    vec3 given = cell(here, left, above, across, across, here);
+    given += cell(
+        here, right, above, load_node(row - 1, col + 1, of_cloth - 1), above, right);
+    given += cell(here, left, below, load_node(row + 1, col - 1, of_cloth + 1), left, below);
+    across = load_node(row + 1, col + 1, of_cloth + 1);
+    given += cell(here, right, below, across, here, across);
     return given;
 }
 
@@ -100,6 +112,6 @@ void main() {
     vec3 given = given_at(row, col, here);
     int index = node_index(row, col);
     vec4 pushed = has_region_pushes ? load_region_pushes(index) : vec4(0.0);
-    air_out[index] = vec4(pushed.xyz + SHARE * here.velocity.w * given, pushed.w);
+    air_out[index] = vec4(pushed.xyz + SHARE * here.velocity.w / mass_share(here.position) * given, pushed.w);
 }
 #endif

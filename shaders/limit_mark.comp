@@ -25,11 +25,11 @@ uniform bool has_changes;
 uniform float onset;    // strain from which on a limit pulls, where there are no changes
 uniform float release;  // of the limit: an edge stays engaged above this strain
 
-float strain(int row, int col, int row2, int col2, int rest) {
+float strain(int row, int col, int row2, int col2, int edge, int rest) {
     vec4 from = load_position(node_index(row, col));
     vec4 to = load_position(node_index(row2, col2));
     float l = length_and_inverse(to.xyz - from.xyz).x;
-    return from.w * to.w * abs(l / rest_length[rest] - 1.0);
+    return edge_share(from, to, edge) > 0.0 ? abs(l / rest_length[rest] - 1.0) : 0.0;
 }
 
 uint mark(uint before, uint pulled, int edge, float strain) {
@@ -57,14 +57,16 @@ void main() {
     uint pulled = pulled_at(index);
     uint marks = 0u;
 #if HAS_STRUCTURAL
-    marks |= mark(before, pulled, EDGE_ROW, strain(row, col, row, col + 1, REST_ROW));
-    marks |= mark(before, pulled, EDGE_COLUMN, strain(row, col, row + 1, col, REST_COLUMN));
+    marks |= mark(before, pulled, EDGE_ROW, strain(row, col, row, col + 1, EDGE_ROW, REST_ROW));
+    marks |= mark(before, pulled, EDGE_COLUMN, strain(row, col, row + 1, col, EDGE_COLUMN, REST_COLUMN));
 #endif
 #if HAS_SHEAR
-    marks |= mark(before, pulled, EDGE_DIAGONAL, strain(row, col, row + 1, col + 1, REST_DIAGONAL));
+    marks |= mark(
+        before, pulled, EDGE_DIAGONAL,
+        strain(row, col, row + 1, col + 1, EDGE_DIAGONAL, REST_DIAGONAL));
     marks |= mark(
         before, pulled_at(index + 1), EDGE_CROSSING,
-        strain(row, col + 1, row + 1, col, REST_DIAGONAL));
+        strain(row, col + 1, row + 1, col, EDGE_CROSSING, REST_DIAGONAL));
 #endif
     at_limit[index] = marks | (before >> ENGAGED & 15u) << ENGAGED_BEFORE;
 }

@@ -41,7 +41,7 @@ vec3 velocity[TILE][TILE];
 #endif
 vec3 force[TILE][TILE];
 
-void add_spring(int row, int col, int drow, int dcol, int rest) {
+void add_spring(int row, int col, int drow, int dcol, int edge, int rest) {
     vec4 from = position[row][col];
     vec4 to = position[row + drow][col + dcol];
 #if HAS_DAMPING
@@ -50,7 +50,7 @@ void add_spring(int row, int col, int drow, int dcol, int rest) {
     vec3 dv = vec3(0.0);
 #endif
     vec3 d = to.xyz - from.xyz;
-    vec3 f = spring_force(d, dv, from.w * to.w, rest);
+    vec3 f = spring_force(d, dv, edge_share(from, to, edge), rest);
     force[row][col] += f;
     force[row + drow][col + dcol] -= f;
 }
@@ -64,7 +64,7 @@ vec4 brake[TILE][TILE];
         brake[row][col] = line_brake( \
             position[row - DROW][col - DCOL], position[row][col], \
             position[row + DROW][col + DCOL], velocity[row - DROW][col - DCOL], \
-            velocity[row][col], velocity[row + DROW][col + DCOL]); \
+            velocity[row][col], velocity[row + DROW][col + DCOL], DROW); \
     } \
     FOR_BENT(0, 0) { \
         force[row][col] -= bending_damping * bending[DROW] * braked( \
@@ -80,7 +80,7 @@ vec4 brake[TILE][TILE];
             bool ends = row + DROW >= HALO && row + DROW < HALO + BLOCK \
                 && col + DCOL >= HALO && col + DCOL < HALO + BLOCK; \
             if (starts || ends) { \
-                add_spring(row, col, DROW, DCOL, REST); \
+                add_spring(row, col, DROW, DCOL, EDGE, REST); \
             } \
         } \
     }
@@ -150,7 +150,8 @@ void main() {
     for (uint asks = pins; asks != 0u; asks &= asks - 1u) {
         int place = findLSB(asks);
         int index = node_index(first.y + place / BLOCK, first.x + place % BLOCK);
-        vec3 driven = applied_acceleration(index) + inverse_mass * node_force(index);
+        vec3 driven = mass_share(load_position(index)) * applied_acceleration(index)
+            + inverse_mass * node_force(index);
         held[held_entry(index)] = vec4(kick * driven, kick);
     }
 #endif

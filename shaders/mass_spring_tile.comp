@@ -23,7 +23,7 @@ shared vec4 position[TILE_SIDE * TILE_SIDE];
 shared vec4 velocity[TILE_SIDE * TILE_SIDE];
 
 // Force on the node at the first place from its spring to the one at the second [N].
-vec3 force_between(int from, int to, int rest) {
+vec3 force_between(int from, int to, int edge, int rest) {
     vec4 tail = position[from];
     vec4 head = position[to];
 #if HAS_DAMPING
@@ -31,16 +31,16 @@ vec3 force_between(int from, int to, int rest) {
 #else
     vec3 dv = vec3(0.0);
 #endif
-    return spring_force(head.xyz - tail.xyz, dv, tail.w * head.w, rest);
+    return spring_force(head.xyz - tail.xyz, dv, edge_share(tail, head, edge), rest);
 }
 
 // The spring of one direction that ends at a node, and the one that begins there.
 #define ADD_SPRINGS(FORCE, EDGE, DROW, DCOL, FAMILY, REST) \
     if (local.y >= DROW && local.x - DCOL >= 0 && local.x - DCOL < TILE_SIDE) { \
-        FORCE -= force_between(place - (DROW) * TILE_SIDE - (DCOL), place, REST); \
+        FORCE -= force_between(place - (DROW) * TILE_SIDE - (DCOL), place, EDGE, REST); \
     } \
     if (local.y + DROW < TILE_SIDE && local.x + DCOL >= 0 && local.x + DCOL < TILE_SIDE) { \
-        FORCE += force_between(place, place + (DROW) * TILE_SIDE + (DCOL), REST); \
+        FORCE += force_between(place, place + (DROW) * TILE_SIDE + (DCOL), EDGE, REST); \
     }
 
 void main() {

@@ -49,14 +49,16 @@ struct Edges {
 
 void look_at_edge(
         inout Edges edges, vec4 from, bool needs_free_end, int row, int col, int drow, int dcol,
-        int family, int rest) {
+        bool starts, int edge, int family, int rest) {
     int other = node_index(row + drow, col + dcol);
     vec4 to = load_position(other);
+    float share = starts ? edge_share(from, to, edge) : edge_share(to, from, edge);
     float l = length(to.xyz - from.xyz);
-    float counts = needs_free_end && load_velocity(other).w == 0.0 ? 0.0 : to.w;
+    float counts = needs_free_end && load_velocity(other).w == 0.0 ? 0.0 : share;
     edges.energy += counts * 0.5 * stored_energy(l, family, rest);
     if (family != BEND) {
-        edges.strain = max(edges.strain, to.w * abs(l / rest_length[rest] - 1.0));
+        float strain = abs(l / rest_length[rest] - 1.0);
+        edges.strain = max(edges.strain, share > 0.0 ? strain : 0.0);
     }
 }
 
@@ -65,14 +67,15 @@ void look_at_edge(
 float bent_square(vec4 here, int row, int col, int drow, int dcol) {
     vec4 behind = load_position(node_index(row - drow, col - dcol));
     vec4 ahead = load_position(node_index(row + drow, col + dcol));
-    vec3 bent = second_difference(behind.w * ahead.w, behind.xyz, here.xyz, ahead.xyz);
-    return dot(bent, bent);
+    vec3 bent = second_difference(1.0, behind.xyz, here.xyz, ahead.xyz);
+    return line_share(behind, here, ahead, drow) * dot(bent, bent);
 }
 #endif
 
 #define LOOK_BOTH_WAYS(EDGES, EDGE, DROW, DCOL, FAMILY, REST) \
-    look_at_edge(EDGES, from, needs_free_end, row, col, DROW, DCOL, FAMILY, REST); \
-    look_at_edge(EDGES, from, needs_free_end, row, col, -(DROW), -(DCOL), FAMILY, REST);
+    look_at_edge(EDGES, from, needs_free_end, row, col, DROW, DCOL, true, EDGE, FAMILY, REST); \
+    look_at_edge( \
+        EDGES, from, needs_free_end, row, col, -(DROW), -(DCOL), false, EDGE, FAMILY, REST);
 
 Edges look_at_edges(vec4 from, bool needs_free_end, int row, int col) {
     Edges edges = Edges(0.0, 0.0);
@@ -88,7 +91,8 @@ Edges look_at_edges(vec4 from, bool needs_free_end, int row, int col) {
 vec3 tangent(vec4 here, int row, int col, int drow, int dcol) {
     vec4 ahead = load_position(node_index(row + drow, col + dcol));
     vec4 behind = load_position(node_index(row - drow, col - dcol));
-    return mix(here.xyz, ahead.xyz, ahead.w) - mix(here.xyz, behind.xyz, behind.w);
+    return mix(here.xyz, ahead.xyz, min(ahead.w, 1.0))
+        - mix(here.xyz, behind.xyz, min(behind.w, 1.0));
 }
 
 // Free of its length, so that products of it neither leave float32 nor vanish.
@@ -157,9 +161,10 @@ void main() {
         vec4 x = load_position(index);
         vec4 v = load_velocity(index);
         Edges edges = look_at_edges(x, v.w == 0.0 && acts_between_pins == 0, row, col);
-        kinetic += 0.5 * v.w * dot(v.xyz, v.xyz);
+        float mass = mass_share(x);
+        kinetic += v.w > 0.0 ? 0.5 * mass * dot(v.xyz, v.xyz) : 0.0;
         elastic += edges.energy;
-        gravitational -= dot(gravity, x.xyz);
+        gravitational -= mass * dot(gravity, x.xyz);
         strain = max(strain, edges.strain);
         out_of_bounds += is_bounded(x.xyz) && is_bounded(v.xyz) ? 0.0 : 1.0;
 #if RECORDS_WANTED

@@ -3,7 +3,7 @@
 
 #version 430 core
 // Partial sums for the rigid motion of the cloth. Each invocation sums STRIP nodes of a column:
-// u, r, r x u and the products of r, for velocities or impulses u and positions r.
+// u, r, r x u and the products of r, for velocities or impulses u and positions r, by mass.
 
 #include "lattice.glsl"
 #include "state_in.glsl"
@@ -35,11 +35,12 @@ void main() {
         vec3 v = load_velocity(index).xyz;
         vec3 u = share * v + substep * applied_acceleration(index);
         vec3 r = load_position(index).xyz - centre - back * v;
-        momentum += u;
-        place += r;
-        spin += cross(r, u);
-        squares += r * r;
-        products += r.xxy * r.yzz;
+        float mass = mass_share(load_position(index));
+        momentum += mass * u;
+        place += mass * r;
+        spin += mass * cross(r, u);
+        squares += mass * (r * r);
+        products += mass * (r.xxy * r.yzz);
     }
     int entry = 15 * (strip * COLS + col);
     for (int axis = 0; axis < 3; ++axis) {

@@ -28,14 +28,15 @@ Node load_node(int row, int col) {
     vec4 v = load_velocity(index);
     vec3 expected = v.xyz;
 #if !HAS_CONTACT
-    expected += substep * v.w * applied_acceleration(index);
+    expected += v.w > 0.0 ? substep * applied_acceleration(index) : vec3(0.0);
 #endif
     return Node(x, vec4(x.xyz + substep * expected, v.w));
 }
 
-void look_at_edge(inout vec2 strain, Node from, Node to, int rest) {
+void look_at_edge(inout vec2 strain, Node from, Node to, int edge, int rest) {
     // 0 where an end is a ghost or none can move.
-    float present = from.now.w * to.now.w * min(from.then.w + to.then.w, 1.0);
+    bool is_edge = edge_share(from.now, to.now, edge) > 0.0;
+    float present = is_edge ? min(from.then.w + to.then.w, 1.0) : 0.0;
     float per_rest = present / rest_length[rest];
     float now = length_and_inverse(to.now.xyz - from.now.xyz).x;
     float then = length_and_inverse(to.then.xyz - from.then.xyz).x;
@@ -56,12 +57,12 @@ void main() {
         Node below = load_node(row + 1, col);
         Node below_right = load_node(row + 1, col + 1);
 #if HAS_STRUCTURAL
-        look_at_edge(strain, here, right, REST_ROW);
-        look_at_edge(strain, here, below, REST_COLUMN);
+        look_at_edge(strain, here, right, EDGE_ROW, REST_ROW);
+        look_at_edge(strain, here, below, EDGE_COLUMN, REST_COLUMN);
 #endif
 #if HAS_SHEAR
-        look_at_edge(strain, here, below_right, REST_DIAGONAL);
-        look_at_edge(strain, right, below, REST_DIAGONAL);
+        look_at_edge(strain, here, below_right, EDGE_DIAGONAL, REST_DIAGONAL);
+        look_at_edge(strain, right, below, EDGE_CROSSING, REST_DIAGONAL);
 #endif
         here = below;
         right = below_right;

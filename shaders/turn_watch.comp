@@ -27,7 +27,7 @@ Node load_node(int row, int col) {
     int index = node_index(row, col);
     vec4 v = load_velocity(index);
 #if !HAS_CONTACT
-    v.xyz += v.w * substep * applied_acceleration(index);
+    v.xyz += v.w > 0.0 ? substep * applied_acceleration(index) : vec3(0.0);
 #endif
     return Node(load_position(index), v.xyz);
 }
@@ -45,12 +45,13 @@ struct Found {
 #define MOST_TURN 1e12  // [1/s2]
 
 Found found_with(
-        Found found, Node here, int row, int col, int drow, int dcol, int family, int rest) {
+        Found found, Node here, int row, int col, int drow, int dcol, int edge, int family,
+        int rest) {
     Node there = load_node(row + drow, col + dcol);
     vec3 d = there.position.xyz - here.position.xyz;
     vec3 u = there.velocity - here.velocity;
     vec3 across = u - (dot(u, d) / max(dot(d, d), 1e-20)) * d;
-    float present = there.position.w;
+    float present = edge_share(here.position, there.position, edge) > 0.0 ? 1.0 : 0.0;
     float square = rest_length[rest] * rest_length[rest];
     float turn = present * dot(across, across) / square;
     float strain = family != BEND ? present * abs(length(d) / rest_length[rest] - 1.0) : 0.0;
@@ -65,7 +66,7 @@ Found found_with(
 }
 
 #define LOOK(FOUND, EDGE, DROW, DCOL, FAMILY, REST) \
-    FOUND = found_with(FOUND, here, row, col, DROW, DCOL, FAMILY, REST);
+    FOUND = found_with(FOUND, here, row, col, DROW, DCOL, EDGE, FAMILY, REST);
 
 void main() {
     int col = int(gl_GlobalInvocationID.x);

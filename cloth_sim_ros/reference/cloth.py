@@ -8,6 +8,7 @@ from abc import abstractmethod
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from cloth_sim_ros.reference.cells import node_masses
 from cloth_sim_ros.reference.edges import node_strain
 from cloth_sim_ros.reference.edges import spring_sets
 from cloth_sim_ros.reference.edges import SpringSet
@@ -36,23 +37,23 @@ class Energies:
         return self.kinetic + self.elastic + self.gravitational
 
 
-def kinetic_energy(velocities: np.ndarray, free: np.ndarray, node_mass: float) -> float:
-    """Return 1/2 m v^2 over the free nodes [J]."""
-    return 0.5 * node_mass * float(np.sum(velocities[free] ** 2))
+def kinetic_energy(velocities: np.ndarray, free: np.ndarray, masses: np.ndarray) -> float:
+    """Return 1/2 m v^2 over the free nodes [J]; ``masses`` (rows, cols) [kg]."""
+    return 0.5 * float(np.sum(masses[free, None] * velocities[free] ** 2))
 
 
 def elastic_energy(springs: Sequence[SpringSet], positions: np.ndarray) -> float:
     """Return 1/2 k (l - L0)^2 over the springs [J]."""
     return sum(
-        0.5 * spring_set.stiffness * float(np.sum(
-            (spring_set.lengths(positions) - spring_set.rest_length) ** 2))
+        0.5 * spring_set.stiffness * float(np.sum(spring_set.shares * (
+            spring_set.lengths(positions) - spring_set.rest_length) ** 2))
         for spring_set in springs)
 
 
 def gravitational_energy(
-        positions: np.ndarray, node_mass: float, gravity: np.ndarray) -> float:
-    """Return -m g . x over all nodes, the pinned ones too [J]."""
-    return -node_mass * float(np.sum(positions @ gravity))
+        positions: np.ndarray, masses: np.ndarray, gravity: np.ndarray) -> float:
+    """Return -m g . x over all nodes, the pinned ones too [J]; ``masses`` (rows, cols) [kg]."""
+    return -float(np.sum(masses * (positions @ gravity)))
 
 
 # Relative tolerance of times [1]: rounding of a sum of substeps.
@@ -78,6 +79,7 @@ class ReferenceCloth(ABC):
         self.elastic_springs = self.springs
         self.gravity = np.array(scene['gravity'])
         self.free = ~scene.pinned_nodes()
+        self.masses = node_masses(scene)
         self.positions = scene.start_positions()
         self.velocities = np.zeros_like(self.positions)
         self.steps = 0
@@ -92,7 +94,7 @@ class ReferenceCloth(ABC):
     @property
     def inverse_masses(self) -> np.ndarray:
         """Return 1 / m of each node, 0 where it is pinned [1/kg], flat."""
-        return self.free.ravel() / self.scene.node_mass
+        return (self.free / self.masses).ravel()
 
     def push(self, push: Push) -> None:
         """Add a push that acts at its own time."""
@@ -115,10 +117,10 @@ class ReferenceCloth(ABC):
     def energies(self) -> Energies:
         """Return the energies of the present state."""
         return Energies(
-            kinetic_energy(self.velocities, self.free, self.scene.node_mass),
+            kinetic_energy(self.velocities, self.free, self.masses),
             elastic_energy(self.elastic_springs, self.positions)
             + self.bending.energy(self.positions),
-            gravitational_energy(self.positions, self.scene.node_mass, self.gravity))
+            gravitational_energy(self.positions, self.masses, self.gravity))
 
     def node_strain(self) -> np.ndarray:
         """Return the largest |l / L0 - 1| at each node, (rows, cols)."""
@@ -137,7 +139,7 @@ class ReferenceCloth(ABC):
         """Return what the air gives by the present motion, 0 at pinned nodes [m/s2]."""
         wind = wind_at(self.scene, begin, end)
         forces = air_forces(self.scene, self.positions, self.velocities, wind)
-        return self.free[..., None] * forces / self.scene.node_mass
+        return self.free[..., None] * forces / self.masses[..., None]
 
     def _push_accelerations(self, begin: float, end: float) -> np.ndarray:
         """Return what the pushes add from ``begin`` to ``end`` [s], 0 at pinned nodes [m/s2]."""
@@ -170,5 +172,5 @@ class ReferenceCloth(ABC):
         total = np.zeros_like(self.positions)
         for push, nodes in pushes:
             total += push_weight(push, begin, end) * push_acceleration(
-                push, nodes, self.scene.node_mass)
+                push, nodes, self.masses)
         return total

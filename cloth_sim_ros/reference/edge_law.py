@@ -193,8 +193,11 @@ def limit_compliance(
     carries an n-th: few lines have a smaller E, so that they stretch by no more than WHOLE_EDGE of
     that.
     """
-    weight = scene.node_count * scene.node_mass * STANDARD_GRAVITY
+    weight = scene.mass * STANDARD_GRAVITY
     lines = min(scene.rows, scene.cols)
     strain = scene['constraint.strain'] if strain is None else strain
     hardness = weight / strain * max(1.0, 1.0 / (WHOLE_EDGE * lines))
-    return edges.rest_length / hardness
+    # A limit has the share of the stiffness that its spring has, 0 for no edge.
+    return np.divide(
+        edges.rest_length, hardness * edges.share, out=np.full(len(edges), np.inf),
+        where=edges.share > 0.0)

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from dataclasses import fields
 from typing import Any
 
+from cloth_sim_ros.reference.cells import spring_shares
 from cloth_sim_ros.sim.model.materials import WARP
 from cloth_sim_ros.sim.model.materials import WEFT
 from cloth_sim_ros.sim.scene import Scene
@@ -24,8 +25,9 @@ class SpringSet:
 
     :param family: structural, shear or bend
     :param rest_length: [m]
-    :param stiffness: [N/m]
-    :param damping: [N s/m]
+    :param stiffness: of a whole line [N/m]
+    :param damping: of a whole line [N s/m]
+    :param shares: of these that each spring has, (rows, cols) of the first ends
     """
 
     family: str
@@ -34,6 +36,7 @@ class SpringSet:
     rest_length: float
     stiffness: float
     damping: float
+    shares: np.ndarray
 
     def ends(self, field: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Return views of ``field`` (rows, cols, ...) at the two ends of each spring."""
@@ -72,7 +75,8 @@ def spring_sets(scene: Scene, always: Sequence[str] = ()) -> tuple[SpringSet, ..
     return tuple(
         SpringSet(family, down, right, rest_length,
                   scene.stiffness(family, WARP if right else WEFT),
-                  scene.damping(family, WARP if right else WEFT))
+                  scene.damping(family, WARP if right else WEFT),
+                  spring_shares(scene, down, right))
         for family, down, right, rest_length in directions
         if (scene.models(family) or family in always)
         and down < scene.rows and abs(right) < scene.cols)
@@ -101,6 +105,7 @@ class Edges:
     :param stiffness: [N/m]
     :param damping: [N s/m]
     :param family: structural, shear or bend, of each edge
+    :param share: of a whole line
     """
 
     first: np.ndarray
@@ -109,6 +114,7 @@ class Edges:
     stiffness: np.ndarray
     damping: np.ndarray
     family: np.ndarray
+    share: np.ndarray
 
     def __len__(self) -> int:
         """Return the number of edges."""
@@ -189,15 +195,15 @@ def edges_of(scene: Scene, always: Sequence[str] = ()) -> Edges:
     :param always: families that are there even when the scene gives them no stiffness
     """
     numbers = np.arange(scene.node_count).reshape(scene.rows, scene.cols)
-    columns: list[list[np.ndarray]] = [[] for _ in range(6)]
+    columns: list[list[np.ndarray]] = [[] for _ in range(7)]
     for springs in spring_sets(scene, always):
         first, second = (end.ravel() for end in springs.ends(numbers))
         row: tuple[Any, ...] = (
-            first, second, springs.rest_length, springs.stiffness, springs.damping,
-            springs.family)
+            first, second, springs.rest_length, springs.shares.ravel() * springs.stiffness,
+            springs.shares.ravel() * springs.damping, springs.family, springs.shares.ravel())
         for column, value in zip(columns, row):
             column.append(np.broadcast_to(value, first.shape))
     if not columns[0]:
         nodes, none = np.zeros(0, int), np.zeros(0)
-        return Edges(nodes, nodes, none, none, none, np.zeros(0, 'U10'))
+        return Edges(nodes, nodes, none, none, none, np.zeros(0, 'U10'), none)
     return Edges(*(np.concatenate(column) for column in columns))

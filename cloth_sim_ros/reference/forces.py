@@ -3,6 +3,7 @@
 
 """The forces on a cloth besides those of its edges: pushes, air and bending, in float64."""
 
+from cloth_sim_ros.reference.cells import spring_shares
 from cloth_sim_ros.sim.model.materials import of_direction
 from cloth_sim_ros.sim.model.materials import WARP
 from cloth_sim_ros.sim.model.materials import WEFT
@@ -28,9 +29,16 @@ def push_nodes(push: Push, positions: np.ndarray, free: np.ndarray) -> np.ndarra
     return free & push.contains(positions)
 
 
-def push_acceleration(push: Push, nodes: np.ndarray, node_mass: float) -> np.ndarray:
-    """Return the acceleration at full weight [m/s2]: the total force spread over ``nodes``."""
-    share = np.asarray(push.force) / (max(int(nodes.sum()), 1) * node_mass)
+def push_acceleration(push: Push, nodes: np.ndarray, masses: np.ndarray) -> np.ndarray:
+    """
+    Return the acceleration at full weight [m/s2]: the total force over the mass of ``nodes``.
+
+    :param nodes: (rows, cols) bool
+    :param masses: (rows, cols) [kg]
+    """
+    if not nodes.any():
+        return np.zeros((*nodes.shape, 3))
+    share = np.asarray(push.force) / masses[nodes].sum()
     return nodes[..., None] * share
 
 
@@ -63,9 +71,10 @@ def air_forces(
     A triangle of area A, whose normal is n, feels rho A / 2 (Cn abs(wn) wn + Ct abs(wt) wt), where
     wn is the part along n of the wind less the velocity of the triangle, and wt the rest.
 
-    Each node stands for an equal share of mass and area, and spreads it over its triangles: one
-    at a border, which has half as many, counts twice in each, and one at a corner four times. A
-    triangle moves and takes its force by these counts.
+    Nodes of equal mass have equal areas, and spread them over their triangles: one at a border,
+    which has half as many, counts twice in each, and one at a corner four times. A triangle moves
+    and takes its force by these counts. In a cloth of cells each node counts once, and has a third
+    of its triangles.
 
     :param positions: (rows, cols, 3) [m]
     :param velocities: (rows, cols, 3) [m/s]
@@ -75,11 +84,16 @@ def air_forces(
     if not scene.has_air:
         return forces
     counts = np.ones((scene.rows, scene.cols))
-    counts[[0, -1]] *= 2.0
-    counts[:, [0, -1]] *= 2.0
+    if scene.cells is None:
+        counts[[0, -1]] *= 2.0
+        counts[:, [0, -1]] *= 2.0
+        is_cell = np.ones((scene.rows - 1, scene.cols - 1))
+    else:
+        is_cell = scene.cells.present.astype(float)
     density = 0.5 * scene['air.density']
     # What a node's share is of the area of its twelfth parts of triangles of half a cell each.
-    rest = scene['width'] * scene['height'] / scene.node_count / np.prod(scene.spacing)
+    rest = 1.0 if scene.cells is not None else (
+        scene['width'] * scene['height'] / scene.node_count / np.prod(scene.spacing))
     for corner, one, other in _CORNERS:
         nodes = [_part(corner), _part(one), _part(other)]
         total = counts[nodes[0]] + counts[nodes[1]] + counts[nodes[2]]
@@ -94,7 +108,7 @@ def air_forces(
         pressure = density * (scene['air.drag'] * _length(wn) * wn
                               + scene['air.friction'] * _length(wt) * wt)
         # The area that a node has in this triangle, if the node counts once.
-        area = rest * doubled / _MOST_TRIANGLES
+        area = is_cell[..., None] * rest * doubled / _MOST_TRIANGLES
         for node in nodes:
             forces[node] += counts[node][..., None] * area * pressure
     return forces
@@ -128,10 +142,10 @@ class Bending:
                 sparse.kron(sparse.identity(scene.rows), _of_lines(parts, scene.cols)),
                 sparse.kron(_of_lines(parts, scene.rows), sparse.identity(scene.cols)))).tocsr()
             for parts in ((1.0, -2.0, 1.0), (-1.0, 0.0, 1.0)))
-        self._weights = np.repeat(
-            (of_direction(rigidity, WARP) * dy / dx**3,
-             of_direction(rigidity, WEFT) * dx / dy**3),
-            (scene.rows * max(scene.cols - 2, 0), scene.cols * max(scene.rows - 2, 0)))
+        # By the first node of each line, along rows, then columns.
+        self._weights = np.concatenate((
+            of_direction(rigidity, WARP) * dy / dx**3 * spring_shares(scene, 0, 2).ravel(),
+            of_direction(rigidity, WEFT) * dx / dy**3 * spring_shares(scene, 2, 0).ravel()))
         # (nodes, nodes) [N/m], of nodes numbered row by row; forces are -matrix @ positions.
         self.matrix = (
             self._differences.T @ sparse.diags(self._weights) @ self._differences).tocsr()

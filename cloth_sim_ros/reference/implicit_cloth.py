@@ -101,7 +101,7 @@ class ImplicitCloth(ReferenceCloth):
         self.reactions = np.zeros_like(self.positions)
         self.report = Report(0, 0, True, np.zeros_like(self.free))
         self._make = ImplicitStep(
-            self.law, self.free.ravel(), scene.node_mass, passes or passes_of(scene),
+            self.law, self.free.ravel(), self.masses.ravel(), passes or passes_of(scene),
             self.bending)
         self._asked = np.zeros_like(self.positions)
         # Length of the last substep [s]; 0 before the first.
@@ -114,10 +114,10 @@ class ImplicitCloth(ReferenceCloth):
     def energies(self) -> Energies:
         """Return the energies of the present state; the elastic one is that of the law."""
         return Energies(
-            kinetic_energy(self.velocities, self.free, self.scene.node_mass),
+            kinetic_energy(self.velocities, self.free, self.masses),
             self.law.energy(self.law.edges.lengths(self.positions.reshape(-1, 3)))
             + self.bending.energy(self.positions),
-            gravitational_energy(self.positions, self.scene.node_mass, self.gravity))
+            gravitational_energy(self.positions, self.masses, self.gravity))
 
     def excess(self) -> float:
         """Return how far the worst edge is past its limits, in rest lengths."""
@@ -159,7 +159,7 @@ class ImplicitCloth(ReferenceCloth):
         bending = self.free[..., None] * self.bending.forces(self.positions)
         applied = share * (
             self.gravity * self.free[..., None] + self._air_accelerations(now, now + h)
-            + bending / self.scene.node_mass) + self._push_accelerations(now, now + h)
+            + bending / self.masses[..., None]) + self._push_accelerations(now, now + h)
         damping = self.bending.damping_matrix(self.positions)
         held, solves = np.zeros_like(self.free), 0
         while True:
@@ -190,6 +190,6 @@ class ImplicitCloth(ReferenceCloth):
 
     def _pin_impulse(self, step: Step, held: np.ndarray, h: float) -> np.ndarray:
         """Return what the pins give to the cloth: against edges and weight, and for speed."""
-        mass = self.scene.node_mass
-        sped_up = mass * (self._start(held) - self.velocities)
-        return ~self.free[..., None] * (sped_up - self._pull(step) - h * mass * self.gravity)
+        masses = self.masses[..., None]
+        sped_up = masses * (self._start(held) - self.velocities)
+        return ~self.free[..., None] * (sped_up - self._pull(step) - h * masses * self.gravity)

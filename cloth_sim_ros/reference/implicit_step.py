@@ -37,12 +37,12 @@ class EdgeMatrix:
 
     :param edges: between nodes
     :param free: which nodes can move, bool (nodes,)
-    :param node_mass: [kg]
+    :param masses: of the nodes, (nodes,) [kg]
     :param bending: what it resists, (nodes, nodes), which counts the same in x, y and z
     """
 
     def __init__(
-            self, edges: Edges, free: np.ndarray, node_mass: float,
+            self, edges: Edges, free: np.ndarray, masses: np.ndarray,
             bending: sparse.spmatrix | None = None) -> None:
         """Find where each number of each block goes; only free nodes have unknowns."""
         self.free = free
@@ -50,7 +50,7 @@ class EdgeMatrix:
         self.size = 3 * int(np.count_nonzero(free))
         number = np.cumsum(free) - 1
         rows, cols, self._parts = [np.arange(self.size)], [np.arange(self.size)], []
-        self._masses = np.full(self.size, node_mass)
+        self._masses = np.repeat(masses[free], 3)
         for one, other, sign in (
                 (edges.first, edges.first, 1.0), (edges.second, edges.second, 1.0),
                 (edges.first, edges.second, -1.0), (edges.second, edges.first, -1.0)):
@@ -209,22 +209,22 @@ class ImplicitStep:
 
     :param law: of the edges
     :param free: which nodes can move, bool (nodes,); the others keep their velocity
-    :param node_mass: [kg]
+    :param masses: of the nodes, (nodes,) [kg]
     :param bending: of the cloth, if it resists
     """
 
     def __init__(
-            self, law: EdgeLaw, free: np.ndarray, node_mass: float, passes: Passes,
+            self, law: EdgeLaw, free: np.ndarray, masses: np.ndarray, passes: Passes,
             bending: Bending | None = None) -> None:
         """Lay out the matrix."""
         self.law = law
         self.passes = passes
-        self._mass = node_mass
+        self._masses = masses[:, None]
         self._free = free[:, None]
         self._moves = free[law.edges.first] | free[law.edges.second]
         self._bending = (
             sparse.csr_matrix((len(free), len(free))) if bending is None else bending.matrix)
-        self._matrix = EdgeMatrix(law.edges, free, node_mass, self._bending)
+        self._matrix = EdgeMatrix(law.edges, free, masses, self._bending)
 
     def __call__(
             self, positions: np.ndarray, velocities: np.ndarray, applied: np.ndarray,
@@ -312,8 +312,8 @@ class ImplicitStep:
             self, one: _Pass, change: np.ndarray, added: np.ndarray, right: np.ndarray) -> bool:
         """Return whether Newton's step gains no more than float64 resolves."""
         pull = one.h * self._law(one, change + added)
-        scale = self._mass * float(np.sum(one.driven**2) + np.sum(change**2)) + (
-            float(np.sum(pull**2)) / self._mass)
+        scale = float(np.sum(self._masses * (one.driven**2 + change**2))) + (
+            float(np.sum(pull**2)) / float(self._masses.max()))
         return float(np.sum(right * added)) <= _CONVERGED * scale
 
     def _share(self, one: _Pass, change: np.ndarray, added: np.ndarray) -> float:
@@ -327,7 +327,7 @@ class ImplicitStep:
         """Return what is missing of the momentum of each free node [kg m/s]."""
         tension = self._law(one, change)
         return self._free * (
-            self._mass * (one.driven - change)
+            self._masses * (one.driven - change)
             - _BENDING * one.h**2 * (self._bending @ change)
             - (0.0 if one.damping is None
                else one.h * (one.damping @ change.ravel()).reshape(change.shape))

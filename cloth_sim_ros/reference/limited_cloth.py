@@ -179,7 +179,7 @@ class LimitedSpringsReference(MassSpringReference):
         self.reactions = self._given / self.dt
 
     def _substep(self, begin: float, end: float) -> None:
-        h, mass = end - begin, self.scene.node_mass
+        h, masses = end - begin, self.masses[..., None]
         start, shape = self.positions.copy(), self.positions.shape
         springs = self._edges.spring_forces(
             start.reshape(-1, 3), self.velocities.reshape(-1, 3)).reshape(shape)
@@ -189,11 +189,11 @@ class LimitedSpringsReference(MassSpringReference):
         found = self._project(
             start.reshape(-1, 3), self.velocities.reshape(-1, 3), h, self.impulses)
         after = found.velocities.reshape(shape)
-        self.largest_rise = max(self.largest_rise, 0.5 * mass * float(
-            np.sum(after[self.free]**2) - np.sum(self.velocities[self.free]**2)))
+        rise = self.free[..., None] * masses * (after**2 - self.velocities**2)
+        self.largest_rise = max(self.largest_rise, 0.5 * float(np.sum(rise)))
         self.impulses = found.impulses
         self.velocities = after
         self.positions = start + h * after
         pulls = -self.limited.scatter(found.impulses, self.scene.node_count).reshape(shape)
         held = ~self.free[..., None]
-        self._given -= held * (pulls + h * (springs + bending + mass * self.gravity))
+        self._given -= held * (pulls + h * (springs + bending + masses * self.gravity))

@@ -37,6 +37,7 @@ from cloth_sim_ros.sim.simulation import SINGLE_THREAD_NODES
 from cloth_sim_ros.sim.simulation_arguments import check_context
 from cloth_sim_ros.sim.state import checked_vectors
 from cloth_sim_ros.sim.state import MOST_MAGNITUDE
+from cloth_sim_ros.sim.state import node_parts
 from cloth_sim_ros.sim.state import State
 from cloth_sim_ros.sim.stepping import checked_steps
 import numpy as np
@@ -68,14 +69,14 @@ class Stack:
         self.layout = single.stacked(len(scenes), context)
         rows = np.arange(len(scenes))[:, None] * single.period + np.arange(scene.rows)
         self._rows = rows
-        present = np.zeros((self.layout.rows, scene.cols), dtype=bool)
-        present[rows] = True
-        starts = np.zeros((*present.shape, 3))
+        parts = np.zeros((self.layout.rows, scene.cols))
+        parts[rows] = node_parts(scene)
+        starts = np.zeros((*parts.shape, 3))
         starts[rows] = [each.start_positions() for each in scenes]
-        pinned = np.zeros_like(present)
+        pinned = np.zeros(parts.shape, dtype=bool)
         pinned[rows] = [each.pinned_nodes() for each in scenes]
         self._state = State(
-            self.layout, starts, pinned, present, has_low_parts=needs_low_parts(scene))
+            self.layout, starts, pinned, parts, has_low_parts=needs_low_parts(scene))
         self._loads = Loads(scene, self.layout, self._state)
         self._mode = MassSpring(scene, self.layout)
         self.pins = StackedPins(scene, self.layout, self._state)

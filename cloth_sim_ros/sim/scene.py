@@ -6,6 +6,7 @@
 from collections import Counter
 from collections.abc import Iterable
 from collections.abc import Mapping
+from functools import cached_property
 from itertools import repeat
 from typing import Any
 
@@ -16,8 +17,10 @@ from cloth_sim_ros.sim.arguments import integer
 from cloth_sim_ros.sim.arguments import mapping
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.model import grid
+from cloth_sim_ros.sim.model.cells import Cells
 from cloth_sim_ros.sim.model.colliders import colliders_of
 from cloth_sim_ros.sim.model.colliders import fields_with_colliders
+from cloth_sim_ros.sim.model.edge_kinds import EdgeKind
 from cloth_sim_ros.sim.model.frame_paths import FrameMove
 from cloth_sim_ros.sim.model.given_values import completed
 from cloth_sim_ros.sim.model.grasp_request import GraspRequest
@@ -77,6 +80,7 @@ class Scene:
                     f'{family} edges are in constraint.hard and in constraint.springs: remove '
                     'them from one')
         self._check_mass()
+        self.cells = self._make_cells()
         self.colliders = colliders_of(self.values)
         self._check_contact()
         self.pinned_nodes()
@@ -116,13 +120,45 @@ class Scene:
         """Rest distance of neighbours along a row and along a column [m]."""
         return grid.spacing(self.rows, self.cols, self['width'], self['height'])
 
+    def line_shares(self, direction: int) -> np.ndarray | float:
+        """Return the rigidity of each line of three nodes over that of a whole line."""
+        return 1.0 if self.cells is None else self.cells.line_shares(direction)
+
+    @property
+    def mass(self) -> float:
+        """Mass of the cloth [kg]; a chain's areal mass counts the whole width x height."""
+        return self.node_count * self.node_mass if self.cells is None else self._given_mass
+
     @property
     def node_mass(self) -> float:
-        """Mass of each node [kg]; a chain's areal mass counts the whole width x height."""
+        """Mass of a node [kg]; of one inside a cloth of cells, which has that of a cell."""
         if self['node_mass'] > 0.0:
             return self['node_mass']
-        total = self['total_mass'] or self['areal_density'] * self['width'] * self['height']
-        return total / self.node_count
+        return self._given_mass / (
+            self.node_count if self.cells is None else self.cells.count)
+
+    @property
+    def _given_mass(self) -> float:
+        return self['total_mass'] or self['areal_density'] * self['width'] * self['height']
+
+    @property
+    def mass_per_area(self) -> float:
+        """Mass per area of the cloth at rest [kg/m2]."""
+        if self.cells is None:
+            return self.node_mass * self.node_count / (self['width'] * self['height'])
+        dx, dy = self.spacing
+        return self.node_mass / (dx * dy)
+
+    @cached_property
+    def node_shares(self) -> np.ndarray:
+        """Mass of each node over ``node_mass``, (rows, cols)."""
+        if self.cells is None:
+            return np.ones((self.rows, self.cols))
+        return self.cells.node_shares
+
+    def edge_shares(self, kind: EdgeKind) -> np.ndarray | float:
+        """Return the stiffness of each edge of a kind over that of a whole line."""
+        return 1.0 if self.cells is None else self.cells.edge_shares(kind)
 
     def stiffness(self, family: str, direction: int | None = None) -> float:
         """
@@ -288,6 +324,14 @@ class Scene:
             raise ClothSimError(
                 'adaptive.scheme paper has no contact, and colliders.names is not empty: set '
                 'adaptive.scheme: constraint, or remove the colliders')
+
+    def _make_cells(self) -> Cells | None:
+        """Return the cells of a fabric; None for the nodes and springs of the paper."""
+        is_fabric = self['material.warp'] > 0.0 and self['node_mass'] == 0.0
+        is_paper = self['layout'] == 'paper' or self['adaptive.scheme'] == 'paper'
+        if not is_fabric or is_paper or min(self.rows, self.cols) < 2:
+            return None
+        return Cells(np.ones((self.rows - 1, self.cols - 1), dtype=bool))
 
     def _check_mass(self) -> None:
         given = [name for name in ('total_mass', 'node_mass') if self[name] > 0.0]

@@ -16,6 +16,7 @@ from cloth_sim_ros.sim.device.layout import Layout
 from cloth_sim_ros.sim.device.low_parts import LowParts
 from cloth_sim_ros.sim.device.low_parts import needs_low_parts
 from cloth_sim_ros.sim.errors import ClothSimError
+from cloth_sim_ros.sim.model.cells import inverse_masses
 from cloth_sim_ros.sim.scene import Scene
 import numpy as np
 
@@ -61,17 +62,19 @@ class State:
 
     def __init__(
             self, layout: Layout, positions: np.ndarray, pinned: np.ndarray,
-            present: np.ndarray | None = None, *, has_low_parts: bool = False) -> None:
+            parts: np.ndarray | None = None, *, has_low_parts: bool = False) -> None:
         """
         Upload ``positions`` [m] at rest.
 
         :param positions: (rows, cols, 3)
         :param pinned: (rows, cols) bool
-        :param present: where there are nodes, (rows, cols) bool; None for everywhere
+        :param parts: what each node stands for as cells.glsl has it, 0 where there is none,
+            (rows, cols); None for nodes of equal mass everywhere
         :param has_low_parts: as ``needs_low_parts`` says of the scene
         """
         self._layout = layout
-        self._present = np.ones(pinned.shape, dtype=bool) if present is None else present
+        self._parts = np.ones(pinned.shape) if parts is None else parts
+        self._inverse_masses = inverse_masses(self._parts)
         self.pinned = pinned.copy()
         nothing = np.zeros((layout.stored, 4), dtype=np.float32)
         self._positions = [Buffer(nothing) for _ in range(_PAIRS)]
@@ -107,13 +110,12 @@ class State:
         """Replace those of the rows from ``first`` on, as many as there are given."""
         self.edits += 1
         rows = np.s_[first:first + len(positions)]
-        present = self._present[rows]
-        free = present & ~self.pinned[rows]
+        weights = np.where(self.pinned[rows], 0.0, self._inverse_masses[rows])
         # With the ghosts beside them. Ghosts are never written by a step: all pairs need theirs.
         offset = self._offset(first, -HALO)
-        position = self._layout.stored_rows(_with_fourth(positions, present))
+        position = self._layout.stored_rows(_with_fourth(positions, self._parts[rows]))
         velocity = self._layout.stored_rows(
-            _with_fourth(velocities * free[..., None], free))
+            _with_fourth(velocities * (weights > 0.0)[..., None], weights))
         for buffer in self._positions:
             buffer.write(position, offset)
         for buffer in self._velocities:
@@ -128,9 +130,10 @@ class State:
         self.edits += 1
         self.pinned[row, col] = pinned
         # A step writes no w, so all pairs need it.
-        is_free = np.full(1, not pinned, dtype=np.float32)
+        weight = np.full(
+            1, 0.0 if pinned else self._inverse_masses[row, col], dtype=np.float32)
         for buffer in self._velocities:
-            buffer.write(is_free, self._offset(row, col) + 3 * is_free.itemsize)
+            buffer.write(weight, self._offset(row, col) + 3 * weight.itemsize)
         if pinned:
             self._write(self._velocities, row, col, np.zeros(3))
 
@@ -286,10 +289,15 @@ class State:
         return self._layout.index(row, col) * 4 * np.dtype(np.float32).itemsize
 
 
+def node_parts(scene: Scene) -> np.ndarray:
+    """Return what each node of ``scene`` stands for, as cells.glsl has it, (rows, cols)."""
+    return np.ones((scene.rows, scene.cols)) if scene.cells is None else scene.cells.parts
+
+
 def start_state(scene: Scene, layout: Layout) -> State:
     """Return the state that ``scene`` starts with."""
     return State(
-        layout, scene.start_positions(), scene.pinned_nodes(),
+        layout, scene.start_positions(), scene.pinned_nodes(), node_parts(scene),
         has_low_parts=needs_low_parts(scene))
 
 

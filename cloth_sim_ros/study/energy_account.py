@@ -232,8 +232,9 @@ class EnergyAccount:
         """Return the uncertainty of the energy at the start [J]."""
         # The initial velocities are used as those of half a substep before.
         free, forces = self._forces(seen)
-        kick = 0.5 * self._run.dt / self._run.substeps / self._run.scene.node_mass
-        return 0.5 * self._run.scene.node_mass * kick**2 * float(np.sum(forces**2))
+        kick = 0.5 * self._run.dt / self._run.substeps
+        masses = self._masses(free)
+        return 0.5 * kick**2 * float(np.sum(forces**2 / masses))
 
     def _half_a_step(self, seen: Snapshot) -> float:
         """Return h sum(m v . a) / 2 [J]."""
@@ -248,7 +249,12 @@ class EnergyAccount:
         scene = self._run.scene
         assert seen.tension is not None  # the snapshots are taken with it
         pulls = edge_pulls(scene, seen.positions, seen.velocities, seen.tension, free)
-        return free, pulls + scene.node_mass * np.array(scene['gravity'])
+        return free, pulls + self._masses(free) * np.array(scene['gravity'])
+
+    def _masses(self, nodes: np.ndarray) -> np.ndarray:
+        """Return the masses of ``nodes`` (n, 2), (n, 1) [kg]."""
+        scene = self._run.scene
+        return scene.node_mass * scene.node_shares[tuple(nodes.T)][:, None]
 
     def _rounding(self) -> float:
         scene = self._run.scene
@@ -264,9 +270,9 @@ class EnergyAccount:
         else:
             # A substep of hard edges corrects the rounding of lengths, at this speed.
             speed = reach * self._run.substeps / scene['dt']
-            energy += 0.5 * scene.node_mass * scene.node_count * speed**2
+            energy += 0.5 * scene.mass * speed**2
         # In a short substep the displacement of a node can be below float32 rounding.
-        weight = scene.node_mass * scene.node_count * float(np.linalg.norm(scene['gravity']))
+        weight = scene.mass * float(np.linalg.norm(scene['gravity']))
         energy += 0.3 * reach * weight * self._substeps
         return energy + 1e-6 * abs(self.begin.gravitational_energy)
 
@@ -320,7 +326,9 @@ def _pull_of_limits(
     pull = np.maximum(past, 0.0)
     if width > 0.0:
         pull = np.where(np.abs(past) < width, (past + width)**2 / (4.0 * width), pull)
-    return -sign * scene.node_mass * law.limit_stiffness[kind.rest] * float(pull.sum())
+    shares = np.broadcast_to(scene.edge_shares(kind), some.shape)[some]
+    stiffness = scene.node_mass * law.limit_stiffness[kind.rest]
+    return -sign * stiffness * float(np.sum(shares * pull))
 
 
 def _lengths(scene: Scene, kind: EdgeKind, positions: np.ndarray) -> np.ndarray:

@@ -187,7 +187,7 @@ class RunRecord:
         symplectic Euler, whose velocities are those of half a substep before, it swings by some
         per mille.
         """
-        weight = self._scene.node_mass * self._scene.node_count * float(
+        weight = self._scene.mass * float(
             np.linalg.norm(self._scene['gravity']))
         return (self._most_energy - self._start_energy) / (weight * self._scene['height'])
 

@@ -113,13 +113,16 @@ def _damped(values: Mapping[str, Any], factor: float) -> dict[str, Any]:
 
 
 def _heavier(values: Mapping[str, Any], factor: float) -> dict[str, Any]:
-    return {**values, 'node_mass': factor * Scene(values).node_mass}
+    scene = Scene(values)
+    if scene['node_mass']:
+        return {**values, 'node_mass': factor * scene.node_mass}
+    return {**values, 'areal_density': 0.0, 'total_mass': factor * scene.mass}
 
 
 def _pushed(values: Mapping[str, Any], push: float) -> dict[str, Any]:
     """Return the scene with one upward push [weights of the cloth] instead of its own pushes."""
     scene = Scene(values)
-    weight = _GRAVITY * scene.node_mass * int((~scene.pinned_nodes()).sum())
+    weight = _GRAVITY * scene.node_mass * float(scene.node_shares[~scene.pinned_nodes()].sum())
     alone = {name: value for name, value in values.items() if not name.startswith('pushes.')}
     return alone if not push else {
         **alone, 'pushes.start': [_PUSH_START], 'pushes.duration': [_PUSH_SECONDS],

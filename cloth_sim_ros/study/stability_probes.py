@@ -203,7 +203,8 @@ def hang(scene: Scene) -> HangingCloth:
     jacobian = edges.jacobian(edges.directions(flat), len(flat))[used]
     # The plane of the cloth: x and z of the free nodes.
     moves = np.repeat(free, 3) & np.tile([True, False, True], len(flat))
-    weight = scene.node_mass * np.tile(scene['gravity'], len(flat))[moves]
+    masses = scene.node_mass * scene.node_shares.ravel()
+    weight = (masses[:, None] * np.array(scene['gravity'])).ravel()[moves]
     within = jacobian[:, moves]
     matrix = within.T @ sparse.diags(stiffness) @ within
     matrix = matrix + sparse.diags(np.full(matrix.shape[0], _HOLD * stiffness.max()))
@@ -215,30 +216,33 @@ def hang(scene: Scene) -> HangingCloth:
     first, second = edges.first[used], edges.second[used]
     return HangingCloth(
         positions.reshape(rest.shape),
-        2.0 / math.sqrt(_largest(first, second, pull, free) / scene.node_mass))
+        2.0 / math.sqrt(_largest(first, second, pull, free, masses)))
 
 
 def _stiffness(scene: Scene, edges: Edges) -> np.ndarray:
     """Return that of springs, and for hard edges one at which the cloth hardly gives [N/m]."""
     hard = 1e6 * max(
-        scene.node_count * scene.node_mass * float(np.linalg.norm(scene['gravity']))
+        scene.mass * float(np.linalg.norm(scene['gravity']))
         / min(scene.spacing), max(scene.stiffness(family) for family in FAMILIES))
     # Hard edges yield with the inverse masses of their ends: pinned ones have one of them.
     pinned = scene.pinned_nodes().ravel()
     half = pinned[edges.first] | pinned[edges.second]
     return np.where(
-        edges.of(scene['constraint.hard']), np.where(half, 2.0 * hard, hard), edges.stiffness)
+        edges.of(scene['constraint.hard']), edges.share * np.where(half, 2.0 * hard, hard),
+        edges.stiffness)
 
 
 def _largest(
-        first: np.ndarray, second: np.ndarray, pull: np.ndarray, free: np.ndarray) -> float:
-    """Return the largest eigenvalue of the graph with the weights ``pull``, of free nodes."""
+        first: np.ndarray, second: np.ndarray, pull: np.ndarray, free: np.ndarray,
+        masses: np.ndarray) -> float:
+    """Return the largest eigenvalue of M^-1 K, K the graph of ``pull``, of free nodes."""
     count = len(free)
     matrix = sparse.coo_matrix(
         (np.concatenate((pull, pull, -pull, -pull)),
          (np.concatenate((first, second, first, second)),
           np.concatenate((first, second, second, first)))), shape=(count, count))
-    matrix = matrix.tocsr()[free][:, free]
+    roots = sparse.diags(masses[free]**-0.5)
+    matrix = roots @ matrix.tocsr()[free][:, free] @ roots
     if matrix.shape[0] < _DENSE:
         return float(np.linalg.eigvalsh(matrix.toarray())[-1])
     # A fixed start: the same scene gives the same figure.

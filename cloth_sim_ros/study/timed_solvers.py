@@ -73,7 +73,7 @@ class PaperSolver:
         self._edges = edges
         self._count = int(np.count_nonzero(self._kept))
         self._shape = positions.shape
-        self._inverse_mass = free / scene.node_mass
+        self._inverse_mass = free / (scene.node_mass * scene.node_shares.ravel())
         self._step = step
         self._acceleration = free[:, None] * np.asarray(scene['gravity'])
         self._positions = positions.reshape(-1, 3)

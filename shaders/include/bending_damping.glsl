@@ -9,15 +9,15 @@
 // e / l is large: there the growth counts for less, so that no line resists more than an even one.
 
 #include "bending.glsl"
+#include "cells.glsl"
 
 struct BentLine {
-    vec3 across;  // along the bend, 1 long or less; 0 where the line is straight, or no line
+    vec3 across;  // along the bend, 1 long or less; 0 where the line is straight
     float skew;   // e / l
 };
 
 BentLine bent_line(vec4 behind, vec4 here, vec4 ahead) {
-    vec3 bent = second_difference(
-        behind.w * here.w * ahead.w, behind.xyz, here.xyz, ahead.xyz);
+    vec3 bent = second_difference(1.0, behind.xyz, here.xyz, ahead.xyz);
     vec3 chord = ahead.xyz - behind.xyz;
     float skew = dot(bent, chord) / max(dot(chord, chord), 1e-20);
     bent -= skew * chord;
@@ -34,10 +34,12 @@ float bending_speed(BentLine line, vec3 behind, vec3 here, vec3 ahead) {
 // Damping force of a line along its bend, over c and the damping time, from its positions and
 // velocities (xyz); its skew (w).
 vec4 line_brake(
-        vec4 behind, vec4 here, vec4 ahead, vec3 behind_speed, vec3 here_speed, vec3 ahead_speed) {
+        vec4 behind, vec4 here, vec4 ahead, vec3 behind_speed, vec3 here_speed, vec3 ahead_speed,
+        int direction) {
     BentLine line = bent_line(behind, here, ahead);
-    return vec4(
-        bending_speed(line, behind_speed, here_speed, ahead_speed) * line.across, line.skew);
+    float share = line_share(behind, here, ahead, direction);
+    float speed = bending_speed(line, behind_speed, here_speed, ahead_speed);
+    return vec4((share * speed) * line.across, line.skew);
 }
 
 // Damping force on a node by the lines centred at the nodes behind, here and ahead. Both neighbours
@@ -48,7 +50,8 @@ vec3 braked(vec4 behind, vec4 here, vec4 ahead) {
 
 #define LINE_BRAKE(INDEX, STRIDE) line_brake( \
     load_position(INDEX - STRIDE), load_position(INDEX), load_position(INDEX + STRIDE), \
-    load_velocity(INDEX - STRIDE).xyz, load_velocity(INDEX).xyz, load_velocity(INDEX + STRIDE).xyz)
+    load_velocity(INDEX - STRIDE).xyz, load_velocity(INDEX).xyz, load_velocity(INDEX + STRIDE).xyz, \
+    STRIDE == 1 ? 0 : 1)
 
 // Damping force on a node along a row (stride 1) or a column (the pitch of rows), from single loads.
 #define BENDING_BRAKE(INDEX, STRIDE) braked( \

@@ -4,11 +4,14 @@
 // Bending for all nodes of a block.
 
 #include "bending.glsl"
+#include "cells.glsl"
 
 // Second difference in a tile OF with two nodes on each side of the block; NODE is the tile of the
-// nodes, whose w is 0 for a ghost.
+// nodes, whose w is as in cells.glsl.
+#define BENT_SHARE(NODE, ROW, COL, DROW, DCOL) line_share( \
+    NODE[ROW - DROW][COL - DCOL], NODE[ROW][COL], NODE[ROW + DROW][COL + DCOL], DROW)
 #define BENT(OF, NODE, ROW, COL, DROW, DCOL) second_difference( \
-    NODE[ROW - DROW][COL - DCOL].w * NODE[ROW][COL].w * NODE[ROW + DROW][COL + DCOL].w, \
+    BENT_SHARE(NODE, ROW, COL, DROW, DCOL), \
     OF[ROW - DROW][COL - DCOL].xyz, OF[ROW][COL].xyz, OF[ROW + DROW][COL + DCOL].xyz)
 
 #define FOR_BENT(DROW, DCOL) \

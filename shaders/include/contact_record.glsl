@@ -1,8 +1,10 @@
 // SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Contacts in the current step of dt: for each collider and node the sum of the changes of velocity
-// [m/s], and in w whether the node stuck or slid at its last contact.
+// Contacts in the current step of dt: for each collider and node the sum of the impulses over what
+// masses are over [m/s], and in w whether the node stuck or slid at its last contact.
+
+#include "cells.glsl"
 
 uniform float serial;        // of the substep
 uniform float decision;     // number of the decision
@@ -19,16 +21,17 @@ void note_turn() { contacts[COLLIDERS * record_stride].z = decision; }
 // Leave a mark that a node touches a collider in this substep.
 void note_contact() { contacts[COLLIDERS * record_stride].x = serial; }
 
-// Add an impulse over the node mass, and leave as it is whether the node touches.
+// Add the impulse of a change of velocity, and leave as it is whether the node touches.
 void record_impulse(int collider, int index, vec3 change) {
-    contacts[collider * record_stride + index].xyz += change;
+    contacts[collider * record_stride + index].xyz +=
+        mass_share(load_position(index)) * change;
 }
 
 void record_contacts(int index, int kind) {
     for (int i = 0; i < touched_count; ++i) {
         if (given[i] != vec3(0.0) || pressed[i] > 0.0) {
             int entry = touched[i] * record_stride + index;
-            vec3 change = given[i] + pressing[i];
+            vec3 change = mass_share(load_position(index)) * (given[i] + pressing[i]);
             contacts[entry] = vec4(contacts[entry].xyz + change, float(min(kind, SLIDES)));
         }
     }

@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 // SPDX-License-Identifier: Apache-2.0
 
-// What pinned nodes are driven with, substep by substep: the change of velocity that each would
-// have if it were free. Times its mass, that is the impulse on what holds it. fold_held.comp adds
-// the entries up.
+// What pinned nodes are driven with, substep by substep: the impulse on what holds each, over the
+// mass that masses are over (cells.glsl). fold_held.comp adds the entries up.
 // The buffer begins with the slot of each stored node, one more than where a pinned node has its
 // entry among those of a substep.
 

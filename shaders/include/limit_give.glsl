@@ -40,6 +40,7 @@ vec2 give(int index) {
         held[held_entry(index)].xyz += given;
     }
     // By the mean of the velocities before and after all that acts in the substep.
-    float energy = dot(0.5 * (load_velocity(index).xyz + v.xyz + change), change);
+    float energy = dot(
+        0.5 * (load_velocity(index).xyz + v.xyz + change), v.w > 0.0 ? given : vec3(0.0));
     return vec2(float(bitCount(mask)), energy);
 }

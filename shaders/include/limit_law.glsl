@@ -5,6 +5,8 @@
 // (docs/explanation/adaptive.md). The end of an edge at its upper limit stays in a ball around its
 // start; at its lower limit it stays beyond a plane.
 
+#include "cells.glsl"
+
 // Strain beyond the limit over that [1] that counts as far.
 #define MISSED 0.05
 
@@ -24,17 +26,20 @@ struct Edge {
     float l;       // [m] its length
     float target;  // [m] the largest, or the smallest, length at the end
     float over;    // [m] length less the target
+    float give;    // [s] how far it passes the target for each impulse over the mass of a node
 };
 
-Edge edge_between(vec3 start, vec3 end, int code) {
-    vec3 d = end - start;
+Edge edge_between(vec4 start, vec4 end, int code) {
+    vec3 d = end.xyz - start.xyz;
     float l = length_and_inverse(d).x;
     float bound = rest_of(code) * (1.0 + (code < SHORTEST ? limit : -limit));
     // The difference of squares keeps the digits.
     float over = (dot(d, d) - bound * bound) / (l + bound);
     bool is_beyond = code < SHORTEST ? over > 0.0 : over < 0.0;
     over = is_beyond ? closing * over : over;
-    return Edge(d, l, l - over, over);
+    // A limit has the share of a whole line's stiffness that its spring has.
+    float give = compliance_of(code) / edge_share(start, end, code & 3);
+    return Edge(d, l, l - over, over, give);
 }
 
 // Whether an edge is far beyond its limit, and no impulse has held it in the substep before.
@@ -60,7 +65,7 @@ vec3 pull_back(Edge edge, int code, vec3 e) {
 // by e [m] without; per_impulse: what each moves it by [s].
 vec3 impulse_for(Edge edge, int code, vec3 e, float per_impulse) {
     // 0 between two pins.
-    vec3 pull = pull_back(edge, code, e) / max(per_impulse + compliance_of(code), 1e-30);
+    vec3 pull = pull_back(edge, code, e) / max(per_impulse + edge.give, 1e-30);
     return per_impulse > 0.0 ? pull : vec3(0.0);
 }
 
@@ -71,6 +76,6 @@ float gain_of(Edge edge, int code, vec3 given, vec3 dv, float substep, float par
     float size = length(given);
     vec3 off = given / max(size, 1e-30) - edge.d / max(edge.l, 1e-20);
     float past = code < SHORTEST ? edge.over - 0.5 * edge.l * dot(off, off) : -edge.over;
-    past -= part * compliance_of(code) * size;
+    past -= part * edge.give * size;
     return dot(given, dv) + size * past / substep;
 }

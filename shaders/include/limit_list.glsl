@@ -5,6 +5,8 @@
 // judged with the impulses of the substep before. load_next_position and load_change have to be
 // there.
 
+#include "cells.glsl"
+
 uniform float near;  // strain over the limit from which on an edge is listed
 uniform bool adds;   // to those listed in this substep, not to those with an impulse before
 
@@ -20,7 +22,7 @@ uint listed(int row, int col, int drow, int dcol, int edge, int rest) {
     vec4 to = expected[row + drow][col + dcol];
     vec3 d = to.xyz - from.xyz;
     float square = dot(d, d);
-    bool is_edge = from.w * to.w > 0.0;
+    bool is_edge = edge_share(from, to, edge) > 0.0;
     uint was = engaged[row][col] >> edge;
     // NaN is not listed; the check of the state finds it.
     bool is_long = is_edge && (

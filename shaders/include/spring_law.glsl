@@ -17,12 +17,12 @@ vec2 length_and_inverse(vec3 d) {
 }
 
 // Force on the node at the tail of d = x_j - x_i from the spring to j [N]; dv = v_j - v_i.
-// present is 1, or 0 when one of the ends is a ghost.
-vec3 spring_force(vec3 d, vec3 dv, float present, int rest) {
+// share: of a whole line's stiffness, 0 where there is no edge (cells.glsl).
+vec3 spring_force(vec3 d, vec3 dv, float share, int rest) {
     vec2 l = length_and_inverse(d);
     float pull = stiffness[rest] * (l.x - rest_length[rest]);
 #if HAS_DAMPING
     pull += damping[rest] * dot(dv, d) * l.y;
 #endif
-    return (present * pull * l.y) * d;
+    return (share * pull * l.y) * d;
 }

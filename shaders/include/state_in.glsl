@@ -1,10 +1,13 @@
 // SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 // SPDX-License-Identifier: Apache-2.0
 
-// The state that is read. position.w is 1 for a node and 0 for a ghost; velocity.w is 1 for a
-// free node and 0 for a pinned one or a ghost. A pinned node has the velocity of its pin.
+// The state that is read. position.w is 0 for a ghost, and as in cells.glsl for a node; velocity.w
+// is the inverse mass of a free node, 1 for one of equal mass or amid a cloth of cells, and 0 for a
+// pinned one or a ghost. A pinned node has the velocity of its pin.
 // LOADS_TEXTURE: read through texture units, which software devices do several times faster than
 // storage blocks.
+
+#include "cells.glsl"
 
 #if LOADS_TEXTURE
 layout(binding = POSITION_IN) uniform samplerBuffer position_in;

@@ -10,10 +10,14 @@
 
 uniform float substep;       // [s]
 uniform float kick;          // [s] what forces act for: mean of this substep and the one before
-uniform float inverse_mass;  // [1/kg]
+uniform float inverse_mass;  // [1/kg] of what masses are over
 
 vec3 next_velocity(int index, vec4 velocity, vec3 force, vec3 applied) {
+#if HAS_CELLS
+    vec3 change = kick * (applied + (velocity.w * inverse_mass) * force);
+#else
     vec3 change = kick * (applied + inverse_mass * force);
+#endif
     // Not times 0: a NaN would pass from a cloth by its ghosts to another one.
 #if HAS_LOW_PARTS
     return changed_velocity(index, velocity.xyz, velocity.w > 0.0 ? change : vec3(0.0));

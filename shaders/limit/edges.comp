@@ -48,7 +48,7 @@ void act_on(int row, int col, int drow, int dcol, int edge, uint mask) {
     bool is_in = (mask & 17u << edge) != 0u;
     int code = edge + ((mask & 16u << edge) != 0u ? SHORTEST : 0);
     Edge it = edge_between(
-        place[row][col].xyz, place[row + drow][col + dcol].xyz, code);
+        place[row][col], place[row + drow][col + dcol], code);
     // As in solver/contact.comp, software would run the body of a branch for every edge.
     for (uint asks = finds_gain && is_in ? 1u : 0u; asks != 0u; asks &= asks - 1u) {
         figures.x += gain_of(it, code, of_edge(last, edge), to.xyz - from.xyz, substep, parts.x);

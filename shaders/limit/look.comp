@@ -6,6 +6,7 @@
 // or in some that follow: STRIP nodes of a column an invocation.
 
 #include "lattice.glsl"
+#include "cells.glsl"
 #include "spring_law.glsl"
 #include "strain_limit.glsl"
 #include "limit_lists.glsl"
@@ -50,13 +51,13 @@ Node load_node(int row, int col) {
     return Node(x, x.xyz + ahead * v);
 }
 
-bool is_wide(Node from, Node to, int rest) {
+bool is_wide(Node from, Node to, int edge, int rest) {
     vec3 now = to.now.xyz - from.now.xyz;
     vec3 then = to.then - from.then;
     vec2 squares = vec2(dot(now, now), dot(then, then));
     bool is_off = max(squares.x, squares.y) > square_at(rest, wide * limit)
         || min(squares.x, squares.y) < square_at(rest, -wide * limit);
-    return is_off && from.now.w * to.now.w > 0.0;
+    return is_off && edge_share(from.now, to.now, edge) > 0.0;
 }
 
 // Mark the block of a node, and those around it: impulses reach one edge further in each substep.
@@ -91,11 +92,11 @@ void main() {
         Node below_right = load_node(first + row + 1, col + 1);
         bool is_any = false;
 #if HAS_STRUCTURAL
-        is_any = is_wide(here, right, REST_ROW) || is_wide(here, below, REST_COLUMN);
+        is_any = is_wide(here, right, EDGE_ROW, REST_ROW) || is_wide(here, below, EDGE_COLUMN, REST_COLUMN);
 #endif
 #if HAS_SHEAR
-        is_any = is_any || is_wide(here, below_right, REST_DIAGONAL);
-        crossings |= is_wide(right, below, REST_DIAGONAL) ? 1u << row : 0u;
+        is_any = is_any || is_wide(here, below_right, EDGE_DIAGONAL, REST_DIAGONAL);
+        crossings |= is_wide(right, below, EDGE_CROSSING, REST_DIAGONAL) ? 1u << row : 0u;
 #endif
         rows |= is_any ? 1u << row : 0u;
         here = below;

@@ -161,7 +161,7 @@ ivec2 fill_lists() {
 
 Edge edge_at(int index, int code) {
     return edge_between(
-        load_position(index).xyz, load_position(index + end_offset(code)).xyz, code);
+        load_position(index), load_position(index + end_offset(code)), code);
 }
 
 // The velocity of a node that has velocity v by the springs [m/s].

@@ -6,6 +6,7 @@
 
 #include "solver/levels.glsl"
 #include "solver/system.glsl"
+#include "cells.glsl"
 #include "solver/cloth_edge_block.glsl"
 #if HAS_CONTACT
 #include "solver/free_directions.glsl"
@@ -22,14 +23,14 @@ layout(local_size_x = LOCAL_X, local_size_y = LOCAL_Y) in;
     SUMS[FAMILY] += edge_blocks(at, ivec2(DROW, DCOL), EDGE);
 
 #if HAS_RIGIDITY
-float is_line(ivec2 centre, ivec2 by) {
-    return load_node(centre - by).w * load_node(centre).w * load_node(centre + by).w != 0.0
-        ? 1.0 : 0.0;
+float share_of_line(ivec2 centre, ivec2 by) {
+    return line_share(load_node(centre - by), load_node(centre), load_node(centre + by), by.x);
 }
 
-// The squares of a node's parts in the lines of three that it is in.
+// The squares of a node's parts in the lines of three that it is in, by their shares.
 float bending_at(ivec2 at, ivec2 by) {
-    return is_line(at - by, by) + 4.0 * is_line(at, by) + is_line(at + by, by);
+    return share_of_line(at - by, by) + 4.0 * share_of_line(at, by)
+        + share_of_line(at + by, by);
 }
 #endif
 
@@ -41,7 +42,8 @@ void main() {
     Symmetric of_family[] =
         Symmetric[](Symmetric(0.0), Symmetric(0.0), Symmetric(0.0));
     EACH_EDGE(ADD_BLOCKS, of_family)
-    Symmetric diagonal = scaled_identity(1.0);
+    float mass = mass_share(load_node(at));
+    Symmetric diagonal = scaled_identity(mass);
     diagonal += of_family[STRUCTURAL];
     diagonal += of_family[SHEAR];
     diagonal += of_family[BEND];
@@ -52,19 +54,19 @@ void main() {
 #endif
     float moves = load_node(at).w > 0.0 ? 1.0 : 0.0;
     int index = node_index(at.x, at.y);
-    Symmetric inverse_block = moves * inverse_above(diagonal, 1.0);
+    Symmetric inverse_block = moves * inverse_above(diagonal, mass);
 #if HAS_CONTACT
     vec4 contact = load_contact(index);
     if (contact.w > 0.0) {
         vec4 grip = load_grip(index);
-        diagonal += grip.w * (scaled_identity(1.0) - outer_square(grip.xyz));
-        inverse_block = moves * inverse_above(diagonal, 1.0);
+        diagonal += mass * grip.w * (scaled_identity(1.0) - outer_square(grip.xyz));
+        inverse_block = moves * inverse_above(diagonal, mass);
         // Inverse of the block along the surface, or the line, that the node slides on.
         vec3 image = times(inverse_block, contact.xyz);
         Symmetric in_surface =
             inverse_block - outer_square(image) / max(dot(contact.xyz, image), 1e-30);
         Symmetric on_line = moves * outer_square(contact.xyz)
-            / max(dot(contact.xyz, times(diagonal, contact.xyz)), 1.0);
+            / max(dot(contact.xyz, times(diagonal, contact.xyz)), mass);
         inverse_block = contact.w == 2.0 ? in_surface : on_line;
         inverse_block *= contact.w == 1.0 ? 0.0 : 1.0;
     }

@@ -7,6 +7,7 @@
 #include "solver/levels.glsl"
 #include "solver/system.glsl"
 #include "solver/edge_tensors.glsl"
+#include "cells.glsl"
 #include "solver/cloth_edge_block.glsl"
 #include "solver/free_directions.glsl"
 #if HAS_RIGIDITY
@@ -135,7 +136,8 @@ void main() {
     store_edges(level, index, edges);
     float mass = 0.0;
     for (int i = 0; i < 4; ++i) {
-        mass += load_node(first + ivec2(i / 2, i % 2)).w != 0.0 ? 1.0 : 0.0;
+        vec4 node = load_node(first + ivec2(i / 2, i % 2));
+        mass += node.w != 0.0 ? mass_share(node) : 0.0;
     }
     Symmetric ground = scaled_identity(mass);
     // A loop ends where no invocation beside this one goes on; a branch costs llvmpipe the same
@@ -151,7 +153,7 @@ void main() {
     for (int i = 0; i < 4; ++i) {
         ivec2 at = first + ivec2(i / 2, i % 2);
         if (inside(0, at.x, at.y)) {
-            ground += grip_tensor(node_index(at.x, at.y));
+            ground += mass_share(load_node(at)) * grip_tensor(node_index(at.x, at.y));
         }
     }
 #endif

@@ -27,10 +27,13 @@ void main() {
     vec3 resisted = vec3(0.0);
     for (int direction = 0; direction < 2; ++direction) {
         int stride = direction == 0 ? 1 : state_pitch;
-        BentLine line = bent_line(
-            load_position(index - stride), load_position(index), load_position(index + stride));
+        vec4 behind = load_position(index - stride);
+        vec4 here = load_position(index);
+        vec4 ahead = load_position(index + stride);
+        BentLine line = bent_line(behind, here, ahead);
+        float root = sqrt(line_share(behind, here, ahead, direction));
         system_data[cloth_entry(BENT_LINES + direction, entry)] =
-            vec4(sqrt(damping_weight[direction]) * line.across, line.skew);
+            vec4(root * sqrt(damping_weight[direction]) * line.across, line.skew);
         resisted += damping_weight[direction] * BENDING_BRAKE(index, stride);
     }
     if (load_velocity(index).w > 0.0) {

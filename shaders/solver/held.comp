@@ -36,7 +36,7 @@ vec4 bend_tension[TILE][TILE];
 void pull(int row, int col, int drow, int dcol, int edge, int family, int rest) {
     vec3 d = node[row][col].xyz - node[row + drow][col + dcol].xyz;
     vec3 n = inversesqrt(max(dot(d, d), 1e-20)) * d;
-    float moves = is_held_together(node[row][col], node[row + drow][col + dcol]);
+    bool moves = moving_share(node[row][col], node[row + drow][col + dcol], edge) > 0.0;
 #if HAS_BEND
     vec2 tensions = edge >= EDGE_TWO_ROW
         ? vec2(bend_tension[row][col][LONG_SLOT(edge) + 2],
@@ -45,7 +45,7 @@ void pull(int row, int col, int drow, int dcol, int edge, int family, int rest) 
 #else
     vec2 tensions = vec2(begun[row][col][SHORT_SLOT(edge)], found[row][col][SHORT_SLOT(edge)]);
 #endif
-    vec3 impulse = moves * substep * (tensions.x - (1.0 - to_come) * tensions.y) * n;
+    vec3 impulse = (moves ? substep * (tensions.x - (1.0 - to_come) * tensions.y) : 0.0) * n;
     product[row][col] += impulse;
     product[row + drow][col + dcol] -= impulse;
 }
@@ -91,7 +91,8 @@ void main() {
             ivec2 at = first + ivec2(col, row) - REACH;
             int index = state_index(at.y, at.x);
             // The solution is 0 at a pin, so the product is that of its edges alone.
-            vec3 driven = -product[row][col] + to_come * kick * applied_acceleration(index);
+            vec3 driven = -product[row][col]
+                + to_come * kick * mass_share(node[row][col]) * applied_acceleration(index);
 #if HAS_RIGIDITY
             driven -= to_come * kick * resisted[row][col];
 #endif

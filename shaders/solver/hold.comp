@@ -8,6 +8,7 @@
 #include "solver/levels.glsl"
 #include "solver/vectors.glsl"
 #include "solver/system.glsl"
+#include "cells.glsl"
 #include "solver/free_directions.glsl"
 
 layout(local_size_x = LOCAL_X, local_size_y = LOCAL_Y) in;
@@ -20,7 +21,8 @@ void main() {
     }
     int index = node_index(row, col);
     vec3 right = load_vector(cloth_entry(RESIDUAL, index));
-    vec3 given = load_vector(cloth_entry(GIVEN, index));
+    vec3 given = mass_share(load_system(cloth_entry(NODE, index)))
+        * load_vector(cloth_entry(GIVEN, index));
     store_vector(cloth_entry(RIGHT, index), right);
     store_vector(cloth_entry(RESIDUAL, index), in_free_directions(index, right + given));
 }

@@ -22,6 +22,10 @@ void main() {
         int behind = level_index(level, row - TOWARDS[i].x, col - TOWARDS[i].y);
         diagonal += load_edge(level, index, i) + load_edge(level, behind, i);
     }
-    // No coarse node holds less than the mass of one node.
+    // No coarse node with a node of the cloth holds less than a quarter of a cell's mass.
+#if HAS_CELLS
+    store_symmetric(level, INVERSE, index, inverse_above(diagonal, 0.25));
+#else
     store_symmetric(level, INVERSE, index, inverse_above(diagonal, 1.0));
+#endif
 }

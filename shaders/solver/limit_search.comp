@@ -37,8 +37,10 @@ uniform float to_come;    // of what the velocities move nodes by: 0 in a furthe
 // A loop for each direction: both in one take llvmpipe seconds to compile.
 #define ADD_BENT(DROW, DCOL) \
     FOR_BLOCK { \
-        vec3 bent = BENT(way, node, row, col, DROW, DCOL); \
-        sums.x += bending_weight[DROW] * dot(bent, bent); \
+        vec3 bent = second_difference( \
+            1.0, way[row - DROW][col - DCOL], way[row][col], way[row + DROW][col + DCOL]); \
+        sums.x += bending_weight[DROW] * BENT_SHARE(node, row, col, DROW, DCOL) \
+            * dot(bent, bent); \
     }
 #define ADD_BENT_SPEED(DROW, DCOL) \
     FOR_BLOCK { \
@@ -57,7 +59,8 @@ vec3 sums;
 void look(int row, int col, int drow, int dcol, int edge, int family, int rest) {
     vec4 from = node[row][col];
     vec4 to = node[row + drow][col + dcol];
-    if (!is_in_block(row, col) || is_held_together(from, to) == 0.0) {
+    float edge_part = moving_share(from, to, edge);
+    if (!is_in_block(row, col) || edge_part == 0.0) {
         return;
     }
     vec3 d = from.xyz - to.xyz;
@@ -73,13 +76,15 @@ void look(int row, int col, int drow, int dcol, int edge, int family, int rest) 
     float slope = 0.0;
     // Bend edges come to no limits.
     if (family != BEND) {
-        float pull = tension[row][col][SHORT_SLOT(edge)];
+        float pull = tension[row][col][SHORT_SLOT(edge)] / edge_part;
         float judged = judged_length(begun, pull, dot(n, u), family, rest);
         float l = begun + substep * share * opened;
         Past straight = past_limits(l, judged, family, rest);
         Past bent = past_limits(l, l, family, rest);
-        missing = substep * limit_stiffness[rest] * (bent.amount - straight.amount);
-        slope = edge_stiffness[rest] + limit_stiffness[rest] * bent.slope;
+        missing = edge_part * substep * limit_stiffness[rest]
+            * (bent.amount - straight.amount);
+        slope = edge_part
+            * (edge_stiffness[rest] + limit_stiffness[rest] * bent.slope);
     }
     float weight = weight_along(row, col, edge) * square;
     sums += vec3(
@@ -104,7 +109,7 @@ void main() {
         }
         FOR_CLOTH_EDGES(look)
         FOR_BLOCK {
-            sums.x += dot(way[row][col], way[row][col]);
+            sums.x += mass_share(node[row][col]) * dot(way[row][col], way[row][col]);
         }
 #if HAS_RIGIDITY
         ADD_BENT(0, 1)

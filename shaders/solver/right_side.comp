@@ -92,7 +92,7 @@ void store_edge(int row, int col, int edge, float begun_here, float along_here, 
 void add_edge(int row, int col, int drow, int dcol, int edge, int family, int rest) {
     vec4 from = node[row][col];
     vec4 to = node[row + drow][col + dcol];
-    float moves = is_held_together(from, to);
+    float share = moving_share(from, to, edge);
     vec3 d = from.xyz - to.xyz;
     float square = max(dot(d, d), 1e-20);
     float inverse_length = inversesqrt(square);
@@ -102,23 +102,28 @@ void add_edge(int row, int col, int drow, int dcol, int edge, int family, int re
     float ahead = foreseen_length(l, n, to_come * u);
     float rate = dot(n, u);
     float found = found_tension(row, col, edge);
+    // The law is that of a whole line.
+    float of_line = found;
+#if HAS_CELLS
+    of_line = share > 0.0 ? found / share : 0.0;
+#endif
     // Edges come to their limits in the step, and leave them.
     float judged = judged_length(
         ahead + substep * dot(n, expected[row][col] - expected[row + drow][col + dcol]),
-        found, rate, family, rest);
+        of_line, rate, family, rest);
     Pull pull = pull_at(ahead, judged, rate, family, rest);
 #if HAS_CONTACT
     float rounded = touches[row][col] * touches[row + drow][col + dcol]
         * pull.slope * rounding_of_length(from.xyz, to.xyz);
-    pull.tension += clamp(found + pull.slope * (ahead - l) - pull.tension, -rounded, rounded);
+    pull.tension += clamp(of_line + pull.slope * (ahead - l) - pull.tension, -rounded, rounded);
 #endif
-    float tension_here = moves * pull.tension;
+    float tension_here = share * pull.tension;
     float missing = tension_here - (1.0 - to_come) * found;
     is_off_here = is_off_here || is_in_block(row, col)
-        && abs(missing) > moves * pull.slope * rounding_of_length(from.xyz, to.xyz);
-    float sideways =
-        moves * geometric * substep * substep * max(found, 0.0) * inverse_length;
-    float weight = moves * substep * (substep * pull.slope + edge_damping[rest]);
+        && abs(missing) > share * pull.slope * rounding_of_length(from.xyz, to.xyz);
+    float sideways = (share > 0.0 ? 1.0 : 0.0)
+        * geometric * substep * substep * max(found, 0.0) * inverse_length;
+    float weight = share * substep * (substep * pull.slope + edge_damping[rest]);
     if (is_in_block(row, col)) {
         store_edge(row, col, edge, tension_here, (weight - sideways) / square, sideways);
     }
@@ -168,9 +173,9 @@ void main() {
             vec3 applied = applied_acceleration(state_index(at.y, at.x));
 #if HAS_RIGIDITY
             // As where the step begins; the matrix makes it the mean of before and after.
-            applied -= resisted[row][col];
+            applied -= resisted[row][col] / mass_share(node[row][col]);
 #endif
-            total = change[row][col] + to_come * kick * applied;
+            total = change[row][col] + to_come * kick * mass_share(node[row][col]) * applied;
         }
         store_vector(cloth_entry(RESIDUAL, entry), total);
         system_data[cloth_entry(NODE, entry)] = node[row][col];

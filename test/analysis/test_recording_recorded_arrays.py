@@ -177,6 +177,6 @@ def test_recorded_forces_add_up(handled):
         given += [0.02 * table[f'wrench.force.{axis}'][later].sum() for axis in 'xyz']
     scene = Scene(HANDLED)
     momentum = scene.node_mass * points['velocities'].astype(float).sum(axis=(1, 2))
-    weight = scene.node_count * scene.node_mass * np.array(scene['gravity'])
+    weight = scene.mass * np.array(scene['gravity'])
     lost = momentum[0] - momentum[-1] + 0.4 * weight
     assert np.abs(given - lost).max() <= 1e-4 * np.linalg.norm(lost)

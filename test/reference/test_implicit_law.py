@@ -112,8 +112,9 @@ def test_the_matrix_is_mass_and_blocks(rows):
     half = random.normal(size=(len(edges), 3, 3))
     blocks = half @ half.transpose(0, 2, 1)
     right = random.normal(size=(len(free), 3)) * free[:, None]
-    change = EdgeMatrix(edges, free, 0.7).solve(blocks, right)
+    masses = random.uniform(0.5, 2.0, len(free))
+    change = EdgeMatrix(edges, free, masses).solve(blocks, right)
     across = np.einsum('eij,ej->ei', blocks, edges.differences(change))
-    back = 0.7 * change + edges.scatter(across, len(free))
+    back = masses[:, None] * change + edges.scatter(across, len(free))
     assert np.all(change[~free] == 0.0)
     np.testing.assert_allclose(back[free], right[free], atol=1e-10)

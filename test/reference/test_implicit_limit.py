@@ -63,7 +63,7 @@ def test_the_light_cloth_of_the_study_keeps_to_its_limit():
         **LIGHT_CLOTH, 'rows': 12, 'cols': 12, 'dt': 0.02, 'adaptive.threshold': LIMIT,
         'stiffness.structural': 1000.0, 'stiffness.shear': 1000.0})
     cloth = ImplicitCloth(scene, limited_law(scene))
-    start, weight = cloth.energies().total, scene.node_count * scene.node_mass * 9.81
+    start, weight = cloth.energies().total, scene.mass * 9.81
     strains, gains, settled = [], [], True
     for _ in range(round(1.2 / cloth.dt)):
         cloth.step()
@@ -86,7 +86,7 @@ def test_a_strip_hangs_still_at_its_limit(name, dt):
     """The pins feel a cloth that rests at its limit tremble, or it passes the limit on its way."""
     scene = Scene({**SCENES[name], 'dt': dt})
     cloth = ImplicitCloth(scene, limited_law(scene))
-    start, weight = cloth.energies().total, scene.node_count * scene.node_mass * 9.81
+    start, weight = cloth.energies().total, scene.mass * 9.81
     forces, strains, gains, settled = [], [], [], True
     for _ in range(round(2.0 / dt)):
         cloth.step()

@@ -132,7 +132,7 @@ def variants(form: str) -> dict[str, str]:
                 layout, levels, families, is_multigrid=multigrid,
                 has_rigidity=model.has_rigidity,
                 has_bending_damping=model.has_bending_damping,
-                has_contact=model.has_contact))
+                has_contact=model.has_contact, has_cells=model.cells is not None))
         text = without_idle_defines(ShaderSource(name, defines).text)
         found.setdefault(text, f'{scene}, texture {texture}, multigrid {multigrid}, {block}')
     return found

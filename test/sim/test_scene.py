@@ -12,20 +12,34 @@ import pytest
 _MOVE = {'pin_moves.start': [1.0], 'pin_moves.node': ['0,0'], 'pin_moves.target': [0.0, 0.0, 1.0]}
 
 
-def test_mass_is_shared_evenly():
+@pytest.mark.parametrize('fabric', ['none', 'trousers'])
+def test_the_nodes_weigh_what_the_cloth_does(fabric: str):
     """The cloth would weigh something else than its areal density says."""
-    scene = Scene({'rows': 4, 'cols': 5, 'width': 2.0, 'height': 3.0, 'areal_density': 0.5})
-    assert scene.node_mass * scene.node_count == pytest.approx(0.5 * 6.0)
+    scene = Scene({
+        'rows': 4, 'cols': 5, 'width': 2.0, 'height': 3.0, 'areal_density': 0.5,
+        'material.preset': fabric})
+    assert scene.mass == pytest.approx(0.5 * 6.0)
+    assert scene.node_mass * scene.node_shares.sum() == pytest.approx(0.5 * 6.0)
+    assert scene.mass_per_area == pytest.approx(0.5)
     assert Scene({'node_mass': 0.7}).node_mass == 0.7
+
+
+def test_nodes_of_springs_have_equal_masses():
+    """Scenes that give springs, or the mass of a node, would be no longer those of the paper."""
+    for values in ({'material.preset': 'none'}, {'stiffness.structural': 10.0},
+                   {'node_mass': 0.1}, {'layout': 'paper'}, {'rows': 1}):
+        scene = Scene({'rows': 4, 'cols': 5, 'air.density': 0.0, **values})
+        assert scene.cells is None and np.all(scene.node_shares == 1.0)
+        assert scene.mass == pytest.approx(scene.node_mass * scene.node_count)
 
 
 def test_the_cloth_weighs_its_total_mass():
     """A towel of 0.3 kg would have the mass of the default areal density times its area."""
     scene = Scene({'rows': 7, 'cols': 9, 'width': 0.5, 'height': 0.9, 'total_mass': 0.3})
-    assert scene.node_mass * scene.node_count == pytest.approx(0.3)
+    assert scene.mass == pytest.approx(0.3)
     # A finer lattice of the same cloth weighs as much.
     finer = Scene({**scene.values, 'rows': 13, 'cols': 17})
-    assert finer.node_mass * finer.node_count == pytest.approx(0.3)
+    assert finer.node_mass * finer.node_shares.sum() == pytest.approx(0.3)
 
 
 @pytest.mark.parametrize(('others', 'named'), [

@@ -385,8 +385,7 @@ class Contacts:
         scene = self._scene
         program.set_float(
             'way_out_speed', _WAY_OUT_SPEED * math.sqrt(max(scene['width'], scene['height'])))
-        area = scene['width'] * scene['height'] / scene.node_count
-        program.set_float('compression', scene['contact.compression'] * area / scene.node_mass)
+        program.set_float('compression', scene['contact.compression'] / scene.mass_per_area)
         program.set_int('record_stride', self._layout.stored)
 
 

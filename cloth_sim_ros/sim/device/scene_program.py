@@ -88,6 +88,7 @@ def scene_defines(scene: Scene) -> dict[str, object]:
     has_damping = any(scene.damping(family) > 0.0 for family in FAMILIES)
     return {
         'MOST_MAGNITUDE': f'{MOST_MAGNITUDE:e}',
+        'HAS_CELLS': int(scene.cells is not None),
         'HAS_HELD': 0,
         'HAS_DAMPING': int(has_damping),
         'HAS_RIGIDITY': int(scene.has_rigidity),

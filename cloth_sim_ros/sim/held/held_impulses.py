@@ -93,7 +93,7 @@ class Impulses:
     """
     What holders were given over some steps of dt, by the order of ``holders``.
 
-    :param changes: impulse on each over the mass of a node [m/s], (count, 3)
+    :param changes: impulse on each over ``Scene.node_mass`` [m/s], (count, 3)
     :param peaks: the strongest of a substep, over its length [m/s2], (count, 3)
     """
 
@@ -106,14 +106,16 @@ class HeldImpulses:
     """
     Has passes record what pinned nodes are driven with in each substep, and adds it up.
 
-    The impulse on a holder is the mass of a node times the change of velocity that the node would
-    have had if it were free, less the change that it had. Passes ask ``reserve`` where to
+    The impulse on a holder is the mass of its node times the change of velocity that the node
+    would have had if it were free, less the change that it had. Passes ask ``reserve`` where to
     leave the first of these for each node and substep, by held.glsl.
     """
 
     def __init__(self, scene: Scene, layout: Layout, *, compiles: bool = True) -> None:
         """Prepare; where the scene holds no node, nothing is compiled before one is held."""
         self._layout = layout
+        # Masses of the nodes, over the one that impulses are over.
+        self._shares = scene.node_shares
         self._fold = SceneProgram('fold_held.comp', scene, layout, {'FOLD_LOCAL': _LOCAL})
         if compiles and scene.pinned_nodes().any():
             self._fold.use()
@@ -349,7 +351,7 @@ class HeldImpulses:
         values[:] = 0.0
         slots = self._holders.slots
         for node in {*before, *after} & slots.keys():
-            values[slots[node]] = (
+            values[slots[node]] = np.float32(self._shares[node]) * (
                 np.asarray(after.get(node, _REST), dtype=np.float32)
                 - np.asarray(before.get(node, _REST), dtype=np.float32))
         return bool(values.any())

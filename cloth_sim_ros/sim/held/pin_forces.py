@@ -46,18 +46,22 @@ def bending_pulls(
     """
     pulls = np.zeros((len(nodes), 3))
     moving = velocities if scene.has_bending_damping else None
-    for c, by in zip(scene.bending, ((0, 1), (1, 0))):
+    for direction, (c, by) in enumerate(zip(scene.bending, ((0, 1), (1, 0)))):
         for place, part in _PARTS.items():
             centres = nodes + np.array(by) * place
             lines = np.stack([centres - by, centres, centres + by])
             are_there = np.all((lines >= 0) & (lines < (scene.rows, scene.cols)), axis=(0, 2))
+            weights: float | np.ndarray = c
+            if scene.cells is not None:
+                shares = scene.cells.line_shares(direction)
+                weights = c * shares[tuple(centres[are_there].T)][:, None]
             behind, here, ahead = (
                 positions[tuple(line[are_there].T)].astype(float) for line in lines)
             bent = (behind - here) + (ahead - here)
-            pulls[are_there] -= c * part * bent
+            pulls[are_there] -= weights * part * bent
             if moving is not None:
                 # The node stands at the other side of the line's middle.
-                pulls[are_there] -= scene['bending.damping'] * c * _brake(
+                pulls[are_there] -= scene['bending.damping'] * weights * _brake(
                     bent, ahead - behind,
                     [moving[tuple(line[are_there].T)].astype(float) for line in lines],
                     part, -place)
@@ -98,14 +102,16 @@ def spring_tension(
         # All kinds at once: these edges are few, and each call of NumPy costs more than they do.
         edges = edges_at(nodes, scene.rows, scene.cols)
         starts, ends = (edges.starts[0], edges.starts[1]), (edges.ends[0], edges.ends[1])
-        tension[(*starts, edges.kinds)] = _pull(
-            positions, velocities, starts, ends, *_springs(scene)[:, edges.kinds])
+        pull = _pull(positions, velocities, starts, ends, *_springs(scene)[:, edges.kinds])
+        if scene.cells is not None:
+            pull *= _shares(scene)[(*starts, edges.kinds)]
+        tension[(*starts, edges.kinds)] = pull
         return tension
     for kind in EDGE_KINDS:
         if not scene.models(kind.family):
             continue
         starts, ends = kind.everywhere(scene.rows, scene.cols)
-        tension[(*starts, kind.number)] = _pull(
+        tension[(*starts, kind.number)] = scene.edge_shares(kind) * _pull(
             positions, velocities, starts, ends, kind.rest_length(scene), kind.stiffness(scene),
             kind.damping(scene))
     return tension
@@ -117,6 +123,16 @@ def _springs(scene: Scene) -> np.ndarray:
     return np.array([
         (kind.rest_length(scene), kind.stiffness(scene), kind.damping(scene))
         if scene.models(kind.family) else (0.0, 0.0, 0.0) for kind in EDGE_KINDS]).T
+
+
+@lru_cache(maxsize=8)
+def _shares(scene: Scene) -> np.ndarray:
+    """Return the shares of all edges of a cloth of cells, by their starts, (rows, cols, 6)."""
+    shares = np.zeros((scene.rows, scene.cols, len(EDGE_KINDS)))
+    for kind in EDGE_KINDS:
+        starts, _ = kind.everywhere(scene.rows, scene.cols)
+        shares[(*starts, kind.number)] = scene.edge_shares(kind)
+    return shares
 
 
 def _pull(

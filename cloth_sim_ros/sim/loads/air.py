@@ -40,12 +40,12 @@ class AirWork:
 
     Reads positions and accelerations back at each look of the air, which is slow.
 
-    :param node_mass: [kg]
+    :param node_masses: (rows, cols) [kg]
     """
 
-    def __init__(self, node_mass: float) -> None:
+    def __init__(self, node_masses: np.ndarray) -> None:
         """Begin with nothing done."""
-        self._node_mass = node_mass
+        self._node_masses = node_masses[..., None]
         self._done = 0.0
         self._positions: np.ndarray | None = None
         self._accelerations: np.ndarray | None = None
@@ -55,7 +55,7 @@ class AirWork:
         if self._positions is not None:
             positions = state.read_positions().astype(float)
             moved = (positions - self._positions) * ~state.pinned[..., None]
-            self._done += self._node_mass * float(np.sum(self._accelerations * moved))
+            self._done += float(np.sum(self._node_masses * self._accelerations * moved))
             self._positions = positions
         return self._done
 
@@ -257,6 +257,5 @@ class Air:
 
 def air_coefficients(scene: Scene) -> tuple[float, float]:
     """Return rho Cn / (2 sigma) and rho Ct / (2 sigma) [1/m], sigma the mass per area."""
-    sigma = scene.node_mass * scene.node_count / (scene['width'] * scene['height'])
-    per_drag = scene['air.density'] / (2.0 * sigma)
+    per_drag = scene['air.density'] / (2.0 * scene.mass_per_area)
     return per_drag * scene['air.drag'], per_drag * scene['air.friction']

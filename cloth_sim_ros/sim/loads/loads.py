@@ -35,9 +35,10 @@ class Loads:
     def __init__(self, scene: Scene, layout: Layout, state: State) -> None:
         """Begin with gravity and air alone."""
         self._make_pushes = partial(
-            PushField, layout, scene.node_mass, scene['gravity'], state.read_positions,
+            PushField, layout, scene.node_mass * scene.node_shares, scene['gravity'],
+            state.read_positions,
             state.pinned, state.buffer)
-        self._node_mass = scene.node_mass
+        self._node_masses = scene.node_mass * scene.node_shares
         self._state = state
         self.pushes = self._make_pushes()
         self.air = Air(scene, layout) if scene.has_air else None
@@ -121,7 +122,7 @@ class Loads:
     def keep_account(self) -> None:
         """Begin to add up the work that ``work`` tells."""
         if self.air is not None:
-            self.air.work = AirWork(self._node_mass)
+            self.air.work = AirWork(self._node_masses)
 
     def work(self) -> float:
         """Return the work on free nodes of all loads but gravity and pushes, until now [J]."""

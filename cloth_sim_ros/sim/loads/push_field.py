@@ -62,6 +62,7 @@ class PushField:
     """
     All pushes of a run.
 
+    :param node_masses: (rows, cols) [kg]
     :param gravity: acceleration on every node [m/s2]
     :param read_positions: returns the present positions [m], (rows, cols, 3)
     :param pinned: the nodes that don't move now, (rows, cols) bool, kept up to date by its owner
@@ -69,12 +70,12 @@ class PushField:
     """
 
     def __init__(
-            self, layout: Layout, node_mass: float, gravity: tuple[float, float, float],
+            self, layout: Layout, node_masses: np.ndarray, gravity: tuple[float, float, float],
             read_positions: Callable[[], np.ndarray], pinned: np.ndarray,
             stand_in: Buffer | None = None) -> None:
         """Start without a push."""
         self._layout = layout
-        self._node_mass = node_mass
+        self._node_masses = node_masses
         self._read_positions = read_positions
         self._pinned = pinned
         self._entries: list[_Entry] = []
@@ -221,7 +222,9 @@ class PushField:
             entry.inside &= push.contains(self._read_positions())
         entry.nodes = int(np.count_nonzero(entry.inside))
         if entry.nodes:
-            entry.acceleration = np.array(push.force) / (entry.nodes * self._node_mass)
+            # All of them are accelerated alike.
+            mass = float(self._node_masses[entry.inside].sum())
+            entry.acceleration = np.array(push.force) / mass
 
     def _upload(self, in_regions: tuple[tuple[_Entry, float], ...]) -> None:
         accelerations = np.zeros((*self._pinned.shape, 4), dtype=np.float32)

@@ -10,15 +10,29 @@ Shaders get it by ``edge_defines``: nothing else says what edges there are.
 from collections.abc import Collection
 from dataclasses import dataclass
 from functools import lru_cache
+from typing import Protocol
 
 from cloth_sim_ros.sim.model.materials import WARP
 from cloth_sim_ros.sim.model.materials import WEFT
-from cloth_sim_ros.sim.scene import FAMILIES
-from cloth_sim_ros.sim.scene import Scene
+from cloth_sim_ros.sim.model.scene_fields import FAMILIES
 import numpy as np
 
 # Row and column of some nodes, as slices or as arrays of integers: what NumPy indexes by.
 Index = tuple[slice, slice] | tuple[np.ndarray, np.ndarray]
+
+
+class Springs(Protocol):
+    """What edges ask of a scene."""
+
+    @property
+    def spacing(self) -> tuple[float, float]:
+        """Rest distance of neighbours along a row and along a column [m]."""
+
+    def stiffness(self, family: str, direction: int | None = None) -> float:
+        """Return the stiffness of the springs of a family [N/m]."""
+
+    def damping(self, family: str, direction: int | None = None) -> float:
+        """Return the damping of the springs of a family [N s/m]."""
 
 
 @dataclass(frozen=True)
@@ -39,7 +53,7 @@ class EdgeKind:
     dcol: int
     rest: int
 
-    def rest_length(self, scene: Scene) -> float:
+    def rest_length(self, scene: Springs) -> float:
         """Return the length at rest [m]."""
         dx, dy = scene.spacing
         return float(np.hypot(self.dcol * dx, self.drow * dy))
@@ -49,11 +63,11 @@ class EdgeKind:
         """Return which of two values, of warp and weft, is that of these edges."""
         return WEFT if self.dcol == 0 else WARP
 
-    def stiffness(self, scene: Scene) -> float:
+    def stiffness(self, scene: Springs) -> float:
         """Return that of the springs of ``scene`` [N/m]."""
         return scene.stiffness(self.family, self.direction)
 
-    def damping(self, scene: Scene) -> float:
+    def damping(self, scene: Springs) -> float:
         """Return that of the springs of ``scene`` [N s/m]."""
         return scene.damping(self.family, self.direction)
 
@@ -130,7 +144,7 @@ REST_KINDS = tuple({kind.rest: kind for kind in reversed(EDGE_KINDS)}[rest] for 
 EACH_EDGE = 'EACH_EDGE(DO, WITH)'
 
 
-def rest_lengths(scene: Scene) -> tuple[float, ...]:
+def rest_lengths(scene: Springs) -> tuple[float, ...]:
     """Return the rest lengths [m] along a row, a column, the diagonal, and two along each."""
     return tuple(kind.rest_length(scene) for kind in REST_KINDS)
 

@@ -3,6 +3,8 @@
 
 """The longest stable time step of explicit springs, and how many substeps they need."""
 
+from collections.abc import Callable
+from collections.abc import Iterator
 from decimal import Decimal
 from decimal import ROUND_DOWN
 from functools import lru_cache
@@ -10,6 +12,7 @@ import math
 
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.model.edge_kinds import EDGE_KINDS
+from cloth_sim_ros.sim.model.edge_kinds import EdgeKind
 from cloth_sim_ros.sim.model.scene_fields import MOST_SUBSTEPS
 from cloth_sim_ros.sim.model.scene_fields import SCENE_FIELDS
 from cloth_sim_ros.sim.scene import Scene
@@ -21,6 +24,8 @@ SAFETY = 0.85
 # Wave numbers from 0 to pi along each axis that are tried [1]; an odd number includes pi / 2.
 _SAMPLES = 129
 _SHORTEST_DT = next(field.low for field in SCENE_FIELDS if field.name == 'dt') or 0.0
+# Relative error of the limit by cells [1]: rounding in float64 is far below.
+_EXACT = 1e-9
 _AUTOMATIC = 'auto_substeps: true'
 _OTHER_SPRINGS = 'use softer springs, less damping or a larger node mass'
 
@@ -35,7 +40,10 @@ def stability_limit(scene: Scene) -> float:
     direction, that of bending, and a damping C of the same form. One wave with eigenvalues kappa
     and gamma of these is stable while h^2 kappa + 2 h gamma < 4 m. The limit is the least such h
     over all waves. For a square lattice this is the closed form of docs/explanation/numerics.md.
+    For a cloth of cells it is the bound by its cells.
     """
+    if scene.cells is not None:
+        return _limit_of_cells(scene, *(_of_flat_cell(scene, weigh) for weigh in _WEIGHTS))
     return _least_limit(scene, *(_largest_eigenvalue(k) for k in _wave_matrices(scene)))
 
 
@@ -47,6 +55,8 @@ def any_shape_limit(scene: Scene) -> float:
     No spring is stiffer than k in any direction. So whatever the directions n, no eigenvalue
     is above that of the springs' graph: the trace of K, as n n^T has the trace 1.
     """
+    if scene.cells is not None:
+        return _limit_of_cells(scene, *(_of_graph_of_cell(scene, weigh) for weigh in _WEIGHTS))
     return _least_limit(scene, *(k[0] + k[2] for k in _wave_matrices(scene)))
 
 
@@ -76,6 +86,87 @@ def _least_limit(scene: Scene, kappa: np.ndarray, gamma: np.ndarray) -> float:
     # The root in the form that keeps its digits when gamma^2 is far above m kappa.
     root = np.sqrt(gamma**2 + 4.0 * scene.node_mass * kappa)
     return float(np.min(4.0 * scene.node_mass / (gamma + root)))
+
+
+# A cloth of cells is the sum of its cells, in stiffness and in mass. So no eigenvalue of the cloth
+# is above the largest one of a cell, whatever cells there are (Fried 1972, DOI
+# 10.1016/0020-7683(72)90042-9). A cell has a quarter of its mass at each corner, half of a line's
+# stiffness in each side, and its diagonals. Lines that span two cells are the sum of those along
+# the sides of rows of cells: chains with half the mass at each end. Those of chords have
+# eigenvalues up to 4 k, those of bending up to 16 c, as without ends.
+
+_Weigh = Callable[[EdgeKind, Scene], float]
+_WEIGHTS: tuple[_Weigh, _Weigh] = (EdgeKind.stiffness, EdgeKind.damping)
+# Corners of a cell, (row, col).
+_CORNERS = ((0, 0), (0, 1), (1, 0), (1, 1))
+
+
+def _sides_of_cell(
+        scene: Scene, weigh: _Weigh) -> Iterator[tuple[int, int, np.ndarray, float]]:
+    """Yield two corners, the direction and what the cell has of each edge between corners."""
+    dx, dy = scene.spacing
+    for kind in EDGE_KINDS:
+        if kind.family == 'bend':
+            continue
+        direction = np.array((kind.dcol * dx, kind.drow * dy))
+        share = 1.0 if kind.family == 'shear' else 0.5
+        for number, (row, col) in enumerate(_CORNERS):
+            other = (row + kind.drow, col + kind.dcol)
+            if other in _CORNERS:
+                yield (number, _CORNERS.index(other), direction / np.linalg.norm(direction),
+                       share * weigh(kind, scene))
+
+
+def _chords(scene: Scene, weigh: _Weigh) -> tuple[float, float]:
+    """Return the largest eigenvalues of the edges along two cells, along rows and columns."""
+    along_row, along_col = (
+        4.0 * weigh(kind, scene) if span > 2 else 0.0
+        for kind, span in zip(EDGE_KINDS[-2:], (scene.cols, scene.rows)))
+    return along_row, along_col
+
+
+def _of_flat_cell(scene: Scene, weigh: _Weigh) -> np.ndarray:
+    """Return the matrix of a flat cell in its plane over the mass of a corner, (8, 8)."""
+    matrix = np.kron(np.eye(4), 0.25 * np.diag(_chords(scene, weigh)))
+    for one, other, n, weight in _sides_of_cell(scene, weigh):
+        row = np.zeros((4, 2))
+        row[one], row[other] = n, -n
+        matrix += weight * np.outer(row, row)
+    return 4.0 * matrix
+
+
+def _of_graph_of_cell(scene: Scene, weigh: _Weigh) -> np.ndarray:
+    """Return the matrix of the graph of its edges over the mass of a corner, (4, 4)."""
+    matrix = 0.25 * sum(_chords(scene, weigh)) * np.eye(4)
+    for one, other, _, weight in _sides_of_cell(scene, weigh):
+        row = np.zeros(4)
+        row[one], row[other] = 1.0, -1.0
+        matrix += weight * np.outer(row, row)
+    return 4.0 * matrix
+
+
+def _limit_of_cells(scene: Scene, stiff: np.ndarray, damped: np.ndarray) -> float:
+    """Return the limit [s] by the matrices of a cell, over its mass, and bending."""
+    bending = 16.0 * sum(scene.bending)
+    identity = np.eye(len(stiff))
+    stiff = stiff + bending * identity
+    damped = damped + scene['bending.damping'] * bending * identity
+    if not (stiff.any() or damped.any()):
+        return math.inf
+
+    def excess(h: float) -> float:
+        return float(np.linalg.eigvalsh(h * (h * stiff + 2.0 * damped))[-1]) - (
+            4.0 * scene.node_mass)
+
+    # Eigenvalues of a sum are between the largest of the parts and the sum of these.
+    kappa, gamma = (float(np.linalg.eigvalsh(each)[-1]) for each in (stiff, damped))
+    shortest = 4.0 * scene.node_mass / (
+        gamma + math.sqrt(gamma**2 + 4.0 * scene.node_mass * kappa))
+    longest = 2.0 * shortest
+    while longest - shortest > _EXACT * shortest:
+        middle = 0.5 * (shortest + longest)
+        shortest, longest = (middle, longest) if excess(middle) < 0.0 else (shortest, middle)
+    return shortest
 
 
 def _waves(scene: Scene) -> tuple[np.ndarray, np.ndarray]:

@@ -32,7 +32,8 @@ class FreeMotion:
 
     def __init__(self, scene: Scene, layout: Layout) -> None:
         """Allocate room for the sums; nothing is compiled yet."""
-        self._node_count = scene.node_count
+        # Mass of the cloth over that of a node inside [1].
+        self._mass = float(scene.node_shares.sum())
         self._strips = Strips(layout, _SUMS)
         self._sums = SceneProgram('rigid_sums.comp', scene, layout, Strips.defines())
         self._add = SceneProgram(
@@ -62,13 +63,13 @@ class FreeMotion:
     def restore(self, state: State, still: Forcing, length: float) -> None:
         """Give ``state``, the substep made, those momenta."""
         sums = self._sum(state, still, 0.0, 1.0, length)
-        offset = sums[3:6] / self._node_count
+        offset = sums[3:6] / self._mass
         momentum = self._momentum - sums[:3]
         spin = self._spin - self._about_origin(sums) - np.cross(self._centre + offset, momentum)
-        inertia = _inertia(sums[9:12], sums[12:15], offset, self._node_count)
+        inertia = _inertia(sums[9:12], sums[12:15], offset, self._mass)
         if np.all(np.isfinite(sums)):
             turn = np.linalg.pinv(inertia, rcond=_FLAT, hermitian=True) @ spin
-            self._run_add(state, length, momentum / self._node_count, turn, offset)
+            self._run_add(state, length, momentum / self._mass, turn, offset)
             self._centre = (self._centre + offset).astype(np.float32)
 
     def delete(self) -> None:
@@ -107,10 +108,10 @@ class FreeMotion:
 
 
 def _inertia(
-        squares: np.ndarray, products: np.ndarray, offset: np.ndarray, count: int) -> np.ndarray:
-    """Return the moments of inertia of nodes of mass 1 about their centre [m2]."""
+        squares: np.ndarray, products: np.ndarray, offset: np.ndarray, mass: float) -> np.ndarray:
+    """Return the moments of inertia of nodes of ``mass`` in all about their centre."""
     moments = np.diag(squares)
     moments[[0, 0, 1], [1, 2, 2]] = products
     moments[[1, 2, 2], [0, 0, 1]] = products
-    about_centre = moments - count * np.outer(offset, offset)
+    about_centre = moments - mass * np.outer(offset, offset)
     return np.trace(about_centre) * np.eye(3) - about_centre

@@ -200,6 +200,6 @@ def full_pull(scene: Scene, strain: float) -> float:
     ``strain``. All edges of a chain do so; a cloth of few lines would stretch more than one of
     many when it hangs by a whole edge, so that its edges are harder.
     """
-    weight = scene.node_count * scene.node_mass * STANDARD_GRAVITY
+    weight = scene.mass * STANDARD_GRAVITY
     lines = min(scene['rows'], scene['cols'])
     return weight / strain * max(1.0, 1.0 / (_HANGING_SHARE * lines))

@@ -94,7 +94,7 @@ class Solver:
         self._programs = SolverPrograms(
             state, levels, families, is_multigrid=kind.is_multigrid,
             has_rigidity=scene.has_rigidity, has_bending_damping=scene.has_bending_damping,
-            has_contact=scene.has_contact)
+            has_contact=scene.has_contact, has_cells=scene.cells is not None)
         self._damps_bending = scene.has_bending_damping
         self._has_low_parts = needs_low_parts(scene)
         parts = scene, state, self._programs, levels

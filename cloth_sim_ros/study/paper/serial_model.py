@@ -70,7 +70,8 @@ def serial_model(scene: Scene, *, tolerance: float = TOLERANCE) -> SerialModel:
     Constraint: hard edges, one solve a step, without other edges. Adaptive: the paper's scheme.
     """
     step = scene['dt'] / (1 if scene['auto_substeps'] else scene['substeps'])
-    inverse_masses = ~scene.pinned_nodes().ravel() / scene.node_mass
+    inverse_masses = ~scene.pinned_nodes().ravel() / (
+        scene.node_mass * scene.node_shares.ravel())
     gravity = np.array(scene['gravity'], float)
     if scene['mode'] == 'mass_spring':
         return SerialModel(edges_of(scene), inverse_masses, gravity, step)

@@ -135,7 +135,7 @@ def errors(path: Path, reference: Path, scene: Scene, times: int, frames: int) -
     :param frames: how many of them count
     """
     side = max(scene['width'], scene['height'])
-    scale = scene.node_mass * scene.node_count * side * float(np.linalg.norm(scene['gravity']))
+    scale = scene.mass * side * float(np.linalg.norm(scene['gravity']))
     if scale == 0.0:
         scale = float(reference.energies[:frames, 0].max(initial=0.0)) or 1.0
     return Errors(

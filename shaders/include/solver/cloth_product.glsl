@@ -53,18 +53,19 @@ void add_edges_to_product(ivec2 first) {
 // In all directions, also those in which a node can't follow, and without friction.
 void make_whole_product(ivec2 first) {
     FOR_TILE {
-        product[row][col] = value[row][col];
+        product[row][col] = mass_share(node[row][col]) * value[row][col];
     }
     add_edges_to_product(first);
 }
 
 void make_product(ivec2 first) {
     FOR_TILE {
-        product[row][col] = value[row][col];
+        product[row][col] = mass_share(node[row][col]) * value[row][col];
     }
 #if HAS_CONTACT
     FOR_BLOCK {
-        product[row][col] += gripped(tile_index(first, row, col), value[row][col]);
+        product[row][col] += mass_share(node[row][col])
+            * gripped(tile_index(first, row, col), value[row][col]);
     }
 #endif
     add_edges_to_product(first);

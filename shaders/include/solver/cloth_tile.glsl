@@ -4,6 +4,7 @@
 // The tile of cloth nodes that a block needs, and a walk over all its edges.
 
 #include "block_edges.glsl"
+#include "cells.glsl"
 #include "solver/block_of_invocation.glsl"
 
 #if HAS_BEND || HAS_RIGIDITY
@@ -17,12 +18,16 @@ vec4 node[TILE][TILE];
 vec4 along[TILE][TILE];   // of the edges that begin at a node, as in solver/levels.glsl
 vec4 across[TILE][TILE];
 
-// What a node is stands in w: 0 for a ghost, 1 for a free node, -1 for a pinned one.
+// What a node is stands in w: that of cells.glsl, or less that for a pinned one.
 bool is_free(vec4 node) { return node.w > 0.0; }
 
-// 1 where there is an edge with an end that can move, 0 elsewhere.
-float is_held_together(vec4 from, vec4 to) {
+// Share of an edge with an end that can move, 0 elsewhere.
+float moving_share(vec4 from, vec4 to, int edge) {
+#if HAS_CELLS
+    return max(from.w, to.w) > 0.0 ? edge_share(from, to, edge) : 0.0;
+#else
     return from.w * to.w != 0.0 && max(from.w, to.w) > 0.0 ? 1.0 : 0.0;
+#endif
 }
 
 ivec2 first_of_block() { return BLOCK * block_of_invocation(COLS); }

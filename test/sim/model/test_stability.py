@@ -6,6 +6,8 @@
 import math
 import re
 
+from cloth_sim_ros.reference.edges import edges_of
+from cloth_sim_ros.reference.forces import Bending
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.model.stability import any_shape_limit
 from cloth_sim_ros.sim.model.stability import choose_substeps
@@ -15,7 +17,9 @@ from cloth_sim_ros.sim.model.stability import stability_limit
 from cloth_sim_ros.sim.scene import Scene
 from hypothesis import given
 from hypothesis import strategies
+import numpy as np
 import pytest
+from scipy import sparse
 
 _NODE_MASS = 0.01
 
@@ -203,3 +207,32 @@ def test_the_usual_numbers():
         'dt 1 s would take 1.41e+06 substeps of the 7.07e-07 s that are safe in any shape, more '
         'than 100000: set dt <= 0.0707, or use softer springs, less damping or a larger node '
         'mass')
+
+
+@pytest.mark.parametrize('seed', range(30))
+def test_a_fabric_is_stable_at_its_limit(seed):
+    """At corners and borders, where nodes are light, a wave could grow below the limit."""
+    random = np.random.default_rng(seed)
+    rows, cols = (int(count) for count in random.integers(2, 9, 2))
+    warp, weft = (float(10.0**random.uniform(1.0, 4.0)) for _ in range(2))
+    width, height = (float(side) for side in random.uniform(0.2, 1.0, 2))
+    ratio = width / (cols - 1) / height * (rows - 1)
+    scene = Scene({
+        'rows': rows, 'cols': cols, 'width': width, 'height': height, 'material.preset': 'none',
+        'areal_density': 0.2, 'air.density': 0.0, 'material.warp': warp, 'material.weft': weft,
+        'material.shear': float(random.uniform(0.0, 0.9)) * min(warp / ratio**2, weft * ratio**2),
+        'stiffness.bend': float(random.choice([0.0, 300.0])),
+        'bending.rigidity': float(random.choice([0.0, 1e-3])),
+        **{f'damping.{family}': float(random.choice([0.0, 0.05]))
+           for family in ('structural', 'shear', 'bend')}})
+    assert scene.cells is not None
+    edges, flat = edges_of(scene), scene.rest_positions().reshape(-1, 3)
+    jacobian = edges.jacobian(edges.directions(flat), len(flat))
+    stiff, damped = (
+        (jacobian.T @ sparse.diags(weights) @ jacobian).toarray()
+        for weights in (edges.stiffness, edges.damping))
+    stiff += np.kron(Bending(scene).matrix.toarray(), np.eye(3))
+    limit, roots = stability_limit(scene), np.repeat(scene.node_shares.ravel()**-0.5, 3)
+    matrix = roots[:, None] * (limit**2 * stiff + 2.0 * limit * damped) * roots
+    largest = np.linalg.eigvalsh(matrix)[-1] / (4.0 * scene.node_mass)
+    assert 0.55 < largest <= 1.0 + 1e-9

@@ -90,7 +90,7 @@ def check(simulate, within, mode, seed, seconds):
     """Run the scene of ``seed``, hold it to what is true of every one, and return its end."""
     simulation = simulate({'mode': mode, **draw(seed)})
     scene = simulation.scene
-    scale = scene.node_mass * scene.node_count * GRAVITY * 0.5
+    scale = scene.mass * GRAVITY * 0.5
     clearance = 0.5 * scene['contact.thickness']
 
     def energies():

@@ -43,7 +43,7 @@ def momentum(simulation):
 def weight(simulation):
     """Return the weight of the cloth [N], (3,)."""
     scene = simulation.scene
-    return scene.node_count * scene.node_mass * np.array(scene['gravity'])
+    return scene.mass * np.array(scene['gravity'])
 
 
 def check_momentum(simulation, within, steps):

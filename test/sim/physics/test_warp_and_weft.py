@@ -6,7 +6,7 @@ A sheet that is pulled or sheared measures the stiffness of its material.
 
 Free nodes are put where a sheet under uniform strain has them. Then only those at a border are
 accelerated, and what drives the nodes of one side over its width is the stress. The corners are
-left out: each has a whole spring for half a cell.
+left out: where springs are given, each has a whole spring for half a cell.
 """
 
 import numpy as np
@@ -44,7 +44,8 @@ def forces(request, simulate, nodes, any_mode):
             np.zeros(rest.shape, dtype=np.float32))
         simulation.step()
         velocities = simulation.snapshot().velocities.astype(float)
-        return simulation.scene.spacing, simulation.scene.node_mass / DT * velocities
+        masses = simulation.scene.node_mass * simulation.scene.node_shares[..., None]
+        return simulation.scene.spacing, masses / DT * velocities
 
     return pull
 
