@@ -20,7 +20,6 @@ from cloth_sim_ros.sim.model import grid
 from cloth_sim_ros.sim.model.cells import Cells
 from cloth_sim_ros.sim.model.colliders import colliders_of
 from cloth_sim_ros.sim.model.colliders import fields_with_colliders
-from cloth_sim_ros.sim.model.edge_kinds import EdgeKind
 from cloth_sim_ros.sim.model.frame_paths import FrameMove
 from cloth_sim_ros.sim.model.given_values import completed
 from cloth_sim_ros.sim.model.grasp_request import GraspRequest
@@ -120,10 +119,6 @@ class Scene:
         """Rest distance of neighbours along a row and along a column [m]."""
         return grid.spacing(self.rows, self.cols, self['width'], self['height'])
 
-    def line_shares(self, direction: int) -> np.ndarray | float:
-        """Return the rigidity of each line of three nodes over that of a whole line."""
-        return 1.0 if self.cells is None else self.cells.line_shares(direction)
-
     @property
     def mass(self) -> float:
         """Mass of the cloth [kg]; a chain's areal mass counts the whole width x height."""
@@ -155,10 +150,6 @@ class Scene:
         if self.cells is None:
             return np.ones((self.rows, self.cols))
         return self.cells.node_shares
-
-    def edge_shares(self, kind: EdgeKind) -> np.ndarray | float:
-        """Return the stiffness of each edge of a kind over that of a whole line."""
-        return 1.0 if self.cells is None else self.cells.edge_shares(kind)
 
     def stiffness(self, family: str, direction: int | None = None) -> float:
         """

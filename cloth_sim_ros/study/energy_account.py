@@ -9,6 +9,7 @@ from itertools import combinations
 
 from cloth_sim_ros.sim.contact.contacts import ContactForce
 from cloth_sim_ros.sim.held.pin_forces import edge_pulls
+from cloth_sim_ros.sim.model.cells import edge_shares
 from cloth_sim_ros.sim.model.colliders import Collider
 from cloth_sim_ros.sim.model.edge_kinds import EDGE_KINDS
 from cloth_sim_ros.sim.model.edge_kinds import EdgeKind
@@ -326,7 +327,7 @@ def _pull_of_limits(
     pull = np.maximum(past, 0.0)
     if width > 0.0:
         pull = np.where(np.abs(past) < width, (past + width)**2 / (4.0 * width), pull)
-    shares = np.broadcast_to(scene.edge_shares(kind), some.shape)[some]
+    shares = np.broadcast_to(edge_shares(scene.cells, kind), some.shape)[some]
     stiffness = scene.node_mass * law.limit_stiffness[kind.rest]
     return -sign * stiffness * float(np.sum(shares * pull))
 

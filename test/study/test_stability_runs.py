@@ -25,9 +25,14 @@ FAMILIES = ('structural', 'shear', 'bend')
 UNDAMPED = {f'damping.{family}': 0.0 for family in FAMILIES}
 SCENES = {
     'undamped': {**UNDAMPED, 'rows': 16, 'cols': 16},
-    'damped': {'rows': 16, 'cols': 16, **{f'damping.{family}': 0.1 for family in FAMILIES}},
+    'damped': {
+        'rows': 16, 'cols': 16, 'node_mass': 8e-4,
+        **{f'damping.{family}': 0.1 for family in FAMILIES}},
+    'damped fabric': {
+        'rows': 16, 'cols': 16, 'damping.structural': 0.1, 'damping.shear': 0.1},
     'ruled by damping': {
-        'rows': 16, 'cols': 16, **{f'damping.{family}': 1.0 for family in FAMILIES}},
+        'rows': 16, 'cols': 16, 'node_mass': 8e-4,
+        **{f'damping.{family}': 1.0 for family in FAMILIES}},
     'oblong cells': {**UNDAMPED, 'rows': 14, 'cols': 20, 'width': 3.0},
     'chain': {'rows': 1, 'cols': 40, 'damping.structural': 0.02},
     'unlike families': {'rows': 16, 'cols': 16, 'stiffness.bend': 400.0, 'damping.shear': 0.05},

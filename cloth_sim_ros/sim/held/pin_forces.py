@@ -6,6 +6,7 @@
 from dataclasses import dataclass
 from functools import lru_cache
 
+from cloth_sim_ros.sim.model.cells import edge_shares
 from cloth_sim_ros.sim.model.edge_kinds import EDGE_KINDS
 from cloth_sim_ros.sim.model.edge_kinds import edges_at
 from cloth_sim_ros.sim.model.edge_kinds import Index
@@ -111,7 +112,7 @@ def spring_tension(
         if not scene.models(kind.family):
             continue
         starts, ends = kind.everywhere(scene.rows, scene.cols)
-        tension[(*starts, kind.number)] = scene.edge_shares(kind) * _pull(
+        tension[(*starts, kind.number)] = edge_shares(scene.cells, kind) * _pull(
             positions, velocities, starts, ends, kind.rest_length(scene), kind.stiffness(scene),
             kind.damping(scene))
     return tension
@@ -131,7 +132,7 @@ def _shares(scene: Scene) -> np.ndarray:
     shares = np.zeros((scene.rows, scene.cols, len(EDGE_KINDS)))
     for kind in EDGE_KINDS:
         starts, _ = kind.everywhere(scene.rows, scene.cols)
-        shares[(*starts, kind.number)] = scene.edge_shares(kind)
+        shares[(*starts, kind.number)] = edge_shares(scene.cells, kind)
     return shares
 
 

@@ -100,6 +100,11 @@ class Cells:
         return halves
 
 
+def edge_shares(cells: Cells | None, kind: EdgeKind) -> np.ndarray | float:
+    """Return those of ``cells``, or 1 for a cloth of whole lines."""
+    return 1.0 if cells is None else cells.edge_shares(kind)
+
+
 def inverse_masses(parts: np.ndarray) -> np.ndarray:
     """Return the inverse masses of nodes of these ``parts``, 0 where there is none."""
     quarters = parts.astype(np.int64) >> _QUARTERS_AT

@@ -4,13 +4,13 @@
 """The longest stable time step of explicit springs, and how many substeps they need."""
 
 from collections.abc import Callable
-from collections.abc import Iterator
 from decimal import Decimal
 from decimal import ROUND_DOWN
 from functools import lru_cache
 import math
 
 from cloth_sim_ros.sim.errors import ClothSimError
+from cloth_sim_ros.sim.model.cells import Cells
 from cloth_sim_ros.sim.model.edge_kinds import EDGE_KINDS
 from cloth_sim_ros.sim.model.edge_kinds import EdgeKind
 from cloth_sim_ros.sim.model.scene_fields import MOST_SUBSTEPS
@@ -24,8 +24,10 @@ SAFETY = 0.85
 # Wave numbers from 0 to pi along each axis that are tried [1]; an odd number includes pi / 2.
 _SAMPLES = 129
 _SHORTEST_DT = next(field.low for field in SCENE_FIELDS if field.name == 'dt') or 0.0
-# Relative error of the limit by cells [1]: rounding in float64 is far below.
-_EXACT = 1e-9
+# Relative error of the limit by cells [1], which is below it.
+_EXACT = 1e-6
+_Weigh = Callable[[EdgeKind, Scene], float]
+_SHORT_KINDS = tuple(kind for kind in EDGE_KINDS if kind.family != 'bend')
 _AUTOMATIC = 'auto_substeps: true'
 _OTHER_SPRINGS = 'use softer springs, less damping or a larger node mass'
 
@@ -40,10 +42,10 @@ def stability_limit(scene: Scene) -> float:
     direction, that of bending, and a damping C of the same form. One wave with eigenvalues kappa
     and gamma of these is stable while h^2 kappa + 2 h gamma < 4 m. The limit is the least such h
     over all waves. For a square lattice this is the closed form of docs/explanation/numerics.md.
-    For a cloth of cells it is the bound by its cells.
+    For a cloth of cells it is the bound by tiles of these.
     """
     if scene.cells is not None:
-        return _limit_of_cells(scene, *(_of_flat_cell(scene, weigh) for weigh in _WEIGHTS))
+        return _limit_of_cells(scene, scene.cells, is_flat=True)
     return _least_limit(scene, *(_largest_eigenvalue(k) for k in _wave_matrices(scene)))
 
 
@@ -56,7 +58,7 @@ def any_shape_limit(scene: Scene) -> float:
     is above that of the springs' graph: the trace of K, as n n^T has the trace 1.
     """
     if scene.cells is not None:
-        return _limit_of_cells(scene, *(_of_graph_of_cell(scene, weigh) for weigh in _WEIGHTS))
+        return _limit_of_cells(scene, scene.cells, is_flat=False)
     return _least_limit(scene, *(k[0] + k[2] for k in _wave_matrices(scene)))
 
 
@@ -88,33 +90,49 @@ def _least_limit(scene: Scene, kappa: np.ndarray, gamma: np.ndarray) -> float:
     return float(np.min(4.0 * scene.node_mass / (gamma + root)))
 
 
-# A cloth of cells is the sum of its cells, in stiffness and in mass. So no eigenvalue of the cloth
-# is above the largest one of a cell, whatever cells there are (Fried 1972, DOI
-# 10.1016/0020-7683(72)90042-9). A cell has a quarter of its mass at each corner, half of a line's
-# stiffness in each side, and its diagonals. Lines that span two cells are the sum of those along
-# the sides of rows of cells: chains with half the mass at each end. Those of chords have
-# eigenvalues up to 4 k, those of bending up to 16 c, as without ends.
+# A cloth of cells is the sum of tiles of some cells each, in stiffness and in mass. So no
+# eigenvalue of the cloth is above the largest one of a tile (Fried 1972, DOI
+# 10.1016/0020-7683(72)90042-9). Lines that span two cells are the sum of those along the sides of
+# rows of cells: chains with half the mass at each end. Those of chords have eigenvalues up to 4 k,
+# those of bending up to 16 c, as without ends.
 
-_Weigh = Callable[[EdgeKind, Scene], float]
+# Cells along the side of a tile [1]: with 4 the limit is 0 to 1 % below that of the endless
+# lattice, with 1 up to 17 %. A shape with gaps has tiles of one cell.
+_TILE = 4
 _WEIGHTS: tuple[_Weigh, _Weigh] = (EdgeKind.stiffness, EdgeKind.damping)
-# Corners of a cell, (row, col).
-_CORNERS = ((0, 0), (0, 1), (1, 0), (1, 1))
 
 
-def _sides_of_cell(
-        scene: Scene, weigh: _Weigh) -> Iterator[tuple[int, int, np.ndarray, float]]:
-    """Yield two corners, the direction and what the cell has of each edge between corners."""
-    dx, dy = scene.spacing
-    for kind in EDGE_KINDS:
-        if kind.family == 'bend':
-            continue
-        direction = np.array((kind.dcol * dx, kind.drow * dy))
-        share = 1.0 if kind.family == 'shear' else 0.5
-        for number, (row, col) in enumerate(_CORNERS):
-            other = (row + kind.drow, col + kind.dcol)
-            if other in _CORNERS:
-                yield (number, _CORNERS.index(other), direction / np.linalg.norm(direction),
-                       share * weigh(kind, scene))
+def _tiles(cells: Cells) -> set[tuple[int, int]]:
+    """Return the sizes of tiles that the cells can be divided into."""
+    if not cells.present.all():
+        return {(1, 1)}
+    sides = []
+    for count in cells.present.shape:
+        parts = max(count // _TILE, 1)
+        sides.append({count // parts, -(-count // parts)})
+    return {(rows, cols) for rows in sides[0] for cols in sides[1]}
+
+
+def _edges_of_tile(scene: Scene, tile: Cells, weigh: _Weigh, axes: np.ndarray) -> np.ndarray:
+    """
+    Return the matrix of the edges of a tile over the masses of its nodes, for a mass of 1.
+
+    :param axes: along which an edge resists, by its direction, (directions, axes, axes)
+    """
+    rows, cols = tile.node_shares.shape
+    count, size = rows * cols, axes.shape[-1]
+    numbers = np.arange(count).reshape(rows, cols)
+    matrix = np.zeros((count, count, size, size))
+    for kind, block in zip(_SHORT_KINDS, axes):
+        starts, ends = (numbers[each].ravel() for each in kind.everywhere(rows, cols))
+        blocks = weigh(kind, scene) * tile.edge_shares(kind).ravel()[:, None, None] * block
+        for one, other, sign in (
+                (starts, starts, 1.0), (ends, ends, 1.0), (starts, ends, -1.0),
+                (ends, starts, -1.0)):
+            np.add.at(matrix, (one, other), sign * blocks)
+    roots = np.repeat(tile.node_shares.ravel()**-0.5, size)
+    flat = matrix.swapaxes(1, 2).reshape(count * size, count * size)
+    return roots[:, None] * flat * roots
 
 
 def _chords(scene: Scene, weigh: _Weigh) -> tuple[float, float]:
@@ -125,32 +143,31 @@ def _chords(scene: Scene, weigh: _Weigh) -> tuple[float, float]:
     return along_row, along_col
 
 
-def _of_flat_cell(scene: Scene, weigh: _Weigh) -> np.ndarray:
-    """Return the matrix of a flat cell in its plane over the mass of a corner, (8, 8)."""
-    matrix = np.kron(np.eye(4), 0.25 * np.diag(_chords(scene, weigh)))
-    for one, other, n, weight in _sides_of_cell(scene, weigh):
-        row = np.zeros((4, 2))
-        row[one], row[other] = n, -n
-        matrix += weight * np.outer(row, row)
-    return 4.0 * matrix
+def _in_plane(scene: Scene) -> np.ndarray:
+    """Return n n^T of each kind of edge of the flat cloth."""
+    dx, dy = scene.spacing
+    directions = np.array([(kind.dcol * dx, kind.drow * dy) for kind in _SHORT_KINDS])
+    n = directions / np.linalg.norm(directions, axis=1, keepdims=True)
+    return n[:, :, None] * n[:, None, :]
 
 
-def _of_graph_of_cell(scene: Scene, weigh: _Weigh) -> np.ndarray:
-    """Return the matrix of the graph of its edges over the mass of a corner, (4, 4)."""
-    matrix = 0.25 * sum(_chords(scene, weigh)) * np.eye(4)
-    for one, other, _, weight in _sides_of_cell(scene, weigh):
-        row = np.zeros(4)
-        row[one], row[other] = 1.0, -1.0
-        matrix += weight * np.outer(row, row)
-    return 4.0 * matrix
+def _limit_of_cells(scene: Scene, cells: Cells, *, is_flat: bool) -> float:
+    """Return the limit [s] of the flat cloth, or of one in any shape."""
+    axes = _in_plane(scene) if is_flat else np.ones((len(_SHORT_KINDS), 1, 1))
+    return min(_limit_of_tile(scene, Cells(np.ones(size, dtype=bool)), axes)
+               for size in _tiles(cells))
 
 
-def _limit_of_cells(scene: Scene, stiff: np.ndarray, damped: np.ndarray) -> float:
-    """Return the limit [s] by the matrices of a cell, over its mass, and bending."""
+def _limit_of_tile(scene: Scene, tile: Cells, axes: np.ndarray) -> float:
+    stiff, damped = (_edges_of_tile(scene, tile, weigh, axes) for weigh in _WEIGHTS)
+    count, size = tile.node_shares.size, axes.shape[-1]
     bending = 16.0 * sum(scene.bending)
-    identity = np.eye(len(stiff))
-    stiff = stiff + bending * identity
-    damped = damped + scene['bending.damping'] * bending * identity
+    for matrix, weigh, bent in zip(
+            (stiff, damped), _WEIGHTS, (bending, scene['bending.damping'] * bending)):
+        chords = _chords(scene, weigh)
+        # In the plane, those along rows act along rows alone.
+        matrix += np.diag(np.tile(
+            np.array(chords if size == 2 else [sum(chords)]) + bent, count))
     if not (stiff.any() or damped.any()):
         return math.inf
 
