@@ -166,7 +166,10 @@ class EnergyAccount:
         moved = now.positions.astype(float) - before.positions
         for push, nodes in pushed:
             moved_under = _moved_under(push, (begin, end), (before, now))
-            self._work += float(np.array(push.force) @ moved_under[nodes].mean(axis=0))
+            # It accelerates its nodes alike, so that each has of the force by its mass.
+            shares = self._run.scene.node_shares[nodes]
+            self._work += float(np.array(push.force) @ np.average(
+                moved_under[nodes], axis=0, weights=shares))
         if self._has_pin_moves and now.pin_forces is not None:
             rows, cols = now.pin_forces.nodes.T
             self._work -= float(np.sum(now.pin_forces.forces * moved[rows, cols]))

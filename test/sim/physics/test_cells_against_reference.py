@@ -8,6 +8,7 @@ from cloth_sim_ros.reference.implicit_cloth import ImplicitCloth
 from cloth_sim_ros.sim.batch import Batch
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.simulation import Simulation
+from cloth_sim_ros.study.energy_account import EnergyAccount
 import numpy as np
 import pytest
 
@@ -68,6 +69,20 @@ def test_a_free_fabric_keeps_its_momenta(context, within, mode):
     within('momentum, relative', np.abs(after[0] - before[0]).max() / size, 1e-6)
     within('angular momentum, relative to 0.4 m',
            np.abs(after[1] - before[1]).max() / (0.4 * size), 5e-6)
+
+
+@pytest.mark.parametrize('scene', [
+    {'mode': 'mass_spring'}, {'mode': 'constraint'},
+    *({'mode': 'adaptive', 'adaptive.threshold': 0.02, 'adaptive.scheme': scheme}
+      for scheme in ('list', 'lattice', 'whole'))], ids=lambda scene: '-'.join(
+          str(value) for name, value in scene.items() if name != 'adaptive.threshold'))
+def test_a_pushed_fabric_gains_no_energy(context, within, scene):
+    """Nodes at the border would be given another energy than what is counted."""
+    with Simulation(Scene({**FABRIC, **PUSHED, **scene}), context=context) as simulation:
+        account = EnergyAccount(simulation)
+        while simulation.time < 0.3:
+            account.step()
+    within('energy gained, relative to the largest kinetic energy', account.gained, 1e-3)
 
 
 @pytest.mark.parametrize('mode', ALL_MODES)
