@@ -96,10 +96,11 @@ class RunRecording:
         frame = self._taker.take(
             self._session.takes,
             lambda: Pace(step_wall_time, steps=1, achieved=real_time_factor))
-        # Not at the end: an interrupt may come in between.
-        self._recorded = frame.time
         for key, data in self._messages.of(frame):
             self._session.write(key, data, frame.time)
+            # An interrupt may come between any two: a frame is there once its statistics are.
+            if key == 'stats':
+                self._recorded = frame.time
 
     def write_input(self, given: Input, time: float) -> None:
         """Write an accepted input, which acts from ``time`` [s] on."""
