@@ -37,7 +37,6 @@ from cloth_sim_ros.sim.simulation import SINGLE_THREAD_NODES
 from cloth_sim_ros.sim.simulation_arguments import check_context
 from cloth_sim_ros.sim.state import checked_vectors
 from cloth_sim_ros.sim.state import MOST_MAGNITUDE
-from cloth_sim_ros.sim.state import node_parts
 from cloth_sim_ros.sim.state import State
 from cloth_sim_ros.sim.stepping import checked_steps
 import numpy as np
@@ -70,7 +69,7 @@ class Stack:
         rows = np.arange(len(scenes))[:, None] * single.period + np.arange(scene.rows)
         self._rows = rows
         parts = np.zeros((self.layout.rows, scene.cols))
-        parts[rows] = node_parts(scene)
+        parts[rows] = 1.0 if scene.cells is None else scene.cells.parts
         starts = np.zeros((*parts.shape, 3))
         starts[rows] = [each.start_positions() for each in scenes]
         pinned = np.zeros(parts.shape, dtype=bool)

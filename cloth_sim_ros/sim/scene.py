@@ -148,7 +148,8 @@ class Scene:
     def node_shares(self) -> np.ndarray:
         """Mass of each node over ``node_mass``, (rows, cols)."""
         if self.cells is None:
-            return np.ones((self.rows, self.cols))
+            # Takes no memory: a cloth can have millions of nodes.
+            return np.broadcast_to(1.0, (self.rows, self.cols))
         return self.cells.node_shares
 
     def stiffness(self, family: str, direction: int | None = None) -> float:

@@ -73,8 +73,10 @@ class State:
         :param has_low_parts: as ``needs_low_parts`` says of the scene
         """
         self._layout = layout
-        self._parts = np.ones(pinned.shape) if parts is None else parts
-        self._inverse_masses = inverse_masses(self._parts)
+        # Those of equal masses take no memory.
+        same = np.broadcast_to(1.0, pinned.shape)
+        self._parts = same if parts is None else parts
+        self._inverse_masses = same if parts is None else inverse_masses(parts)
         self.pinned = pinned.copy()
         nothing = np.zeros((layout.stored, 4), dtype=np.float32)
         self._positions = [Buffer(nothing) for _ in range(_PAIRS)]
@@ -289,16 +291,11 @@ class State:
         return self._layout.index(row, col) * 4 * np.dtype(np.float32).itemsize
 
 
-def node_parts(scene: Scene) -> np.ndarray:
-    """Return what each node of ``scene`` stands for, as cells.glsl has it, (rows, cols)."""
-    return np.ones((scene.rows, scene.cols)) if scene.cells is None else scene.cells.parts
-
-
 def start_state(scene: Scene, layout: Layout) -> State:
     """Return the state that ``scene`` starts with."""
     return State(
-        layout, scene.start_positions(), scene.pinned_nodes(), node_parts(scene),
-        has_low_parts=needs_low_parts(scene))
+        layout, scene.start_positions(), scene.pinned_nodes(),
+        None if scene.cells is None else scene.cells.parts, has_low_parts=needs_low_parts(scene))
 
 
 def checked_vectors(

@@ -124,7 +124,7 @@ def lattice_limit(scene: Scene) -> float:
     def excess(step: float) -> float:
         return _largest(step**2 * stiff + 2.0 * step * damped) / (4.0 * scene.node_mass) - 1.0
 
-    # Edges and corners take springs away, and no more mass, so it is never below the closed form.
+    # Never below the closed form, as borders take springs away, nor below the bound of a fabric.
     longest = closed
     while excess(longest) < 0.0:
         longest *= 2.0

@@ -50,8 +50,8 @@ vec3 braked(vec4 behind, vec4 here, vec4 ahead) {
 
 #define LINE_BRAKE(INDEX, STRIDE) line_brake( \
     load_position(INDEX - STRIDE), load_position(INDEX), load_position(INDEX + STRIDE), \
-    load_velocity(INDEX - STRIDE).xyz, load_velocity(INDEX).xyz, load_velocity(INDEX + STRIDE).xyz, \
-    STRIDE == 1 ? 0 : 1)
+    load_velocity(INDEX - STRIDE).xyz, load_velocity(INDEX).xyz, \
+    load_velocity(INDEX + STRIDE).xyz, STRIDE == 1 ? 0 : 1)
 
 // Damping force on a node along a row (stride 1) or a column (the pitch of rows), from single loads.
 #define BENDING_BRAKE(INDEX, STRIDE) braked( \

@@ -54,8 +54,9 @@ def bending_pulls(
             are_there = np.all((lines >= 0) & (lines < (scene.rows, scene.cols)), axis=(0, 2))
             weights: float | np.ndarray = c
             if scene.cells is not None:
-                shares = scene.cells.line_shares(direction)
-                weights = c * shares[tuple(centres[are_there].T)][:, None]
+                middles = centres[are_there]
+                shares = scene.cells.line_shares_at((middles[:, 0], middles[:, 1]), direction)
+                weights = c * shares[:, None]
             behind, here, ahead = (
                 positions[tuple(line[are_there].T)].astype(float) for line in lines)
             bent = (behind - here) + (ahead - here)
@@ -105,7 +106,7 @@ def spring_tension(
         starts, ends = (edges.starts[0], edges.starts[1]), (edges.ends[0], edges.ends[1])
         pull = _pull(positions, velocities, starts, ends, *_springs(scene)[:, edges.kinds])
         if scene.cells is not None:
-            pull *= _shares(scene)[(*starts, edges.kinds)]
+            pull *= scene.cells.edge_shares_at(starts, edges.kinds)
         tension[(*starts, edges.kinds)] = pull
         return tension
     for kind in EDGE_KINDS:
@@ -124,16 +125,6 @@ def _springs(scene: Scene) -> np.ndarray:
     return np.array([
         (kind.rest_length(scene), kind.stiffness(scene), kind.damping(scene))
         if scene.models(kind.family) else (0.0, 0.0, 0.0) for kind in EDGE_KINDS]).T
-
-
-@lru_cache(maxsize=8)
-def _shares(scene: Scene) -> np.ndarray:
-    """Return the shares of all edges of a cloth of cells, by their starts, (rows, cols, 6)."""
-    shares = np.zeros((scene.rows, scene.cols, len(EDGE_KINDS)))
-    for kind in EDGE_KINDS:
-        starts, _ = kind.everywhere(scene.rows, scene.cols)
-        shares[(*starts, kind.number)] = edge_shares(scene.cells, kind)
-    return shares
 
 
 def _pull(

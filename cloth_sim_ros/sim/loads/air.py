@@ -40,12 +40,13 @@ class AirWork:
 
     Reads positions and accelerations back at each look of the air, which is slow.
 
-    :param node_masses: (rows, cols) [kg]
+    :param node_mass: [kg]
+    :param shares: masses of nodes over it, (rows, cols)
     """
 
-    def __init__(self, node_masses: np.ndarray) -> None:
+    def __init__(self, node_mass: float, shares: np.ndarray) -> None:
         """Begin with nothing done."""
-        self._node_masses = node_masses[..., None]
+        self._node_mass, self._shares = node_mass, shares[..., None]
         self._done = 0.0
         self._positions: np.ndarray | None = None
         self._accelerations: np.ndarray | None = None
@@ -55,7 +56,8 @@ class AirWork:
         if self._positions is not None:
             positions = state.read_positions().astype(float)
             moved = (positions - self._positions) * ~state.pinned[..., None]
-            self._done += float(np.sum(self._node_masses * self._accelerations * moved))
+            self._done += self._node_mass * float(
+                np.sum(self._shares * self._accelerations * moved))
             self._positions = positions
         return self._done
 

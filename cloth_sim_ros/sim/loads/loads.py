@@ -35,10 +35,9 @@ class Loads:
     def __init__(self, scene: Scene, layout: Layout, state: State) -> None:
         """Begin with gravity and air alone."""
         self._make_pushes = partial(
-            PushField, layout, scene.node_mass * scene.node_shares, scene['gravity'],
-            state.read_positions,
-            state.pinned, state.buffer)
-        self._node_masses = scene.node_mass * scene.node_shares
+            PushField, layout, (scene.node_mass, scene.node_shares), scene['gravity'],
+            state.read_positions, state.pinned, state.buffer)
+        self._masses = scene.node_mass, scene.node_shares
         self._state = state
         self.pushes = self._make_pushes()
         self.air = Air(scene, layout) if scene.has_air else None
@@ -122,7 +121,7 @@ class Loads:
     def keep_account(self) -> None:
         """Begin to add up the work that ``work`` tells."""
         if self.air is not None:
-            self.air.work = AirWork(self._node_masses)
+            self.air.work = AirWork(*self._masses)
 
     def work(self) -> float:
         """Return the work on free nodes of all loads but gravity and pushes, until now [J]."""

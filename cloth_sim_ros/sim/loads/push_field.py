@@ -62,7 +62,7 @@ class PushField:
     """
     All pushes of a run.
 
-    :param node_masses: (rows, cols) [kg]
+    :param masses: ``Scene.node_mass`` and ``node_shares``
     :param gravity: acceleration on every node [m/s2]
     :param read_positions: returns the present positions [m], (rows, cols, 3)
     :param pinned: the nodes that don't move now, (rows, cols) bool, kept up to date by its owner
@@ -70,12 +70,13 @@ class PushField:
     """
 
     def __init__(
-            self, layout: Layout, node_masses: np.ndarray, gravity: tuple[float, float, float],
+            self, layout: Layout, masses: tuple[float, np.ndarray],
+            gravity: tuple[float, float, float],
             read_positions: Callable[[], np.ndarray], pinned: np.ndarray,
             stand_in: Buffer | None = None) -> None:
         """Start without a push."""
         self._layout = layout
-        self._node_masses = node_masses
+        self._node_mass, self._mass_shares = masses
         self._read_positions = read_positions
         self._pinned = pinned
         self._entries: list[_Entry] = []
@@ -223,7 +224,7 @@ class PushField:
         entry.nodes = int(np.count_nonzero(entry.inside))
         if entry.nodes:
             # All of them are accelerated alike.
-            mass = float(self._node_masses[entry.inside].sum())
+            mass = self._node_mass * float(self._mass_shares[entry.inside].sum())
             entry.acceleration = np.array(push.force) / mass
 
     def _upload(self, in_regions: tuple[tuple[_Entry, float], ...]) -> None:

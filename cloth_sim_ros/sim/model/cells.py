@@ -15,10 +15,12 @@ from functools import cached_property
 
 from cloth_sim_ros.sim.model.edge_kinds import EDGE_KINDS
 from cloth_sim_ros.sim.model.edge_kinds import EdgeKind
+from cloth_sim_ros.sim.model.edge_kinds import Index
 import numpy as np
 
 # Bits of the field of an edge or a line in the parts of a node [1]: it counts halves, up to 2.
 _FIELD_BITS = 2
+_MOST_HALVES = 2**_FIELD_BITS - 1
 # First bit of the lines of bending, and of the quarters of a cell's mass [1]; cells.glsl has them.
 _LINES_AT = _FIELD_BITS * len(EDGE_KINDS)
 _QUARTERS_AT = _LINES_AT + 2 * _FIELD_BITS
@@ -42,7 +44,7 @@ class Cells:
     @cached_property
     def node_shares(self) -> np.ndarray:
         """Return the mass of each node over that of a cell, 0 where there is none."""
-        quarters = self._around.astype(int).sum(axis=0)
+        quarters = self._around.sum(axis=0, dtype=np.int32)
         return 0.25 * quarters
 
     def edge_shares(self, kind: EdgeKind) -> np.ndarray:
@@ -60,15 +62,24 @@ class Cells:
         """
         return 0.5 * self._line_halves(direction)
 
+    def edge_shares_at(self, starts: Index, numbers: np.ndarray) -> np.ndarray:
+        """Return the shares of some edges, by their starts and the numbers of their kinds."""
+        return 0.5 * (self.parts[starts] >> _FIELD_BITS * numbers & _MOST_HALVES)
+
+    def line_shares_at(self, middles: Index, direction: int) -> np.ndarray:
+        """Return the shares of some lines, by the nodes in their middle; as ``line_shares``."""
+        return 0.5 * (
+            self.parts[middles] >> _LINES_AT + _FIELD_BITS * direction & _MOST_HALVES)
+
     @cached_property
     def parts(self) -> np.ndarray:
-        """Return all of these as bits, as shaders have them, (rows, cols) int."""
-        parts = np.zeros(self.node_shares.shape, dtype=np.int64)
+        """Return all of these as bits, as shaders have them, (rows, cols) int32."""
+        parts = np.zeros(self.node_shares.shape, dtype=np.int32)
         for kind in EDGE_KINDS:
             parts |= self._halves(kind) << _FIELD_BITS * kind.number
         for direction in range(2):
             parts |= self._line_halves(direction) << _LINES_AT + _FIELD_BITS * direction
-        return parts | np.rint(4.0 * self.node_shares).astype(np.int64) << _QUARTERS_AT
+        return parts | np.rint(4.0 * self.node_shares).astype(np.int32) << _QUARTERS_AT
 
     @cached_property
     def _around(self) -> np.ndarray:
@@ -81,17 +92,17 @@ class Cells:
         one, other = (
             (up_left & up_right, down_left & down_right) if direction == 0
             else (up_left & down_left, up_right & down_right))
-        return one.astype(int) + other
+        return one.astype(np.int32) + other
 
     def _halves(self, kind: EdgeKind) -> np.ndarray:
         """Return the shares of the edges that start at each node, in halves, (rows, cols)."""
         _, up_right, down_left, down_right = self._around
         if kind.name == 'row':
-            return up_right.astype(int) + down_right
+            return up_right.astype(np.int32) + down_right
         if kind.name == 'column':
-            return down_left.astype(int) + down_right
+            return down_left.astype(np.int32) + down_right
         if kind.family == 'shear':
-            return 2 * (down_right if kind.dcol > 0 else down_left).astype(int)
+            return 2 * (down_right if kind.dcol > 0 else down_left).astype(np.int32)
         # A bend edge joins the ends of the line around the node between them.
         lines = self._line_halves(kind.direction)
         halves = np.zeros_like(lines)
@@ -107,5 +118,6 @@ def edge_shares(cells: Cells | None, kind: EdgeKind) -> np.ndarray | float:
 
 def inverse_masses(parts: np.ndarray) -> np.ndarray:
     """Return the inverse masses of nodes of these ``parts``, 0 where there is none."""
-    quarters = parts.astype(np.int64) >> _QUARTERS_AT
+    quarters = parts.astype(np.int32) >> _QUARTERS_AT
+    # Nodes of equal mass have no quarters.
     return np.divide(4.0, quarters, out=(parts > 0).astype(float), where=quarters > 0)

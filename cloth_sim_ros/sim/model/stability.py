@@ -98,9 +98,9 @@ def _least_limit(scene: Scene, kappa: np.ndarray, gamma: np.ndarray) -> float:
 # rows of cells: chains with half the mass at each end. Those of chords have eigenvalues up to 4 k,
 # those of bending up to 16 c, as without ends.
 
-# Cells along the side of a tile, at least [1]: with 3 the limit of the fabrics is 0 to 1 % below
-# that of the endless lattice, with 1 up to 17 %; with 6 it takes ten times as long to find. A
-# shape with gaps has tiles of one cell.
+# Cells along the side of a tile, at least [1]: with 3 the limit of the fabrics is 0.06 to 0.5 %
+# below that of the endless lattice (docs/explanation/numerics.md, Cells), and takes some
+# milliseconds to find. Cells with gaps have tiles of one cell.
 _TILE = 3
 _WEIGHTS: tuple[_Weigh, _Weigh] = (EdgeKind.stiffness, EdgeKind.damping)
 

@@ -123,7 +123,9 @@ def test_chord_angle_of_the_heavy_elastica(strip, within, load):
            abs(down / LENGTH / drop - 1.0), 0.01)
 
 
+# An explicit mode comes to rest within 1e-3 here, which is what 33 columns are off by.
 @pytest.mark.long
+@pytest.mark.parametrize('any_mode', ['constraint'], indirect=True)
 def test_sag_converges_at_second_order(strip, within):
     """A border that counts for whole cells made it the first order."""
     errors = []
