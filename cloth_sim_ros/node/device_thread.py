@@ -23,6 +23,9 @@ Job = Callable[[], object]
 # After a fault in a turn, wall time until the next one [s]. A fault that comes again and again
 # must leave time for requests.
 _AFTER_FAULT = 0.1
+# Max. number of frames that wait to be published [1]: as many as a publisher keeps for a reader
+# that is late (messages/topics.py).
+_FRAMES_KEPT = 10
 
 
 class Turns(Protocol):
@@ -38,7 +41,7 @@ class Event:
 
     :param run: what to do
     :param where: its name in the log
-    :param is_frame: True for a frame; of those that wait, only the newest is published
+    :param is_frame: True for a frame
     :param is_recorded: True for a frame that has to be recorded
     """
 
@@ -79,6 +82,8 @@ class DeviceThread:
         self._events: deque[Event] = deque()
         # Counts jobs and served events: a change ends the wait of the device thread.
         self._changes = 0
+        # Whether more than ``_FRAMES_KEPT`` waited, and some have waited ever since.
+        self._is_behind = False
         self._is_closing = False
         self._has_stopped = threading.Event()
         self._may_end = threading.Event()
@@ -244,17 +249,26 @@ class DeviceThread:
         """
         Do the same with a frame.
 
+        A thread that is late for a moment publishes all that waits. One that is slower than the
+        frames publishes the newest only, until it has caught up.
+
         :param run: is given whether to publish the frame
         :param is_recorded: whether it has to be called even if that is False
         :param replaces: False leaves the frames that wait to be published
         """
         if replaces:
-            with self._condition:
-                for event in self._events:
-                    event.is_published = event.is_published and not event.is_frame
-                # Else frames would pile up while a subscriber is slow.
-                self._events = deque(event for event in self._events if event.has_work)
+            self._leave_out_old_frames()
         self._emit(Event(run, 'a frame', is_frame=True, is_recorded=is_recorded))
+
+    def _leave_out_old_frames(self) -> None:
+        with self._condition:
+            waiting = [event for event in self._events if event.is_frame and event.is_published]
+            self._is_behind = bool(waiting) and (
+                self._is_behind or len(waiting) >= _FRAMES_KEPT)
+            if self._is_behind:
+                for event in waiting:
+                    event.is_published = False
+                self._events = deque(event for event in self._events if event.has_work)
 
     @property
     def waiting_frames(self) -> int:

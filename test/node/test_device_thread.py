@@ -195,39 +195,50 @@ def test_an_unexpected_exception_is_noted_and_work_goes_on(served):
     assert device.wait_for(lambda: 'goes on') == 'goes on'
 
 
-def test_only_the_newest_waiting_frame_is_published(served):
+def emit_frames(served, numbers, published, recorded=lambda number: False):
+    """Emit frames that note whether they are published."""
+    def emit() -> None:
+        for number in numbers:
+            served.device.emit_frame(
+                lambda is_published, number=number: published.append((number, is_published)),
+                is_recorded=recorded(number))
+
+    served.device.wait_for(emit)
+
+
+def test_a_short_delay_costs_no_frame(served):
+    """A subscriber would miss frames of a run because the node was busy for a moment."""
+    published = []
+    emit_frames(served, range(10), published)
+    served.serve_until(lambda: len(published) == 10)
+    assert published == [(number, True) for number in range(10)]
+
+
+def test_only_the_newest_frame_is_published_when_behind(served):
     """A slow subscriber would see ever older frames, and memory would fill with them."""
     device, published = served.device, []
-
-    def show() -> None:
-        for number in range(100):
-            device.emit_frame(
-                lambda is_published, number=number: published.append((number, is_published)),
-                is_recorded=False)
-
-    device.wait_for(show)
+    emit_frames(served, range(105), published)
+    assert device.waiting_frames == 1
+    # It is still behind: a frame waits each time.
+    emit_frames(served, [105], published)
     assert device.waiting_frames == 1
     served.serve_until(lambda: bool(published))
-    assert published == [(99, True)]
+    assert published == [(105, True)]
     device.serve()
-    assert len(published) == 1
+    # It has caught up: none waited.
+    emit_frames(served, [106, 107], published)
+    served.serve_until(lambda: len(published) == 3)
+    assert published[1:] == [(106, True), (107, True)]
 
 
 def test_every_recorded_frame_is_kept(served):
     """A recording would have gaps where a viewer was slow."""
     device, frames = served.device, []
-
-    def show() -> None:
-        for number in range(10):
-            device.emit_frame(
-                lambda is_published, number=number: frames.append((number, is_published)),
-                is_recorded=number % 2 == 0)
-
-    device.wait_for(show)
-    # One of the last two is recorded, the other published.
-    assert device.waiting_frames == 6
-    served.serve_until(lambda: len(frames) == 6)
-    assert frames == [(0, False), (2, False), (4, False), (6, False), (8, False), (9, True)]
+    emit_frames(served, range(20), frames, lambda number: number % 2 == 0)
+    # Ten are only recorded, and the newest is published.
+    assert device.waiting_frames == 11
+    served.serve_until(lambda: len(frames) == 11)
+    assert frames == [(number, False) for number in range(0, 20, 2)] + [(19, True)]
 
 
 def test_frames_that_replace_none_are_all_published(served):
