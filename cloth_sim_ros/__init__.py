@@ -26,6 +26,7 @@ _MODULES = {
     'Grasp': 'sim.held.grasps',
     'GraspForce': 'sim.held.grasps',
     'Measures': 'sim.snapshot',
+    'Mesh': 'sim.mesh',
     'NearNode': 'sim.model.grid',
     'NonFiniteStateError': 'sim.errors',
     'PinForces': 'sim.held.pin_forces',
@@ -42,6 +43,7 @@ _MODULES = {
     'Verdict': 'resimulation.verdict',
     'load_scene': 'api.scene_file',
     'resimulate': 'api.resimulate',
+    'write_mesh': 'analysis.mesh_files',
 }
 
 __all__ = tuple(_MODULES)

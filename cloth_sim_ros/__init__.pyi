@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
+from cloth_sim_ros.analysis.mesh_files import write_mesh as write_mesh
 from cloth_sim_ros.analysis.recording import Entry as Entry
 from cloth_sim_ros.analysis.recording import Recording as Recording
 from cloth_sim_ros.api.resimulate import resimulate as resimulate
@@ -19,6 +20,7 @@ from cloth_sim_ros.sim.held.grasps import Grasp as Grasp
 from cloth_sim_ros.sim.held.grasps import GraspForce as GraspForce
 from cloth_sim_ros.sim.held.pin_forces import PinForces as PinForces
 from cloth_sim_ros.sim.loads.push_field import AppliedPush as AppliedPush
+from cloth_sim_ros.sim.mesh import Mesh as Mesh
 from cloth_sim_ros.sim.model.colliders import Collider as Collider
 from cloth_sim_ros.sim.model.frame_paths import FrameMove as FrameMove
 from cloth_sim_ros.sim.model.frame_paths import FramePath as FramePath

@@ -112,7 +112,8 @@ void main() {
     vec3 given = given_at(row, col, here);
     int index = node_index(row, col);
     vec4 pushed = has_region_pushes ? load_region_pushes(index) : vec4(0.0);
-    float share = SHARE * here.velocity.w / mass_share(here.position);
-    air_out[index] = vec4(pushed.xyz + share * given, pushed.w);
+    // Not 0 where there is no node.
+    float mass = max(mass_share(here.position), 0.25);
+    air_out[index] = vec4(pushed.xyz + SHARE * here.velocity.w / mass * given, pushed.w);
 }
 #endif

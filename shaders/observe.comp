@@ -32,6 +32,7 @@ uniform vec3 gravity;          // [m/s2]
 #define FLAG_PINNED 1u
 #define FLAG_AT_LIMIT 2u
 #define FLAG_PUSHED 4u
+#define FLAG_GAP 32u
 #if RECORDS_WANTED
 layout(std430, binding = AT_LIMIT) readonly buffer AtLimit { uint at_limit[]; };
 layout(std430, binding = RECORDS) writeonly buffer Records { uint records[]; };
@@ -128,11 +129,27 @@ bool is_at_limit(int index) {
 
 void write_record(int row, int col, vec4 x, vec4 v, float strain) {
     int word = ((row - first_row) * COLS + col) * RECORD_WORDS;
+#if HAS_CELLS
+    if (x.w == 0.0) {
+        // There is no node: all its numbers are NaN.
+        for (int i = 0; i < RECORD_WORDS - 1; ++i) {
+            records[word + i] = 0x7fc00000u;
+        }
+        records[word + RECORD_WORDS - 1] = FLAG_GAP;
+        return;
+    }
+#endif
     uint flags = v.w == 0.0 ? FLAG_PINNED : 0u;
     bool pushed = pushed_everywhere == 1 || is_pushed_in_region(node_index(row, col));
     if (pushed && v.w != 0.0) {
         flags |= FLAG_PUSHED;
     }
+#if HAS_CELLS
+    // The edge across the cell is the diagonal that starts here.
+    if (row < ROWS - 1 && col < COLS - 1 && edge_share(x, x, EDGE_DIAGONAL) == 0.0) {
+        flags |= FLAG_GAP;
+    }
+#endif
     if (has_limit_marks == 1 && is_at_limit(node_index(row, col))) {
         flags |= FLAG_AT_LIMIT;
     }

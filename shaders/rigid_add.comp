@@ -26,7 +26,8 @@ void main() {
     int index = node_index(row, col);
     vec4 v = load_velocity(index);
     vec4 x = load_position(index);
-    vec3 change = velocity + cross(turn, x.xyz - substep * v.xyz - centre);
+    vec3 change = v.w > 0.0
+        ? velocity + cross(turn, x.xyz - substep * v.xyz - centre) : vec3(0.0);
     velocity_out[index] = vec4(v.xyz + change, v.w);
     position_out[index] = vec4(changed_position(index, x.xyz, substep * change), x.w);
 }

@@ -38,8 +38,10 @@ ROOMS = {
 WITHOUT_ROS = ('files', 'gl', 'sim', 'reference', 'gym', 'view')
 NUMERIC_MODULES = {'numpy', 'scipy', 'OpenGL', 'yaml'}
 # What one room alone may import besides.
-# viser brings msgspec and websockets.
-OWN_MODULES = {'view': {'viser', 'msgspec', 'websockets'}, 'gym': {'gymnasium'}}
+# viser brings msgspec and websockets. The shape of a cloth is an image or a polygon.
+OWN_MODULES = {
+    'sim': {'PIL', 'matplotlib'}, 'view': {'viser', 'msgspec', 'websockets'},
+    'gym': {'gymnasium'}}
 
 SOURCES = sorted(path for path in PACKAGE.rglob('*.py') if path.parent != PACKAGE)
 

@@ -159,9 +159,15 @@ def _distances(one: Frame, other: Frame, sides: list[_Side]) -> tuple[float, flo
         raise ClothSimError(
             f'{" and ".join(sizes)}, which cannot be compared node by node: '
             'give recordings with the same rows and cols')
-    squares = np.zeros(one.records.shape)
+    if not np.array_equal(one.cells, other.cells):
+        raise ClothSimError(
+            f'{sides[0].path} and {sides[1].path} are cloths of different shapes, which cannot be '
+            'compared node by node: give recordings with the same shape')
+    there = one.present
+    squares = np.zeros(np.count_nonzero(there))
     for axis in 'xyz':
-        squares += np.square(one.records[axis] - other.records[axis].astype(float))
+        squares += np.square(
+            one.records[axis][there] - other.records[axis][there].astype(float))
     return float(np.sqrt(squares.mean())), float(np.sqrt(squares.max()))
 
 

@@ -6,16 +6,21 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from functools import lru_cache
 from typing import Any
 from typing import Literal
 
 from cloth_sim_ros.messages.geometry import push_arrows
 from cloth_sim_ros.sim.errors import ClothSimError
+from cloth_sim_ros.sim.mesh import Mesh
+from cloth_sim_ros.sim.mesh import mesh_of_nodes
+from cloth_sim_ros.sim.model.cells import present_nodes
 from cloth_sim_ros.sim.model.colliders import Collider
 from cloth_sim_ros.sim.model.push import Push
 from cloth_sim_ros.sim.snapshot import FLAG_GRASPED
 from cloth_sim_ros.sim.snapshot import FLAG_PINNED
+from cloth_sim_ros.sim.snapshot import present_cells
 import numpy as np
 
 _KINDS = {
@@ -61,6 +66,10 @@ class Frame:
             raise ClothSimError(
                 f'the cloud at {time:g} s does not have its declared length, or has unknown '
                 f'fields ({error}): give a recording of a cloth_sim node') from error
+        if records['flags'].dtype.kind not in 'iu':
+            raise ClothSimError(
+                f'the cloud at {time:g} s has flags of the type {records["flags"].dtype}, which '
+                'must be whole numbers: give a recording of a cloth_sim node')
         if not records.size:
             raise ClothSimError(
                 f'the cloud at {time:g} s has no points: give a recording of a cloth_sim node')
@@ -91,6 +100,18 @@ class Frame:
         """Tell which of them grasps hold, (rows, cols) bool."""
         return (self.records['flags'] & FLAG_GRASPED) != 0
 
+    @cached_property
+    def cells(self) -> np.ndarray:
+        """Tell which cells there are, (rows - 1, cols - 1) bool."""
+        return present_cells(self.records['flags'])
+
+    @cached_property
+    def present(self) -> np.ndarray:
+        """Tell which nodes there are, (rows, cols) bool: all, or those of a shape."""
+        if self.cells.all():
+            return np.ones(self.records.shape, dtype=bool)
+        return present_nodes(self.cells)
+
     @property
     def acting_pushes(self) -> tuple[Push, ...]:
         """Get the pushes that act at this time."""
@@ -100,6 +121,10 @@ class Frame:
         """Return tail and tip [m] of each acting push; the largest is ``length`` long."""
         pushes = self.acting_pushes
         return push_arrows(pushes, self.time, self.positions.reshape(-1, 3), length)
+
+    def mesh(self) -> Mesh:
+        """Return the surface as triangles, without what a shape cuts away."""
+        return mesh_of_nodes(self.positions, self.normals, self.cells)
 
     def _vectors(self, *names: str) -> np.ndarray:
         return np.stack([self.records[name] for name in names], axis=-1).astype(float)

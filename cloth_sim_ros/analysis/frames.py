@@ -18,6 +18,7 @@ from cloth_sim_ros.analysis.recorded_values import recorded_pose
 from cloth_sim_ros.analysis.recorded_values import RESET
 from cloth_sim_ros.analysis.recording import Entry
 from cloth_sim_ros.analysis.recording import Recording
+from cloth_sim_ros.files.errors import cut
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.model.colliders import Collider
 from cloth_sim_ros.sim.model.colliders import fields_with_colliders
@@ -120,6 +121,9 @@ def _seconds(stamp: Any) -> float:
 
 # The frames of a recording, in the order of time.
 
+# How far a time that is read off and typed may be beside that of a frame [s].
+_ROUNDING = 1e-6
+
 
 def read_frames(recording: Recording) -> Iterator[Frame]:
     """Yield every frame, with pushes given before it and colliders; one is in memory at a time."""
@@ -157,6 +161,29 @@ def frames_at(recording: Recording, times: Sequence[float]) -> list[Frame]:
     if before is None:
         raise recording.no_frame()
     return chosen + [before] * len(wanted)
+
+
+def frame_at(recording: Recording, time: float | None = None) -> Frame:
+    """
+    Return the frame nearest to ``time`` [s], or the last one.
+
+    :raises ClothSimError: when the recording holds no frame, or none of before and after ``time``
+    """
+    begin = 0.0
+    before = None
+    for frame in read_frames(recording):
+        begin = frame.time if before is None else begin
+        if time is not None and begin - _ROUNDING <= time <= frame.time:
+            is_before = before is not None and time - before.time < frame.time - time
+            return before if before is not None and is_before else frame
+        before = frame
+    if before is None:
+        raise recording.no_frame()
+    if time is None or begin <= time <= before.time + _ROUNDING:
+        return before
+    raise ClothSimError(
+        f'{cut(recording.path)} has frames from {begin:.9g} to {before.time:.9g} s, and none at '
+        f'{time:.9g} s: give a time between them')
 
 
 def default_times(recording: Recording, count: int) -> list[float]:

@@ -238,11 +238,11 @@ class Run:
                 f'after clouds of {self.rows} x {self.cols}: give a recording of one cloth')
         self.rows, self.cols = size
         self._has_points = True
-        strain = np.ascontiguousarray(frame.strain)
+        strain = frame.strain[frame.present]
         self.strains.add(strain)
         self._table.put(entry.resets, entry.time, {
             'mean_strain': strain.mean(dtype=float),
-            'mean_height': frame.records['z'].mean(dtype=float)})
+            'mean_height': frame.records['z'][frame.present].mean(dtype=float)})
         self._largest_strain(entry, float(strain.max()))
 
     def _read_stats(self, entry: Entry) -> None:

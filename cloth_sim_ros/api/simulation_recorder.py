@@ -72,8 +72,7 @@ class RunRecording:
         self._frame_id = node_values['frame_id']
         self._taker = FrameTaker(simulation, {
             **node_values, 'publish.clock': False, 'publish.points': True, 'publish.stats': True})
-        self._messages = FrameMessages(
-            simulation.scene.rows, simulation.scene.cols, node_name, self._frame_id)
+        self._messages = FrameMessages(simulation.scene, node_name, self._frame_id)
         self.problem = ''
         self._session = RecordingSession(
             directory, node_name, self._on_lost, setting,

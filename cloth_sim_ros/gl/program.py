@@ -250,3 +250,8 @@ class RenderProgram(LinkedProgram):
         """Draw ``strips`` triangle strips of ``vertices`` each, with the program in use."""
         GL.glBindVertexArray(self._vertex_array)
         GL.glDrawArraysInstanced(GL.GL_TRIANGLE_STRIP, 0, vertices, strips)
+
+    def draw_triangles(self, vertices: int, rows: int) -> None:
+        """Draw ``rows`` of triangles, of ``vertices`` each, with the program in use."""
+        GL.glBindVertexArray(self._vertex_array)
+        GL.glDrawArraysInstanced(GL.GL_TRIANGLES, 0, vertices, rows)

@@ -98,13 +98,14 @@ class CarryCloth(gymnasium.Env[Observation, np.ndarray]):
         self._goal = start + np.array(offset)
         self._observer = Observer(
             observation, start.shape[:2], np.concatenate([start, self._goal]).reshape(-1, 3),
-            camera, picture_size)
+            camera, picture_size, scene.cut_cells)
         self._simulation = Simulation(scene, records_forces=False)
         self._steps = max(round(frame / scene['dt']), 1)
         self._reach = speed * self._steps * scene['dt']
         self._jitter = jitter * min(length for length in scene.spacing if length > 0.0)
         self._tolerance = tolerance
         self._free = ~scene.pinned_nodes()
+        self._present = scene.present_nodes
         self.action_space = spaces.Box(-1.0, 1.0, (len(self.pins), 3), np.float32)
         self.observation_space = self._observer.space
 
@@ -175,7 +176,7 @@ class CarryCloth(gymnasium.Env[Observation, np.ndarray]):
     def _info(self, problem: str = '') -> dict[str, Any]:
         away = self._simulation.positions() - self._goal
         return {
-            'distance': float(np.linalg.norm(away, axis=-1).mean()),
+            'distance': float(np.linalg.norm(away[self._present], axis=-1).mean()),
             'time': self._simulation.time,
             'max_strain': self._simulation.measure().max_strain,
             'problem': problem,

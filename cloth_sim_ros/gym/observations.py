@@ -41,7 +41,7 @@ class Part(ABC):
 
 
 class Positions(Part):
-    """Where all nodes are [m], (rows, cols, 3) float32."""
+    """Where all nodes are [m], (rows, cols, 3) float32; 0 where a shape has no node."""
 
     def __init__(self, rows: int, cols: int) -> None:
         """Make the space."""
@@ -49,11 +49,15 @@ class Positions(Part):
 
     def look(self, simulation: Simulation) -> np.ndarray:
         """Return the array at this time."""
-        return simulation.positions()
+        return np.nan_to_num(simulation.positions(), copy=False)
 
 
 class PositionsAndVelocities(Part):
-    """Positions [m] and velocities [m/s] of all nodes, (rows, cols, 6) float32."""
+    """
+    Positions [m] and velocities [m/s] of all nodes, (rows, cols, 6) float32.
+
+    They are 0 where a shape has no node.
+    """
 
     def __init__(self, rows: int, cols: int) -> None:
         """Make the space."""
@@ -61,7 +65,8 @@ class PositionsAndVelocities(Part):
 
     def look(self, simulation: Simulation) -> np.ndarray:
         """Return the array at this time."""
-        return np.concatenate([simulation.positions(), simulation.velocities()], axis=-1)
+        return np.nan_to_num(np.concatenate(
+            [simulation.positions(), simulation.velocities()], axis=-1), copy=False)
 
 
 class Depth(Part):
@@ -72,17 +77,19 @@ class Depth(Part):
     :param camera: azimuth, elevation, field_of_view [deg] and zoom, where they differ from the
         defaults of ``cloth_sim render``
     :param size: height and width [pixel]
+    :param cells: which there are, (rows - 1, cols - 1) bool; None for all
     """
 
     def __init__(
-            self, points: np.ndarray, camera: Mapping[str, Any], size: Sequence[int]) -> None:
+            self, points: np.ndarray, camera: Mapping[str, Any], size: Sequence[int],
+            cells: np.ndarray | None) -> None:
         """Place the camera."""
         # Drawing takes longer to import than the rest, and most environments do without.
         from cloth_sim_ros.rendering.camera import Camera
         from cloth_sim_ros.rendering.camera import DepthCamera
         height, width = _checked_size(size)
         view = Camera(**_checked_camera(camera)).looking_at(points, width, height)
-        self._camera = DepthCamera(view)
+        self._camera = DepthCamera(view, cells)
         self.space = spaces.Box(0.0, self._camera.far, (height, width), np.float32)
 
     def look(self, simulation: Simulation) -> np.ndarray:
@@ -105,12 +112,14 @@ class Observer:
     :param asked: one of PARTS for an array, or several for a dictionary of arrays
     :param shape: rows and columns of the cloth
     :param points: what a camera has in view, (n, 3) [m]
+    :param cells: which there are, (rows - 1, cols - 1) bool; None for all
     :raises ClothSimError: when a value is wrong
     """
 
     def __init__(
             self, asked: str | Sequence[str], shape: tuple[int, int], points: np.ndarray,
-            camera: Mapping[str, Any], size: Sequence[int]) -> None:
+            camera: Mapping[str, Any], size: Sequence[int],
+            cells: np.ndarray | None = None) -> None:
         """Make the parts and their space."""
         names = _checked_names(asked)
         if 'depth' in names and min(shape) < 2:
@@ -121,7 +130,7 @@ class Observer:
         self._parts: dict[str, Part] = {}
         for name in names:
             if name == 'depth':
-                self._parts[name] = Depth(points, camera, size)
+                self._parts[name] = Depth(points, camera, size, cells)
             elif name == 'state':
                 self._parts[name] = PositionsAndVelocities(*shape)
             else:

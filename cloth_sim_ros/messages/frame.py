@@ -33,11 +33,13 @@ class PointsMessage:
     PointCloud2 of one cloth: everything but the stamp and the points is serialised once.
 
     :param frame_id: frame of the positions
+    :param is_dense: False where some nodes are not there, whose values are NaN
     """
 
-    def __init__(self, rows: int, cols: int, frame_id: str) -> None:
+    def __init__(self, rows: int, cols: int, frame_id: str, *, is_dense: bool = True) -> None:
         """Serialise what stays the same from frame to frame."""
         self._shape = (rows, cols)
+        self._is_dense = is_dense
         template = serialize_message(PointCloud2(
             header=Header(frame_id=frame_id),
             height=rows,
@@ -65,7 +67,7 @@ class PointsMessage:
                 f'points are {records.shape} {records.dtype}, the message is {self._shape} '
                 f'{POINT_DTYPE}: create a PointsMessage for this cloth')
         STAMP.pack_into(self._head, STAMP_AT, *stamp_parts(snapshot.time))
-        self._tail[0] = snapshot.finite  # is_dense, the last field
+        self._tail[0] = self._is_dense and snapshot.finite  # is_dense, the last field
         return b''.join((self._head, np.ascontiguousarray(records).data, self._tail))
 
 

@@ -26,6 +26,7 @@ from cloth_sim_ros.sim.held.force_window import FrameForces
 from cloth_sim_ros.sim.held.grasps import Grasp
 from cloth_sim_ros.sim.model.colliders import Collider
 from cloth_sim_ros.sim.model.push import Push
+from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.simulation import Simulation
 from cloth_sim_ros.sim.snapshot import Snapshot
 import numpy as np
@@ -163,12 +164,14 @@ class FrameMessages:
     :param frame_id: of the positions
     """
 
-    def __init__(self, rows: int, cols: int, node_name: str, frame_id: str) -> None:
+    def __init__(self, scene: Scene, node_name: str, frame_id: str) -> None:
         """Serialise what stays the same from frame to frame."""
         self._node_name = node_name
         self._frame_id = frame_id
-        self._points = PointsMessage(rows, cols, frame_id)
-        self._markers = MarkersMessage(rows, cols, frame_id)
+        self._points = PointsMessage(
+            scene.rows, scene.cols, frame_id, is_dense=not scene.has_gaps)
+        self._markers = MarkersMessage(
+            scene.rows, scene.cols, frame_id, present=scene.cut_cells)
         self._stats = StatsMessage(frame_id)
         self._pin_frames = PinFrames(node_name, frame_id)
         self._wrenches = WrenchMessages(node_name)

@@ -6,6 +6,8 @@
 from collections.abc import Iterable
 
 from cloth_sim_ros.messages.cdr_writer import CdrWriter
+from cloth_sim_ros.sim.mesh import sampled_cells
+from cloth_sim_ros.sim.mesh import triangles
 from cloth_sim_ros.sim.model.push import Push
 from cloth_sim_ros.sim.scene import Scene
 import numpy as np
@@ -17,7 +19,8 @@ def push_arrows(
     """
     Return tail and tip of an arrow for each push that acts at ``time`` [s].
 
-    :param nodes: positions of nodes, (n, 3) [m]; their mean is the middle of the cloth
+    :param nodes: positions of nodes, (n, 3) [m], NaN for none; their mean is the middle of the
+        cloth
     :param length: of the arrow of the largest force [m]
     :return: (2, 3) float64 each [m]
     """
@@ -28,7 +31,9 @@ def push_arrows(
         return []
     arrows = []
     for push, force in zip(active, forces):
-        tail = nodes.mean(axis=0, dtype=float) if push.region == 'all' else np.array(push.center)
+        tail = np.array(push.center)
+        if push.region == 'all':
+            tail = np.nanmean(nodes, axis=0, dtype=float)
         arrows.append(np.stack([tail, tail + force * (length / largest)]))
     return arrows
 
@@ -51,24 +56,9 @@ _BYTES_A_CORNER = 3 * 8 + 4 * 4
 def serialise_topology(scene: Scene) -> bytes:
     """Return the CDR bytes of the shape_msgs/Mesh of ``scene`` at rest."""
     writer = CdrWriter()
-    writer.put_sequence(triangles(scene.rows, scene.cols))
+    writer.put_sequence(triangles(scene.rows, scene.cols, scene.cut_cells))
     writer.put_sequence(scene.rest_positions().reshape(-1, 3).astype('<f8', copy=False))
     return writer.finish()
-
-
-def triangles(rows: int, cols: int) -> np.ndarray:
-    """
-    Return the nodes of the two triangles of each cell, counted along the rows.
-
-    Counter-clockwise seen from above while the cloth lies flat; none for a chain.
-
-    :return: (2 (rows - 1) (cols - 1), 3) uint32
-    """
-    node = np.arange(rows * cols, dtype='<u4').reshape(rows, cols)
-    corners = (
-        node[:-1, :-1], node[1:, :-1], node[:-1, 1:],
-        node[:-1, 1:], node[1:, :-1], node[1:, 1:])
-    return np.stack(corners, axis=-1).reshape(-1, 3)
 
 
 def _palette() -> np.ndarray:
@@ -100,10 +90,8 @@ def surface_bytes(rows: int, cols: int) -> int:
     return 6 * (min(rows, MOST_DRAWN) - 1) * (min(cols, MOST_DRAWN) - 1) * _BYTES_A_CORNER
 
 
-def _sampled(count: int, limit: int) -> np.ndarray | slice:
-    if count <= limit:
-        return slice(None)
-    return np.linspace(0, count - 1, limit).round().astype(np.intp)
+def _sampled(count: int, limit: int) -> np.ndarray:
+    return np.linspace(0, count - 1, min(count, limit)).round().astype(np.intp)
 
 
 class Surface:
@@ -111,15 +99,21 @@ class Surface:
     Which nodes are drawn, and in which order.
 
     :param max_side: nodes drawn along each side at most; larger cloths are sampled evenly
+    :param present: which cells there are, (rows - 1, cols - 1) bool; None for all
     """
 
-    def __init__(self, rows: int, cols: int, max_side: int) -> None:
+    def __init__(
+            self, rows: int, cols: int, max_side: int, present: np.ndarray | None = None) -> None:
         """Choose the nodes."""
         self.is_chain = min(rows, cols) == 1
         limit = max(rows, cols) if self.is_chain else max_side
-        self._rows = _sampled(rows, limit)
-        self._cols = _sampled(cols, limit)
-        corners = triangles(min(rows, limit), min(cols, limit))
+        at_rows, at_cols = _sampled(rows, limit), _sampled(cols, limit)
+        # A slice is not copied.
+        self._rows = at_rows if rows > limit else slice(None)
+        self._cols = at_cols if cols > limit else slice(None)
+        corners = triangles(
+            len(at_rows), len(at_cols),
+            None if present is None else sampled_cells(present, at_rows, at_cols))
         self._order = np.arange(rows * cols) if self.is_chain else corners.ravel().astype(np.intp)
         self._points = np.empty((len(self._order), 3))
         self._colors = np.empty((len(self._order), 4), np.float32)

@@ -146,13 +146,17 @@ class MarkersMessage:
 
     :param frame_id: frame of the positions
     :param max_side: nodes drawn along each side at most; larger cloths are sampled evenly
+    :param present: which cells there are, (rows - 1, cols - 1) bool; None for all
     """
 
-    def __init__(self, rows: int, cols: int, frame_id: str, max_side: int = MOST_DRAWN) -> None:
+    def __init__(
+            self, rows: int, cols: int, frame_id: str, max_side: int = MOST_DRAWN,
+            present: np.ndarray | None = None) -> None:
         """Choose the nodes drawn."""
         self._frame_id = frame_id
-        self._surface = Surface(rows, cols, max_side)
+        self._surface = Surface(rows, cols, max_side, present)
         self._cells = max(rows, cols) - 1
+        self._is_whole = present is None
         self._shown: set[tuple[str, int]] = set()
 
     def serialise(
@@ -165,7 +169,7 @@ class MarkersMessage:
         :param colliders: where they are now
         :param grasps: those that hold nodes
         """
-        size = _size(snapshot.positions)
+        size = _size(snapshot.positions, self._is_whole)
         # Half the distance of nodes, but still to be seen on a fine cloth.
         node_size = size * max(0.5 / self._cells, 0.01)
         markers = self._markers(snapshot, pushes, size, node_size)
@@ -222,11 +226,17 @@ class MarkersMessage:
             'colors': self._surface.colors(strain_colors(self._surface.sample(strain)))}
 
 
-def _size(positions: np.ndarray) -> float:
-    """Return the longer side [m], along the first row or the first column as they hang."""
-    return max(
-        float(np.linalg.norm(np.diff(line.astype(float), axis=0), axis=1).sum())
-        for line in (positions[0], positions[:, 0]))
+def _size(positions: np.ndarray, is_whole: bool) -> float:
+    """
+    Return the longer side [m], along the first row or the first column as they hang.
+
+    Of a cloth that is not whole, along the longest row or column.
+    """
+    some = np.s_[:1] if is_whole else np.s_[:]
+    lengths = (
+        np.linalg.norm(np.diff(lines.astype(float), axis=1), axis=2)
+        for lines in (positions[some], positions[:, some].swapaxes(0, 1)))
+    return max(float(np.nansum(each, axis=1).max()) for each in lengths)
 
 
 def _nodes(positions: np.ndarray, chosen: np.ndarray) -> np.ndarray:

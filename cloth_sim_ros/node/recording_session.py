@@ -52,7 +52,8 @@ def write_opening(
     Pins are written where they differ from the parameter, grasps where they hold nodes, colliders
     where they are not where the scene has them; targets of these where they are under way; pushes
     where they act or will act; the wind where it is not that of the parameter. Of the parameters,
-    ``loads`` and ``block`` are written as they were chosen for the device.
+    ``loads`` and ``block`` are written as they were chosen for the device, and ``shape.mask`` as
+    an image instead of its path.
 
     :param values: parameter values by name
     :param node_name: with its namespace
@@ -61,7 +62,8 @@ def write_opening(
     frame_id = values['frame_id']
     recording.write('topology', serialise_topology(simulation.scene), now)
     parameters = parameters_message(
-        {**values, **vars(simulation.layout.choice)}, fields_with_colliders(values, FIELDS), now,
+        {**values, **vars(simulation.layout.choice),
+         'shape.mask': simulation.scene['shape.mask']}, fields_with_colliders(values, FIELDS), now,
         node_name)
     recording.write('inputs/parameters', serialise_parameter_event(parameters), now)
     held: list[Input] = []

@@ -72,7 +72,7 @@ class Reports(InputListener):
         self._warn = warn
         self._follow = follow
         self._taker = FrameTaker(simulation, values)
-        self._messages = FrameMessages(scene.rows, scene.cols, node_name, self._frame_id)
+        self._messages = FrameMessages(scene, node_name, self._frame_id)
         self._reason = ''
 
     def is_held_back(self) -> bool:

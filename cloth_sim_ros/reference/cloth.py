@@ -78,8 +78,11 @@ class ReferenceCloth(ABC):
         # Springs with elastic energy; a mode that constrains edges removes those.
         self.elastic_springs = self.springs
         self.gravity = np.array(scene['gravity'])
-        self.free = ~scene.pinned_nodes()
         self.masses = node_masses(scene)
+        # There is no node without a mass.
+        self.free = ~scene.pinned_nodes() & (self.masses > 0.0)
+        self._over_mass = np.divide(
+            1.0, self.masses, out=np.zeros_like(self.masses), where=self.masses > 0.0)[..., None]
         self.positions = scene.start_positions()
         self.velocities = np.zeros_like(self.positions)
         self.steps = 0
@@ -94,7 +97,7 @@ class ReferenceCloth(ABC):
     @property
     def inverse_masses(self) -> np.ndarray:
         """Return 1 / m of each node, 0 where it is pinned [1/kg], flat."""
-        return (self.free / self.masses).ravel()
+        return (self.free * self._over_mass[..., 0]).ravel()
 
     def push(self, push: Push) -> None:
         """Add a push that acts at its own time."""
@@ -139,7 +142,7 @@ class ReferenceCloth(ABC):
         """Return what the air gives by the present motion, 0 at pinned nodes [m/s2]."""
         wind = wind_at(self.scene, begin, end)
         forces = air_forces(self.scene, self.positions, self.velocities, wind)
-        return self.free[..., None] * forces / self.masses[..., None]
+        return self.free[..., None] * forces * self._over_mass
 
     def _push_accelerations(self, begin: float, end: float) -> np.ndarray:
         """Return what the pushes add from ``begin`` to ``end`` [s], 0 at pinned nodes [m/s2]."""

@@ -17,6 +17,7 @@ that of the limit. For a strain limit, l_max - w is the limit: an edge at it sto
 
 from dataclasses import dataclass
 
+from cloth_sim_ros.reference.cells import node_masses
 from cloth_sim_ros.reference.edges import Edges
 from cloth_sim_ros.reference.edges import edges_of
 from cloth_sim_ros.sim.errors import ClothSimError
@@ -194,7 +195,8 @@ def limit_compliance(
     that.
     """
     weight = scene.mass * STANDARD_GRAVITY
-    lines = min(scene.rows, scene.cols)
+    there = node_masses(scene) > 0.0
+    lines = min(np.ptp(np.nonzero(there), axis=1)) + 1
     strain = scene['constraint.strain'] if strain is None else strain
     hardness = weight / strain * max(1.0, 1.0 / (WHOLE_EDGE * lines))
     # A limit has the share of the stiffness that its spring has, 0 for no edge.

@@ -49,7 +49,7 @@ class MassSpringReference(ReferenceCloth):
         positions, velocities = state.reshape(2, *self.positions.shape)
         moving = velocities * self.free[..., None]
         wind = np.array(self.scene['air.wind'])
-        air = air_forces(self.scene, positions, moving, wind) / self.masses[..., None]
+        air = air_forces(self.scene, positions, moving, wind) * self._over_mass
         accelerations = self.accelerations(positions, moving) + air * self.free[..., None]
         return np.concatenate((moving.ravel(), accelerations.ravel()))
 

@@ -159,7 +159,7 @@ class ImplicitCloth(ReferenceCloth):
         bending = self.free[..., None] * self.bending.forces(self.positions)
         applied = share * (
             self.gravity * self.free[..., None] + self._air_accelerations(now, now + h)
-            + bending / self.masses[..., None]) + self._push_accelerations(now, now + h)
+            + bending * self._over_mass) + self._push_accelerations(now, now + h)
         damping = self.bending.damping_matrix(self.positions)
         held, solves = np.zeros_like(self.free), 0
         while True:

@@ -14,8 +14,11 @@ from cloth_sim_ros.gl.framebuffer import DepthBuffer
 from cloth_sim_ros.gl.framebuffer import draw_nearest
 from cloth_sim_ros.gl.program import RenderProgram
 from cloth_sim_ros.rendering.node_buffer import NodeBuffer
+from cloth_sim_ros.rendering.surface_programs import draw_surface
+from cloth_sim_ros.rendering.surface_programs import GAP_DEFINES
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.model.colliders import Collider
+from cloth_sim_ros.sim.snapshot import FLAG_GAP
 import numpy as np
 
 _NEAREST = 0.02  # of the distance: nothing is drawn nearer to the camera
@@ -211,11 +214,12 @@ class DepthCamera:
 
     It has a GL context of its own.
 
+    :param cells: which there are, (rows - 1, cols - 1) bool; None for all
     :raises ClothSimError: when the view has no perspective, and the camera therefore no place
     :raises DeviceError: when there is no GL device, or it can't draw so large a picture
     """
 
-    def __init__(self, view: View) -> None:
+    def __init__(self, view: View, cells: np.ndarray | None = None) -> None:
         """Make the context and the picture."""
         if not math.isfinite(view.distance):
             raise ClothSimError(
@@ -228,7 +232,10 @@ class DepthCamera:
                 'another device')
         self._depths = DepthBuffer(view.width, view.height)
         self._nodes = NodeBuffer(self._context.max_texture_texels)
+        self._flags = None if cells is None else FLAG_GAP * np.pad(~cells, ((0, 1), (0, 1)))
         self._surface = RenderProgram('render/cloth.vert', 'render/plain.frag')
+        self._cut_surface = None if cells is None else RenderProgram(
+            'render/cloth.vert', 'render/plain.frag', GAP_DEFINES)
 
     @property
     def far(self) -> float:
@@ -247,9 +254,15 @@ class DepthCamera:
         self._context.make_current()
         self._depths.begin()
         draw_nearest()
+        if self._cut_surface is not None:
+            self._nodes.load_points(positions, self.view.middle, self._flags)
+            self._cut_surface.use()
+            set_view(self._cut_surface, self.view)
+            draw_surface(self._cut_surface, positions.shape[:2], has_gaps=True)
         self._surface.use()
         set_view(self._surface, self.view)
-        self._draw(positions)
+        if self._cut_surface is None:
+            self._draw(positions)
         for collider in colliders:
             if self.view.sees(collider):
                 self._draw(collider_surface(
@@ -259,10 +272,8 @@ class DepthCamera:
         return np.where(drawn < 1.0, depths, np.float32(self.far))
 
     def _draw(self, points: np.ndarray) -> None:
-        rows, cols = points.shape[:2]
         self._nodes.load_points(points, self.view.middle)
-        self._surface.set_int('cols', cols)
-        self._surface.draw_strips(2 * cols, rows - 1)
+        draw_surface(self._surface, points.shape[:2])
 
     def close(self) -> None:
         """Release the device."""

@@ -3,7 +3,6 @@
 
 """Draw the surface of the cloth."""
 
-from functools import cached_property
 import math
 
 from cloth_sim_ros.analysis.frame import Frame
@@ -20,6 +19,10 @@ from cloth_sim_ros.rendering.look import set_light
 from cloth_sim_ros.rendering.look import SHADOW_COLOR
 from cloth_sim_ros.rendering.look import StrainScale
 from cloth_sim_ros.rendering.look import UNKNOWN_COLOR
+from cloth_sim_ros.rendering.surface_programs import draw_cells
+from cloth_sim_ros.rendering.surface_programs import draw_surface
+from cloth_sim_ros.rendering.surface_programs import gap_defines
+from cloth_sim_ros.rendering.surface_programs import SurfacePrograms
 from cloth_sim_ros.sim.snapshot import FLAG_AT_LIMIT
 import numpy as np
 
@@ -37,14 +40,16 @@ LIMIT_DEFINES = {
     # without; the grey of the rim; the tint where dots are too small to be seen one by one.
     'DOT_RADIUS': 0.33, 'DOT_INSIDE': 0.22, 'DOT_RIM': 0.1, 'DOT_TINT': 0.3}
 
+_SHADOW_DEFINES = {'SHADOW': 1}
+
 
 def surface_normals(positions: np.ndarray) -> np.ndarray:
     """
     Return unit normals, up for a cloth that lies flat with row 0 at the largest y.
 
-    From central differences, one-sided ones at the border; (0, 0, 1) where the cloth has no area.
+    From central differences, one-sided ones at a border; (0, 0, 1) where the cloth has no area.
 
-    :param positions: (rows, cols, 3) [m]
+    :param positions: (rows, cols, 3) [m]; NaN where there is no node
     :return: (rows, cols, 3) float64
     """
     along, down = (_difference(positions, axis) for axis in (1, 0))
@@ -54,9 +59,13 @@ def surface_normals(positions: np.ndarray) -> np.ndarray:
 
 
 def _difference(positions: np.ndarray, axis: int) -> np.ndarray:
-    if positions.shape[axis] < 2:
-        return np.zeros_like(positions)
-    return np.gradient(positions, axis=axis)
+    """Return the way from the node before to the node after, itself where there is none."""
+    count = positions.shape[axis]
+    before = positions.take(np.maximum(np.arange(count) - 1, 0), axis)
+    after = positions.take(np.minimum(np.arange(count) + 1, count - 1), axis)
+    before, after = (
+        np.where(np.isnan(other), positions, other) for other in (before, after))
+    return after - before
 
 
 class PaletteBuffer:
@@ -91,31 +100,40 @@ class ClothDrawing:
         """Keep what all frames share."""
         self._palette = palette
         self._detail = detail
+        self._programs = SurfacePrograms()
 
     def draw(self, frame: Frame, view: View) -> None:
         """Draw the surface."""
         rows, cols = frame.records.shape
         has_limits = bool((frame.records['flags'] & FLAG_AT_LIMIT).any())
-        program = self._with_limits if has_limits else self._surface
+        gaps = gap_defines(frame)
+        program = self._programs.of(
+            'render/cloth.frag', {**(LIMIT_DEFINES if has_limits else CLOTH_DEFINES), **gaps})
         program.use()
         set_view(program, view)
         set_light(program, view)
         self._palette.give(program)
         program.set_int('rows', rows)
-        program.set_int('cols', cols)
         program.set_pair('cell', cell_sides(frame.positions))
         program.set_float('hem_width', HEM_WIDTH * self._detail)
         program.set_vectors('limit_color', LIMIT_COLOR)
-        program.draw_strips(2 * cols, rows - 1)
+        draw_surface(program, (rows, cols), has_gaps=bool(gaps))
 
     def draw_shadow(self, frame: Frame, view: View, floor: float) -> None:
         """Draw the shadow on the floor at the height ``floor`` [m], over all before."""
-        self.draw_shadow_of(frame.records.shape, view, floor)
+        self.draw_shadow_of(frame.records.shape, view, floor, gap_defines(frame))
 
-    def draw_shadow_of(self, shape: tuple[int, ...], view: View, floor: float) -> None:
-        """Draw that of another surface of ``shape``, rows and columns, in the node buffer."""
+    def draw_shadow_of(
+            self, shape: tuple[int, ...], view: View, floor: float,
+            gaps: dict[str, int] | None = None) -> None:
+        """
+        Draw that of another surface in the node buffer.
+
+        :param shape: rows and columns
+        :param gaps: what ``gap_defines`` returns of it
+        """
         rows, cols = shape
-        program = self._shadow
+        program = self._programs.of('render/plain.frag', {**_SHADOW_DEFINES, **(gaps or {})})
         program.use()
         set_view(program, view)
         stride = math.ceil(max(rows, cols) / _SHADOW_SIDE)
@@ -126,25 +144,13 @@ class ClothDrawing:
         program.set_vectors('plain_color', SHADOW_COLOR)
         draw_over_all()
         down, along = (math.ceil((count - 1) / stride) for count in (rows, cols))
-        program.draw_strips(2 * (along + 1), down)
-
-    @cached_property
-    def _surface(self) -> RenderProgram:
-        return RenderProgram('render/cloth.vert', 'render/cloth.frag', CLOTH_DEFINES)
-
-    @cached_property
-    def _with_limits(self) -> RenderProgram:
-        return RenderProgram('render/cloth.vert', 'render/cloth.frag', LIMIT_DEFINES)
-
-    @cached_property
-    def _shadow(self) -> RenderProgram:
-        return RenderProgram('render/cloth.vert', 'render/plain.frag', {'SHADOW': 1})
+        draw_cells(program, (down, along), has_gaps=bool(gaps))
 
 
 def cell_sides(positions: np.ndarray) -> tuple[float, float]:
     """Return the sides of a cell along a row and along a column, the shorter one 1."""
     sides = [
-        float(np.median(np.linalg.norm(np.diff(positions, axis=axis), axis=-1)))
+        float(np.nanmedian(np.linalg.norm(np.diff(positions, axis=axis), axis=-1)))
         for axis in (1, 0)]
     shorter = min(sides)
     return (sides[0] / shorter, sides[1] / shorter) if shorter > 0.0 else (1.0, 1.0)

@@ -19,6 +19,9 @@ from cloth_sim_ros.rendering.camera import View
 from cloth_sim_ros.rendering.cloth_drawing import cell_sides
 from cloth_sim_ros.rendering.cloth_drawing import HEM_WIDTH
 from cloth_sim_ros.rendering.node_buffer import NodeBuffer
+from cloth_sim_ros.rendering.surface_programs import draw_surface
+from cloth_sim_ros.rendering.surface_programs import gap_defines
+from cloth_sim_ros.rendering.surface_programs import SurfacePrograms
 from cloth_sim_ros.rendering.survey import Survey
 import numpy as np
 
@@ -74,21 +77,26 @@ class DaylightDrawing:
         self._bodies = bodies
         self._survey = survey
         self._detail = detail
+        self._programs = SurfacePrograms()
 
     def cast(self, frame: Frame, view: View) -> None:
         """Draw what the lamp sees, before the picture is begun."""
         lamp = self._lamp_view(view)
         self._depths.begin()
         draw_nearest()
-        program = self._caster
-        program.use()
-        set_view(program, lamp)
         # It casts a shadow as soon as it is a surface.
         if min(frame.records.shape) > 1:
+            gaps = gap_defines(frame)
+            program = self._programs.of('render/plain.frag', gaps)
+            program.use()
+            set_view(program, lamp)
             self._nodes.load(frame, view.middle)
-            self._draw_strips(program, frame.records.shape)
+            draw_surface(program, frame.records.shape, has_gaps=bool(gaps))
+        program = self._programs.of('render/plain.frag', {})
+        program.use()
+        set_view(program, lamp)
         for shape in self._each_body(frame, view):
-            self._draw_strips(program, shape)
+            draw_surface(program, shape)
 
     def draw(self, frame: Frame, view: View, floor: float) -> None:
         """
@@ -107,11 +115,14 @@ class DaylightDrawing:
             program.set_float('behind', _BEHIND * self._survey.size)
             program.set_vectors('body_color', BODY_COLOR)
             for shape in self._each_body(frame, view):
-                self._draw_strips(program, shape)
+                draw_surface(program, shape)
         if min(frame.records.shape) == 1:
             return
         self._nodes.load(frame, view.middle)
-        with self._in_daylight(self._fabric, view) as program:
+        gaps = gap_defines(frame)
+        defines = CHECKED_DEFINES if self._is_checked else DAYLIGHT_DEFINES
+        fabric = self._programs.of('render/fabric.frag', {**defines, **gaps})
+        with self._in_daylight(fabric, view) as program:
             rows, cols = frame.records.shape
             along, down = cell_sides(frame.positions)
             shorter = min((cols - 1) * along, (rows - 1) * down)
@@ -121,7 +132,7 @@ class DaylightDrawing:
             program.set_vectors('ground_color', CHECK_GROUND)
             program.set_vectors(
                 'fabric_color', CHECK_COLOR if self._is_checked else PLAIN_COLOR)
-            self._draw_strips(program, (rows, cols))
+            draw_surface(program, (rows, cols), has_gaps=bool(gaps))
 
     def _lamp_view(self, view: View) -> View:
         """Return how the lamp sees the scene: from so far away that its rays are parallel."""
@@ -159,18 +170,9 @@ class DaylightDrawing:
                 rows, cols = points.shape[:2]
                 yield rows, cols
 
-    def _draw_strips(self, program: RenderProgram, shape: tuple[int, ...]) -> None:
-        rows, cols = shape
-        program.set_int('cols', cols)
-        program.draw_strips(2 * cols, rows - 1)
-
     @cached_property
     def _depths(self) -> DepthTexture:
         return DepthTexture(_DEPTH_SIDE)
-
-    @cached_property
-    def _caster(self) -> RenderProgram:
-        return RenderProgram('render/cloth.vert', 'render/plain.frag')
 
     @cached_property
     def _floor(self) -> RenderProgram:
@@ -179,9 +181,3 @@ class DaylightDrawing:
     @cached_property
     def _body(self) -> RenderProgram:
         return RenderProgram('render/collider.vert', 'render/body.frag', DAYLIGHT_DEFINES)
-
-    @cached_property
-    def _fabric(self) -> RenderProgram:
-        return RenderProgram(
-            'render/cloth.vert', 'render/fabric.frag',
-            CHECKED_DEFINES if self._is_checked else DAYLIGHT_DEFINES)

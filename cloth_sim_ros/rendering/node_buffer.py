@@ -40,14 +40,19 @@ class NodeBuffer:
         packed[..., 7] = frame.records['flags']
         self._load(packed)
 
-    def load_points(self, points: np.ndarray, middle: np.ndarray) -> None:
+    def load_points(
+            self, points: np.ndarray, middle: np.ndarray,
+            flags: np.ndarray | None = None) -> None:
         """
-        Upload positions without strain or flags: of a line, (n, 3) [m], or of a cloth.
+        Upload positions without strain: of a line, (n, 3) [m], or of a cloth.
 
+        :param flags: of the nodes; None for none
         :raises DeviceError: when they are too many for the device
         """
         packed = np.full((*points.shape[:-1], _WORDS), UNKNOWN_STRAIN, np.float32)
         packed[..., :3] = points - middle
+        if flags is not None:
+            packed[..., 7] = flags
         self._load(packed)
 
     def load_surface(self, points: np.ndarray, normals: np.ndarray, middle: np.ndarray) -> None:

@@ -118,7 +118,7 @@ def write_run_sheet(
     survey = Survey()
     frames = [frame for row in rows for frame in row if frame is not None]
     starts = [next(read_frames(recording)) for _, recording, _ in runs]
-    whole = starts + [frame for frame in frames if frame.strain.max() <= _TORN]
+    whole = starts + [frame for frame in frames if frame.strain[frame.present].max() <= _TORN]
     for frame in whole:
         survey.add(frame)
     for frame in frames:

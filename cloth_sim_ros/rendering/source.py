@@ -8,6 +8,7 @@ from abc import abstractmethod
 from collections.abc import Iterable
 from collections.abc import Iterator
 from collections.abc import Sequence
+from dataclasses import replace
 from functools import cached_property
 from pathlib import Path
 
@@ -148,7 +149,8 @@ class StateSource(Source):
     The one frame of the npz file at ``path``.
 
     It needs ``positions``, (rows, cols, 3) [m]; ``time`` [s], ``strain`` and ``flags``, both
-    (rows, cols), are taken where they are there.
+    (rows, cols), are taken where they are there. Positions may be NaN where there is no node, by
+    the flags.
 
     :raises ClothSimError: when there is no such file, or no cloth in it
     """
@@ -160,20 +162,22 @@ class StateSource(Source):
         positions = _positions(path, arrays)
         shape = positions.shape[:2]
         records = np.zeros(shape, POINT_DTYPE)
-        normals = surface_normals(positions)
-        for place, axis in enumerate('xyz'):
-            records[axis] = positions[..., place]
-            records[f'normal_{axis}'] = normals[..., place]
         self._missing = [key for key in ('strain', 'flags') if arrays.get(key) is None]
         records['strain'] = np.nan
         for key in ('strain', 'flags'):
             if key not in self._missing:
                 records[key] = _checked(path, arrays, key, shape)
+        self._frame = Frame(0.0, records)
+        _check_positions(path, positions[self._frame.present])
+        normals = surface_normals(positions)
+        for place, axis in enumerate('xyz'):
+            records[axis] = positions[..., place]
+            records[f'normal_{axis}'] = normals[..., place]
         time = _checked(path, arrays, 'time', ()) if 'time' in arrays else 0.0
         if not np.isfinite(time):
             raise ClothSimError(
                 f'time in {path} is {time:g} s, not a finite number: {_WRITE_IT_ANEW}')
-        self._frame = Frame(float(time), records)
+        self._frame = replace(self._frame, time=float(time))
 
     @property
     def modes(self) -> list[str]:
@@ -239,9 +243,13 @@ def _positions(path: str | Path, arrays: dict[str, np.ndarray]) -> np.ndarray:
             f'positions in {path} have the shape {positions.shape}, not (rows, cols, 3): '
             f'{_WRITE_IT_ANEW}')
     is_number = np.issubdtype(positions.dtype, np.number)
-    positions = positions.astype(float) if is_number else positions
-    if not is_number or not (np.abs(positions) <= _FARTHEST).all():
+    if not is_number:
+        _check_positions(path, np.array(np.nan))
+    return positions.astype(float)
+
+
+def _check_positions(path: str | Path, positions: np.ndarray) -> None:
+    if not (np.abs(positions) <= _FARTHEST).all():
         raise ClothSimError(
             f'positions in {path} are not all finite numbers up to {_FARTHEST:g} m: use a state '
             'from before the blow-up')
-    return positions

@@ -76,8 +76,11 @@ class FrameCheck:
             return
         away = np.stack([
             recorded[axis].astype(float) - made[axis].astype(float) for axis in 'xyz'])
-        distances = np.sqrt((away**2).sum(axis=0))
-        self.last_rms = float(np.sqrt((distances**2).mean()))
+        # Where there is no node, both are NaN.
+        is_moved = np.any([unequal[axis] for axis in 'xyz'], axis=0)
+        distances = np.where(is_moved, np.sqrt((away**2).sum(axis=0)), 0.0)
+        there = is_moved | ~np.isnan(recorded['x'])
+        self.last_rms = float(np.sqrt((distances[there]**2).mean()))
         # Where all positions are equal, a node whose other fields are not is of interest.
         where = distances if distances.any() else np.any(list(unequal.values()), axis=0)
         row, col = np.unravel_index(int(np.argmax(where)), where.shape)

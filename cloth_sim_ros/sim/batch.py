@@ -28,7 +28,6 @@ from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.guarded_steps import BoundsCheck
 from cloth_sim_ros.sim.held.stacked_pins import StackedPins
 from cloth_sim_ros.sim.loads.loads import Loads
-from cloth_sim_ros.sim.model.pins import checked_node
 from cloth_sim_ros.sim.model.pins import PinMove
 from cloth_sim_ros.sim.modes.mass_spring import MassSpring
 from cloth_sim_ros.sim.scene import GIVE_SCENE
@@ -75,7 +74,8 @@ class Stack:
         pinned = np.zeros(parts.shape, dtype=bool)
         pinned[rows] = [each.pinned_nodes() for each in scenes]
         self._state = State(
-            self.layout, starts, pinned, parts, has_low_parts=needs_low_parts(scene))
+            self.layout, starts, pinned, parts, absent=parts == 0.0 if scene.has_gaps else None,
+            has_low_parts=needs_low_parts(scene))
         self._loads = Loads(scene, self.layout, self._state)
         self._mode = MassSpring(scene, self.layout)
         self.pins = StackedPins(scene, self.layout, self._state)
@@ -94,8 +94,10 @@ class Stack:
             number += self._steps(number, end - number)
         if self._check.passes(self._state):
             return np.zeros(len(self.scenes), dtype=bool)
+        there = self.scenes[0].present_nodes[..., None]
         lost = ~np.all(
-            np.abs([self.positions(), self.velocities()]) < MOST_MAGNITUDE, axis=(0, 2, 3, 4))
+            ~there | (np.abs([self.positions(), self.velocities()]) < MOST_MAGNITUDE),
+            axis=(0, 2, 3, 4))
         kept = self._state.read_kept_positions()[self._rows]
         for cloth in np.flatnonzero(lost).tolist():
             self.write(cloth, kept[cloth], np.zeros_like(kept[cloth]))
@@ -220,7 +222,7 @@ class Batch(AbstractContextManager['Batch']):
         self.steps += count
 
     def positions(self) -> np.ndarray:
-        """Return all positions [m], (count, rows, cols, 3) float32."""
+        """Return all positions [m], (count, rows, cols, 3) float32; NaN for no node."""
         return self._gathered([stack.positions for stack in self._stacks])
 
     def velocities(self) -> np.ndarray:
@@ -239,8 +241,11 @@ class Batch(AbstractContextManager['Batch']):
         """
         numbers = self._checked_cloths(cloths)
         shape = (len(numbers), *self._shape, 3)
+        absent = None
+        if any(scene.has_gaps for scene in self.scenes):
+            absent = ~np.array([self.scenes[number].present_nodes for number in numbers])
         states = [
-            checked_vectors(values, of, shape, 'give one state for each cloth')
+            checked_vectors(values, of, shape, 'give one state for each cloth', absent=absent)
             for of, values in (('positions', positions), ('velocities', velocities))]
         self._context.make_current()
         for (stack, place), at, velocity in zip(self._places[numbers], *states):
@@ -342,7 +347,7 @@ class Batch(AbstractContextManager['Batch']):
         return numbers
 
     def _check_pin(self, cloth: int, row: int, col: int) -> None:
-        checked_node(row, col, *self._shape)
+        self.scenes[cloth].checked_node(row, col)
         stack, place = self._places[cloth]
         if not self._stacks[stack].pinned(place)[row, col]:
             raise ClothSimError(

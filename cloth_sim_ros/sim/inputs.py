@@ -34,7 +34,6 @@ from cloth_sim_ros.sim.model.frame_paths import FrameMove
 from cloth_sim_ros.sim.model.frame_paths import FramePath
 from cloth_sim_ros.sim.model.grasp_request import GraspRequest
 from cloth_sim_ros.sim.model.grid import usual_reach
-from cloth_sim_ros.sim.model.pins import checked_node
 from cloth_sim_ros.sim.model.pins import PinMove
 from cloth_sim_ros.sim.model.pins import PinPath
 from cloth_sim_ros.sim.model.pose import Pose
@@ -220,7 +219,7 @@ class TakeGrasp:
         reach = usual_reach(scene.rows, scene.cols, scene.spacing)
         nodes = (
             request.chosen(cloth.positions(), pinned, reach) if self.nodes is None
-            else given_nodes(request.name, self.nodes, pinned))
+            else given_nodes(request.name, self.nodes, pinned, cloth.scene))
         grasp = Grasp(request.name, request.pose, nodes, request.max_force)
         cloth.held.begin(grasp)
         return TakeGrasp.of(grasp), grasp
@@ -388,7 +387,7 @@ class InputListener:
 
 def _free_of_grasps(cloth: Cloth, row: int, col: int) -> tuple[int, int]:
     """Return ``row`` and ``col`` as ints; ClothSimError for no node, or one that a grasp holds."""
-    row, col = checked_node(row, col, cloth.scene.rows, cloth.scene.cols)
+    row, col = cloth.scene.checked_node(row, col)
     for grasp in cloth.grasps:
         if np.any(np.all(grasp.nodes == (row, col), axis=-1)):
             raise ClothSimError(

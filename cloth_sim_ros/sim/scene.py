@@ -28,12 +28,16 @@ from cloth_sim_ros.sim.model.materials import of_direction
 from cloth_sim_ros.sim.model.materials import spring_stiffness
 from cloth_sim_ros.sim.model.materials import WARP
 from cloth_sim_ros.sim.model.materials import WEFT
+from cloth_sim_ros.sim.model.pins import checked_node
 from cloth_sim_ros.sim.model.pins import only_node
 from cloth_sim_ros.sim.model.pins import PinMove
 from cloth_sim_ros.sim.model.pins import pinned_nodes
 from cloth_sim_ros.sim.model.push import Push
 from cloth_sim_ros.sim.model.scene_fields import FAMILIES
 from cloth_sim_ros.sim.model.scene_fields import Field
+from cloth_sim_ros.sim.model.shape import cells_of
+from cloth_sim_ros.sim.model.shape import embedded_mask
+from cloth_sim_ros.sim.model.shape import is_shaped
 from cloth_sim_ros.sim.model.wind import Gust
 import numpy as np
 
@@ -79,6 +83,8 @@ class Scene:
                     f'{family} edges are in constraint.hard and in constraint.springs: remove '
                     'them from one')
         self._check_mass()
+        # The file may be gone when a recording is simulated again.
+        self.values['shape.mask'] = embedded_mask(self['shape.mask'])
         self.cells = self._make_cells()
         self.colliders = colliders_of(self.values)
         self._check_contact()
@@ -122,19 +128,19 @@ class Scene:
     @property
     def mass(self) -> float:
         """Mass of the cloth [kg]; a chain's areal mass counts the whole width x height."""
-        return self.node_count * self.node_mass if self.cells is None else self._given_mass
+        count = self.node_count if self.cells is None else self.cells.count
+        return count * self.node_mass
 
     @property
     def node_mass(self) -> float:
         """Mass of a node [kg]; of one inside a cloth of cells, which has that of a cell."""
         if self['node_mass'] > 0.0:
             return self['node_mass']
-        return self._given_mass / (
-            self.node_count if self.cells is None else self.cells.count)
-
-    @property
-    def _given_mass(self) -> float:
-        return self['total_mass'] or self['areal_density'] * self['width'] * self['height']
+        if self.cells is not None and not self['total_mass']:
+            dx, dy = self.spacing
+            return self['areal_density'] * dx * dy
+        total = self['total_mass'] or self['areal_density'] * self['width'] * self['height']
+        return total / (self.node_count if self.cells is None else self.cells.count)
 
     @property
     def mass_per_area(self) -> float:
@@ -151,6 +157,39 @@ class Scene:
             # Takes no memory: a cloth can have millions of nodes.
             return np.broadcast_to(1.0, (self.rows, self.cols))
         return self.cells.node_shares
+
+    @cached_property
+    def present_nodes(self) -> np.ndarray:
+        """Which nodes there are, (rows, cols) bool: those of a cell, where a shape is cut."""
+        return self.node_shares > 0.0
+
+    @property
+    def has_gaps(self) -> bool:
+        """Return whether some nodes of the lattice are not there."""
+        return self.cells is not None and not bool(self.present_nodes.all())
+
+    def checked_node(self, row: int, col: int) -> tuple[int, int]:
+        """Return ``row`` and ``col`` as ints; ClothSimError when there is no such node."""
+        return checked_node(row, col, self.rows, self.cols, self.present_nodes)
+
+    def filled(self, vectors: np.ndarray) -> np.ndarray:
+        """Return ``vectors``, (rows, cols, 3), with 0 instead of NaN where there is no node."""
+        return np.where(self.present_nodes[..., None], vectors, 0.0) if self.has_gaps else vectors
+
+    @cached_property
+    def spanned(self) -> tuple[int, int]:
+        """Return how many rows and columns of nodes the cloth spans; a shape may leave some."""
+        if not self.has_gaps:
+            return self.rows, self.cols
+        rows, cols = np.nonzero(self.present_nodes)
+        return int(np.ptp(rows)) + 1, int(np.ptp(cols)) + 1
+
+    @property
+    def cut_cells(self) -> np.ndarray | None:
+        """Return which cells there are, (rows - 1, cols - 1) bool; None where all are."""
+        if self.cells is None or bool(self.cells.present.all()):
+            return None
+        return self.cells.present
 
     def stiffness(self, family: str, direction: int | None = None) -> float:
         """
@@ -212,7 +251,9 @@ class Scene:
 
     def pinned_nodes(self) -> np.ndarray:
         """Return which nodes are pinned at the start, (rows, cols) bool."""
-        pinned = pinned_nodes(self['pins'], self.rows, self.cols)
+        pinned = pinned_nodes(
+            self['pins'], self.rows, self.cols,
+            present=self.present_nodes if self.has_gaps else None)
         for node in self._nodes_at_points():
             pinned[node] = True
         return pinned
@@ -321,9 +362,27 @@ class Scene:
         """Return the cells of a fabric; None for the nodes and springs of the paper."""
         is_fabric = self['material.warp'] > 0.0 and self['node_mass'] == 0.0
         is_paper = self['layout'] == 'paper' or self['adaptive.scheme'] == 'paper'
+        if is_shaped(self.values):
+            self._check_shape()
+            return Cells(cells_of(self.values))
         if not is_fabric or is_paper or min(self.rows, self.cols) < 2:
             return None
         return Cells(np.ones((self.rows - 1, self.cols - 1), dtype=bool))
+
+    def _check_shape(self) -> None:
+        if min(self.rows, self.cols) < 2:
+            raise ClothSimError(
+                f'a shape is cut out of cells, and rows {self.rows} x cols {self.cols} have none: '
+                'give 2 or more of both')
+        others = (
+            ('node_mass', self['node_mass'] > 0.0, '0'),
+            ('layout', self['layout'] == 'paper', 'fused'),
+            ('adaptive.scheme', self['adaptive.scheme'] == 'paper', 'constraint'))
+        for name, is_other, none in others:
+            if is_other:
+                raise ClothSimError(
+                    f'{name} {self[name]} is of nodes of equal mass, and a shape is cut out of '
+                    f'cells: set {name}: {none}, or leave the shape out')
 
     def _check_mass(self) -> None:
         given = [name for name in ('total_mass', 'node_mass') if self[name] > 0.0]
@@ -350,6 +409,7 @@ class Scene:
         reach = self['pin_points.max_distance'] or max(
             distance for distance, nodes in zip(self.spacing, (self.cols, self.rows)) if nodes > 1)
         rest = self.rest_positions()
+        rest[~self.present_nodes] = np.inf
         found = (
             near_node(rest, flat[i:i + 3], reach, parameter='pin_points.max_distance')
             for i in range(0, len(flat), 3))

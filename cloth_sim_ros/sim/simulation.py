@@ -580,7 +580,7 @@ class Simulation(AbstractContextManager['Simulation']):
     # What it shows.
 
     def positions(self) -> np.ndarray:
-        """Return all positions [m], (rows, cols, 3) float32."""
+        """Return all positions [m], (rows, cols, 3) float32; NaN where a shape has no node."""
         self.engines.context.make_current()
         return self._state.read_positions()
 

@@ -8,6 +8,8 @@ import hashlib
 import math
 
 from cloth_sim_ros.sim.held.pin_forces import PinForces
+from cloth_sim_ros.sim.mesh import Mesh
+from cloth_sim_ros.sim.mesh import mesh_of_nodes
 import numpy as np
 
 # One node as the shader packs it: the body of a sensor_msgs/PointCloud2.
@@ -26,6 +28,13 @@ FLAG_AT_LIMIT = 2
 FLAG_PUSHED = 4
 FLAG_TOUCHING = 8
 FLAG_GRASPED = 16  # and pinned, as all nodes that are held
+# There is no cell to the lower right, within the lattice; set at all nodes that are not there.
+FLAG_GAP = 32
+
+
+def present_cells(flags: np.ndarray) -> np.ndarray:
+    """Return which cells there are between nodes with ``flags``, (rows - 1, cols - 1) bool."""
+    return (flags[:-1, :-1] & FLAG_GAP) == 0
 
 
 @dataclass(frozen=True)
@@ -183,6 +192,10 @@ class Snapshot(Measures):
         digest = hashlib.sha256(np.ascontiguousarray(self.positions).tobytes())
         digest.update(np.ascontiguousarray(self.velocities).tobytes())
         return digest.hexdigest()
+
+    def mesh(self) -> Mesh:
+        """Return the surface as triangles, without what a shape cuts away."""
+        return mesh_of_nodes(self.positions, self.normals, present_cells(self.flags))
 
     def _vectors(self, first: int) -> np.ndarray:
         words = self.records.view(np.float32).reshape(*self.records.shape, -1)

@@ -62,7 +62,8 @@ class State:
 
     def __init__(
             self, layout: Layout, positions: np.ndarray, pinned: np.ndarray,
-            parts: np.ndarray | None = None, *, has_low_parts: bool = False) -> None:
+            parts: np.ndarray | None = None, *, absent: np.ndarray | None = None,
+            has_low_parts: bool = False) -> None:
         """
         Upload ``positions`` [m] at rest.
 
@@ -70,6 +71,7 @@ class State:
         :param pinned: (rows, cols) bool
         :param parts: what each node stands for as cells.glsl has it, 0 where there is none,
             (rows, cols); None for nodes of equal mass everywhere
+        :param absent: nodes that read as NaN, (rows, cols) bool; None for none
         :param has_low_parts: as ``needs_low_parts`` says of the scene
         """
         self._layout = layout
@@ -77,6 +79,7 @@ class State:
         same = np.broadcast_to(1.0, pinned.shape)
         self._parts = same if parts is None else parts
         self._inverse_masses = same if parts is None else inverse_masses(parts)
+        self._absent = absent
         self.pinned = pinned.copy()
         nothing = np.zeros((layout.stored, 4), dtype=np.float32)
         self._positions = [Buffer(nothing) for _ in range(_PAIRS)]
@@ -101,8 +104,8 @@ class State:
         """Return both as arrays, or raise ClothSimError where they can't be stepped."""
         shape = (*self.pinned.shape, 3)
         return (
-            checked_vectors(positions, 'positions', shape),
-            checked_vectors(velocities, 'velocities', shape))
+            checked_vectors(positions, 'positions', shape, absent=self._absent),
+            checked_vectors(velocities, 'velocities', shape, absent=self._absent))
 
     def write(self, positions: np.ndarray, velocities: np.ndarray) -> None:
         """Replace all positions [m] and velocities [m/s], (rows, cols, 3); pins are at rest."""
@@ -112,6 +115,10 @@ class State:
         """Replace those of the rows from ``first`` on, as many as there are given."""
         self.edits += 1
         rows = np.s_[first:first + len(positions)]
+        if self._absent is not None:
+            there = ~self._absent[rows][..., None]
+            positions = np.where(there, positions, 0.0)
+            velocities = np.where(there, velocities, 0.0)
         weights = np.where(self.pinned[rows], 0.0, self._inverse_masses[rows])
         # With the ghosts beside them. Ghosts are never written by a step: all pairs need theirs.
         offset = self._offset(first, -HALO)
@@ -161,11 +168,11 @@ class State:
         return velocity
 
     def read_positions(self) -> np.ndarray:
-        """Return all positions [m], (rows, cols, 3) float32."""
+        """Return all positions [m], (rows, cols, 3) float32; NaN where there is no node."""
         return self._read(self._positions)
 
     def read_velocities(self) -> np.ndarray:
-        """Return all velocities [m/s], (rows, cols, 3) float32."""
+        """Return all velocities [m/s], (rows, cols, 3) float32; NaN where there is no node."""
         return self._read(self._velocities)
 
     def read_kept_positions(self) -> np.ndarray:
@@ -281,7 +288,10 @@ class State:
     def _read(self, buffers: Sequence[Buffer]) -> np.ndarray:
         stored = np.empty((self._layout.stored, 4), dtype=np.float32)
         buffers[self._now].read_into(stored)
-        return self._layout.load(stored)[..., :3].copy()
+        found = self._layout.load(stored)[..., :3].copy()
+        if self._absent is not None:
+            found[self._absent] = np.nan
+        return found
 
     def _write(
             self, buffers: list[Buffer], row: int, col: int, values: np.ndarray) -> None:
@@ -295,14 +305,22 @@ def start_state(scene: Scene, layout: Layout) -> State:
     """Return the state that ``scene`` starts with."""
     return State(
         layout, scene.start_positions(), scene.pinned_nodes(),
-        None if scene.cells is None else scene.cells.parts, has_low_parts=needs_low_parts(scene))
+        None if scene.cells is None else scene.cells.parts,
+        absent=~scene.present_nodes if scene.has_gaps else None,
+        has_low_parts=needs_low_parts(scene))
 
 
 def checked_vectors(
         values: np.ndarray, of: str, shape: tuple[int, ...],
-        hint: str = 'give 3 for each node') -> np.ndarray:
-    """Return ``values`` as float64 of ``shape``; ClothSimError where a cloth can't have them."""
+        hint: str = 'give 3 for each node', *, absent: np.ndarray | None = None) -> np.ndarray:
+    """
+    Return ``values`` as float64 of ``shape``; ClothSimError where a cloth can't have them.
+
+    :param absent: nodes whose values do not count, and are 0 in the result, (rows, cols) bool
+    """
     found = array(values, of, shape, hint)
+    if absent is not None:
+        found = np.where(absent[..., None], 0.0, found)
     largest = np.abs(found).max(initial=0.0)
     # NaN fails this as well.
     if not largest < MOST_MAGNITUDE:

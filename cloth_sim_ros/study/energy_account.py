@@ -19,6 +19,7 @@ from cloth_sim_ros.sim.modes import AVAILABLE
 from cloth_sim_ros.sim.scene import FAMILIES
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.simulation import Simulation
+from cloth_sim_ros.sim.snapshot import POINT_DTYPE
 from cloth_sim_ros.sim.snapshot import Snapshot
 from cloth_sim_ros.sim.solver.edge_law import EdgeLaw
 from cloth_sim_ros.sim.solver.edge_law import FAR
@@ -58,18 +59,18 @@ def compression_energy(
     thickness = scene['contact.thickness']
     gaps = [body.distance(positions) - 0.5 * thickness for body in colliders]
     compressed = 0.0
+    areas = scene.node_mass * scene.node_shares / scene.mass_per_area
     for first, second in combinations(range(len(colliders)), 2):
         lacking = np.maximum(-(gaps[first] + gaps[second]), 0.0)
         if not lacking.any():
             continue
         normals = [_normals(colliders[number], positions) for number in (first, second)]
-        lacking = lacking[np.sum(normals[0] * normals[1], axis=-1) < _FACING]
+        lacking *= np.sum(normals[0] * normals[1], axis=-1) < _FACING
         # The pressure grows up to a whole thickness, and no further.
         growing = np.minimum(lacking, thickness)
         linear = 0.5 * growing**2 / thickness if thickness > 0.0 else 0.0
-        compressed += float(np.sum(linear + lacking - growing))
-    area = scene['width'] * scene['height'] / scene.node_count
-    return float(scene['contact.compression']) * area * compressed
+        compressed += float(np.sum(areas * (linear + lacking - growing)))
+    return float(scene['contact.compression']) * compressed
 
 
 def _normals(body: Collider, positions: np.ndarray) -> np.ndarray:
@@ -215,7 +216,13 @@ class EnergyAccount:
             applied.push.overlap(begin, end) > 0.0 for applied in self._run.pushes)
 
     def _look(self) -> Snapshot:
-        return self._run.snapshot(tension=True, pin_forces=self._has_pin_moves)
+        seen = self._run.snapshot(tension=True, pin_forces=self._has_pin_moves)
+        if self._run.scene.has_gaps:
+            # Nodes that are not there have no mass and no area: at rest they do no work.
+            absent = ~self._run.scene.present_nodes
+            for name in (POINT_DTYPE.names or ())[:-1]:
+                seen.records[name][absent] = 0.0
+        return seen
 
     def _energy(self, seen: Snapshot) -> float:
         return self._moving(seen) + seen.gravitational_energy
@@ -249,8 +256,8 @@ class EnergyAccount:
 
     def _forces(self, seen: Snapshot) -> tuple[np.ndarray, np.ndarray]:
         """Return the free nodes, (n, 2), and the forces of gravity and edges on them [N]."""
-        free = np.argwhere(~self._run.pinned_nodes())
         scene = self._run.scene
+        free = np.argwhere(~self._run.pinned_nodes() & scene.present_nodes)
         assert seen.tension is not None  # the snapshots are taken with it
         pulls = edge_pulls(scene, seen.positions, seen.velocities, seen.tension, free)
         return free, pulls + self._masses(free) * np.array(scene['gravity'])

@@ -35,8 +35,10 @@ class FrameMaker:
         scene = run.scene
         self._run = run
         self._outputs = outputs
-        self._points = PointsMessage(scene.rows, scene.cols, _FRAME_ID)
-        self._markers = MarkersMessage(scene.rows, scene.cols, _FRAME_ID)
+        self._points = PointsMessage(
+            scene.rows, scene.cols, _FRAME_ID, is_dense=not scene.has_gaps)
+        self._markers = MarkersMessage(
+            scene.rows, scene.cols, _FRAME_ID, present=scene.cut_cells)
         self._wrenches = WrenchMessages(_NODE_NAME)
         self._has_wrenches = 'wrenches' in outputs and not too_many_pins(
             int(np.count_nonzero(run.pinned_nodes())))

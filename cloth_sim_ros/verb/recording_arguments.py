@@ -41,3 +41,14 @@ def list_of_times(text: str) -> list[float]:
     if not all(math.isfinite(time) for time in times):
         raise ArgumentTypeError(f'{shown(text)} is not a list of times: write them as in 0.5,1,2')
     return sorted(times)
+
+
+def finite_time(text: str) -> float:
+    """Read a time [s], as in 1.5."""
+    try:
+        time = float(text)
+    except ValueError:
+        time = math.nan
+    if not math.isfinite(time):
+        raise ArgumentTypeError(f'{shown(text)} is not a time: write it as in 1.5')
+    return time

@@ -10,7 +10,7 @@ from cloth_sim_ros.analysis.collider_surface import ground
 from cloth_sim_ros.analysis.collider_surface import local_surface
 from cloth_sim_ros.analysis.frame import Frame
 from cloth_sim_ros.analysis.strain_stops import strain_rgb
-from cloth_sim_ros.messages.geometry import triangles
+from cloth_sim_ros.sim.mesh import triangles
 from cloth_sim_ros.sim.model.colliders import Collider
 from cloth_sim_ros.view.source import Source
 from cloth_sim_ros.view.surface import band_colors
@@ -50,11 +50,11 @@ class ClothDrawing:
 
         :param full_strain: that the last colour stands for
         """
-        if frame.strain.shape != self._shape:
-            self._shape = frame.strain.shape
-            self.surface = Surface(*self._shape)
-            points = self.surface.points(frame)
-            self._size = _PIN_SIZE * float(np.linalg.norm(np.ptp(points, axis=0)))
+        rows, cols = frame.strain.shape
+        if self._shape != (rows, cols) or not np.array_equal(frame.cells, self.surface.cells):
+            self._shape = rows, cols
+            self.surface = Surface(rows, cols, frame.cells)
+            self._size = _PIN_SIZE * diagonal(frame)
         self.full_strain = full_strain
         for handle, mesh in zip(self._bands, self.surface.bands(frame, full_strain)):
             handle.visible = mesh is not None
@@ -75,6 +75,11 @@ class ClothDrawing:
         self._scene.add_point_cloud(
             name, points, colors, point_size=self._size, point_shape='circle',
             precision='float32', visible=len(points) > 0)
+
+
+def diagonal(frame: Frame) -> float:
+    """Return that of the box along the axes that the cloth is in [m]."""
+    return float(np.linalg.norm(np.ptp(frame.positions[frame.present], axis=0)))
 
 
 # The floor and the lamp.
@@ -137,12 +142,9 @@ class ColliderDrawing:
         self._handles: dict[str, viser.MeshHandle] = {}
         self._shown: tuple[Collider, ...] = ()
 
-    def draw(self, colliders: tuple[Collider, ...], positions: np.ndarray) -> None:
-        """
-        Show ``colliders`` where they are.
-
-        :param positions: of the cloth, which the size of planes is chosen by, (rows, cols, 3) [m]
-        """
+    def draw(self, frame: Frame) -> None:
+        """Show the colliders of ``frame`` where they are, and planes around its cloth."""
+        colliders = frame.colliders
         if colliders == self._shown:
             return
         self._shown = colliders
@@ -151,13 +153,12 @@ class ColliderDrawing:
             self._handles.pop(name).remove()
         for collider in colliders:
             if collider.name not in self._handles:
-                self._handles[collider.name] = self._add(collider, positions)
+                self._handles[collider.name] = self._add(collider, diagonal(frame))
             handle = self._handles[collider.name]
             x, y, z, w = collider.orientation
             handle.position, handle.wxyz = np.array(collider.position), np.array((w, x, y, z))
 
-    def _add(self, collider: Collider, positions: np.ndarray) -> viser.MeshHandle:
-        size = float(np.linalg.norm(np.ptp(positions.reshape(-1, 3), axis=0)))
+    def _add(self, collider: Collider, size: float) -> viser.MeshHandle:
         points, _ = local_surface(collider.shape, collider.size, _PLANE * size)
         return self._scene.add_mesh_simple(
             f'/colliders/{collider.name}', points.reshape(-1, 3).astype(np.float32),
@@ -202,8 +203,7 @@ class PinHandles:
         positions = frame.positions
         for node in pins if is_shown else ():
             if node not in self._handles:
-                extent = np.linalg.norm(np.ptp(positions.reshape(-1, 3), axis=0))
-                self._handles[node] = self._add(node, _SIZE * float(extent))
+                self._handles[node] = self._add(node, _SIZE * diagonal(frame))
             handle = self._handles[node]
             if node not in self._dragged and not np.array_equal(handle.position, positions[node]):
                 handle.position = positions[node]

@@ -8,7 +8,8 @@ from dataclasses import dataclass
 
 from cloth_sim_ros.analysis.frame import Frame
 from cloth_sim_ros.analysis.strain_stops import strain_rgb
-from cloth_sim_ros.messages.geometry import triangles
+from cloth_sim_ros.sim.mesh import sampled_cells
+from cloth_sim_ros.sim.mesh import triangles
 import numpy as np
 
 BANDS = 12
@@ -24,16 +25,19 @@ class Surface:
 
     :param rows: of the cloth
     :param cols: of the cloth
+    :param cells: which there are, (rows - 1, cols - 1) bool; None for all
     """
 
-    def __init__(self, rows: int, cols: int) -> None:
+    def __init__(self, rows: int, cols: int, cells: np.ndarray | None = None) -> None:
         """Choose the nodes to show: all, or some of each row and column, with the last."""
         self.rows = _thinned(rows)
         self.cols = _thinned(cols)
-        self.faces = triangles(len(self.rows), len(self.cols))
+        self.cells = np.ones((rows - 1, cols - 1), dtype=bool) if cells is None else cells
+        self.faces = triangles(
+            len(self.rows), len(self.cols), sampled_cells(self.cells, self.rows, self.cols))
 
     def points(self, frame: Frame) -> np.ndarray:
-        """Return the shown nodes [m], (nodes, 3) float32."""
+        """Return the shown nodes [m], (nodes, 3) float32; NaN where there is none."""
         return self._shown(frame.positions).reshape(-1, 3).astype(np.float32)
 
     def strain(self, frame: Frame) -> np.ndarray:

@@ -54,7 +54,7 @@ class Window:
         with self._server.atomic():
             if is_new or self._controls.full_strain != self._drawing.full_strain:
                 self._drawing.draw(moment.frame, self._controls.full_strain)
-            self._colliders.draw(moment.frame.colliders, moment.frame.positions)
+            self._colliders.draw(moment.frame)
             if self._pins is not None and is_new:
                 self._pins.follow(moment.frame, self._controls.shows_handles)
             self._controls.show(moment)
@@ -85,7 +85,7 @@ class Window:
             force.tolist(), hit.point, self._controls.push_radius, self._controls.push_duration)
 
     def _look_at(self, moment: Moment) -> None:
-        positions = moment.frame.positions.reshape(-1, 3)
+        positions = moment.frame.positions[moment.frame.present]
         low, high = positions.min(axis=0), positions.max(axis=0)
         reach = max(float(np.linalg.norm(high - low)), 1e-3)
         center = (low + high) / 2.0 - (0.0, 0.0, 0.25 * reach)

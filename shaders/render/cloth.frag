@@ -5,12 +5,11 @@
 // The colour of the cloth: its strain under the light, dots on nodes at their limit, and a hem.
 
 #include "render/nodes.glsl"
+#include "render/hem.glsl"
 #include "render/light.glsl"
 #include "render/strain_color.glsl"
 
-uniform int rows;
 uniform vec2 cell;         // sides of a cell at rest, the shorter one 1
-uniform float hem_width;   // [pixel]
 uniform vec3 limit_color;
 
 in vec3 normal;
@@ -36,16 +35,11 @@ vec2 limit_dot() {
 }
 #endif
 
-float hem() {
-    vec2 inside = min(place, vec2(cols - 1, rows - 1) - place) / max(fwidth(place), vec2(1e-6));
-    return HEM_SHADE * clamp(hem_width - min(inside.x, inside.y) + 0.5, 0.0, 1.0);
-}
-
 void main() {
     vec3 shown = lit(strain_color(strain), normalize(normal), gl_FrontFacing);
 #ifdef HAS_LIMITS
     vec2 covered = limit_dot();
     shown = mix(mix(shown, vec3(DOT_RIM), covered.x), limit_color, covered.y);
 #endif
-    color = vec4(shown * (1.0 - hem()), 1.0);
+    color = vec4(shown * (1.0 - hem(place)), 1.0);
 }

@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 
 #version 430 core
-// The surface: one strip of triangles between two rows of nodes, two vertices a column.
+// The surface: one strip of triangles between two rows of nodes, two vertices a column. HAS_GAPS:
+// two triangles, six vertices, a cell; those of cells that there are not are points nowhere.
 
 #include "render/view.glsl"
 #include "render/nodes.glsl"
@@ -21,8 +22,24 @@ out vec3 point;
 #endif
 
 void main() {
+#ifdef HAS_GAPS
+    // Rows and columns from the upper left corner of the cell, in the order of a strip.
+    const ivec2 corners[6] =
+        ivec2[](ivec2(0, 0), ivec2(1, 0), ivec2(0, 1), ivec2(0, 1), ivec2(1, 0), ivec2(1, 1));
+    ivec2 corner = corners[gl_VertexID % 6];
+    int row = gl_InstanceID;
+    int col = gl_VertexID / 6;
+#ifdef SHADOW
+    bool is_missing = is_gap(row * stride, col * stride);
+#else
+    bool is_missing = is_gap(row, col);
+#endif
+    row += corner.x;
+    col += corner.y;
+#else
     int row = gl_InstanceID + (gl_VertexID & 1);
     int col = gl_VertexID >> 1;
+#endif
 #ifdef SHADOW
     row = min(row * stride, rows - 1);
     col = min(col * stride, cols - 1);
@@ -40,5 +57,10 @@ void main() {
     point = found.xyz;
 #endif
     gl_Position = seen(found.xyz);
+#endif
+#ifdef HAS_GAPS
+    if (is_missing) {
+        gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
+    }
 #endif
 }

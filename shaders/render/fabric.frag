@@ -4,12 +4,11 @@
 #version 430 core
 // Cloth as one sees it: a fabric of one colour or in checks, in daylight, and a hem.
 
+#include "render/nodes.glsl"
+#include "render/hem.glsl"
 #include "render/lamp.glsl"
 
 uniform vec3 towards_camera;
-uniform int rows;
-uniform int cols;
-uniform float hem_width;     // [pixel]
 uniform vec3 fabric_color;
 #ifdef CHECKED
 uniform vec2 check;          // sides of a check: columns, rows
@@ -33,11 +32,6 @@ vec2 coloured(vec2 at) {
 }
 #endif
 
-float hem() {
-    vec2 inside = min(place, vec2(cols - 1, rows - 1) - place) / max(fwidth(place), vec2(1e-6));
-    return HEM_SHADE * clamp(hem_width - min(inside.x, inside.y) + 0.5, 0.0, 1.0);
-}
-
 void main() {
 #ifdef CHECKED
     // Warp and weft cover each other by halves.
@@ -48,5 +42,5 @@ void main() {
 #endif
     vec3 outward = normalize(gl_FrontFacing ? normal : -normal);
     color = vec4(
-        daylight_on_cloth(dyed, point, outward, towards_camera) * (1.0 - hem()), 1.0);
+        daylight_on_cloth(dyed, point, outward, towards_camera) * (1.0 - hem(place)), 1.0);
 }

@@ -31,7 +31,7 @@ void main() {
     vec3 before = is_further == 1
         ? load_vector(cloth_entry(CHANGE, level_index(0, row, col))) : vec3(0.0);
     store_vector(cloth_entry(CHANGE, level_index(0, row, col)), before + change);
-    change += common_change;
+    change += velocity.w > 0.0 ? common_change : vec3(0.0);
     velocity.xyz = changed_velocity(index, velocity.xyz, change);
     vec3 moved = substep * (is_further == 1 ? change : velocity.xyz);
     velocity_out[index] = velocity;

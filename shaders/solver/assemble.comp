@@ -42,7 +42,12 @@ void main() {
     Symmetric of_family[] =
         Symmetric[](Symmetric(0.0), Symmetric(0.0), Symmetric(0.0));
     EACH_EDGE(ADD_BLOCKS, of_family)
-    float mass = mass_share(load_node(at));
+#if HAS_CELLS
+    // Not 0 where there is no node, whose inverse has to be finite.
+    float mass = max(mass_share(load_node(at)), 0.25);
+#else
+    float mass = 1.0;
+#endif
     Symmetric diagonal = scaled_identity(mass);
     diagonal += of_family[STRUCTURAL];
     diagonal += of_family[SHEAR];

@@ -139,6 +139,9 @@ void main() {
         vec4 node = load_node(first + ivec2(i / 2, i % 2));
         mass += node.w != 0.0 ? mass_share(node) : 0.0;
     }
+#if HAS_CELLS
+    mass = max(mass, 0.25);
+#endif
     Symmetric ground = scaled_identity(mass);
     // A loop ends where no invocation beside this one goes on; a branch costs llvmpipe the same
     // either way.

@@ -11,6 +11,9 @@ from cloth_sim_ros.messages.frame import PointsMessage
 from cloth_sim_ros.messages.frame import stats_message
 from cloth_sim_ros.recording.recorder import Recorder
 from cloth_sim_ros.sim.errors import ClothSimError
+from cloth_sim_ros.sim.scene import Scene
+from cut_scene import CUT
+from cut_scene import cut_snapshot
 from made_snapshot import make_snapshot
 import numpy as np
 import pytest
@@ -109,3 +112,19 @@ def test_times_go_on_over_a_reset(known):
     result = compare(Recording(known.folder), Recording(known.folder))
     assert result.identical and result.unmatched == (0, 0)
     assert result.times[-1] == pytest.approx(0.48)
+
+
+def test_cloths_of_other_shapes_are_refused(recorded, tmp_path):
+    """Nodes would be compared with places where there is none."""
+    scene = Scene(CUT)
+    paths = []
+    for name, values in (('disc', CUT), ('ring', {**CUT, 'shape.disc': 0.3})):
+        recorder = Recorder(tmp_path, name)
+        message = PointsMessage(scene.rows, scene.cols, 'world', is_dense=False)
+        recorder.write('points', message.serialise(cut_snapshot(Scene(values))), 1.25)
+        recorder.close()
+        paths.append(tmp_path / name)
+    with pytest.raises(ClothSimError, match='different shapes'):
+        compare(*map(Recording, paths))
+    same = compare(Recording(paths[0]), Recording(paths[0]))
+    assert same.identical and same.max_distance.tolist() == [0.0]

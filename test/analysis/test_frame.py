@@ -10,6 +10,7 @@ from cloth_sim_ros.analysis.frame import Frame
 from cloth_sim_ros.analysis.recording import Recording
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.model.push import Push
+from made_snapshot import make_snapshot
 import numpy as np
 import pytest
 
@@ -44,3 +45,25 @@ def test_only_pushes_of_its_time_act(hanging):
     early, late = (
         Push.checked(force=(1.0, 0.0, 0.0), start=start, duration=0.5) for start in (0.0, 0.8))
     assert hanging(1.0, pushes=(early, late)).acting_pushes == (late,)
+
+
+def test_flags_that_are_no_whole_numbers_are_refused():
+    """A cloud of another program ended `cloth_sim render` with a traceback."""
+    names = ('x', 'y', 'z', 'normal_x', 'normal_y', 'normal_z', 'strain', 'flags')
+    fields = [
+        SimpleNamespace(name=name, offset=4 * number, datatype=7, count=1)
+        for number, name in enumerate(names)]
+    cloud = SimpleNamespace(
+        fields=fields, height=1, width=1, point_step=32, is_bigendian=False, data=bytes(32))
+    with pytest.raises(ClothSimError, match='flags of the type float32, which must be whole'):
+        Frame.from_points(0.0, cloud)
+
+
+def test_its_mesh_is_that_of_the_snapshot(known):
+    """A mesh of a recording would be of another cloth than the one simulated."""
+    entry = next(Recording(known.folder).entries('points'))
+    records = known.records[0]
+    mesh = Frame.from_points(entry.time, entry.message).mesh()
+    expected = make_snapshot(*records.shape, records=records).mesh()
+    for name in ('vertices', 'normals', 'uv', 'triangles'):
+        np.testing.assert_array_equal(getattr(mesh, name), getattr(expected, name))

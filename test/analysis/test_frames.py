@@ -5,6 +5,7 @@
 
 from cloth_sim_ros.analysis.frames import ColliderHistory
 from cloth_sim_ros.analysis.frames import default_times
+from cloth_sim_ros.analysis.frames import frame_at
 from cloth_sim_ros.analysis.frames import frames_at
 from cloth_sim_ros.analysis.frames import panel_times
 from cloth_sim_ros.analysis.frames import read_frames
@@ -138,6 +139,20 @@ def test_the_nearest_frame_is_taken(known, time, nearest):
     assert frame.time == pytest.approx(nearest)
 
 
+@pytest.mark.parametrize('time, nearest', [
+    (None, 0.48), (-1e-7, 0.0), (0.0, 0.0), (0.029, 0.02), (0.031, 0.04), (0.48 + 1e-7, 0.48)])
+def test_a_frame_near_a_time(known, time, nearest):
+    """A mesh would be of another time than asked for."""
+    assert frame_at(Recording(known.folder), time).time == pytest.approx(nearest)
+
+
+@pytest.mark.parametrize('time', [-0.01, 0.49])
+def test_no_frame_beyond_the_ends(known, time):
+    """A mesh would be of another time than asked for, by any amount."""
+    with pytest.raises(ClothSimError, match=f'frames from 0 to 0.48 s, and none at {time} s'):
+        frame_at(Recording(known.folder), time)
+
+
 def test_one_frame_can_be_asked_for_twice(known):
     """Times closer together than the frames would shift all that follow."""
     frames = frames_at(Recording(known.folder), [0.1, 0.101, 0.2])
@@ -170,7 +185,8 @@ def test_default_times_show_each_push(known):
 
 
 @pytest.mark.parametrize('read', [
-    lambda recording: frames_at(recording, [1.0]), lambda recording: default_times(recording, 3)])
+    frame_at, lambda recording: frames_at(recording, [1.0]),
+    lambda recording: default_times(recording, 3)])
 def test_a_recording_without_frames_is_refused(tmp_path, read):
     """A user would get an empty picture and no reason."""
     Recorder(tmp_path, 'empty', 'cloth_sim').close()

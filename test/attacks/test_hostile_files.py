@@ -95,6 +95,7 @@ def test_a_scene_that_is_no_file_is_refused(verbs, tmp_path, kind):
     check(verbs.run('run', path), 1)
     check(verbs.run('render', f'{path}.npz' if kind == 'long name' else path, '--out', 'x.png'), 1)
     check(verbs.run('info', path), 1)
+    check(verbs.run('export', path, '--output', tmp_path / 'x.obj'), 1)
 
 
 def names(*listed):
@@ -197,3 +198,29 @@ def test_a_hostile_database_does_no_harm(verbs, bag, tmp_path, name):
     for verb in ('info', 'analyze'):
         check(verbs.run(verb, folder))
     check(verbs.run('play', folder, '--delay', 0, '--rate', 1e6, '--duration', 1))
+
+
+@pytest.mark.parametrize('kind', [
+    'pipe', '/dev/zero', '/dev/urandom', 'large', 'long name', 'wide', 'PostScript', 'text'])
+def test_a_mask_that_is_no_image_is_refused(verbs, tmp_path, kind):
+    """A run would wait for ever, fill the memory, or run what an image tells it to."""
+    file = Path(kind) if kind.startswith('/dev') else tmp_path / 'mask.png'
+    if kind == 'pipe':
+        os.mkfifo(file)
+    elif kind == 'large':
+        with file.open('wb') as stream:
+            stream.truncate(1 << 40)
+    elif kind == 'long name':
+        file = tmp_path / ('x' * 5000)
+    elif kind == 'wide':
+        # 40,000 x 25,000 pixels in its head.
+        file.write_bytes(bytes.fromhex(
+            '89504e470d0a1a0a0000000d49484452' '00009c40000061a80800000000'
+            '88c5a9d5') + bytes(4) + b'IDAT' + bytes.fromhex('35af061e'))
+    elif kind == 'PostScript':
+        file.write_text('%!PS-Adobe-3.0 EPSF-3.0\n%%BoundingBox: 0 0 4 4\n(x) run\n')
+    elif kind == 'text':
+        file.write_text('no image')
+    check(verbs.run(
+        'run', CONFIG / 'drape.yaml', '--set', f'shape.mask={file}', '--set', 'rows=9', '--set',
+        'cols=9', '--seconds', 0.02), 1)

@@ -3,6 +3,8 @@
 
 """Requests of a megabyte get short answers, and leave short lines in the log."""
 
+from pathlib import Path
+
 from cloth_sim_interfaces.msg import PinTarget
 from cloth_sim_interfaces.msg import Push
 from cloth_sim_interfaces.srv import ApplyPush
@@ -24,6 +26,7 @@ LONG = 'x\x1b' * 500_000
 ARGUMENT = 'x' * 100_000
 MOST = 600
 NAME = '/long/cloth_sim'
+EXAMPLE = Path(__file__).resolve().parents[2] / 'bags' / 'example'
 
 
 def test_a_node_answers_briefly(tmp_path):
@@ -65,7 +68,10 @@ def test_a_node_answers_briefly(tmp_path):
     ('run', '{scene}', '--set', f'dt=[{ARGUMENT}'),
     ('run', '{scene}', '--set', f'rows={"9" * 90_000}'), ('run', '{scene}', '--seconds', ARGUMENT),
     ('run', '{scene}', '--record', '{folder}', '--set', f'recording.name={ARGUMENT}'),
-    ('pause', '--node', ARGUMENT, '--timeout', '0.1'), ('render', '{folder}', '--size', ARGUMENT)],
+    ('pause', '--node', ARGUMENT, '--timeout', '0.1'), ('render', '{folder}', '--size', ARGUMENT),
+    ('export', '{folder}', '--at', ARGUMENT), ('export', '{folder}', '--format', ARGUMENT),
+    ('export', '{folder}', '--output', ARGUMENT),
+    ('export', '{example}', '--output', f'{ARGUMENT}.obj')],
     ids=lambda arguments: ' '.join(argument[:24] for argument in arguments))
 def test_a_verb_answers_briefly(arguments, tmp_path):
     """A mistyped command would fill the terminal, or end in a traceback."""
@@ -73,6 +79,7 @@ def test_a_verb_answers_briefly(arguments, tmp_path):
     scene.write_text('/**: {ros__parameters: {rows: 4, cols: 4}}')
     result = cloth_sim(*(
         argument.replace('{scene}', str(scene)).replace('{folder}', str(tmp_path))
+        .replace('{example}', str(EXAMPLE))
         for argument in arguments))
     assert result.returncode in (1, 2), result.stderr[-2000:]
     assert 'Traceback' not in result.stderr, result.stderr[-2000:]

@@ -8,6 +8,8 @@ from random import Random
 import shutil
 
 from cloth_sim_ros.recording.bag_reader import BagReader
+from cloth_sim_ros.sim.errors import ClothSimError
+from cloth_sim_ros.sim.scene import Scene
 from copied_bag import copy_bag
 from forked_verbs import Outcome
 from mcap.writer import CompressionType
@@ -15,6 +17,7 @@ from mcap.writer import Writer
 from mutations import mutate_bytes
 from mutations import mutate_text
 import numpy as np
+from PIL import Image
 import pytest
 
 CONFIG = Path(__file__).resolve().parents[2] / 'config'
@@ -75,6 +78,9 @@ def read_bag(verbs, bag, out, number):
     """Return the outcome of a verb that reads ``bag``: info mostly, which is quick."""
     if number % 20 == 3:
         return verbs.run('render', bag, '--out', out / 'picture.png', '--size', '64x64')
+    if number % 20 == 9:
+        ending = ('glb', 'usda')[number % 40 > 20]
+        return verbs.run('export', bag, '--output', out / f'mesh.{ending}')
     if number % 10 == 7:
         return verbs.run('resimulate', bag)
     if number % 50 == 11:
@@ -163,3 +169,22 @@ def test_damaged_scenes_are_run_or_refused(verbs, tmp_path, usual_seed, count):
         check(outcome, f'seed {usual_seed}, number {number}')
         refused += outcome.code
     print(f'{refused} of {count} were refused')
+
+
+@COUNTS
+@pytest.mark.parametrize('ending', ['png', 'jpg', 'gif', 'tiff', 'webp', 'ppm'])
+def test_damaged_masks_are_cut_or_refused(tmp_path, usual_seed, ending, count):
+    """An image from elsewhere would end a run as a traceback."""
+    grey = np.zeros((40, 40), np.uint8)
+    grey[4:36, 5:33] = 255
+    file = tmp_path / f'mask.{ending}'
+    Image.fromarray(grey).save(file)
+    content, cut = file.read_bytes(), 0
+    for number in range(count):
+        file.write_bytes(mutate_bytes(content, Random(f'{usual_seed} {number}')))
+        try:
+            Scene({'rows': 9, 'cols': 9, 'shape.mask': str(file), 'pins': ['none']})
+            cut += 1
+        except ClothSimError as error:
+            assert '\n' not in str(error), f'seed {usual_seed}, number {number}'
+    print(f'{cut} of {count} were cut')

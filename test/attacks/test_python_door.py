@@ -5,6 +5,7 @@
 
 from collections.abc import Callable
 from collections.abc import Iterator
+from dataclasses import replace
 import inspect
 import math
 from pathlib import Path
@@ -21,10 +22,12 @@ from cloth_sim_ros import resimulate
 from cloth_sim_ros import Scene
 from cloth_sim_ros import Simulation
 from cloth_sim_ros import SimulationRecorder
+from cloth_sim_ros import write_mesh
 from cloth_sim_ros.gl.context import Context
 from cloth_sim_ros.gym import CarryCloth
 from cloth_sim_ros.sim.held.force_window import ForceWindow
 from cloth_sim_ros.sim.inputs import Pin
+from cloth_sim_ros.sim.mesh import mesh_of_nodes
 from hostile_values import HOSTILE
 from hostile_values import hostile
 import numpy as np
@@ -42,6 +45,7 @@ BATCHED = {key: value for key, value in SMALL.items() if not key.startswith('air
 STATE = np.zeros((ROWS, COLS, 3))
 PINNED = np.zeros((ROWS, COLS), bool)
 CENTER = (0.0, 0.0, 1.0)
+MESH = mesh_of_nodes(STATE, STATE, np.ones((ROWS - 1, COLS - 1), bool))
 
 # What may be passed to each method; each argument is replaced by each hostile value in turn.
 OF_SIMULATION: dict[str, dict[str, Any]] = {
@@ -278,6 +282,10 @@ def test_anything_in_place_of_a_scene(context, tmp_path, name):
         'load_scene changes': lambda: load_scene(
             BAG.parents[1] / 'config' / 'drape.yaml', value),
         'resimulate': lambda: resimulate(value),
+        'write_mesh': lambda: write_mesh(value, tmp_path / 'any.obj'),
+        'write_mesh path': lambda: write_mesh(MESH, value),
+        **{f'write_mesh {part}': lambda part=part: write_mesh(
+            replace(MESH, **{part: value}), tmp_path / 'any.obj') for part in vars(MESH)},
     }
     for of, make in makers.items():
         try:

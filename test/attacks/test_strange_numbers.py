@@ -69,11 +69,13 @@ def check(outcome):
         (3e38, 'one node'), (3e38, 'stats'), (3e38, 'push'),
         *((-math.inf, kind) for kind in KINDS)))])
 def test_a_recording_of_them_is_shown_or_refused(verbs, tmp_path, number, kind):
-    """A run that was lost would end `cloth_sim analyze` and `render` as a traceback."""
+    """A run that was lost would end `cloth_sim analyze`, `render` or `export` as a traceback."""
     bag = recorded(tmp_path, number, kind)
     verbs.warm_up('info', bag)
     check(verbs.run('analyze', bag, '--out', tmp_path / 'out'))
     check(verbs.run('render', bag, '--out', tmp_path / 'picture.png', '--size', '64x64'))
+    for ending in ('.obj', '.ply', '.glb', '.usda'):
+        check(verbs.run('export', bag, '--output', tmp_path / f'mesh{ending}'))
 
 
 @pytest.mark.parametrize('kind', [np.float16, np.float64])

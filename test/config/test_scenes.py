@@ -55,7 +55,7 @@ def test_it_moves_and_stays_cloth(given, seconds):
     snapshot = simulation.snapshot()
     simulation.close()
     assert snapshot.finite
-    assert np.abs(snapshot.positions - scene.start_positions()).max() > 2e-3
+    assert np.nanmax(np.abs(snapshot.positions - scene.start_positions())) > 2e-3
     # Next to pins springs stretch more; cloth as a whole hardly does.
-    assert float(snapshot.strain.mean()) < 0.03
+    assert float(snapshot.strain[scene.present_nodes].mean()) < 0.03
     assert snapshot.max_strain < 0.3

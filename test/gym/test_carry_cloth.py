@@ -10,6 +10,7 @@ import sys
 
 from cloth_sim_ros import ClothSimError
 from cloth_sim_ros import Scene
+from cut_scene import CUT
 import gymnasium
 import numpy as np
 import pytest
@@ -139,3 +140,14 @@ def test_without_gymnasium_it_says_what_is_missing():
     done = subprocess.run([sys.executable, '-c', start], capture_output=True, text=True)
     assert done.returncode == 1
     assert 'pip install gymnasium' in done.stderr.splitlines()[-1]
+
+
+def test_a_cut_cloth_is_carried(make):
+    """A reward would be NaN, or an observation outside its space."""
+    environment = make(
+        {**CUT, 'pin_points.positions': (0.0, 0.17, 1.0)}, observation=['state', 'depth'])
+    observation, info = environment.reset(seed=1)
+    assert environment.observation_space.contains(observation)
+    observation, reward, *_, info = environment.step(np.ones((1, 3), np.float32))
+    assert environment.observation_space.contains(observation)
+    assert np.isfinite(reward) and info['problem'] == ''

@@ -9,7 +9,10 @@ from cloth_sim_interfaces.msg import ClothStats
 from cloth_sim_ros.messages.frame import PointsMessage
 from cloth_sim_ros.messages.frame import stats_message
 from cloth_sim_ros.messages.frame import StatsMessage
+from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.snapshot import POINT_DTYPE
+from cut_scene import CUT
+from cut_scene import cut_snapshot
 from made_snapshot import make_snapshot
 import numpy as np
 import pytest
@@ -135,3 +138,14 @@ def test_serialised_statistics_are_those_of_the_message(frame_id):
             'too_slow': True}
     data = StatsMessage(frame_id).serialise(snapshot, **pace)
     assert deserialize_message(data, ClothStats) == stats_message(snapshot, frame_id, **pace)
+
+
+def test_a_cloud_of_a_cut_cloth_is_organised():
+    """A filter would take the places without a node for points at the origin."""
+    scene = Scene(CUT)
+    snapshot = cut_snapshot(scene)
+    cloud, points = decode(PointsMessage(
+        scene.rows, scene.cols, 'world', is_dense=not scene.has_gaps).serialise(snapshot))
+    assert (cloud.height, cloud.width, cloud.is_dense) == (scene.rows, scene.cols, False)
+    for name in ('x', 'vy', 'normal_z', 'strain'):
+        np.testing.assert_array_equal(np.isnan(points[name]), ~scene.present_nodes)

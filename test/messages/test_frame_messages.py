@@ -37,8 +37,7 @@ def take(taker: FrameTaker, *keys: str) -> FrameContent:
 
 def made(cloth: Simulation, frame: FrameContent) -> list[tuple[str, bytes]]:
     """Return the messages of a frame."""
-    return list(FrameMessages(
-        cloth.scene.rows, cloth.scene.cols, 'cloth_sim', 'world').of(frame))
+    return list(FrameMessages(cloth.scene, 'cloth_sim', 'world').of(frame))
 
 
 def test_each_topic_is_made_for_its_readers_alone(cloth):

@@ -10,9 +10,11 @@ from cloth_sim_ros.messages.geometry import serialise_topology
 from cloth_sim_ros.messages.geometry import strain_colors
 from cloth_sim_ros.messages.geometry import Surface
 from cloth_sim_ros.messages.geometry import surface_bytes
-from cloth_sim_ros.messages.geometry import triangles
+from cloth_sim_ros.sim.mesh import triangles
 from cloth_sim_ros.sim.model.push import Push
 from cloth_sim_ros.sim.scene import Scene
+from cut_scene import CUT
+from cut_scene import cut_snapshot
 from matplotlib import colormaps
 import numpy as np
 import pytest
@@ -60,24 +62,6 @@ def test_mesh_is_the_scene_at_rest(rows, cols, pose):
     np.testing.assert_array_equal(nodes, scene.rest_positions().reshape(-1, 3))
     faces = np.array([face.vertex_indices for face in mesh.triangles]).reshape(-1, 3)
     np.testing.assert_array_equal(faces, triangles(rows, cols))
-
-
-def test_each_cell_is_covered_once():
-    """The surface would have holes or overlap."""
-    rows, cols = 4, 6
-    positions = Scene({
-        **SPRINGS, 'rows': rows, 'cols': cols, 'width': 5.0, 'height': 3.0}).rest_positions()
-    corners = positions.reshape(-1, 3)[triangles(rows, cols)]
-    area = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]) / 2
-    np.testing.assert_allclose(area, np.tile([0.0, 0.0, 0.5], (2 * 3 * 5, 1)), atol=1e-12)
-    cells = np.floor(corners.mean(axis=1)[:, :2] - positions[-1, 0, :2])
-    assert sorted(map(tuple, cells)) == sorted(
-        2 * [(float(col), float(row)) for row in range(3) for col in range(5)])
-
-
-def test_a_chain_has_no_faces():
-    """A chain would be drawn with faces of nothing."""
-    assert triangles(1, 9).shape == triangles(9, 1).shape == (0, 3)
 
 
 def test_colours_are_those_of_viridis():
@@ -149,3 +133,27 @@ def test_its_size_is_known_beforehand(rows, cols):
     points = surface.points(surface.sample(lattice(rows, cols)))
     colors = surface.colors(surface.sample(np.zeros((rows, cols, 4), np.float32)))
     assert surface_bytes(rows, cols) == points.nbytes + colors.nbytes
+
+
+def test_mesh_of_a_cut_cloth_has_its_cells():
+    """A viewer would fill the holes, or draw triangles to the origin."""
+    scene = Scene(CUT)
+    mesh = deserialize_message(serialise_topology(scene), Mesh)
+    faces = np.array([face.vertex_indices for face in mesh.triangles]).reshape(-1, 3)
+    assert len(faces) == 2 * scene.cells.count
+    assert scene.present_nodes.ravel()[faces].all()
+    np.testing.assert_array_equal(faces, triangles(scene.rows, scene.cols, scene.cells.present))
+
+
+@pytest.mark.parametrize('max_side', [256, 9])
+def test_the_surface_of_a_cut_cloth_has_its_cells(max_side):
+    """Corners of triangles would be NaN, which viewers refuse or draw across the scene."""
+    scene = Scene(CUT)
+    surface = Surface(scene.rows, scene.cols, max_side, scene.cut_cells)
+    points = surface.points(surface.sample(cut_snapshot(scene).positions))
+    assert np.isfinite(points).all()
+    if max_side == 256:
+        assert len(points) == 6 * scene.cells.count
+    # None is drawn within the hole.
+    middles = points.reshape(-1, 3, 3).mean(axis=1)
+    assert not np.any(np.all(np.abs(middles[:, :2]) < 0.03, axis=1))

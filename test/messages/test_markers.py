@@ -6,15 +6,17 @@
 from contextlib import closing
 
 from cloth_sim_ros.messages.geometry import strain_colors
-from cloth_sim_ros.messages.geometry import triangles
 from cloth_sim_ros.messages.markers import MarkersMessage
 from cloth_sim_ros.sim.held.grasps import Grasp
+from cloth_sim_ros.sim.mesh import triangles
 from cloth_sim_ros.sim.model.pose import Pose
 from cloth_sim_ros.sim.model.push import Push
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.simulation import Simulation
 from cloth_sim_ros.sim.snapshot import FLAG_AT_LIMIT
 from cloth_sim_ros.sim.snapshot import FLAG_PINNED
+from cut_scene import CUT
+from cut_scene import cut_snapshot
 from made_snapshot import make_snapshot
 import numpy as np
 from pushed_scenes import unit_scene
@@ -204,3 +206,15 @@ def test_a_large_cloth_stays_a_small_message():
     """A cloth of a million nodes would make messages of 250 MB."""
     data = MarkersMessage(300, 40, 'world', max_side=20).serialise(make_snapshot(300, 40))
     assert len(decode(data)['surface', 0].points) == 6 * 19 * 19
+
+
+def test_markers_of_a_cut_cloth_are_finite():
+    """RViz drops a marker with NaN, or its scale would be NaN."""
+    scene = Scene(CUT)
+    snapshot = cut_snapshot(scene)
+    message = MarkersMessage(scene.rows, scene.cols, 'world', present=scene.cut_cells)
+    markers = decode(message.serialise(snapshot, [PUSH]))
+    surface = points_of(markers['surface', 0])
+    assert np.isfinite(surface).all() and len(surface) == 6 * scene.cells.count
+    assert np.isfinite(points_of(markers['pushes', 0])).all()
+    assert markers['pushes', 0].scale.x == pytest.approx(0.02 * 0.37, rel=0.1)

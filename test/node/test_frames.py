@@ -20,8 +20,10 @@ from geometry_msgs.msg import Pose
 from geometry_msgs.msg import Quaternion
 from geometry_msgs.msg import Vector3
 from geometry_msgs.msg import WrenchStamped
+from made_again import made_again
 from node_process import NodeProcess
 import numpy as np
+from PIL import Image
 import pytest
 from recorded import Recorded
 from sensor_msgs.msg import PointField
@@ -352,3 +354,37 @@ def test_a_paused_cloth_is_shown_again_to_late_viewers(cloth):
     first = cloth.frame(5)
     cloth.clear()
     assert np.array_equal(cloth.frame(5), first)
+
+
+def test_a_cut_cloth_is_published_and_recorded(client, tmp_path):
+    """The node would fill holes, pin what is not there, or record the path of a mask alone."""
+    white = np.full((12, 14), 255, np.uint8)
+    white[4:8, 3:9] = 0
+    white[:3, :3] = 0
+    Image.fromarray(white).save(tmp_path / 'mask.png')
+    values = {
+        'rows': 13, 'cols': 15, 'dt': 0.005, 'shape.mask': 'mask.png', 'pins': ['top_right'],
+        'start_paused': True, 'recording.enabled': True, 'recording.name': 'cut'}
+    with NodeProcess(tmp_path, values, '-r', '__ns:=/cut') as node:
+        cloth = ClothUnderTest(client, values, '/cut/cloth_sim')
+        cloud = cloth.wait_for('points')
+        absent = np.isnan(cloth.points_of(cloud)['x'])
+        assert not cloud.is_dense and (cloud.height, cloud.width) == (13, 15)
+        # A corner of 3 x 3 cells has no inner node of others, the hole of 4 x 6 has 3 x 5.
+        assert absent.sum() == 9 + 15 and absent[:3, :3].all() and absent[5:8, 4:9].all()
+        answer = cloth.call(SetPin, 'set_pin', row=5, col=4, pinned=True)
+        assert not answer.success and 'no node (5, 4) in the shape' in answer.message
+        assert cloth.call(SetPin, 'set_pin', row=3, col=3, pinned=True).success
+        answer = cloth.call(
+            Grasp, 'grasp', name='hand', radius=0.3,
+            pose=Pose(position=Point(x=-0.1, y=0.0, z=1.0), orientation=Quaternion(w=1.0)))
+        assert answer.success, answer.message
+        surface = cloth.wait_for('markers').markers[0]
+        assert len(surface.points) == 6 * np.count_nonzero(white)
+        assert cloth.call(Step, 'step', steps=20).success
+        assert cloth.call(Trigger, 'stop_recording').success
+        assert 'unexpected' not in node.output
+    (tmp_path / 'mask.png').unlink()
+    with made_again(tmp_path / 'bags' / 'cut', '/cut/cloth_sim') as rerun:
+        assert rerun.check.equal == rerun.check.frames > 1
+        assert np.count_nonzero(~rerun.simulation.scene.present_nodes) == absent.sum()

@@ -8,6 +8,9 @@ from cloth_sim_ros.rendering.camera import DepthCamera
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.model.colliders import Collider
 from cloth_sim_ros.sim.model.pose import unit_quaternion
+from cloth_sim_ros.sim.scene import Scene
+from cut_scene import CUT
+from cut_scene import cut_snapshot
 from hypothesis import given
 from hypothesis import strategies
 import numpy as np
@@ -151,9 +154,9 @@ def camera():
     """Return a function that makes depth cameras, and close them."""
     made = []
 
-    def make(points, width=80, height=60, **angles):
+    def make(points, width=80, height=60, cells=None, **angles):
         view = Camera(**angles).looking_at(points.reshape(-1, 3), width, height)
-        made.append(DepthCamera(view))
+        made.append(DepthCamera(view, cells))
         return made[-1]
 
     yield make
@@ -281,3 +284,21 @@ def test_a_camera_without_perspective_is_refused(camera):
     """It stands nowhere: depths would be infinite."""
     with pytest.raises(ClothSimError, match='above 0 degrees'):
         camera(plane((0, 0, 0), (1, 0, 0), (0, 0, -1)), field_of_view=0.0)
+
+
+def test_a_depth_camera_sees_through_holes(camera):
+    """A policy would take a hole for cloth."""
+    scene = Scene(CUT)
+    positions = cut_snapshot(scene).positions.astype(float)
+    present = positions[scene.present_nodes]
+    eye = camera(present, cells=scene.cut_cells, azimuth=-90.0, elevation=90.0, field_of_view=60.0)
+    depths = eye.draw(positions)
+    assert depths[30, 40] == np.float32(eye.far)
+    seen = depths[depths < eye.far]
+    assert np.ptp(seen) < 1e-3
+    # The disc is as high as the picture, about.
+    whole = camera(present, azimuth=-90.0, elevation=90.0, field_of_view=60.0)
+    full = whole.draw(scene.rest_positions().astype(float))
+    share = len(seen) / np.count_nonzero(full < whole.far)
+    area = scene.cells.count / scene.cells.present.size
+    assert share == pytest.approx(area, abs=0.03)

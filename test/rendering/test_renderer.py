@@ -24,9 +24,12 @@ from cloth_sim_ros.rendering.renderer import title_of
 from cloth_sim_ros.rendering.source import RecordingSource
 from cloth_sim_ros.rendering.source import StateSource
 from cloth_sim_ros.sim.model.push import Push
+from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.snapshot import FLAG_AT_LIMIT
 from cloth_sim_ros.sim.snapshot import FLAG_GRASPED
 from cloth_sim_ros.sim.snapshot import FLAG_PINNED
+from cut_scene import CUT
+from cut_scene import cut_frame
 import numpy as np
 import pytest
 
@@ -359,3 +362,20 @@ def test_the_note_tells_what_is_not_drawn(sources):
     assert note_of(sources) == (
         'simulated on a device; last lacks strain and pins and limits: not drawn')
     assert note_of(sources[:1]) == 'simulated on a device'
+
+
+@pytest.mark.parametrize('look', ['strain', 'plain', 'checked'])
+def test_holes_of_a_cut_cloth_are_seen_through(rendered, look):
+    """A picture would show a rectangle, or triangles to the origin."""
+    scene = Scene(CUT)
+    frame = cut_frame(scene)
+    z = float(np.nanmax(frame.positions[..., 2]))
+    image, renderer = rendered(frame, ABOVE, look=look, width=320, height=320)
+
+    def shade(x, y):
+        return pixel_at(image, renderer, (x, y, z))
+
+    cloth, hole, corner = shade(0.0, 0.12), shade(0.0, 0.0), shade(0.17, 0.16)
+    # Behind the hole is what lies beside the cloth.
+    assert np.abs(cloth - hole).max() > 20.0
+    assert np.abs(cloth - corner).max() > 20.0 and np.abs(hole - corner).max() < 60.0

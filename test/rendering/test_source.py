@@ -17,6 +17,8 @@ from cloth_sim_ros.sim.inputs import SetMode
 from cloth_sim_ros.sim.model.colliders import fields_with_colliders
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.snapshot import FLAG_PINNED
+from cut_scene import CUT
+from cut_scene import cut_snapshot
 from hypothesis import given
 from hypothesis import strategies
 import numpy as np
@@ -133,3 +135,19 @@ def test_other_files_are_refused(tmp_path):
             ('array', 'is not a state file'), ('none', 'there is no state file')):
         with pytest.raises(ClothSimError, match=rule):
             StateSource(tmp_path / f'{name}.npz')
+
+
+def test_a_state_of_a_cut_cloth_is_drawn(tmp_path):
+    """The end of a run could not be looked at, or its border be lit from elsewhere."""
+    snapshot = cut_snapshot(Scene(CUT))
+    arrays = {'positions': snapshot.positions, 'flags': snapshot.flags}
+    np.savez(tmp_path / 'state.npz', **arrays)
+    frame, = StateSource(tmp_path / 'state.npz').frames()
+    assert np.array_equal(frame.present, Scene(CUT).present_nodes)
+    np.testing.assert_array_equal(
+        frame.normals[frame.present], np.broadcast_to((0, 0, 1), (frame.present.sum(), 3)))
+    arrays['positions'] = snapshot.positions.copy()
+    arrays['positions'][tuple(np.argwhere(frame.present)[3])] = np.nan
+    np.savez(tmp_path / 'state.npz', **arrays)
+    with pytest.raises(ClothSimError, match='finite numbers'):
+        StateSource(tmp_path / 'state.npz')

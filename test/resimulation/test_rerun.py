@@ -27,6 +27,7 @@ from made_again import Director
 from made_again import made_again
 from made_cloud import make_cloud
 import numpy as np
+from PIL import Image
 import pytest
 from rclpy.serialization import serialize_message
 from springs import SPRINGS
@@ -342,3 +343,24 @@ def test_other_nodes_are_not_compared_node_by_node(eventful):
     with made_again(eventful, rows=16) as rerun:
         assert (rerun.check.frames, rerun.check.other_grids) == (0, 6)
         assert rerun.refused == []
+
+
+@pytest.mark.parametrize('mode', MODES)
+def test_a_cut_cloth_is_made_again_without_its_mask(tmp_path, mode):
+    """A recording would need an image that only its author has."""
+    white = np.zeros((24, 26), np.uint8)
+    white[2:20, 3:24] = 255
+    white[8:12, 9:15] = 0
+    Image.fromarray(white).save(tmp_path / 'mask.png')
+    values = {
+        'rows': 13, 'cols': 14, 'shape.mask': str(tmp_path / 'mask.png'), 'mode': mode,
+        'pin_points.positions': (-0.35, 0.4, 1.0), 'pin_points.max_distance': 0.1}
+    with Director(tmp_path, values) as director:
+        director.step(10)
+        director.simulation.push((0.0, 0.0, 0.2), duration=0.02)
+        director.simulation.move_pin(*np.argwhere(director.simulation.pinned_nodes())[0].tolist(),
+                                     (0.0, 0.0, 1.1))
+        director.step(20)
+    (tmp_path / 'mask.png').unlink()
+    with made_again(director.path) as rerun:
+        assert rerun.check.equal == rerun.check.frames == 3

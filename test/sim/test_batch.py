@@ -12,6 +12,7 @@ from cloth_sim_ros.sim.batch import Batch
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.simulation import Simulation
+from cut_scene import CUT
 import numpy as np
 import pytest
 from springs import SPRINGS
@@ -162,3 +163,17 @@ def test_the_program_of_its_page_runs(capsys):
     (program,) = re.findall(r'```python\n(.*?)```', page.read_text(encoding='utf-8'), re.DOTALL)
     exec(program, {})
     assert capsys.readouterr().out == '(64, 16, 16, 3) False\n'
+
+
+def test_cut_cloths_step_as_each_by_itself():
+    """Cloths of a batch would have the shape of another, or be lost for their NaN."""
+    scenes = [Scene({**CUT, 'shape.disc': disc}) for disc in (0.37, 0.3, 0.37)]
+    with Batch(scenes) as batch:
+        batch.step(20)
+        batch.set_state(batch.positions()[1:2], batch.velocities()[1:2], [1])
+        found = batch.positions()
+        assert not batch.lost.any()
+    for scene, positions in zip(scenes, found):
+        with Simulation(scene) as simulation:
+            simulation.step(20)
+            np.testing.assert_array_equal(positions, simulation.positions())

@@ -143,7 +143,7 @@ def test_an_unknown_name_is_refused_with_the_nearest():
     ('pin', 'did you mean pins?'), ('start_pose', 'did you mean start.pose?'),
     ('thickness', 'did you mean contact.thickness?'),
     ('wind', 'did you mean air.wind or gusts.wind?'),
-    ('holes', 'docs/reference/parameters.md lists them all'),
+    ('holes', 'did you mean shape.holes?'),
     ('viscosity', 'docs/reference/parameters.md lists them all')])
 def test_the_name_of_a_group_gets_its_members(name: str, hint: str):
     """A user who sets one stiffness for all would be led to that of the bend springs."""

@@ -5,7 +5,11 @@
 
 import math
 
+from cloth_sim_ros.sim.snapshot import FLAG_GAP
+from cloth_sim_ros.sim.snapshot import FLAG_PINNED
+from cloth_sim_ros.sim.snapshot import present_cells
 from made_snapshot import make_snapshot
+import numpy as np
 import pytest
 
 
@@ -28,3 +32,10 @@ def test_limit_figures_are_0_unless_reported():
     assert [getattr(snapshot, name) for name in (
         'calm_substeps', 'listed_substeps', 'whole_substeps', 'listed_edges', 'limit_rounds',
         'limit_unreached')] == [0] * 6
+
+
+def test_cells_are_there_without_the_flag_of_a_gap():
+    """A pinned node would have no cell, or the last row and column one too many."""
+    flags = np.array([[FLAG_PINNED, FLAG_GAP, 0], [0, FLAG_GAP | FLAG_PINNED, 0], [0, 0, 0]])
+    assert present_cells(flags).tolist() == [[True, False], [True, False]]
+    assert present_cells(flags[:1]).shape == (0, 2)

@@ -25,7 +25,8 @@ from typing import NamedTuple
 MODULES = (
     'cloth_sim_ros.verb.main', 'cloth_sim_ros.verb.info', 'cloth_sim_ros.verb.analyze',
     'cloth_sim_ros.verb.render', 'cloth_sim_ros.verb.resimulate', 'cloth_sim_ros.verb.run',
-    'cloth_sim_ros.verb.play', 'cloth_sim_ros.analysis.plots', 'PIL.Image',
+    'cloth_sim_ros.verb.play', 'cloth_sim_ros.verb.export', 'cloth_sim_ros.analysis.plots',
+    'PIL.Image', 'trimesh',
     'rosbags.typesys.stores.ros2_jazzy', 'zstandard', 'lz4.frame')
 # Limit of the address space [bytes], so that a hostile file can't exhaust the machine.
 _MOST_MEMORY = 12 << 30

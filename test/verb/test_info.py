@@ -40,7 +40,8 @@ def recorded(tmp_path_factory) -> Path:
 
 
 @pytest.mark.parametrize('arguments', [('info',), ('info', '--node', 'cloth_sim'), (
-    'render', '--out', 'picture.png'), ('analyze',), ('resimulate',), ('play', '--delay', '0')])
+    'render', '--out', 'picture.png'), ('analyze',), ('resimulate',), ('play', '--delay', '0'), (
+        'export', '--format', 'obj')])
 @pytest.mark.parametrize('length', [0, 5, 8, 42, 538, 3000, 20000])
 def test_a_recording_cut_off_in_its_first_chunk_is_told_so(
         recorded, tmp_path, monkeypatch, capsys, length, arguments):
@@ -56,7 +57,8 @@ def test_a_recording_cut_off_in_its_first_chunk_is_told_so(
     assert 'publish.points' not in said and 'Traceback' not in said
 
 
-@pytest.mark.parametrize('verb', ['info', 'analyze', 'render', 'resimulate', 'play', 'recover'])
+@pytest.mark.parametrize(
+    'verb', ['info', 'analyze', 'render', 'resimulate', 'play', 'recover', 'export'])
 @pytest.mark.parametrize('left', [(), ('metadata.yaml.new',), ('small_0.mcap',)])
 def test_empty_recording_folder_is_named_as_such(
         tmp_path, monkeypatch, capsys, left, verb):
@@ -65,7 +67,8 @@ def test_empty_recording_folder_is_named_as_such(
     (tmp_path / 'small').mkdir()
     for name in left:
         (tmp_path / 'small' / name).touch()
-    arguments = {'render': ('--out', 'picture.png')}.get(verb, ())
+    arguments = {
+        'render': ('--out', 'picture.png'), 'export': ('--format', 'obj')}.get(verb, ())
     assert main([verb, 'small', *arguments]) == 1
     assert 'its writer was killed before the first flush' in capsys.readouterr().err
 

@@ -4,9 +4,9 @@
 """The cloth as triangles in a few colours of strain, and where a ray meets it."""
 
 from cloth_sim_ros.analysis.frame import Frame
-from cloth_sim_ros.messages.geometry import triangles
 from cloth_sim_ros.rendering.look import StrainRange
 from cloth_sim_ros.rendering.look import StrainScale
+from cloth_sim_ros.sim.mesh import triangles
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.snapshot import POINT_DTYPE
 from cloth_sim_ros.view.surface import band_colors
@@ -14,6 +14,8 @@ from cloth_sim_ros.view.surface import BANDS
 from cloth_sim_ros.view.surface import first_hit
 from cloth_sim_ros.view.surface import MOST_NODES
 from cloth_sim_ros.view.surface import Surface
+from cut_scene import CUT
+from cut_scene import cut_frame
 import numpy as np
 import pytest
 from springs import SPRINGS
@@ -117,3 +119,18 @@ def test_the_nearest_of_two_layers_is_met():
 def test_a_chain_has_no_surface_to_meet():
     """A view of a chain would end with the first click."""
     assert first_hit((0.0, 0.0, 3.0), (0.0, 0.0, -1.0), POINTS[:3], triangles(1, 3)) is None
+
+
+def test_a_cut_cloth_is_drawn_and_met_where_it_is():
+    """The browser would fill holes, and a click through one push the cloth."""
+    scene = Scene(CUT)
+    frame = cut_frame(scene)
+    surface = Surface(scene.rows, scene.cols, frame.cells)
+    assert len(surface.faces) == 2 * scene.cells.count
+    drawn = [mesh for mesh in surface.bands(frame, 0.1) if mesh is not None]
+    assert sum(len(faces) for _, faces in drawn) == 2 * scene.cells.count
+    assert all(np.isfinite(points).all() for points, _ in drawn)
+    points = surface.points(frame)
+    assert first_hit((0.0, 0.0, 3.0), (0.0, 0.0, -1.0), points, surface.faces) is None
+    hit = first_hit((0.13, 0.0, 3.0), (0.0, 0.0, -1.0), points, surface.faces)
+    assert hit is not None and scene.present_nodes[surface.node(hit.node)]

@@ -285,7 +285,7 @@ class Contacts:
         for number, collider in enumerate(self.colliders):
             record = records[number]
             forces = per_impulse * record[..., :3].astype(float)
-            arms = positions.astype(float) - np.array(poses[number].position)
+            arms = np.nan_to_num(positions).astype(float) - np.array(poses[number].position)
             found.append(ContactForce(
                 collider.name, forces.sum(axis=(0, 1)), np.cross(arms, forces).sum(axis=(0, 1)),
                 int(np.sum(record[..., 3] == STICKS)), int(np.sum(record[..., 3] == SLIDES))))
@@ -296,7 +296,7 @@ class Contacts:
         positions = snapshot.positions.astype(float)
         kinds = self._read_record()[..., 3]
         depth = max((
-            -float((body.distance(positions) - self.clearance).min())
+            -float(np.nanmin(body.distance(positions) - self.clearance))
             for body in self.present(snapshot.time)), default=0.0)
         records = snapshot.records
         records['flags'][np.any(kinds > 0.0, axis=0)] |= FLAG_TOUCHING

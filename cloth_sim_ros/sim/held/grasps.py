@@ -13,8 +13,8 @@ from cloth_sim_ros.sim.held.pin_motion import PinMotion
 from cloth_sim_ros.sim.model.frame_paths import FrameMove
 from cloth_sim_ros.sim.model.frame_paths import FramePath
 from cloth_sim_ros.sim.model.frame_paths import FramePaths
-from cloth_sim_ros.sim.model.pins import checked_node
 from cloth_sim_ros.sim.model.pose import Pose
+from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.snapshot import FLAG_GRASPED
 from cloth_sim_ros.sim.state import State
 import numpy as np
@@ -123,7 +123,8 @@ class Grasps:
 
 
 def given_nodes(
-        name: str, nodes: Sequence[Sequence[int]], pinned: np.ndarray) -> np.ndarray:
+        name: str, nodes: Sequence[Sequence[int]], pinned: np.ndarray,
+        scene: Scene) -> np.ndarray:
     """Return ``nodes`` as (n, 2), or raise ClothSimError where they can't be held."""
     chosen = integers(nodes, f'the nodes of grasp {name}', 'give [row, col] of each')
     if not chosen.size:
@@ -133,7 +134,7 @@ def given_nodes(
             f'the nodes of grasp {name} must be (n, 2), got {chosen.shape}: give [row, col] of '
             'each')
     for row, col in chosen.tolist():
-        checked_node(row, col, *pinned.shape)
+        scene.checked_node(row, col)
         if pinned[row, col]:
             raise ClothSimError(
                 f'grasp {name} cannot have node ({row}, {col}), which is pinned: release it '

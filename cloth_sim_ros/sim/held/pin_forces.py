@@ -100,6 +100,7 @@ def spring_tension(
     :param nodes: (n, 2) rows and columns, for the springs at these nodes alone: the others are 0
     """
     tension = np.zeros((scene.rows, scene.cols, len(EDGE_KINDS)), dtype=np.float32)
+    positions, velocities = scene.filled(positions), scene.filled(velocities)
     if nodes is not None:
         # All kinds at once: these edges are few, and each call of NumPy costs more than they do.
         edges = edges_at(nodes, scene.rows, scene.cols)
@@ -169,6 +170,8 @@ def edge_pulls(
     :param tension: of every edge with an end in ``nodes`` [N], (rows, cols, 6) as in Snapshot
     :param nodes: rows and columns, (n, 2) int
     """
+    positions = scene.filled(positions)
+    velocities = None if velocities is None else scene.filled(velocities)
     pulls = (
         bending_pulls(scene, positions, velocities, nodes) if scene.has_rigidity
         else np.zeros((len(nodes), 3)))

@@ -8,7 +8,6 @@ from collections.abc import Sequence
 import math
 
 from cloth_sim_ros.sim.errors import ClothSimError
-from cloth_sim_ros.sim.model.pins import checked_node
 from cloth_sim_ros.sim.model.pins import PinMove
 from cloth_sim_ros.sim.model.pins import PinPath
 from cloth_sim_ros.sim.model.pins import Way
@@ -186,7 +185,7 @@ class PinMotion:
 
     def check_node(self, row: int, col: int) -> None:
         """Raise ClothSimError when there is no such node."""
-        checked_node(row, col, self._scene.rows, self._scene.cols)
+        self._scene.checked_node(row, col)
 
     def _start(self, move: PinMove) -> PinPath:
         path = PinPath(move, self.position(*move.node, move.start))

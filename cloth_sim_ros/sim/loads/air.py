@@ -55,7 +55,8 @@ class AirWork:
         """Return the work until the present ``state`` [J]."""
         if self._positions is not None:
             positions = state.read_positions().astype(float)
-            moved = (positions - self._positions) * ~state.pinned[..., None]
+            moves = ~state.pinned & (self._shares > 0.0)[..., 0]
+            moved = np.where(moves[..., None], positions - self._positions, 0.0)
             self._done += self._node_mass * float(
                 np.sum(self._shares * self._accelerations * moved))
             self._positions = positions

@@ -218,7 +218,7 @@ class PushField:
         """Spread the push over the free nodes that are in its region now."""
         self._asked = None
         push = entry.push
-        entry.inside = ~self._pinned
+        entry.inside = ~self._pinned & (self._mass_shares > 0.0)
         if push.region != 'all':
             entry.inside &= push.contains(self._read_positions())
         entry.nodes = int(np.count_nonzero(entry.inside))

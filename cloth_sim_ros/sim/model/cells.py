@@ -111,6 +111,11 @@ class Cells:
         return halves
 
 
+def present_nodes(present: np.ndarray) -> np.ndarray:
+    """Return the nodes of these cells: (rows - 1, cols - 1) bool to (rows, cols) bool."""
+    return Cells(present).node_shares > 0.0
+
+
 def edge_shares(cells: Cells | None, kind: EdgeKind) -> np.ndarray | float:
     """Return those of ``cells``, or 1 for a cloth of whole lines."""
     return 1.0 if cells is None else cells.edge_shares(kind)

@@ -18,6 +18,7 @@ from cloth_sim_ros.sim.model.materials import MATERIAL
 from cloth_sim_ros.sim.model.materials import MATERIAL_SPRINGS
 from cloth_sim_ros.sim.model.materials import with_material
 from cloth_sim_ros.sim.model.scene_fields import PRESETS
+from cloth_sim_ros.sim.model.shape import beside
 
 NO_PINS = ('none',)
 # A woven one whose threads hardly stretch; without air it would whip, and never come to rest.
@@ -32,7 +33,7 @@ def load_parameters(path: str | Path) -> dict[str, Any]:
     Return the parameters of a ROS parameter YAML as dotted names and values.
 
     Every node section of the file is taken, later ones over earlier ones; within one, each
-    parameter stands once.
+    parameter stands once. The path of a mask is taken from the folder of the file.
 
     :raises ClothSimError: when the file can't be read or is no parameter file
     """
@@ -50,6 +51,9 @@ def load_parameters(path: str | Path) -> dict[str, Any]:
         names: dict[str, Any] = {}
         _flatten(section['ros__parameters'], '', names, path)
         parameters.update(names)
+    mask = parameters.get('shape.mask')
+    if isinstance(mask, str):
+        parameters['shape.mask'] = beside(path, mask)
     return parameters
 
 

@@ -91,7 +91,8 @@ class GraspRequest:
         :raises ClothSimError: when there is none
         """
         distance = np.linalg.norm(positions.astype(float) - np.array(self.pose.position), axis=-1)
-        distance[pinned] = math.inf
+        # There is no node where positions are NaN.
+        distance[pinned | np.isnan(distance)] = math.inf
         if self.radius > 0.0:
             nodes = np.argwhere(distance <= self.radius)
         else:

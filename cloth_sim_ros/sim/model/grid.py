@@ -71,6 +71,8 @@ def near_node(
             'or leave it out')
     away = positions - np.array(point, dtype=np.float32)
     squares = np.einsum('rci,rci->rc', away, away)
+    # There is no node where positions are NaN.
+    squares = np.where(np.isnan(squares), np.inf, squares)
     if pinned is not None:
         if not pinned.any():
             raise ClothSimError('the cloth has no pin that is near to the point: pin a node first')

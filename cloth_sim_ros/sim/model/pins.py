@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from copy import copy
 from dataclasses import dataclass
 import re
+from typing import Any
 from typing import Protocol
 
 from cloth_sim_ros.files.errors import shown
@@ -36,27 +37,39 @@ _FASTEST = 1e6
 
 
 def pinned_nodes(
-        names: Sequence[str], rows: int, cols: int, parameter: str = 'pins') -> np.ndarray:
+        names: Sequence[str], rows: int, cols: int, parameter: str = 'pins',
+        present: np.ndarray | None = None) -> np.ndarray:
     """
     Return which nodes ``names`` hold, (rows, cols) bool.
 
     :param names: corners, edges, all, none, or 'row,col'
     :param parameter: where the names stand, for the error
+    :param present: which nodes there are, (rows, cols) bool; None for all
     :raises ClothSimError: for a name that is none of these or a node outside the cloth
     """
     pinned = np.zeros((rows, cols), dtype=bool)
     for name in names:
         node = re.fullmatch(r'\s*(\d{1,9})\s*,\s*(\d{1,9})\s*', name)
         if node:
-            row, col = int(node[1]), int(node[2])
-            checked_node(row, col, rows, cols)
-            pinned[row, col] = True
+            row, col = checked_node(int(node[1]), int(node[2]), rows, cols)
+            _add(pinned, np.s_[row, col], name, parameter, present)
         elif name not in _REGIONS:
             raise ClothSimError(
                 f'{parameter} has {shown(name)}: give {PIN_NAMES}')
         elif name != 'none':
-            pinned[_REGIONS[name]] = True
+            _add(pinned, _REGIONS[name], name, parameter, present)
     return pinned
+
+
+def _add(
+        pinned: np.ndarray, region: Any, name: str, parameter: str,
+        present: np.ndarray | None) -> None:
+    """Pin the nodes of ``region`` that there are; ClothSimError where there is none."""
+    if present is not None and not np.any(present[region]):
+        raise ClothSimError(
+            f'{parameter} has {shown(name)}, where the shape of the cloth has no node: give a '
+            'node of it, or a point by pin_points')
+    pinned[region] = True if present is None else present[region]
 
 
 def only_node(name: str, rows: int, cols: int, parameter: str) -> tuple[int, int]:
@@ -70,14 +83,24 @@ def only_node(name: str, rows: int, cols: int, parameter: str) -> tuple[int, int
     return row, col
 
 
-def checked_node(row: int, col: int, rows: int, cols: int) -> tuple[int, int]:
-    """Return ``row`` and ``col`` as ints; ClothSimError when the cloth has no such node."""
+def checked_node(
+        row: int, col: int, rows: int, cols: int,
+        present: np.ndarray | None = None) -> tuple[int, int]:
+    """
+    Return ``row`` and ``col`` as ints; ClothSimError when the cloth has no such node.
+
+    :param present: which nodes there are, (rows, cols) bool; None for all
+    """
     row = integer(row, 'the row of a node')
     col = integer(col, 'the col of a node')
     if not (0 <= row < rows and 0 <= col < cols):
         raise ClothSimError(
             f'there is no node ({shown(row)}, {shown(col)}) in a cloth of {rows} x {cols} nodes: '
             f'give a row from 0 to {rows - 1} and a col from 0 to {cols - 1}')
+    if present is not None and not present[row, col]:
+        raise ClothSimError(
+            f'there is no node ({row}, {col}) in the shape of the cloth: give one of a cell that '
+            'is there')
     return row, col
 
 

@@ -133,6 +133,18 @@ SCENE_FIELDS = (
     Field('cols', int, 32, 'number of columns of nodes, along the width', low=1, high=8192),
     Field('width', float, 1.0, 'length of a row', 'm', low=1e-4, high=1e5),
     Field('height', float, 1.0, 'length of a column', 'm', low=1e-4, high=1e5),
+    Field('shape.outline', float, (), 'corners of the cloth that is cut out of width x height: x '
+          'and y of each, from its middle, y towards row 0; empty for all of it', 'm', low=-1e5,
+          high=1e5, is_array=True),
+    Field('shape.disc', float, 0.0, 'diameter of a round cloth; 0 for another shape', 'm', low=0.0,
+          high=1e5),
+    Field('shape.holes', float, (), 'corners of holes, x and y of each, hole after hole', 'm',
+          low=-1e5, high=1e5, is_array=True),
+    Field('shape.hole_corners', int, (), 'how many corners each hole has; empty for a single hole',
+          low=3, high=100000, is_array=True),
+    Field('shape.mask', str, '', 'image that is laid over width x height: white is cloth; a path, '
+          'from the folder of the scene file, or a data URL of a PNG',
+          words='the path of an image'),
     Field('areal_density', float, 0.2, 'mass per unit area, distributed equally over the nodes; '
           'defaults to 0 if total_mass is given', 'kg/m2', low=0.0, high=1e6),
     Field('total_mass', float, 0.0, 'mass of the whole cloth, distributed equally over the nodes; '

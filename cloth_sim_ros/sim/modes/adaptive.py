@@ -302,7 +302,7 @@ class Adaptive:
         springs = spring_tension(self._scene, positions, velocities, nodes)
         if not (self._is_listed and self.last_length):
             return springs
-        pulls = self._limits.pulls(positions)
+        pulls = self._limits.pulls(self._scene.filled(positions))
         return (springs + self._scene.node_mass / self.last_length * pulls).astype(np.float32)
 
     def delete(self) -> None:

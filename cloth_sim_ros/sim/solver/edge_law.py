@@ -201,5 +201,5 @@ def full_pull(scene: Scene, strain: float) -> float:
     many when it hangs by a whole edge, so that its edges are harder.
     """
     weight = scene.mass * STANDARD_GRAVITY
-    lines = min(scene['rows'], scene['cols'])
+    lines = min(scene.spanned)
     return weight / strain * max(1.0, 1.0 / (_HANGING_SHARE * lines))

@@ -17,3 +17,10 @@ vec4 position_and_strain(int node) {
 vec4 normal_and_flags(int node) {
     return texelFetch(nodes, 2 * node + 1);
 }
+
+#ifdef HAS_GAPS
+// Whether there is no cell to the lower right of a node.
+bool is_gap(int row, int col) {
+    return (int(normal_and_flags(node_index(row, col)).w) & FLAG_GAP) != 0;
+}
+#endif
