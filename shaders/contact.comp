@@ -11,6 +11,9 @@
 #include "contact.glsl"
 #include "near_blocks.glsl"
 #include "low_parts.glsl"
+#if HAS_SURFACE
+#include "surface_nodes.glsl"
+#endif
 
 layout(local_size_x = NEAR_LOCAL) in;
 
@@ -31,6 +34,12 @@ void main() {
     }
     Near node = near[block_count + gl_GlobalInvocationID.x];
     int index = int(node.index);
+#if HAS_SURFACE
+    // surface_contact.comp has done it.
+    if (surface_nodes[index].is_held == 1) {
+        return;
+    }
+#endif
     vec3 v = velocity_out[index].xyz;
     vec3 x = load_position(index).xyz;
     Contact contact = contact_with(node.bodies, x, v, v, substep);

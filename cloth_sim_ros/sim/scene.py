@@ -20,6 +20,7 @@ from cloth_sim_ros.sim.model import grid
 from cloth_sim_ros.sim.model.cells import Cells
 from cloth_sim_ros.sim.model.colliders import colliders_of
 from cloth_sim_ros.sim.model.colliders import fields_with_colliders
+from cloth_sim_ros.sim.model.colliders import is_thin
 from cloth_sim_ros.sim.model.frame_paths import FrameMove
 from cloth_sim_ros.sim.model.given_values import completed
 from cloth_sim_ros.sim.model.grasp_request import GraspRequest
@@ -172,9 +173,14 @@ class Scene:
         """Return ``row`` and ``col`` as ints; ClothSimError when there is no such node."""
         return checked_node(row, col, self.rows, self.cols, self.present_nodes)
 
-    def filled(self, vectors: np.ndarray) -> np.ndarray:
-        """Return ``vectors``, (rows, cols, 3), with 0 instead of NaN where there is no node."""
-        return np.where(self.present_nodes[..., None], vectors, 0.0) if self.has_gaps else vectors
+    @property
+    def thin_colliders(self) -> tuple[int, ...]:
+        """Return the numbers of the colliders that act on edges and faces, in modes that can."""
+        if not self['contact.features'] or min(self.rows, self.cols) < 2:
+            return ()
+        return tuple(
+            number for number, collider in enumerate(self.colliders)
+            if is_thin(collider, self.spacing))
 
     @cached_property
     def spanned(self) -> tuple[int, int]:

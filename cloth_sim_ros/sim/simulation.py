@@ -15,6 +15,7 @@ from cloth_sim_ros.files.errors import shown
 from cloth_sim_ros.gl.context import Context
 from cloth_sim_ros.sim import modes
 from cloth_sim_ros.sim.contact.contacts import ContactForce
+from cloth_sim_ros.sim.contact.thin_bodies import warn_of_thin_bodies
 from cloth_sim_ros.sim.device.layout import choose_layout
 from cloth_sim_ros.sim.engine import Engines
 from cloth_sim_ros.sim.engine import Preparation
@@ -137,6 +138,7 @@ class Simulation(AbstractContextManager['Simulation']):
         self._is_closed = False
         self.loads = Loads(scene, self.layout, self._state)
         self._begin_run()
+        warn_of_thin_bodies(scene, scene['mode'])
 
     def __exit__(self, *_: object) -> None:
         """Close, however the block has ended."""
@@ -478,7 +480,9 @@ class Simulation(AbstractContextManager['Simulation']):
 
     def set_mode(self, name: str) -> str:
         """Step with the mode ``name`` from now on, keeping the state; return the one before."""
-        return str(self.apply(SetMode(name)))
+        before = str(self.apply(SetMode(name)))
+        warn_of_thin_bodies(self.scene, name)
+        return before
 
     def take_over(self, prepared: Preparation) -> str:
         """Step with a mode that ``engines.preparation`` has compiled; return the one before."""

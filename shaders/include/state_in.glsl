@@ -11,14 +11,22 @@
 
 #if LOADS_TEXTURE
 layout(binding = POSITION_IN) uniform samplerBuffer position_in;
+#ifndef POSITIONS_ALONE
 layout(binding = VELOCITY_IN) uniform samplerBuffer velocity_in;
+#endif
 
 vec4 load_position(int index) { return texelFetch(position_in, index); }
+#ifndef POSITIONS_ALONE
 vec4 load_velocity(int index) { return texelFetch(velocity_in, index); }
+#endif
 #else
 layout(std430, binding = POSITION_IN) readonly buffer PositionIn { vec4 position_in[]; };
+#ifndef POSITIONS_ALONE
 layout(std430, binding = VELOCITY_IN) readonly buffer VelocityIn { vec4 velocity_in[]; };
+#endif
 
 vec4 load_position(int index) { return position_in[index]; }
+#ifndef POSITIONS_ALONE
 vec4 load_velocity(int index) { return velocity_in[index]; }
+#endif
 #endif

@@ -92,6 +92,7 @@ OF_BATCH: dict[str, dict[str, Any]] = {
 OF_SCENE: dict[str, dict[str, Any]] = {
     '__getitem__': {'name': 'rows'}, 'stiffness': {'family': 'structural', 'direction': 0},
     'damping': {'family': 'structural', 'direction': 0}, 'models': {'family': 'bend'},
+    'checked_node': {'row': 0, 'col': 1},
     'rest_positions': {}, 'start_positions': {}, 'pinned_nodes': {}, 'timed_pushes': {},
     'gusts': {}, 'timed_pin_moves': {}, 'timed_collider_moves': {}, 'timed_grasp_moves': {},
     'timed_grasps': {},

@@ -45,6 +45,7 @@ _SCENES = {
 # Those that no other scene asks for.
 _OF_CONTACT = (
     'contact.comp', 'foresee_contact.comp', 'near_blocks.comp', 'near_nodes.comp',
+    'surface_contact.comp',
     'solver/contact.comp',
     'solver/hold.comp', 'solver/reaction.comp')
 # Where integers are counted by atomics, and no result depends on the order.
@@ -62,6 +63,13 @@ _COUNTING = {
         'atomicExchange(lists[block], 1u)', 'atomicAdd(marked_count, 1u)',
         'atomicAdd(list_groups_x, place % LIST_LOCAL == 0u ? 1u : 0u)'],
     'include/limit_list.glsl': ['atomicAdd(newly_listed, added)'],
+    # Lists that are walked, or places in them that are kept: no sum goes by their order.
+    'surface_contact.comp': [
+        'atomicAdd(surface_missed, 1u)', 'atomicAdd(surface_lost, 1u)',
+        'atomicAdd(surface_entries, count)', 'atomicAdd(acting_rows, 1u)',
+        'atomicAdd(held_nodes, 1u)', 'atomicAdd(listed_rows, uint(count))',
+        'atomicMax(largest, floatBitsToUint(length(impulse)))',
+        'atomicMax(largest_change, floatBitsToUint(length(impulse - before)))'],
     'near_nodes.comp': [
         'atomicAdd(near_node_count, 1u)',
         'atomicAdd(node_groups_x, entry % NEAR_LOCAL == 0u ? 1u : 0u)'],
@@ -76,6 +84,11 @@ _FORMS = {
     'mass_spring_tile.comp': {'TILE_SIDE': 32},
     'contact.comp': {'NOTES_CHANGES': 0},
     'contact.comp, after limits': {'NOTES_CHANGES': 1},
+    'contact.comp, beside the surface': {'NOTES_CHANGES': 0, 'HAS_SURFACE': 1},
+    'surface_contact.comp': {
+        'WAYS_OUT': 0, 'SURFACE_TIPS': 8, 'SURFACE_LOCAL': 64, 'SURFACE_COLLIDERS': '2u'},
+    'surface_contact.comp, ways out': {
+        'WAYS_OUT': 1, 'SURFACE_TIPS': 2, 'SURFACE_LOCAL': 64, 'SURFACE_COLLIDERS': '1u'},
     'limit/look.comp': {'STRIP': 16, 'LIST_LOCAL': '8u'},
     'limit/list.comp': {'LIST_LOCAL': 8},
     'limit/solve.comp': {'LOCAL': 256, 'LISTS': 0},

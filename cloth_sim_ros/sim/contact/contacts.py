@@ -12,6 +12,7 @@ from cloth_sim_ros.gl.buffer import shader_dispatches_visible
 from cloth_sim_ros.gl.buffer import shader_writes_visible
 from cloth_sim_ros.gl.program import Program
 from cloth_sim_ros.gl.quick_calls import make
+from cloth_sim_ros.sim.contact.surface_contact import SurfaceContact
 from cloth_sim_ros.sim.device import bindings
 from cloth_sim_ros.sim.device.layout import Layout
 from cloth_sim_ros.sim.device.scene_program import SceneProgram
@@ -94,6 +95,8 @@ class Contacts:
         self._polled = Buffer(_ENTRY_BYTES, is_polled=True) if layout.is_asynchronous else None
         self.clearance = 0.5 * scene['contact.thickness']
         self.reach = np.array([_reach(collider) for collider in scene.colliders])
+        # How far a node of an edge or face may be from what touches that [m].
+        self.feature_reach = 1.5 * math.hypot(*scene.spacing) if scene.thin_colliders else 0.0
         self._serial = self._decision = 0
         self._program = SceneProgram('contact.comp', scene, layout, {'NOTES_CHANGES': 0})
         self._noting_program = SceneProgram('contact.comp', scene, layout, {'NOTES_CHANGES': 1})
@@ -103,6 +106,8 @@ class Contacts:
             _NONE_NEAR.nbytes + _NEAR_BYTES * (layout.block_count + scene.node_count))
         self._clear_near = self._near.write_calls(_NONE_NEAR)
         self._foresight = SceneProgram('foresee_contact.comp', scene, layout)
+        self._surface = (
+            SurfaceContact(scene, layout) if scene.thin_colliders else None)
         self._set: dict[Program, tuple[_Touch, float]] = {}
         self._joined: tuple[Forcing, _Touch, Forcing] | None = None
         self.begin_run()
@@ -166,14 +171,25 @@ class Contacts:
         """Return until when no collider moves: ``now`` itself where one does, or infinite."""
         return self._paths.quiet_until(now)
 
-    def begin_explicit(self, touch: '_Touch', step: Program, length: float) -> None:
-        """Have ``step``, which is in use, list what ``act`` acts on in substeps of ``length``."""
+    def begin_explicit(
+            self, touch: '_Touch', step: Program, length: float, *, on_surface: bool) -> None:
+        """
+        Have ``step``, which is in use, list what ``act`` acts on in substeps of ``length``.
+
+        :param on_surface: whether thin colliders act on edges and faces as well
+        """
         self.set_in(step, touch, length)
         for part in (self._near_nodes, self._program):
             program = part.use()
             program.set_float('substep', length)
             program.set_int('block_count', self._layout.block_count)
             self.set_in(program, touch, length)
+        if on_surface and self._surface is not None:
+            for program in self._surface.programs():
+                program.set_float('substep', length)
+                program.set_int('block_count', self._layout.block_count)
+                self.set_in(program, touch, length)
+            self._surface.bind()
         self._near.bind_storage(bindings.NEAR_BLOCKS)
 
     def list_none(self) -> None:
@@ -202,17 +218,23 @@ class Contacts:
         changes.bind_storage(bindings.LIMIT_CHANGES)
         self._act(self._noting_program)
 
-    def act(self) -> None:
+    def act(self, *, on_surface: bool) -> None:
         """Act on an explicit substep that was made, both states of which are bound."""
-        self._act(self._program)
+        self._act(self._program, self._surface if on_surface else None)
 
-    def _act(self, act: SceneProgram) -> None:
+    def _act(self, act: SceneProgram, surface: SurfaceContact | None = None) -> None:
         self._near.bind_dispatches()
         shader_dispatches_visible()
         self._near_nodes.use().dispatch_indirect(0)
         shader_dispatches_visible()
-        act.use().dispatch_indirect(_NODE_GROUPS)
+        if surface is None:
+            act.use().dispatch_indirect(_NODE_GROUPS)
+        else:
+            surface.act()
+            surface.act_on_others(_NODE_GROUPS)
         shader_writes_visible()
+        if surface is not None:
+            surface.move_out()
 
     def has_acted(self) -> bool:
         """Wait for ``act``, and return whether a node was so near that it may have acted on it."""
@@ -319,6 +341,8 @@ class Contacts:
         self._noting_program.delete()
         self._program.delete()
         self._foresight.delete()
+        if self._surface is not None:
+            self._surface.delete()
 
     def _marks(self) -> np.ndarray:
         """Return the last entry of the record, (4,): what decides about substeps and solves."""
@@ -414,7 +438,8 @@ class _Touch:
         largest = np.abs(self.centres).max(axis=-1) + reach
         # What positions are rounded by, and more.
         return (
-            reach + length * np.linalg.norm(self.velocities, axis=-1) + _ROUNDING * largest + 1e-8)
+            reach + length * np.linalg.norm(self.velocities, axis=-1) + _ROUNDING * largest + 1e-8
+            + self._contacts.feature_reach)
 
     def near_shares(self, length: float) -> np.ndarray:
         """Return the shares of these distances that are left by the rotation, (n,)."""
@@ -425,8 +450,8 @@ class _Touch:
         self._contacts.set_in(program, self, length)
         self._contacts.set_marks_in(program)
 
-    def begin_explicit(self, step: Program, length: float) -> None:
-        self._contacts.begin_explicit(self, step, length)
+    def begin_explicit(self, step: Program, length: float, *, on_surface: bool) -> None:
+        self._contacts.begin_explicit(self, step, length, on_surface=on_surface)
 
     def list_none(self) -> None:
         self._contacts.list_none()
@@ -434,8 +459,8 @@ class _Touch:
     def act_after_limits(self, state: State, length: float, changes: Buffer) -> None:
         self._contacts.act_after_limits(self, state, length, changes)
 
-    def act(self) -> None:
-        self._contacts.act()
+    def act(self, *, on_surface: bool) -> None:
+        self._contacts.act(on_surface=on_surface)
 
     def has_acted(self) -> bool:
         return self._contacts.has_acted()

@@ -36,5 +36,7 @@ LIMIT_TALLY = 12
 LIMIT_IMPULSES_OUT = 14
 LIMIT_PREVIOUS = 15
 LIMIT_FIGURES = 16
+SURFACE_NODES = 17
+SURFACE_ROWS = 18
 
 DEFINES = {name: value for name, value in list(globals().items()) if name.isupper()}

@@ -87,6 +87,11 @@ def _brake(
 
 # What edges pull nodes with, by their tension.
 
+def filled(scene: Scene, vectors: np.ndarray) -> np.ndarray:
+    """Return ``vectors``, (rows, cols, 3), with 0 instead of NaN where a shape has no node."""
+    return np.where(scene.present_nodes[..., None], vectors, 0.0) if scene.has_gaps else vectors
+
+
 def spring_tension(
         scene: Scene, positions: np.ndarray, velocities: np.ndarray,
         nodes: np.ndarray | None = None) -> np.ndarray:
@@ -100,7 +105,7 @@ def spring_tension(
     :param nodes: (n, 2) rows and columns, for the springs at these nodes alone: the others are 0
     """
     tension = np.zeros((scene.rows, scene.cols, len(EDGE_KINDS)), dtype=np.float32)
-    positions, velocities = scene.filled(positions), scene.filled(velocities)
+    positions, velocities = filled(scene, positions), filled(scene, velocities)
     if nodes is not None:
         # All kinds at once: these edges are few, and each call of NumPy costs more than they do.
         edges = edges_at(nodes, scene.rows, scene.cols)
@@ -170,8 +175,8 @@ def edge_pulls(
     :param tension: of every edge with an end in ``nodes`` [N], (rows, cols, 6) as in Snapshot
     :param nodes: rows and columns, (n, 2) int
     """
-    positions = scene.filled(positions)
-    velocities = None if velocities is None else scene.filled(velocities)
+    positions = filled(scene, positions)
+    velocities = None if velocities is None else filled(scene, velocities)
     pulls = (
         bending_pulls(scene, positions, velocities, nodes) if scene.has_rigidity
         else np.zeros((len(nodes), 3)))

@@ -21,8 +21,12 @@ class Touch(Protocol):
     def set_in(self, program: Program, length: float) -> None:
         """Set contact.glsl in the program in use to a time of ``length`` [s]; bind its record."""
 
-    def begin_explicit(self, step: Program, length: float) -> None:
-        """Have ``step``, which is in use, list what is near colliders in explicit substeps."""
+    def begin_explicit(self, step: Program, length: float, *, on_surface: bool) -> None:
+        """
+        Have ``step``, which is in use, list what is near colliders in explicit substeps.
+
+        :param on_surface: whether thin colliders act on edges and faces as well
+        """
 
     def list_none(self) -> None:
         """Empty that list: an explicit substep is about to be made."""
@@ -30,7 +34,7 @@ class Touch(Protocol):
     def act_after_limits(self, state: 'State', length: float, changes: Buffer) -> None:
         """Act on such a substep after its velocities were changed, and add up what is done."""
 
-    def act(self) -> None:
+    def act(self, *, on_surface: bool) -> None:
         """Act on an explicit substep that was made, both states of which are bound."""
 
     def has_acted(self) -> bool:

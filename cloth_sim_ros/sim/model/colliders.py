@@ -26,6 +26,9 @@ MOST_COLLIDERS = 32
 SHAPES = {
     'plane': '', 'sphere': 'radius', 'capsule': 'radius, length between its ends',
     'box': 'side along x, y and z', 'cylinder': 'radius, length'}
+# Thickness of a collider over the longer side of a cell [1], below which it can pass between
+# nodes: the diagonal of a square of four nodes.
+THIN = 1.4
 NAME_PATTERN = re.compile(r'[a-z][a-z0-9_]{0,39}')
 
 # NAME stands for each of colliders.names.
@@ -138,6 +141,15 @@ class Collider:
     def axes(self) -> np.ndarray:
         """Return its x, y and z axis as the rows of a matrix, (3, 3)."""
         return self.pose.axes
+
+
+def is_thin(collider: Collider, spacing: tuple[float, float]) -> bool:
+    """
+    Return whether a collider can pass between nodes without touching one.
+
+    :param spacing: of the nodes along a row and along a column [m]
+    """
+    return collider.thickness < THIN * max(spacing)
 
 
 def colliders_of(values: Mapping[str, Any]) -> tuple[Collider, ...]:

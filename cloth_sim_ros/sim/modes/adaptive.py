@@ -10,6 +10,7 @@ from typing import Any
 
 from cloth_sim_ros.gl.buffer import Buffer
 from cloth_sim_ros.sim.device.layout import Layout
+from cloth_sim_ros.sim.held.pin_forces import filled
 from cloth_sim_ros.sim.held.pin_forces import spring_tension
 from cloth_sim_ros.sim.limits.active_limits import ActiveLimits
 from cloth_sim_ros.sim.limits.limit_marks import LimitMarks
@@ -302,7 +303,7 @@ class Adaptive:
         springs = spring_tension(self._scene, positions, velocities, nodes)
         if not (self._is_listed and self.last_length):
             return springs
-        pulls = self._limits.pulls(self._scene.filled(positions))
+        pulls = self._limits.pulls(filled(self._scene, positions))
         return (springs + self._scene.node_mass / self.last_length * pulls).astype(np.float32)
 
     def delete(self) -> None:

@@ -44,12 +44,17 @@ _ROUNDING = 1e-6
 
 
 class OnePass:
-    """The fused layout: mass_spring_step.comp."""
+    """
+    The fused layout: mass_spring_step.comp.
+
+    :param acts_on_surface: whether thin colliders act on edges and faces as well as on nodes
+    """
 
     shader = 'mass_spring_step.comp'
 
-    def __init__(self, scene: Scene, layout: Layout) -> None:
+    def __init__(self, scene: Scene, layout: Layout, *, acts_on_surface: bool = False) -> None:
         """Compile the pass."""
+        self._acts_on_surface = acts_on_surface
         self._step = SceneProgram(self.shader, scene, layout)
         # Leaves entries of held.glsl, and costs more. Both make the same state, to the bit.
         self._recording_step = SceneProgram(self.shader, scene, layout, {'HAS_HELD': 1})
@@ -117,7 +122,7 @@ class OnePass:
         program = self._recording_step if records else self._step
         step = program.use_for_step(forcing, length, kick)
         if forcing.touch is not None:
-            forcing.touch.begin_explicit(step, length)
+            forcing.touch.begin_explicit(step, length, on_surface=self._acts_on_surface)
             step.use()
         return step
 
@@ -138,7 +143,7 @@ class OnePass:
         if touch is None or not acts:
             shader_writes_visible()
         else:
-            touch.act()
+            touch.act(on_surface=self._acts_on_surface)
 
     def delete(self) -> None:
         """Release the pass."""
@@ -188,7 +193,7 @@ class MassSpring:
     @staticmethod
     def make_passes(scene: Scene, layout: Layout) -> SubstepPasses:
         """Compile and return what makes substeps."""
-        return OnePass(scene, layout)
+        return OnePass(scene, layout, acts_on_surface=True)
 
     @staticmethod
     def edge_model(scene: Scene) -> str:

@@ -7,6 +7,7 @@ import math
 
 from cloth_sim_ros.reference.explicit_cloth import MassSpringReference
 from cloth_sim_ros.reference.implicit_cloth import ImplicitCloth
+from cloth_sim_ros.sim.held.pin_forces import filled
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.simulation import Simulation
 from cloth_sim_ros.sim.snapshot import present_cells
@@ -130,7 +131,7 @@ def test_a_free_cut_cloth_keeps_its_momenta(context, within, shape, mode):
 
     def momenta(simulation):
         positions, velocities = (
-            scene.filled(each).astype(float)
+            filled(scene, each).astype(float)
             for each in (simulation.positions(), simulation.velocities()))
         momentum = masses * velocities
         return momentum.sum(axis=(0, 1)), np.cross(positions, momentum).sum(axis=(0, 1))

@@ -1,0 +1,89 @@
+# SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
+# SPDX-License-Identifier: Apache-2.0
+
+"""Contacts of thin colliders with edges and faces of the cloth, in explicit substeps."""
+
+from collections.abc import Iterator
+
+from cloth_sim_ros.gl.buffer import Buffer
+from cloth_sim_ros.gl.buffer import shader_writes_visible
+from cloth_sim_ros.gl.program import Program
+from cloth_sim_ros.sim.device import bindings
+from cloth_sim_ros.sim.device.layout import Layout
+from cloth_sim_ros.sim.device.scene_program import SceneProgram
+from cloth_sim_ros.sim.scene import Scene
+import numpy as np
+
+# Invocations of the workgroup [1].
+_LOCAL = 16
+# Points that a face can touch, of each shape [1].
+_TIPS = {'plane': 1, 'sphere': 1, 'capsule': 2, 'box': 8, 'cylinder': 4}
+_EDGES = 3
+# Size of an entry of each kind in surface_rows.glsl and surface_nodes.glsl [bytes].
+_ROW_BYTES, _NODE_BYTES, _HEAD_BYTES = 96, 48, 32
+
+
+class SurfaceContact:
+    """The passes of surface_contact.comp, and where they keep rows and nodes."""
+
+    def __init__(self, scene: Scene, layout: Layout) -> None:
+        """Allocate; the passes are compiled when they are first used."""
+        numbers = scene.thin_colliders
+        tips = max(_TIPS[scene.colliders[number].shape] for number in numbers)
+        defines = {
+            'SURFACE_TIPS': tips, 'SURFACE_LOCAL': _LOCAL,
+            'SURFACE_COLLIDERS': f'{sum(1 << number for number in numbers)}u'}
+        self._impulses = SceneProgram(
+            'surface_contact.comp', scene, layout, {**defines, 'WAYS_OUT': 0})
+        self._ways = SceneProgram(
+            'surface_contact.comp', scene, layout, {**defines, 'WAYS_OUT': 1})
+        self._others = SceneProgram(
+            'contact.comp', scene, layout, {'NOTES_CHANGES': 0, 'HAS_SURFACE': 1})
+        self._layout = layout
+        self._most_entries = scene.node_count * len(numbers)
+        rows = _EDGES + 2 * tips
+        self._nodes = Buffer(np.zeros(layout.stored * _NODE_BYTES // 4, dtype=np.float32))
+        self._rows = Buffer(np.zeros(
+            (_HEAD_BYTES + self._most_entries * rows * _ROW_BYTES) // 4, dtype=np.float32))
+
+    def programs(self) -> Iterator[Program]:
+        """Yield each pass, in use, to be set to a substep."""
+        yield self._others.use()
+        for part in (self._impulses, self._ways):
+            program = part.use()
+            program.set_int_anywhere('most_entries', self._most_entries)
+            yield program
+
+    def bind(self) -> None:
+        """Let the passes find their rows and nodes."""
+        self._nodes.bind_storage(bindings.SURFACE_NODES)
+        self._rows.bind_storage(bindings.SURFACE_ROWS)
+
+    def act(self) -> None:
+        """Find the contacts and their impulses, and change what they act on."""
+        self._impulses.use().dispatch(1)
+        shader_writes_visible()
+
+    def act_on_others(self, groups: int) -> None:
+        """
+        Act on the nodes that no edge or face has been acted on at.
+
+        :param groups: offset of the workgroups in the buffer of dispatches [bytes]
+        """
+        self._others.use().dispatch_indirect(groups)
+
+    def move_out(self) -> None:
+        """Move edges and faces out of colliders that they are left within."""
+        self._ways.use().dispatch(1)
+        shader_writes_visible()
+
+    def read_losses(self) -> tuple[int, int]:
+        """Wait, and return how many rows had no room, and how many nodes were not listed."""
+        head = np.empty(_HEAD_BYTES // 4, dtype=np.uint32)
+        self._rows.read_into(head)
+        return int(head[1]), int(head[2])
+
+    def delete(self) -> None:
+        """Release everything."""
+        for part in (self._impulses, self._ways, self._others, self._nodes, self._rows):
+            part.delete()

@@ -1,0 +1,566 @@
+// SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
+// SPDX-License-Identifier: Apache-2.0
+
+#version 430 core
+// Let thin colliders act on edges and faces of the cloth, in an explicit substep that has been made,
+// before it is the present state: one workgroup, at the nodes that near_nodes.comp lists. It also
+// does what contact.comp does at the nodes that it changes.
+//
+// Rounds find the impulses: each row of a contact takes the velocity of its nodes, and each node
+// the impulses of its rows. With s_k the sum of the weights of the rows of the node k, D = sum_k
+// w_k s_k / m_k is no less than what an impulse changes, whatever the other rows do.
+
+#define POSITIONS_ALONE 1
+#include "lattice.glsl"
+#include "state_in.glsl"
+#include "contact.glsl"
+#include "near_blocks.glsl"
+#include "low_parts.glsl"
+#include "surface_edges.glsl"
+#include "surface_rows.glsl"
+
+layout(local_size_x = SURFACE_LOCAL) in;
+
+layout(std430, binding = POSITION_OUT) coherent buffer PositionOut { vec4 position_out[]; };
+layout(std430, binding = VELOCITY_OUT) coherent buffer VelocityOut { vec4 velocity_out[]; };
+
+#include "contact_record.glsl"
+
+// Max. rounds of impulses, and of the ways out [1].
+#define IMPULSE_ROUNDS 30
+#define WAY_ROUNDS 8
+#define WAY_SEARCHES 2
+// Change of an impulse in a round, over the largest impulse [1], at which rounds end.
+#define STILL 1e-6
+// Min. weight of a node of a face [1]: what is nearer to its edge is a contact of the edge.
+#define LEAST_WEIGHT 1e-5
+
+uniform float substep;     // [s]
+uniform int block_count;   // in all
+uniform int most_entries;
+
+bool is_at_end;  // whether rows are of the positions and colliders at the end of the substep
+
+vec3 place_of(int index) {
+    return is_at_end ? position_out[index].xyz : load_position(index).xyz;
+}
+
+// From the centre of the collider, in the axes that it has as the substep begins.
+vec3 arm_of(int collider, vec3 x) {
+    vec3 arm = x - collider_centre[collider];
+    if (is_at_end) {
+        arm -= substep * collider_velocity[collider];
+        arm += substep * (arm.x * collider_turn[3 * collider]
+            + arm.y * collider_turn[3 * collider + 1] + arm.z * collider_turn[3 * collider + 2]);
+    }
+    return arm;
+}
+
+vec3 turned_on(int collider, vec3 normal) {
+    return is_at_end ? normal + substep * vec3(
+        dot(collider_turn[3 * collider], normal), dot(collider_turn[3 * collider + 1], normal),
+        dot(collider_turn[3 * collider + 2], normal)) : normal;
+}
+
+// Distance of two ends of an edge as the substep ends, from x at its begin with velocities v.
+float distance_at_end(int collider, vec3 a, vec3 b, vec3 va, vec3 vb) {
+    bool was_at_end = is_at_end;
+    is_at_end = true;
+    NearEdge found = nearest_on_edge(
+        collider, arm_of(collider, a + substep * va), arm_of(collider, b + substep * vb));
+    is_at_end = was_at_end;
+    return found.distance - clearance;
+}
+
+SurfaceRow no_row() { return SurfaceRow(vec4(0.0), vec4(0.0), vec4(0.0)); }
+
+SurfaceRow edge_row(int collider, int first, int second) {
+    vec3 a = place_of(first), b = place_of(second);
+    NearEdge near = nearest_on_edge(collider, arm_of(collider, a), arm_of(collider, b));
+    float gap = near.distance - clearance;
+    float around = rounding(a, collider);
+    // At the end, what is left within the collider.
+    float limit = -2.0 * around;
+    if (!is_at_end) {
+        vec3 va = velocity_out[first].xyz - surface_velocity(collider, a);
+        vec3 vb = velocity_out[second].xyz - surface_velocity(collider, b);
+        limit = substep * max(length(va), length(vb));
+    }
+    bool is_near = near.place > 0.0 && near.place < 1.0 && gap < limit + around;
+    // Its nodes own what is nearest to one of them.
+    is_near = is_near && near.distance < min(
+        distance_to_collider(collider, arm_of(collider, a)).w,
+        distance_to_collider(collider, arm_of(collider, b)).w) - around;
+    float steep = length(near.slope);
+    is_near = is_near && steep > 1e-6;
+    if (is_near && !is_at_end && gap > around && 2.0 * limit < collider_thickness[collider]) {
+        is_near = distance_at_end(
+            collider, a, b, velocity_out[first].xyz, velocity_out[second].xyz) < 0.0;
+    }
+    if (!is_near) {
+        return no_row();
+    }
+    vec3 normal = turned_on(collider, near.slope / steep);
+    return SurfaceRow(
+        vec4(normal, near.distance / steep - clearance), vec4(0.0, 0.0, 0.0, 1.0),
+        vec4(1.0 - near.place, near.place, 0.0, float(collider)));
+}
+
+// The points of a collider that a face can touch, in its axes; normal: of the face towards it.
+vec3 tip_of(int shape, vec3 size, vec3 normal, int tip) {
+    if (shape == SHAPE_CAPSULE) {
+        return vec3(0.0, 0.0, tip == 0 ? -size.y : size.y);
+    }
+    if (shape == SHAPE_BOX) {
+        return size * vec3((tip & 1) != 0 ? 1.0 : -1.0, (tip & 2) != 0 ? 1.0 : -1.0,
+            (tip & 4) != 0 ? 1.0 : -1.0);
+    }
+    if (shape == SHAPE_CYLINDER) {
+        float l = length(normal.xy);
+        vec2 outwards = l > 1e-6 ? -normal.xy / l : vec2(1.0, 0.0);
+        return vec3((tip & 2) != 0 ? -size.x * outwards : size.x * outwards,
+            (tip & 1) != 0 ? size.y : -size.y);
+    }
+    return vec3(0.0);
+}
+
+int tip_count(int shape) {
+    return shape == SHAPE_BOX ? 8 : shape == SHAPE_CYLINDER ? 4 : shape == SHAPE_CAPSULE ? 2 : 1;
+}
+
+SurfaceRow face_row(int collider, ivec3 nodes, int tip) {
+    int shape = int(collider_shape[collider]);
+    if (tip >= tip_count(shape)) {
+        return no_row();
+    }
+    vec3 x0 = arm_of(collider, place_of(nodes.x));
+    vec3 side = arm_of(collider, place_of(nodes.y)) - x0;
+    vec3 other = arm_of(collider, place_of(nodes.z)) - x0;
+    vec3 across = cross(side, other);
+    float area = length(across);
+    vec3 normal = across / max(area, 1e-30);
+    bool is_round = shape == SHAPE_SPHERE || shape == SHAPE_CAPSULE;
+    vec3 axis_x = collider_axes[3 * collider], axis_y = collider_axes[3 * collider + 1];
+    vec3 axis_z = collider_axes[3 * collider + 2];
+    vec3 size = collider_size[collider];
+    // Towards the collider: the core of a round tip, which is never passed, or else the centre.
+    vec3 core = is_round ? (shape == SHAPE_CAPSULE && tip == 0 ? -size.y : shape == SHAPE_CAPSULE
+        ? size.y : 0.0) * axis_z : vec3(0.0);
+    normal = dot(normal, x0 - core) > 0.0 ? -normal : normal;
+    vec3 own = tip_of(
+        shape, size, vec3(dot(axis_x, normal), dot(axis_y, normal), dot(axis_z, normal)), tip);
+    vec3 place = own.x * axis_x + own.y * axis_y + own.z * axis_z - x0;
+    float gap = dot(normal, place) - (is_round ? size.x : 0.0) - clearance;
+    float around = rounding(place_of(nodes.x), collider);
+    float limit = -2.0 * around;
+    if (!is_at_end) {
+        limit = 0.0;
+        for (int i = 0; i < 3; ++i) {
+            int index = nodes[i];
+            limit = max(limit, length(velocity_out[index].xyz
+                - surface_velocity(collider, place_of(index))));
+        }
+        limit *= substep;
+    }
+    float scale = 1.0 / max(area * area, 1e-30);
+    float second = dot(cross(place, other), across) * scale;
+    float third = dot(cross(side, place), across) * scale;
+    float least = min(min(second, third), 1.0 - second - third);
+    float deepest = max(max(size.x, max(size.y, size.z)), clearance);
+    bool is_near = area > 0.0 && least > LEAST_WEIGHT
+        && gap < limit + around && gap > -2.0 * deepest;
+    if (!is_near) {
+        return no_row();
+    }
+    return SurfaceRow(
+        vec4(turned_on(collider, -normal), gap), vec4(0.0, 0.0, 0.0, 1.0),
+        vec4(1.0 - second - third, second, third, float(collider)));
+}
+
+bool are_listed(ivec3 nodes) {
+    return surface_nodes[nodes.x].is_listed == 1 && surface_nodes[nodes.y].is_listed == 1
+        && surface_nodes[nodes.z].is_listed == 1;
+}
+
+// Whether there is the edge or the face of a row at its node.
+bool owns(int index, int row) {
+    vec4 here = load_position(index);
+    if (row == 0) {
+        return edge_share(here, load_position(index + 1), EDGE_ROW) > 0.0;
+    }
+    if (row == 1) {
+        return edge_share(here, load_position(index + PITCH), EDGE_COLUMN) > 0.0;
+    }
+    return edge_share(here, load_position(index + PITCH + 1), EDGE_DIAGONAL) > 0.0;
+}
+
+// The thin colliders that the cell of a node may come to.
+uint colliders_near_cell(int index, uint bodies) {
+    vec3 x = load_position(index).xyz;
+    ivec3 others = index + ivec3(1, PITCH, PITCH + 1);
+    float reach = 0.0;
+    float fastest = 0.0;
+    for (int i = 0; i < 3; ++i) {
+        vec4 other = load_position(others[i]);
+        // Ghosts are nowhere.
+        if (other.w != 0.0) {
+            reach = max(reach, length(other.xyz - x));
+        }
+    }
+    uint near = 0u;
+    for (bodies &= SURFACE_COLLIDERS; bodies != 0u; bodies &= bodies - 1u) {
+        int collider = findLSB(bodies);
+        float way = length(velocity_out[index].xyz - surface_velocity(collider, x));
+        for (int i = 0; i < 3; ++i) {
+            vec4 other = load_position(others[i]);
+            way = max(way, other.w != 0.0 ? length(velocity_out[others[i]].xyz
+                - surface_velocity(collider, other.xyz)) : 0.0);
+        }
+        float away = distance_to_collider(collider, x - collider_centre[collider]).w - clearance;
+        near |= away < reach + substep * way + 2.0 * rounding(x, collider)
+            ? 1u << uint(collider) : 0u;
+    }
+    return near;
+}
+
+void synchronise() {
+    memoryBarrierBuffer();
+    barrier();
+}
+
+// The row of an entry, which belongs to a node and a collider.
+void find_row(int entry, int row) {
+    uvec2 owner = surface_rows[entry * SURFACE_ROWS_OF_BODY].entry;
+    int index = int(owner.x);
+    int collider = int(owner.y);
+    ivec3 nodes = index + surface_offsets(row);
+    SurfaceRow found = no_row();
+    if (owns(index, row)) {
+        if (row < SURFACE_EDGES) {
+            found = edge_row(collider, nodes.x, nodes.y);
+        } else {
+            found = face_row(collider, nodes, (row - SURFACE_EDGES) % SURFACE_TIPS);
+        }
+    }
+    if (found.impulse.w != 0.0 && !are_listed(nodes)) {
+        atomicAdd(surface_missed, 1u);
+        found = no_row();
+    }
+    int slot = entry * SURFACE_ROWS_OF_BODY + row;
+    surface_rows[slot].row = found;
+    if (found.impulse.w != 0.0) {
+        surface_rows[atomicAdd(acting_rows, 1u)].acting = uvec2(slot, index);
+        for (int i = 0; i < surface_row_count(row); ++i) {
+            surface_nodes[nodes[i]].is_held = 1;
+        }
+    }
+}
+
+// List the rows of a node with its weight in each, in an order that is always the same, and add up
+// the weights.
+void list_rows_of(int index) {
+    uint first = 0u;
+    float shares = 0.0;
+    int count = 0;
+    // Once to count them, and once to write them.
+    for (int pass = 0; pass < 2; ++pass) {
+        first = pass == 1 ? atomicAdd(listed_rows, uint(count)) : 0u;
+        count = 0;
+        ivec4 owners = index - ivec4(0, 1, PITCH, PITCH + 1);
+        for (int i = 0; i < 4; ++i) {
+            SurfaceNode owner = surface_nodes[owners[i]];
+            int rows = owner.is_listed == 1 ? bitCount(owner.bodies) * SURFACE_ROWS_OF_BODY : 0;
+            int begin = owner.first * SURFACE_ROWS_OF_BODY;
+            for (int k = 0; k < rows; ++k) {
+                if (surface_rows[begin + k].row.impulse.w == 0.0) {
+                    continue;
+                }
+                int row = k % SURFACE_ROWS_OF_BODY;
+                ivec3 nodes = owners[i] + surface_offsets(row);
+                for (int n = 0; n < surface_row_count(row); ++n) {
+                    if (nodes[n] == index) {
+                        float weight = surface_rows[begin + k].row.weights[n];
+                        if (pass == 1) {
+                            uint at = first + uint(count);
+                            surface_rows[at / 3u].of_node[at % 3u] =
+                                uvec2(begin + k, floatBitsToUint(weight));
+                            shares += weight;
+                        }
+                        ++count;
+                    }
+                }
+            }
+        }
+    }
+    surface_nodes[index].first_row = int(first);
+    surface_nodes[index].row_count = count;
+    surface_nodes[index].shares = shares;
+}
+
+// Sum of the impulses of the rows of a node [m/s].
+vec3 gathered(int index) {
+    vec3 sum = vec3(0.0);
+    int first = surface_nodes[index].first_row;
+    int end = first + surface_nodes[index].row_count;
+    for (int i = first; i < end; ++i) {
+        uvec2 row = surface_rows[i / 3].of_node[i % 3];
+        sum += uintBitsToFloat(row.y) * surface_rows[row.x].row.impulse.xyz;
+    }
+    return sum;
+}
+
+// Bits of the largest impulse of a round, and of the largest change of one.
+shared uint largest;
+shared uint largest_change;
+
+void note_round(vec3 impulse, vec3 before) {
+    atomicMax(largest, floatBitsToUint(length(impulse)));
+    atomicMax(largest_change, floatBitsToUint(length(impulse - before)));
+}
+
+float inverse_mass(int index) { return velocity_out[index].w; }
+
+#if !WAYS_OUT
+// Lets a row act on the velocities that its nodes have now.
+void act(int owner, int row, int slot) {
+    SurfaceRow found = surface_rows[slot].row;
+    if (found.impulse.w == 0.0) {
+        return;
+    }
+    int collider = int(found.weights.w);
+    ivec3 nodes = owner + surface_offsets(row);
+    vec3 u = vec3(0.0), x = vec3(0.0);
+    float share = 0.0;
+    for (int i = 0; i < surface_row_count(row); ++i) {
+        float weight = found.weights[i];
+        u += weight * velocity_out[nodes[i]].xyz;
+        x += weight * load_position(nodes[i]).xyz;
+        share += weight * surface_nodes[nodes[i]].shares * inverse_mass(nodes[i]);
+    }
+    if (share <= 0.0) {
+        return;
+    }
+    u -= surface_velocity(collider, x);
+    vec3 normal = found.normal.xyz;
+    float pressed = dot(found.impulse.xyz, normal);
+    float along_normal = dot(u, normal);
+    float now = max(
+        pressed - (along_normal + max(found.normal.w, 0.0) / substep) / share, 0.0);
+    vec3 friction = found.impulse.xyz - pressed * normal - (u - along_normal * normal) / share;
+    float most = collider_friction[collider] * now;
+    float speed = length(friction);
+    friction *= speed > most ? most / max(speed, 1e-30) : 1.0;
+    vec3 impulse = now * normal + friction;
+    note_round(impulse, found.impulse.xyz);
+    surface_rows[slot].row.impulse.xyz = impulse;
+}
+
+#else
+// Lets a row move its nodes out of a collider; ways instead of velocities.
+void act(int owner, int row, int slot) {
+    SurfaceRow found = surface_rows[slot].row;
+    if (found.impulse.w == 0.0) {
+        return;
+    }
+    ivec3 nodes = owner + surface_offsets(row);
+    float moved = 0.0, share = 0.0;
+    for (int i = 0; i < surface_row_count(row); ++i) {
+        moved += found.weights[i] * dot(surface_nodes[nodes[i]].free, found.normal.xyz);
+        share += found.weights[i] * surface_nodes[nodes[i]].shares * inverse_mass(nodes[i]);
+    }
+    if (share <= 0.0) {
+        return;
+    }
+    float pressed = dot(found.impulse.xyz, found.normal.xyz);
+    vec3 impulse = max(pressed - (moved + found.normal.w) / share, 0.0) * found.normal.xyz;
+    note_round(impulse, found.impulse.xyz);
+    surface_rows[slot].row.impulse.xyz = impulse;
+}
+
+#endif
+
+#define EACH_ROW(i) uint i = gl_LocalInvocationID.x; i < acting_rows; i += SURFACE_LOCAL
+#define EACH_HELD(i) uint i = gl_LocalInvocationID.x; i < held_nodes; i += SURFACE_LOCAL
+#define EACH_NEAR(i) uint i = gl_LocalInvocationID.x; i < near_node_count; i += SURFACE_LOCAL
+
+
+int node_at(uint place) { return int(near[uint(block_count) + place].index); }
+
+// Let each row act once; return whether they have come to rest.
+bool rows_act() {
+    if (gl_LocalInvocationID.x == 0u) {
+        largest = 0u;
+        largest_change = 0u;
+    }
+    synchronise();
+    for (EACH_ROW(i)) {
+        uvec2 acting = surface_rows[i].acting;
+        act(int(acting.y), int(acting.x) % SURFACE_ROWS_OF_BODY, int(acting.x));
+    }
+    synchronise();
+    bool is_done = uintBitsToFloat(largest_change) <= STILL * uintBitsToFloat(largest);
+    synchronise();
+    return is_done;
+}
+
+uint held_place(uint i) { return uint(surface_nodes[i].held.x); }
+
+int held_node(uint i) { return surface_nodes[i].held.y; }
+
+// Find the rows, and list them with the nodes that they act on.
+void find_all_rows() {
+    if (gl_LocalInvocationID.x == 0u) {
+        acting_rows = 0u;
+        held_nodes = 0u;
+        listed_rows = 0u;
+    }
+    synchronise();
+    uint entries = min(surface_entries, uint(most_entries));
+    // Lanes beside one another do the same for other nodes.
+    for (int row = 0; row < SURFACE_ROWS_OF_BODY; ++row) {
+        for (uint i = gl_LocalInvocationID.x; i < entries; i += SURFACE_LOCAL) {
+            find_row(int(i), row);
+        }
+    }
+    synchronise();
+    for (EACH_NEAR(i)) {
+        int index = node_at(i);
+        if (surface_nodes[index].is_held == 1) {
+            surface_nodes[atomicAdd(held_nodes, 1u)].held = ivec2(i, index);
+            list_rows_of(index);
+        }
+    }
+    synchronise();
+}
+
+// Impulses of the rows of a node on one collider [m/s], and FREE, STICKS or SLIDES.
+vec4 gathered_of(int index, int collider) {
+    vec4 sum = vec4(0.0);
+    int first = surface_nodes[index].first_row;
+    int end = first + surface_nodes[index].row_count;
+    for (int i = first; i < end; ++i) {
+        uvec2 row = surface_rows[i / 3].of_node[i % 3];
+        SurfaceRow found = surface_rows[row.x].row;
+        if (int(found.weights.w) != collider || found.impulse.xyz == vec3(0.0)) {
+            continue;
+        }
+        float pressed = dot(found.impulse.xyz, found.normal.xyz);
+        float friction = length(found.impulse.xyz - pressed * found.normal.xyz);
+        bool slides = friction >= 0.99999 * collider_friction[collider] * pressed;
+        sum = vec4(sum.xyz + uintBitsToFloat(row.y) * found.impulse.xyz,
+            max(sum.w, float(slides ? SLIDES : STICKS)));
+    }
+    return sum;
+}
+
+#if WAYS_OUT
+void main() {
+    is_at_end = true;
+    bool has_entries = surface_entries > 0u;
+    for (int search = 0; has_entries && search < WAY_SEARCHES; ++search) {
+        for (EACH_NEAR(i)) {
+            int index = node_at(i);
+            surface_nodes[index].free = vec3(0.0);
+            surface_nodes[index].is_held = 0;
+        }
+        synchronise();
+        find_all_rows();
+        bool is_done = acting_rows == 0u;
+        has_entries = !is_done;
+        for (int round = 0; !is_done && round < WAY_ROUNDS; ++round) {
+            is_done = rows_act();
+            for (EACH_HELD(i)) {
+                int index = held_node(i);
+                surface_nodes[index].free = inverse_mass(index) * gathered(index);
+            }
+            synchronise();
+        }
+        for (EACH_HELD(i)) {
+            int index = held_node(i);
+            position_out[index].xyz += surface_nodes[index].free;
+        }
+        synchronise();
+    }
+    for (EACH_NEAR(i)) {
+        surface_nodes[node_at(i)].is_listed = 0;
+    }
+}
+#else
+void main() {
+    is_at_end = false;
+    if (gl_LocalInvocationID.x == 0u) {
+        surface_entries = 0u;
+    }
+    for (EACH_NEAR(i)) {
+        int index = node_at(i);
+        surface_nodes[index] = SurfaceNode(
+            velocity_out[index].xyz, 1, 0, 0, 0, 0.0, 0, 0, ivec2(0));
+    }
+    synchronise();
+    for (EACH_NEAR(i)) {
+        int index = node_at(i);
+        uint bodies = colliders_near_cell(index, near[uint(block_count) + i].bodies);
+        uint count = uint(bitCount(bodies));
+        uint first = count > 0u ? atomicAdd(surface_entries, count) : 0u;
+        bool is_room = first + count <= uint(most_entries);
+        if (!is_room) {
+            atomicAdd(surface_lost, 1u);
+        }
+        surface_nodes[index].first = int(first);
+        surface_nodes[index].bodies = is_room ? int(bodies) : 0;
+        for (uint rest = is_room ? bodies : 0u; rest != 0u; rest &= rest - 1u) {
+            surface_rows[first++ * uint(SURFACE_ROWS_OF_BODY)].entry =
+                uvec2(index, findLSB(rest));
+        }
+    }
+    synchronise();
+    bool has_entries = surface_entries > 0u;
+    if (has_entries) {
+        find_all_rows();
+    }
+    bool is_done = !has_entries || acting_rows == 0u;
+    for (int round = 0; !is_done && round < IMPULSE_ROUNDS; ++round) {
+        is_done = rows_act();
+        for (EACH_HELD(i)) {
+            int index = held_node(i);
+            if (inverse_mass(index) > 0.0) {
+                vec3 x = load_position(index).xyz;
+                vec3 v = surface_nodes[index].free + inverse_mass(index) * gathered(index);
+                velocity_out[index].xyz = contact_with(
+                    near[uint(block_count) + held_place(i)].bodies, x, v, v, substep).velocity;
+            }
+        }
+        synchronise();
+    }
+    for (uint i = gl_LocalInvocationID.x; has_entries && i < held_nodes; i += SURFACE_LOCAL) {
+        int index = held_node(i);
+        vec3 x = load_position(index).xyz;
+        if (inverse_mass(index) > 0.0) {
+            vec3 v = surface_nodes[index].free + inverse_mass(index) * gathered(index);
+            Contact contact = contact_with(
+                near[uint(block_count) + held_place(i)].bodies, x, v, v, substep);
+#if HAS_LOW_PARTS
+            vec3 to = changed_position(
+                index, position_out[index].xyz,
+                substep * (contact.velocity - surface_nodes[index].free));
+#else
+            vec3 to = x + substep * contact.velocity;
+#endif
+            velocity_out[index].xyz = contact.velocity;
+            position_out[index].xyz = touched_count > 0 ? moved_out(to, substep) : to;
+            if (touched_count > 0) {
+                record_contacts(index, contact.kind);
+            }
+        }
+        for (uint bodies = SURFACE_COLLIDERS; bodies != 0u; bodies &= bodies - 1u) {
+            int collider = findLSB(bodies);
+            vec4 by_rows = gathered_of(index, collider);
+            if (by_rows.w > 0.0) {
+                int entry = collider * record_stride + index;
+                contacts[entry] = vec4(
+                    contacts[entry].xyz + by_rows.xyz, max(contacts[entry].w, by_rows.w));
+            }
+        }
+    }
+}
+#endif

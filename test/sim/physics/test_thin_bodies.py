@@ -1,0 +1,184 @@
+# SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
+# SPDX-License-Identifier: Apache-2.0
+
+"""Bodies that are thinner than cells hold the cloth between its nodes, in mode mass_spring."""
+
+import warnings
+
+from cloth_sim_ros.sim.scene import Scene
+from cloth_sim_ros.sim.simulation import Simulation
+from cloth_sim_ros.study.energy_account import EnergyAccount
+import numpy as np
+import pytest
+
+# Of a body whose axis is along y.
+ALONG_Y = (0.5**0.5, 0.0, 0.0, 0.5**0.5)
+CLEARANCE = 0.0005
+CLOTH = {
+    'material.preset': 'trousers', 'width': 0.5, 'height': 0.5, 'rows': 9, 'cols': 9, 'dt': 0.005,
+    'damping.structural': 0.02, 'damping.shear': 0.01, 'air.density': 0.0, 'pins': ('none',),
+    'contact.thickness': 2.0 * CLEARANCE, 'colliders.names': ('body',),
+    'colliders.body.friction': 0.5}
+CELL = 0.5 / 8
+# Between two lines of nodes, and in the middle of a cell.
+BETWEEN = (0.5 * CELL, 0.0, 0.0)
+WITHIN = (0.5 * CELL, 0.35 * CELL, 0.0)
+BODIES = {
+    **{f'rod of {radius} m': {'shape': 'capsule', 'size': (radius, 2.0), 'orientation': ALONG_Y}
+       for radius in (0.001, 0.003, 0.01, 0.02)},
+    'cylinder': {'shape': 'cylinder', 'size': (0.005, 2.0), 'orientation': ALONG_Y},
+    'bar': {'shape': 'box', 'size': (0.01, 2.0, 0.006)},
+    'edge of a blade': {
+        'shape': 'box', 'size': (0.002, 2.0, 0.2), 'position': (*BETWEEN[:2], -0.1)},
+    **{f'sphere of {share} cell': {
+        'shape': 'sphere', 'size': (share * CELL,), 'position': WITHIN}
+       for share in (0.2, 0.5, 0.69)},
+    'finger': {'shape': 'capsule', 'size': (0.01, 0.2), 'position': (*WITHIN[:2], -0.1)},
+    'small box': {'shape': 'box', 'size': (0.03, 0.02, 0.02), 'position': WITHIN}}
+
+
+def scene_with(body, **more):
+    """Return a level cloth just above a body."""
+    given = {'position': BETWEEN, **body}
+    return Scene({
+        **CLOTH, 'start.z': 0.03,
+        **{f'colliders.body.{name}': value for name, value in given.items()}, **more})
+
+
+def deepest(simulation, samples=12):
+    """Return how deep the triangles of the cloth are in the body at most [m], by sampling."""
+    body, = simulation.colliders
+    p = simulation.positions().astype(float)
+    upper, lower = p[:-1, :-1], p[1:, 1:]
+    right, left = p[:-1, 1:], p[1:, :-1]
+    least = np.inf
+    for first, second, third in ((upper, left, right), (lower, left, right)):
+        for i in range(samples + 1):
+            for j in range(samples + 1 - i):
+                points = first + (second - first) * (i / samples) + (third - first) * (j / samples)
+                least = min(least, float(body.distance(points).min()))
+    return CLEARANCE - least
+
+
+def momentum(simulation):
+    """Return the momentum of the cloth [N s]."""
+    scene = simulation.scene
+    masses = scene.node_mass * scene.node_shares[..., None]
+    return np.sum(masses * simulation.velocities().astype(float), axis=(0, 1))
+
+
+@pytest.mark.parametrize('name', BODIES)
+def test_a_thin_body_holds_the_cloth(context, within, name):
+    """Cloth would fall through a rod between two lines of nodes, and no flag tell of it."""
+    scene = scene_with(BODIES[name])
+    assert scene.thin_colliders == (0,)
+    worst = -np.inf
+    with Simulation(scene, context=context) as simulation:
+        simulation.step(1)
+        before, window = momentum(simulation), simulation.open_force_window()
+        for _ in range(20):
+            simulation.step(5)
+            worst = max(worst, deepest(simulation))
+        force, = simulation.frame_forces(window).contacts
+        gained = momentum(simulation) - before
+        # Its middle is still above the body.
+        assert simulation.positions()[..., 2].max() > -0.05
+    weight = scene.mass * 9.81
+    # What the body takes is what the cloth weighs, less what its momentum grows by.
+    expected = np.array((0.0, 0.0, -weight)) - gained / 0.5
+    within('force, relative to the weight',
+           np.abs(force.force - expected).max() / weight, 1e-4)
+    assert force.force[2] < -0.2 * weight
+    within('depth of a triangle [m]', worst, 1e-6)
+
+
+@pytest.mark.parametrize('speed', [5.0, 10.0])
+@pytest.mark.parametrize('radius', [0.0005, 0.003])
+def test_a_thin_rod_is_not_passed_at_speed(context, within, radius, speed):
+    """Cloth would be on the other side of a rod in one substep."""
+    scene = scene_with({'shape': 'capsule', 'size': (radius, 2.0), 'orientation': ALONG_Y})
+    with Simulation(scene, context=context) as simulation:
+        rest = scene.rest_positions()
+        simulation.set_state(rest, np.broadcast_to((0.0, 0.0, -speed), rest.shape))
+        worst = -np.inf
+        for _ in range(8):
+            simulation.step(1)
+            worst = max(worst, deepest(simulation))
+        heights = simulation.positions()[:, 4:6, 2]
+    within('depth of a triangle [m]', worst, 1e-6)
+    assert heights.max(axis=1).min() > -0.01
+
+
+def test_a_rod_that_moves_lifts_the_cloth(context, within):
+    """A hand would go through the cloth that it lifts."""
+    scene = scene_with(
+        {'shape': 'capsule', 'size': (0.004, 2.0), 'orientation': ALONG_Y}, **{'start.z': 0.02})
+    with Simulation(scene, context=context) as simulation:
+        simulation.move_collider('body', (BETWEEN[0], 0.0, 0.4), speed=1.0)
+        worst = -np.inf
+        for _ in range(40):
+            simulation.step(2)
+            worst = max(worst, deepest(simulation))
+        middle = simulation.positions()[:, 4:6, 2]
+    within('depth of a triangle [m]', worst, 1e-6)
+    assert middle.min() > 0.3
+
+
+@pytest.mark.parametrize('name', ['rod of 0.01 m', 'bar', 'sphere of 0.5 cell'])
+def test_a_thin_body_gives_no_energy(context, within, name):
+    """Cloth would be thrown by a body at rest."""
+    with Simulation(scene_with(BODIES[name]), context=context) as simulation:
+        account = EnergyAccount(simulation)
+        while simulation.time < 0.5:
+            account.step()
+    within('energy gained, relative to the largest kinetic energy', account.gained, 1e-3)
+
+
+def test_a_run_on_thin_bodies_has_the_same_bits_twice(context):
+    """No recording of it could be made again: contacts are found in any order."""
+    found = []
+    for _ in range(2):
+        with Simulation(scene_with(BODIES['rod of 0.003 m']), context=context) as simulation:
+            simulation.step(100)
+            found.append(simulation.snapshot().state_sha256)
+    assert found[0] == found[1]
+
+
+def test_a_body_that_is_not_thin_acts_on_nodes_alone(context):
+    """Scenes of before would move otherwise, and take longer."""
+    found = []
+    for features in (True, False):
+        scene = scene_with(
+            {'shape': 'sphere', 'size': (0.1,), 'position': (0.0, 0.0, -0.09)},
+            **{'contact.features': features})
+        assert scene.thin_colliders == ()
+        with Simulation(scene, context=context) as simulation:
+            simulation.step(60)
+            found.append(simulation.snapshot().state_sha256)
+    assert found[0] == found[1]
+
+
+def test_a_hole_lets_a_rod_pass(context):
+    """Cells that are not there would be held."""
+    hole = tuple(float(each) for each in np.array((-1, -1, 1, -1, 1, 1, -1, 1)) * 1.5 * CELL)
+    rod = {'shape': 'capsule', 'size': (0.005, 0.1), 'position': (0.0, 0.0, -0.08)}
+    for holes, passes in (((), False), (hole, True)):
+        scene = scene_with(rod, **{'shape.holes': holes, 'start.z': 0.0})
+        with Simulation(scene, context=context) as simulation:
+            window = simulation.open_force_window()
+            simulation.advance(0.15)
+            force, = simulation.frame_forces(window).contacts
+            assert (force.force[2] == 0.0) == passes
+
+
+@pytest.mark.parametrize('given', [
+    {'mode': 'constraint'}, {'mode': 'adaptive'}, {'contact.features': False}])
+def test_a_thin_body_that_nodes_pass_is_told_of(context, given):
+    """A user would see cloth fall through a rod, and all flags well."""
+    scene = scene_with(BODIES['rod of 0.003 m'], **given)
+    with pytest.warns(UserWarning, match=r'body is 0.006 m thick, 0.096 of a cell') as told:
+        Simulation(scene, context=context).close()
+    assert len(told) == 1
+    with warnings.catch_warnings():
+        warnings.simplefilter('error')
+        Simulation(scene_with(BODIES['rod of 0.003 m']), context=context).close()
