@@ -35,8 +35,8 @@ void main() {
     Near node = near[block_count + gl_GlobalInvocationID.x];
     int index = int(node.index);
 #if HAS_SURFACE
-    // surface_contact.comp has done it.
-    if (surface_nodes[index].is_held == 1) {
+    // surface_contact.comp has done it, or it is pinned.
+    if (surface_nodes[index].is_held == 1 || velocity_out[index].w == 0.0) {
         return;
     }
 #endif

@@ -29,7 +29,14 @@ void main() {
     // NaN fails the comparison and counts as fast, so that the node is listed.
     float square = dot(v.xyz, v.xyz);
     float way = substep * sqrt(square < 1e30 ? square : 1e30);
-    uint bodies = v.w > 0.0 ? near_among(block.bodies, load_position(index).xyz, way) : 0u;
+    vec4 x = load_position(index);
+#if HAS_SURFACE
+    // Pinned nodes are ends of edges that others hold.
+    bool counts = x.w != 0.0;
+#else
+    bool counts = v.w > 0.0;
+#endif
+    uint bodies = counts ? near_among(block.bodies, x.xyz, way) : 0u;
     if (bodies != 0u) {
         uint entry = atomicAdd(near_node_count, 1u);
         near[block_count + entry] = Near(uint(index), bodies);

@@ -199,7 +199,6 @@ uint colliders_near_cell(int index, uint bodies) {
     vec3 x = load_position(index).xyz;
     ivec3 others = index + ivec3(1, PITCH, PITCH + 1);
     float reach = 0.0;
-    float fastest = 0.0;
     for (int i = 0; i < 3; ++i) {
         vec4 other = load_position(others[i]);
         // Ghosts are nowhere.

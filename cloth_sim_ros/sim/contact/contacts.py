@@ -225,7 +225,10 @@ class Contacts:
     def _act(self, act: SceneProgram, surface: SurfaceContact | None = None) -> None:
         self._near.bind_dispatches()
         shader_dispatches_visible()
-        self._near_nodes.use().dispatch_indirect(0)
+        if surface is None:
+            self._near_nodes.use().dispatch_indirect(0)
+        else:
+            surface.list_nodes(0)
         shader_dispatches_visible()
         if surface is None:
             act.use().dispatch_indirect(_NODE_GROUPS)

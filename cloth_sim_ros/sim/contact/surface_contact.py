@@ -39,6 +39,7 @@ class SurfaceContact:
             'surface_contact.comp', scene, layout, {**defines, 'WAYS_OUT': 1})
         self._others = SceneProgram(
             'contact.comp', scene, layout, {'NOTES_CHANGES': 0, 'HAS_SURFACE': 1})
+        self._near_nodes = SceneProgram('near_nodes.comp', scene, layout, {'HAS_SURFACE': 1})
         self._layout = layout
         self._most_entries = scene.node_count * len(numbers)
         rows = _EDGES + 2 * tips
@@ -48,6 +49,7 @@ class SurfaceContact:
 
     def programs(self) -> Iterator[Program]:
         """Yield each pass, in use, to be set to a substep."""
+        yield self._near_nodes.use()
         yield self._others.use()
         for part in (self._impulses, self._ways):
             program = part.use()
@@ -58,6 +60,14 @@ class SurfaceContact:
         """Let the passes find their rows and nodes."""
         self._nodes.bind_storage(bindings.SURFACE_NODES)
         self._rows.bind_storage(bindings.SURFACE_ROWS)
+
+    def list_nodes(self, groups: int) -> None:
+        """
+        List the nodes near colliders, pinned ones as well.
+
+        :param groups: offset of the workgroups in the buffer of dispatches [bytes]
+        """
+        self._near_nodes.use().dispatch_indirect(groups)
 
     def act(self) -> None:
         """Find the contacts and their impulses, and change what they act on."""
@@ -85,5 +95,7 @@ class SurfaceContact:
 
     def delete(self) -> None:
         """Release everything."""
-        for part in (self._impulses, self._ways, self._others, self._nodes, self._rows):
+        for part in (
+                self._impulses, self._ways, self._others, self._near_nodes, self._nodes,
+                self._rows):
             part.delete()

@@ -124,6 +124,23 @@ def test_a_rod_that_moves_lifts_the_cloth(context, within):
     assert middle.min() > 0.3
 
 
+def test_an_edge_of_a_pinned_node_is_held(context, within):
+    """Cloth would pass a rod beside the nodes that it hangs from."""
+    along_x = (0.0, 0.5**0.5, 0.0, 0.5**0.5)
+    rod = {'shape': 'capsule', 'size': (0.004, 2.0), 'orientation': along_x,
+           'position': (0.0, 0.25 - 0.5 * CELL, 0.0)}
+    scene = scene_with(rod, **{'pins': ('top_edge',), 'start.z': 0.02})
+    worst = -np.inf
+    with Simulation(scene, context=context) as simulation:
+        window = simulation.open_force_window()
+        for _ in range(40):
+            simulation.step(5)
+            worst = max(worst, deepest(simulation))
+        force, = simulation.frame_forces(window).contacts
+    within('depth of a triangle [m]', worst, 1e-6)
+    assert force.force[2] < -0.1 * scene.mass * 9.81
+
+
 @pytest.mark.parametrize('name', ['rod of 0.01 m', 'bar', 'sphere of 0.5 cell'])
 def test_a_thin_body_gives_no_energy(context, within, name):
     """Cloth would be thrown by a body at rest."""
