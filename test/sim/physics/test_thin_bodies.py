@@ -141,6 +141,56 @@ def test_an_edge_of_a_pinned_node_is_held(context, within):
     assert force.force[2] < -0.1 * scene.mass * 9.81
 
 
+def random_scene(random):
+    """Return the scene of a random thin body below a cloth, and whether it moves; or None."""
+    def length(least, most):
+        return float(10.0**random.uniform(np.log10(least), np.log10(most)))
+
+    shape = str(random.choice(['sphere', 'capsule', 'box', 'cylinder']))
+    size = {
+        'sphere': (length(0.005, 0.04),), 'capsule': (length(0.001, 0.03), length(0.05, 1.0)),
+        'cylinder': (length(0.001, 0.03), length(0.02, 1.0)),
+        'box': (length(0.002, 0.06), length(0.01, 0.3), length(0.01, 0.3))}[shape]
+    nodes = int(random.integers(6, 14))
+    x, y = random.uniform(-0.1, 0.1, 2)
+    scene = scene_with(
+        {'shape': shape, 'size': size, 'orientation': tuple(random.normal(size=4).tolist()),
+         'position': (float(x), float(y), -max(size) - 0.02)},
+        rows=nodes, cols=nodes, **{
+            'start.z': 0.02, 'colliders.body.friction': float(random.choice([0.0, 0.3, 1.0]))})
+    return scene if scene.thin_colliders else None
+
+
+@pytest.mark.parametrize('count', [8, pytest.param(200, marks=pytest.mark.long)])
+def test_random_thin_bodies_are_not_passed(context, within, count):
+    """A corner, a rim or a turn would let cloth through that the usual scenes hold."""
+    seed = int(np.random.default_rng().integers(1_000_000))
+    print(f'seed {seed}')
+    worst = force_error = -np.inf
+    for number in range(count):
+        random = np.random.default_rng((seed, number))
+        scene = random_scene(random)
+        if scene is None:
+            continue
+        with Simulation(scene, context=context) as simulation:
+            if random.integers(2):
+                simulation.move_collider(
+                    'body', random.uniform(-0.1, 0.1, 3).tolist(),
+                    random.normal(size=4).tolist(), speed=float(random.uniform(0.2, 2.0)),
+                    angular_speed=float(random.uniform(0.5, 6.0)))
+            window, before = simulation.open_force_window(), momentum(simulation)
+            for _ in range(40):
+                simulation.step(3)
+                worst = max(worst, deepest(simulation, 8))
+            force, = simulation.frame_forces(window).contacts
+            gained = (momentum(simulation) - before) / simulation.time
+        weight = scene.mass * 9.81
+        force_error = max(force_error, np.abs(
+            force.force + (0.0, 0.0, weight) + gained).max() / weight)
+    within('depth of a triangle [m]', worst, 1e-6)
+    within('force, relative to the weight', force_error, 1e-4)
+
+
 @pytest.mark.parametrize('name', ['rod of 0.01 m', 'bar', 'sphere of 0.5 cell'])
 def test_a_thin_body_gives_no_energy(context, within, name):
     """Cloth would be thrown by a body at rest."""
