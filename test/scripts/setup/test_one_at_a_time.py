@@ -72,6 +72,8 @@ def test_a_short_part_that_was_left_behind_is_named(tmp_path):
     holder = start_bash(PARTS, 'one_at_a_time\nsleep 300\n:', tmp_path, root=str(tmp_path))
     child = child_of(holder.pid, ['sleep', '300'])
     holder.kill()
+    # Until then it still has the lock.
+    holder.wait(300.0)
     waiting = start_bash(PARTS, 'one_at_a_time\necho goes on', tmp_path, root=str(tmp_path))
     said = waiting.stdout.readline()
     assert f'process {child} (sleep 300), started at ' in said
