@@ -3,6 +3,8 @@
 
 """The momenta of a cloth as a snapshot has it."""
 
+from cloth_sim_ros.sim.held.pin_forces import filled
+from cloth_sim_ros.sim.simulation import Simulation
 from cloth_sim_ros.sim.snapshot import Snapshot
 import numpy as np
 
@@ -14,3 +16,13 @@ def momenta(snapshot: Snapshot) -> tuple[np.ndarray, np.ndarray, float, float]:
     speed = np.linalg.norm(velocities, axis=-1)
     return (velocities.sum(axis=(0, 1)), np.cross(positions, velocities).sum(axis=(0, 1)),
             speed.sum(), (np.linalg.norm(positions, axis=-1) * speed).sum())
+
+
+def momenta_of(simulation: Simulation) -> tuple[np.ndarray, np.ndarray]:
+    """Return momentum [N s] and angular momentum [N m s] of a cloth of unequal masses."""
+    scene = simulation.scene
+    positions, velocities = (
+        filled(scene, each).astype(float)
+        for each in (simulation.positions(), simulation.velocities()))
+    momentum = scene.node_mass * scene.node_shares[..., None] * velocities
+    return momentum.sum(axis=(0, 1)), np.cross(positions, momentum).sum(axis=(0, 1))

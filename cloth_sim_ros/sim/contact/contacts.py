@@ -323,6 +323,8 @@ class Contacts:
         depth = max((
             -float(np.nanmin(body.distance(positions) - self.clearance))
             for body in self.present(snapshot.time)), default=0.0)
+        if self._surface is not None:
+            self._surface.warn_of_losses()
         records = snapshot.records
         records['flags'][np.any(kinds > 0.0, axis=0)] |= FLAG_TOUCHING
         sticking = np.any(kinds == STICKS, axis=0)

@@ -4,6 +4,7 @@
 """Contacts of thin colliders with edges and faces of the cloth, in explicit substeps."""
 
 from collections.abc import Iterator
+import warnings
 
 from cloth_sim_ros.gl.buffer import Buffer
 from cloth_sim_ros.gl.buffer import shader_writes_visible
@@ -41,6 +42,7 @@ class SurfaceContact:
             'contact.comp', scene, layout, {'NOTES_CHANGES': 0, 'HAS_SURFACE': 1})
         self._near_nodes = SceneProgram('near_nodes.comp', scene, layout, {'HAS_SURFACE': 1})
         self._layout = layout
+        self._has_warned = False
         self._most_entries = scene.node_count * len(numbers)
         rows = _EDGES + 2 * tips
         self._nodes = Buffer(np.zeros(layout.stored * _NODE_BYTES // 4, dtype=np.float32))
@@ -87,11 +89,16 @@ class SurfaceContact:
         self._ways.use().dispatch(1)
         shader_writes_visible()
 
-    def read_losses(self) -> tuple[int, int]:
-        """Wait, and return how many rows had no room, and how many nodes were not listed."""
+    def warn_of_losses(self) -> None:
+        """Wait, and warn once where contacts were found that could not be held."""
         head = np.empty(_HEAD_BYTES // 4, dtype=np.uint32)
         self._rows.read_into(head)
-        return int(head[1]), int(head[2])
+        lost = int(head[1]) + int(head[2])
+        if lost and not self._has_warned:
+            self._has_warned = True
+            warnings.warn(
+                f'{lost} contacts of edges or faces were not held, as they are longer than 1.5 '
+                'diagonals of a cell: use a stiffer cloth, or smaller steps', stacklevel=4)
 
     def delete(self) -> None:
         """Release everything."""
