@@ -14,6 +14,10 @@
 #if HAS_SURFACE
 #include "surface_nodes.glsl"
 #endif
+#if HAS_SELF
+#include "self_contact/head.glsl"
+#include "self_contact/contacts.glsl"
+#endif
 
 layout(local_size_x = NEAR_LOCAL) in;
 
@@ -37,6 +41,12 @@ void main() {
 #if HAS_SURFACE
     // surface_contact.comp has done it, or it is pinned.
     if (surface_nodes[index].is_held == 1 || velocity_out[index].w == 0.0) {
+        return;
+    }
+#endif
+#if HAS_SELF
+    // self_contact/nodes.comp does it.
+    if (self_nodes[index].shares > 0u) {
         return;
     }
 #endif

@@ -15,7 +15,8 @@ STATS = (
     'constraint_switches', 'calm_substeps', 'listed_substeps', 'whole_substeps', 'listed_edges',
     'limit_rounds', 'limit_unreached', 'strain_over_bound', 'lengths_are_held', 'settling',
     'settling_work', 'stalled_pins', 'air_margin', 'sticking_nodes', 'sliding_nodes',
-    'deepest_node', 'step_wall_time', 'real_time_factor')
+    'deepest_node', 'self_contacts', 'layer_overlap', 'cut_nodes', 'largest_cut',
+    'halved_substeps', 'surface_contact_held', 'step_wall_time', 'real_time_factor')
 # Columns computed from ~/points.
 POINTS = ('mean_strain', 'mean_height')
 COLUMNS = ('time', 'resets', *STATS, *POINTS)

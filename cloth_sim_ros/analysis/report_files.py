@@ -33,7 +33,8 @@ _POINTS_AT_ONCE = 2000
 _WHOLE = {
     'resets', 'substeps', 'solver_iterations', 'solver_reached', 'active_constraints',
     'constraint_switches', 'calm_substeps', 'listed_substeps', 'whole_substeps', 'listed_edges',
-    'limit_rounds', 'limit_unreached', 'lengths_are_held', 'settling', 'stalled_pins'}
+    'limit_rounds', 'limit_unreached', 'lengths_are_held', 'settling', 'stalled_pins',
+    'self_contacts', 'cut_nodes', 'halved_substeps', 'surface_contact_held'}
 _COMPARED = (
     'times', 'rms_distance', 'max_distance', 'strain_difference', 'energy_difference')
 

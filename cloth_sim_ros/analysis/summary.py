@@ -143,6 +143,8 @@ class Summary:
     :param solver_residual: worst of any frame
     :param solver_missed: frames in which a solve stopped before the residual asked for
     :param lengths_lost: frames in which an edge was far off its length or limit
+    :param contact_lost: frames in which contact of the surface was not held
+    :param layer_overlap: of layers over their thickness, the largest
     :param settling: frames in which a limit closed in on a cloth that came with more strain
     :param settling_work: largest work of such a limit [J]
     :param stalled: frames in which a moving pin waited, as its edges pulled too hard
@@ -182,6 +184,8 @@ class Summary:
     solver_residual: float
     solver_missed: int
     lengths_lost: int
+    contact_lost: int
+    layer_overlap: float
     settling: int
     settling_work: float
     stalled: int
@@ -228,6 +232,8 @@ class Summary:
             solver_missed=int(np.count_nonzero(columns['solver_reached'] == 0.0))
             if told.largest('solver_iterations') > 0 else 0,
             lengths_lost=int(np.count_nonzero(columns['lengths_are_held'] == 0.0)),
+            contact_lost=int(np.count_nonzero(columns['surface_contact_held'] == 0.0)),
+            layer_overlap=told.largest('layer_overlap'),
             settling=int(np.count_nonzero(columns['settling'] > 0.0)),
             settling_work=told.largest('settling_work'),
             stalled=int(np.count_nonzero(columns['stalled_pins'] > 0.0)),
@@ -312,6 +318,10 @@ def summary_lines(summary: Summary) -> dict[str, str]:
         lines['limit tolerance'] = f'not reached in {summary.limit_unreached} frames'
     if summary.lengths_lost:
         lines['lengths'] = f'far off in {summary.lengths_lost} frames'
+    if summary.contact_lost:
+        lines['surface contact'] = (
+            f'not held in {summary.contact_lost} frames; layers overlap by up to '
+            f'{100.0 * summary.layer_overlap:.2g} % of their thickness')
     if summary.settling:
         lines['settling'] = (
             f'in {summary.settling} frames, by a limit that did {summary.settling_work:.3g} J of '

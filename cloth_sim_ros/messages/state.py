@@ -208,6 +208,7 @@ def _stability(snapshot: Snapshot, problem: str, automatic: bool) -> _Verdict:
         'settling work': float(snapshot.settling_work),
         'air margin': float(snapshot.air_margin),
         'total energy': float(snapshot.total_energy),
+        'surface contact held': bool(snapshot.surface_contact_held),
     }
     if problem:
         return ERROR, problem, values
@@ -218,6 +219,11 @@ def _stability(snapshot: Snapshot, problem: str, automatic: bool) -> _Verdict:
         return WARN, (
             f'edges deviate by {snapshot.max_strain:.2g} from their length, and '
             f'{snapshot.strain_bound:.2g} is allowed: {way_out}'), values
+    if not snapshot.surface_contact_held:
+        return WARN, (
+            f'the cloth passes through itself or a thin collider, or layers overlap by '
+            f'{snapshot.layer_overlap:.2g} of their thickness and ways were cut by '
+            f'{snapshot.largest_cut:.2g} m: use a shorter dt, or begin with layers apart'), values
     if snapshot.air_margin > 1.0 + 1e-3:
         way_out = 'use a shorter dt'
         if automatic and snapshot.solves:

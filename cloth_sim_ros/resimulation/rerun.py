@@ -22,7 +22,7 @@ from cloth_sim_ros.resimulation.run_start import RunStart
 from cloth_sim_ros.sim.device.tuning import BUILT_IN
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.errors import NonFiniteStateError
-from cloth_sim_ros.sim.modes import AVAILABLE
+from cloth_sim_ros.sim.modes import mode_for
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.simulation import Simulation
 from cloth_sim_ros.sim.snapshot import FLAG_TOUCHING
@@ -265,7 +265,7 @@ class Rerun:
     def _see_state(self, entry: Entry) -> None:
         self._is_at_stop = entry.message.run_state == _STOPPED
         mode = self.simulation.mode
-        if self._is_at_stop and AVAILABLE[mode].has_memory:
+        if self._is_at_stop and mode_for(mode, self.simulation.scene).has_memory:
             self._unknown_after_stop = (
                 f'at which step mode {mode} restarted when the run stopped',)
 

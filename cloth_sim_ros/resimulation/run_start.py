@@ -17,7 +17,7 @@ from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.held.grasps import Grasp
 from cloth_sim_ros.sim.model.pose import Pose
 from cloth_sim_ros.sim.model.push import Push
-from cloth_sim_ros.sim.modes import AVAILABLE
+from cloth_sim_ros.sim.modes import mode_for
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.simulation import Simulation
 import numpy as np
@@ -100,7 +100,7 @@ class RunStart:
         for entry in collider_targets:
             self._replay.take(entry.key, entry.message)
         unknown = []
-        if AVAILABLE[simulation.mode].has_memory:
+        if mode_for(simulation.mode, simulation.scene).has_memory:
             unknown.append(f'what mode {simulation.mode} carried over from earlier steps')
         if self._opening('inputs/pin_target'):
             unknown.append('where the moving pins started')

@@ -89,6 +89,7 @@ class Scene:
         self.cells = self._make_cells()
         self.colliders = colliders_of(self.values)
         self._check_contact()
+        self._check_self_contact()
         self.pinned_nodes()
         self.timed_pushes()
         self.timed_pin_moves()
@@ -363,6 +364,26 @@ class Scene:
             raise ClothSimError(
                 'adaptive.scheme paper has no contact, and colliders.names is not empty: set '
                 'adaptive.scheme: constraint, or remove the colliders')
+
+    def _check_self_contact(self) -> None:
+        if not self['self_contact.enabled']:
+            return
+        for name, is_other, way_out in (
+                ('layout', self['layout'] == 'paper', 'fused'),
+                ('adaptive.scheme', self['adaptive.scheme'] == 'paper', 'constraint')):
+            if is_other:
+                raise ClothSimError(
+                    f'{name} paper has no self-contact, and self_contact.enabled is true: set '
+                    f'{name}: {way_out}, or self_contact.enabled: false')
+        if min(self.rows, self.cols) < 2:
+            raise ClothSimError(
+                f'a chain of rows {self.rows} x cols {self.cols} has no surface to touch itself '
+                'with: give 2 or more of both, or set self_contact.enabled: false')
+        thickness, most = self['self_contact.thickness'], 0.5 * min(self.spacing)
+        if thickness > most:
+            raise ClothSimError(
+                f'self_contact.thickness {thickness:g} m is above half a cell, {most:.4g} m: give '
+                'a smaller one, or fewer rows and cols')
 
     def _make_cells(self) -> Cells | None:
         """Return the cells of a fabric; None for the nodes and springs of the paper."""

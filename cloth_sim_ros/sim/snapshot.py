@@ -106,6 +106,17 @@ class Snapshot(Measures):
     :param sticking_nodes: that touched a collider in the last step and had its velocity
     :param sliding_nodes: that touched a collider in the last step and moved along it
     :param deepest_node: how far a node is inside a collider at most [m]
+    :param self_contacts: most pairs of a node and a triangle, or of two edges, that touched or
+        were about to in a substep of the last step
+    :param layer_overlap: how much nearer than ``self_contact.thickness`` layers came in the last
+        step, over that; 0 where they did not
+    :param cut_nodes: whose way was cut short in the last step, so that nothing passed
+    :param largest_cut: of their ways [m]
+    :param halved_substeps: of the last step, made again in halves as ways would have been cut by
+        more
+    :param surface_contact_held: False if the cloth passes through itself, layers are nearer than
+        half their thickness, a way was cut by more than 0.02 of a cell, or a contact of edges or
+        faces with a thin collider was lost
     :param tension: if requested, of the edges that start at each node [N], (rows, cols, 6)
         float32, above 0 where it pulls: of node (r, c) to (r, c + 1), (r + 1, c), (r + 1, c + 1),
         (r + 1, c - 1), (r, c + 2) and (r + 2, c); 0 where there is no such edge
@@ -141,6 +152,12 @@ class Snapshot(Measures):
     sticking_nodes: int = 0
     sliding_nodes: int = 0
     deepest_node: float = 0.0
+    self_contacts: int = 0
+    layer_overlap: float = 0.0
+    cut_nodes: int = 0
+    largest_cut: float = 0.0
+    halved_substeps: int = 0
+    surface_contact_held: bool = True
     tension: np.ndarray | None = None
     pin_forces: PinForces | None = None
 

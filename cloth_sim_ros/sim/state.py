@@ -45,6 +45,9 @@ class HeldEntries(Protocol):
     def bind(self, place: int = bindings.HELD) -> None:
         """Let the next dispatches leave their entries."""
 
+    def drop_last(self) -> None:
+        """Leave out what the last substep has left, which is made again."""
+
     def expect_steps(self, substeps: int) -> None:
         """Tell that so many ``substeps`` come before those of the last step of dt."""
 
@@ -189,6 +192,10 @@ class State:
             self._pairs[self._now].bind_textures(bindings.POSITION_IN)
         else:
             self._pairs[self._now].bind_storage(bindings.POSITION_IN)
+
+    def bind_in_textures(self) -> None:
+        """Let the next dispatch read the present state through textures, on each device."""
+        self._pairs[self._now].bind_textures(bindings.POSITION_IN)
 
     def bind_out(self) -> None:
         """Let the next dispatch write the state to come."""

@@ -70,6 +70,38 @@ _COUNTING = {
         'atomicAdd(held_nodes, 1u)', 'atomicAdd(listed_rows, uint(count))',
         'atomicMax(largest, floatBitsToUint(length(impulse)))',
         'atomicMax(largest_change, floatBitsToUint(length(impulse - before)))'],
+    # Sums of whole numbers, least and largest numbers, counts, and lists in no order.
+    'self_contact/ways.comp': [
+        'atomicMax(largest, floatBitsToUint(max(most_place.x, max(most_place.y, most_place.z))))',
+        'atomicMin(least_moved[k], in_order(least[k]))',
+        'atomicMax(most_moved[k], in_order(most[k]))',
+        'atomicMin(least_speed[k], in_order(slowest[k]))',
+        'atomicMax(most_speed[k], in_order(fastest[k]))'],
+    'self_contact/crossings.comp': [
+        'atomicAdd(crossing_edges, 1u)', 'atomicMin(first_crossing, uint(one.index))',
+        'atomicAdd(unfinished, 1u)'],
+    'self_contact/pairs.comp': [
+        'atomicAdd(edge_pairs, 1u)', 'atomicAdd(vertex_pairs, 1u)', 'atomicAdd(unfinished, 1u)'],
+    'self_contact/contacts.comp': [
+        'atomicAdd(contact_count, 1u)',
+        'atomicAdd(contact_groups[0], at % SELF_LOCAL == 0u ? 1u : 0u)',
+        'atomicAdd(self_nodes[node].shares, shares)', 'atomicAdd(self_node_count, 1u)',
+        'atomicAdd(node_groups[0], place % SELF_LOCAL == 0u ? 1u : 0u)',
+        'atomicAdd(self_nodes[node].impulse[k], part[k])',
+        'atomicMin(least_distance, floatBitsToUint(distance))'],
+    'self_contact/round.comp': [
+        'atomicAdd(self_nodes[node].impulse[k], change[k])',
+        'atomicAdd(self_nodes[node].way[k], change[k])',
+        'atomicMax(largest_impulse, floatBitsToUint(length(impulse)))',
+        'atomicMax(largest_change, floatBitsToUint(share * length(impulse - found.impulse.xyz)))'],
+    'self_contact/longest.comp': [
+        'atomicMax(longest_way, floatBitsToUint(longest))', 'atomicAdd(cut_nodes, 1u)'],
+    'self_contact/guard.comp': [
+        'atomicAdd(undivided, 1u)',
+        'atomicMin(self_nodes[nodes[k]].cut, floatBitsToUint(max(-past, 0.0) / towards))'],
+    'self_contact/cut.comp': [
+        'atomicMax(longest_way, floatBitsToUint(longest))',
+        'atomicMax(largest_cut, floatBitsToUint(most_cut))', 'atomicAdd(cut_nodes, cuts)'],
     'near_nodes.comp': [
         'atomicAdd(near_node_count, 1u)',
         'atomicAdd(node_groups_x, entry % NEAR_LOCAL == 0u ? 1u : 0u)'],
@@ -90,6 +122,16 @@ _FORMS = {
         'WAYS_OUT': 0, 'SURFACE_TIPS': 8, 'SURFACE_LOCAL': 64, 'SURFACE_COLLIDERS': '2u'},
     'surface_contact.comp, ways out': {
         'WAYS_OUT': 1, 'SURFACE_TIPS': 2, 'SURFACE_LOCAL': 64, 'SURFACE_COLLIDERS': '1u'},
+    'contact.comp, beside layers': {'NOTES_CHANGES': 0, 'HAS_SELF': 1},
+    **{f'self_contact/{name}.comp': {'LOADS_TEXTURE': 1, 'SELF_LOCAL': 32} for name in (
+        'boxes', 'crossings', 'keep', 'nodes', 'pairs', 'round')},
+    'self_contact/nodes.comp, recording': {
+        'LOADS_TEXTURE': 1, 'SELF_LOCAL': 32, 'HAS_HELD': 1, 'HAS_LOW_PARTS': 1},
+    **{f'self_contact/{name}.comp{words}': {
+        'LOADS_TEXTURE': 1, 'SELF_LOCAL': 32, 'OF_EDGES': of_edges}
+       for name in ('contacts', 'guard') for words, of_edges in (('', 0), (', of edges', 1))},
+    **{f'self_contact/{name}.comp': {'LOADS_TEXTURE': 1, 'STRIP': 16} for name in (
+        'cut', 'longest', 'ways')},
     'limit/look.comp': {'STRIP': 16, 'LIST_LOCAL': '8u'},
     'limit/list.comp': {'LIST_LOCAL': 8},
     'limit/solve.comp': {'LOCAL': 256, 'LISTS': 0},

@@ -141,7 +141,7 @@ def test_an_unknown_name_is_refused_with_the_nearest():
     ('dampng', 'did you mean damping.structural, damping.shear or damping.bend?'),
     ('stiffness.structual', 'did you mean stiffness.structural?'),
     ('pin', 'did you mean pins?'), ('start_pose', 'did you mean start.pose?'),
-    ('thickness', 'did you mean contact.thickness?'),
+    ('thickness', 'did you mean contact.thickness or self_contact.thickness?'),
     ('wind', 'did you mean air.wind or gusts.wind?'),
     ('holes', 'did you mean shape.holes?'),
     ('viscosity', 'docs/reference/parameters.md lists them all')])

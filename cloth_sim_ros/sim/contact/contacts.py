@@ -91,6 +91,8 @@ class Contacts:
         # The one of the moment of ``keep``, and one that is not in use.
         self._kept: Buffer | None = None
         self._spare: Buffer | None = None
+        # The one before a substep that may be made again.
+        self._before_try: Buffer | None = None
         # A read from the record itself would have it moved to the host's memory.
         self._polled = Buffer(_ENTRY_BYTES, is_polled=True) if layout.is_asynchronous else None
         self.clearance = 0.5 * scene['contact.thickness']
@@ -136,6 +138,17 @@ class Contacts:
         """Go back to the moment of ``keep``, the latest one; colliders stay on their ways."""
         if self._record is not kept:
             self._record, self._spare = kept, self._record
+
+    def begin_try(self) -> None:
+        """Remember what was done so far in the step, for ``undo_try``."""
+        if self._before_try is None:
+            self._before_try = Buffer(self._record.bytes)
+        self._record.copy_to(self._before_try, 0, self._record.bytes)
+
+    def undo_try(self) -> None:
+        """Forget what was done since ``begin_try``."""
+        assert self._before_try is not None
+        self._before_try.copy_to(self._record, 0, self._record.bytes)
 
     def join(self, forcing: Forcing, begin: float, end: float) -> Forcing:
         """Return ``forcing`` with the colliders of a substep from ``begin`` to ``end`` [s]."""
@@ -323,19 +336,19 @@ class Contacts:
         depth = max((
             -float(np.nanmin(body.distance(positions) - self.clearance))
             for body in self.present(snapshot.time)), default=0.0)
-        if self._surface is not None:
-            self._surface.warn_of_losses()
+        lost = 0 if self._surface is None else self._surface.warn_of_losses()
         records = snapshot.records
         records['flags'][np.any(kinds > 0.0, axis=0)] |= FLAG_TOUCHING
         sticking = np.any(kinds == STICKS, axis=0)
         return replace(
             snapshot, sticking_nodes=int(np.count_nonzero(sticking)),
             sliding_nodes=int(np.count_nonzero(np.any(kinds == SLIDES, axis=0) & ~sticking)),
-            deepest_node=max(depth, 0.0))
+            deepest_node=max(depth, 0.0),
+            surface_contact_held=snapshot.surface_contact_held and not lost)
 
     def delete(self) -> None:
         """Release pass and record."""
-        for record in {self._record, self._kept, self._spare}:
+        for record in {self._record, self._kept, self._spare, self._before_try}:
             if record is not None:
                 record.delete()
         if self._polled is not None:
@@ -466,6 +479,12 @@ class _Touch:
 
     def act(self, *, on_surface: bool) -> None:
         self._contacts.act(on_surface=on_surface)
+
+    def begin_try(self) -> None:
+        self._contacts.begin_try()
+
+    def undo_try(self) -> None:
+        self._contacts.undo_try()
 
     def has_acted(self) -> bool:
         return self._contacts.has_acted()

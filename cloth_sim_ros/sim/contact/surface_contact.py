@@ -89,8 +89,8 @@ class SurfaceContact:
         self._ways.use().dispatch(1)
         shader_writes_visible()
 
-    def warn_of_losses(self) -> None:
-        """Wait, and warn once where contacts were found that could not be held."""
+    def warn_of_losses(self) -> int:
+        """Wait; return how many contacts were found that could not be held, and warn once."""
         head = np.empty(_HEAD_BYTES // 4, dtype=np.uint32)
         self._rows.read_into(head)
         lost = int(head[1]) + int(head[2])
@@ -99,6 +99,7 @@ class SurfaceContact:
             warnings.warn(
                 f'{lost} contacts of edges or faces were not held, as they are longer than 1.5 '
                 'diagonals of a cell: use a stiffer cloth, or smaller steps', stacklevel=4)
+        return lost
 
     def delete(self) -> None:
         """Release everything."""

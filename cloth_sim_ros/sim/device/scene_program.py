@@ -95,6 +95,7 @@ def scene_defines(scene: Scene) -> dict[str, object]:
         'HAS_BENDING_DAMPING': int(scene.has_bending_damping),
         'HAS_CONTACT': int(scene.has_contact),
         'HAS_SURFACE': 0,
+        'HAS_SELF': int(scene['self_contact.enabled']),
         'HAS_LOW_PARTS': int(needs_low_parts(scene)),
         **(collider_defines(scene.colliders) if scene.has_contact else {}),
         **edge_defines(scene.families),

@@ -225,6 +225,10 @@ class HeldImpulses:
         self._buffer.bind_storage(place)
         return at, count, slots
 
+    def drop_last(self) -> None:
+        """Leave out what the last substep has left, which is made again."""
+        self._entries -= 1
+
     def bind(self, place: int = bindings.HELD) -> None:
         """Let the next dispatches leave their entries."""
         if self._buffer is not None:

@@ -37,6 +37,12 @@ class Touch(Protocol):
     def act(self, *, on_surface: bool) -> None:
         """Act on an explicit substep that was made, both states of which are bound."""
 
+    def begin_try(self) -> None:
+        """Begin a substep that may be made again: remember what was done before it."""
+
+    def undo_try(self) -> None:
+        """Forget what was done in that substep."""
+
     def has_acted(self) -> bool:
         """Return whether colliders may have acted on a node in the explicit substep."""
 

@@ -145,6 +145,8 @@ SCENE_FIELDS = (
     Field('shape.mask', str, '', 'image that is laid over width x height: white is cloth; a path, '
           'from the folder of the scene file, or a data URL of a PNG',
           words='the path of an image'),
+    Field('shape.pieces', int, 1, 'max. number of pieces that the shape may fall into', low=1,
+          high=1000),
     Field('areal_density', float, 0.2, 'mass per unit area, distributed equally over the nodes; '
           'defaults to 0 if total_mass is given', 'kg/m2', low=0.0, high=1e6),
     Field('total_mass', float, 0.0, 'mass of the whole cloth, distributed equally over the nodes; '
@@ -322,6 +324,12 @@ SCENE_FIELDS = (
     Field('contact.compression', float, 1e4, 'pressure at which a cloth between two colliders '
           'would be compressed to nothing; it grows in proportion to the compression', 'Pa',
           low=0.0, high=1e9),
+    Field('self_contact.enabled', bool, False, 'let layers of the cloth touch each other instead '
+          'of passing through; in mode mass_spring'),
+    Field('self_contact.thickness', float, 0.001, 'least distance of two layers, from middle to '
+          'middle; at most half a cell', 'm', low=1e-6, high=1.0),
+    Field('self_contact.friction', float, 0.3, 'coefficient of friction of the cloth on itself',
+          low=0.0, high=10.0),
     Field('layout', str, 'fused', 'fused: forces and update in one shader pass; paper: the two '
           'passes of the paper, a baseline for benchmarks', choices=('fused', 'paper')),
     Field('loads', str, 'auto', 'how shaders read the state; auto chooses for the device: what '

@@ -64,7 +64,7 @@ def cells_of(values: Mapping[str, Any]) -> np.ndarray:
         present &= ~_inside(corners, at_x, at_y)
     if values['shape.mask']:
         present &= _white(values['shape.mask'], present.shape)
-    _check(present)
+    _check(present, values['shape.pieces'])
     return present
 
 
@@ -207,21 +207,25 @@ def _pixels(data: bytes, name: str) -> np.ndarray:
         ) from error
 
 
-def _check(present: np.ndarray) -> None:
-    """Raise ClothSimError where cells do not hang together by their sides."""
+def _check(present: np.ndarray, most: int) -> None:
+    """
+    Raise ClothSimError where cells do not hang together by their sides.
+
+    :param most: pieces that there may be
+    """
     if not present.any():
         raise ClothSimError(
             'the shape leaves no cell of the cloth: give a larger one, or more rows and cols')
     # Only a shape needs it.
     from scipy import ndimage
     _, pieces = ndimage.label(present)
-    if pieces == 1:
-        return
     _, joined = ndimage.label(present, structure=np.ones((3, 3)))
-    if joined == 1:
+    if pieces == joined <= most:
+        return
+    if pieces > joined:
         raise ClothSimError(
-            f'the shape has {pieces} parts that hang together by single nodes: make it wider '
-            'there, or give more rows and cols')
+            f'the shape has {pieces} parts, some of which hang together by single nodes: make it '
+            'wider there, or give more rows and cols')
     raise ClothSimError(
-        f'the shape falls into {joined} pieces: give one that hangs together, or more rows and '
-        'cols')
+        f'the shape falls into {joined} pieces, more than shape.pieces {most}: give one that '
+        'hangs together, more rows and cols, or more shape.pieces')

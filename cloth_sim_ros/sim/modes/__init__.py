@@ -3,8 +3,10 @@
 
 """The simulation modes: small objects that know the passes of one substep."""
 
+from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.modes.adaptive import Adaptive
 from cloth_sim_ros.sim.modes.constraint import Constraint
+from cloth_sim_ros.sim.modes.layered_springs import LayeredSprings
 from cloth_sim_ros.sim.modes.mass_spring import MassSpring
 from cloth_sim_ros.sim.modes.mode import Mode
 from cloth_sim_ros.sim.modes.paper import paper_mode
@@ -17,5 +19,15 @@ AVAILABLE: dict[str, type[Mode]] = {
 
 
 def mode_for(name: str, scene: Scene) -> type[Mode]:
-    """Return the class of the mode ``name``, in the form that ``scene`` asks for."""
+    """
+    Return the class of the mode ``name``, in the form that ``scene`` asks for.
+
+    :raises ClothSimError: when layers of the cloth would pass through each other in it
+    """
+    if scene['self_contact.enabled']:
+        if name != LayeredSprings.name:
+            raise ClothSimError(
+                f'self_contact.enabled is true, and mode {name} lets layers pass: use mode '
+                f'{LayeredSprings.name}, or set self_contact.enabled: false')
+        return LayeredSprings
     return paper_mode(name, scene) or AVAILABLE[name]

@@ -1,0 +1,480 @@
+# SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
+# SPDX-License-Identifier: Apache-2.0
+
+"""Contact of the cloth with itself in an explicit substep, docs/explanation/self_contact.md."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+import math
+import warnings
+
+from cloth_sim_ros.gl.buffer import Buffer
+from cloth_sim_ros.gl.buffer import shader_dispatches_visible
+from cloth_sim_ros.gl.buffer import shader_writes_visible
+from cloth_sim_ros.gl.errors import DeviceError
+from cloth_sim_ros.gl.program import Program
+from cloth_sim_ros.gl.quick_calls import make
+from cloth_sim_ros.sim.device import bindings
+from cloth_sim_ros.sim.device.layout import HALO
+from cloth_sim_ros.sim.device.layout import Layout
+from cloth_sim_ros.sim.device.scene_program import SceneProgram
+from cloth_sim_ros.sim.device.scene_program import Strips
+from cloth_sim_ros.sim.scene import Scene
+from cloth_sim_ros.sim.state import State
+import numpy as np
+
+# Invocations of a workgroup of the passes over pairs, contacts and nodes [1].
+_LOCAL = 32
+# Passes read the state through textures on all devices: they write into many storage blocks.
+_READS = {'LOADS_TEXTURE': 1}
+# Rounds of impulses in a row [1], and at most in a substep.
+_ROUNDS, _MOST_ROUNDS = 4, 8
+# Change of a velocity in a round over the largest impulse [1], at which they end.
+_STILL = 0.1
+# Reach of the lists beyond the thickness, over it and over a cell [1]: what is larger.
+_SKIN, _SKIN_OF_CELL = 1.0, 0.1
+# Reach of the lists beyond the thickness, over the way of nodes in a substep [1].
+_SKIN_OF_WAY = 4.0
+# Part of the half of that which nodes may have moved by before lists are made anew [1].
+_USED = 0.9
+# Part of half the reach that nodes may move by since lists were made [1].
+_ROOM = 0.98
+# Part of a gap that is left in a substep [1], as in guard.comp, and rounding of a way over the
+# largest coordinate [1].
+_LEFT, _ROUNDING = 0.2, 4e-7
+# Thickness between edges over that of the cloth [1], as in contacts.comp.
+_OF_EDGES = 0.998
+# Pairs that there is room for at first, over nodes [1].
+_PAIRS = 4
+# Size of an entry of each kind in the shaders [bytes].
+_PAIR_BYTES, _CONTACT_BYTES, _NODE_BYTES, _BOX_BYTES = 24, 64, 36, 32
+# Place of the share of its way that a node may go, in that of nodes [1].
+_CUT = 7
+# Range of the ways out of layers over the fastest [1], as in round.comp.
+_WAY_RANGE = 64.0 / 2.0**31
+# The head of head.glsl, as a substep begins.
+_LEAST, _MOST = 0xFFFFFFFF, 0
+_HEAD = np.dtype([
+    ('least_moved', '3u4'), ('most_moved', '3u4'), ('least_speed', '3u4'),
+    ('most_speed', '3u4'),
+    ('vertex_pairs', 'u4'), ('edge_pairs', 'u4'), ('contact_groups', '3u4'),
+    ('contact_count', 'u4'), ('node_groups', '3u4'), ('self_node_count', 'u4'),
+    ('cut_nodes', 'u4'),
+    ('largest_cut', 'f4'), ('longest_way', 'f4'), ('least_distance', 'f4'),
+    ('largest_impulse', 'f4'), ('largest_change', 'f4'), ('undivided', 'u4'),
+    ('unfinished', 'u4'), ('largest', 'f4'), ('crossing_edges', 'u4'),
+    ('first_crossing', 'u4')])
+_FIRST_ROUND, _LAST_ROUND = 1, 2
+
+
+def _place(name: str) -> int:
+    """Return where a figure stands in the head [bytes]."""
+    fields = _HEAD.fields
+    assert fields is not None
+    return fields[name][1]
+
+
+_CONTACT_GROUPS, _NODE_GROUPS = _place('contact_groups'), _place('node_groups')
+
+
+@dataclass
+class SelfContactFigures:
+    """
+    What the contact of the cloth with itself did in a substep.
+
+    :param contacts: pairs that touch or are about to
+    :param least_distance: of those, from middle to middle [m]; infinite for none
+    :param cut_nodes: nodes whose way was shortened, so that nothing passed
+    :param largest_cut: of their ways [m]
+    :param left: change of an impulse in the last round over the largest impulse [1]
+    :param undivided: pairs that had passed through each other before
+    :param rounds: of impulses
+    """
+
+    contacts: int = 0
+    least_distance: float = math.inf
+    cut_nodes: int = 0
+    largest_cut: float = 0.0
+    left: float = 0.0
+    undivided: int = 0
+    rounds: int = 0
+
+
+class SelfContact:
+    """The passes of shaders/self_contact, and what they keep from substep to substep."""
+
+    def __init__(self, scene: Scene, layout: Layout) -> None:
+        """Allocate; passes are compiled when they are first used."""
+        self._scene, self._layout = scene, layout
+        self._thickness: float = scene['self_contact.thickness']
+        self._levels = _levels(layout.rows, layout.cols)
+        self._programs = _programs(scene, layout)
+        self._strips = Strips.groups(layout)
+        self._head = Buffer(_HEAD.itemsize, is_polled=True)
+        self._fresh = _fresh_head()
+        self._reset = self._head.write_calls(self._fresh)
+        self._features = Buffer(layout.store(_owned(scene)).reshape(-1))
+        stored = layout.stored
+        nothing = np.zeros((stored, 4), dtype=np.float32)
+        self._built, self._velocities = Buffer(nothing), Buffer(nothing)
+        self._boxes = Buffer(int(self._levels[:, 0] @ self._levels[:, 1]) * _BOX_BYTES)
+        self._first = Buffer(np.zeros(stored, dtype=np.uint32))
+        nodes = np.zeros((stored, _NODE_BYTES // 4), dtype=np.uint32)
+        nodes[:, _CUT] = np.float32(1.0).view(np.uint32)
+        self._nodes = Buffer(nodes)
+        self._most_pairs = _PAIRS * scene.node_count
+        self._pairs = [Buffer(self._most_pairs * _PAIR_BYTES) for _ in range(2)]
+        self._contacts = Buffer(self._most_pairs * _CONTACT_BYTES)
+        self._distances = Buffer(self._most_pairs * 4)
+        self._length = 0.0
+        self._told_room = 0
+        self._read = np.zeros(1, dtype=_HEAD)
+        self.forget()
+
+    def forget(self) -> None:
+        """Drop lists and impulses: the next state is not the result of the last substep."""
+        self._reach = 0.0
+        # Edges that pierce triangles; None where nobody has looked.
+        self._crossings: int | None = None
+        self._counts = 0, 0
+        self._ways_so_far = 0.0
+        self._common_way = self._common_moved = np.zeros(3)
+        self.figures = SelfContactFigures()
+
+    @property
+    def crossings(self) -> int:
+        """Return how many edges passed through triangles when lists were made last."""
+        return self._crossings or 0
+
+    @property
+    def has_pairs(self) -> bool:
+        """Return whether there may be contacts in the substep under way."""
+        return any(self._counts)
+
+    def run_all_passes(self, state: State) -> None:
+        """Run each pass on a ``state`` that nobody needs, the next state of which is written."""
+        self.find(state, self._scene['dt'])
+        self._build(state, self._thickness)
+        self._find_contacts(state)
+        self.act(state)
+        self.guard(state)
+        self.forget()
+
+    def programs_with_colliders(self) -> Iterator[Program]:
+        """Yield the passes in which colliders act, each in use."""
+        for name in ('nodes', 'nodes held'):
+            yield self._programs[name].use()
+
+    def find(self, state: State, length: float) -> None:
+        """
+        Find the contacts of a substep of ``length`` [s] that was made.
+
+        Both states of ``state`` are there; colliders have not acted yet.
+        """
+        self._set_length(length)
+        self._bind()
+        make(self._reset)
+        ways = self._programs['ways'].use()
+        state.bind_in_textures()
+        state.bind_out_textures()
+        self._built.bind_texture(bindings.SELF_BUILT)
+        ways.dispatch(*self._strips)
+        shader_writes_visible()
+        head = self._read_head()
+        least, most = _from_order(head['least_moved']), _from_order(head['most_moved'])
+        slowest, fastest = _from_order(head['least_speed']), _from_order(head['most_speed'])
+        moved = 0.5 * float(np.linalg.norm(most - least))
+        way = 0.5 * length * float(np.linalg.norm(fastest - slowest))
+        # NaN asks for new lists, which are empty then.
+        if not moved <= 0.5 * _USED * (self._reach - self._thickness):
+            cell = min(self._scene.spacing)
+            skin = max(_SKIN * self._thickness, _SKIN_OF_CELL * cell, _SKIN_OF_WAY * way)
+            self._build(state, self._thickness + skin)
+            self._common_moved = np.zeros(3)
+        else:
+            self._common_moved = 0.5 * (least + most) - 0.5 * length * (slowest + fastest)
+        # Pins and what lies on a collider stay where they are, whatever ways are cut.
+        is_free = not (self._scene.has_contact or state.pinned.any())
+        self._common_way = 0.5 * length * (slowest + fastest) if is_free else np.zeros(3)
+        self.figures = SelfContactFigures()
+        if self.has_pairs:
+            self._find_contacts(state)
+
+    def act(self, state: State, held_at: int = -1) -> None:
+        """
+        Let layers act on each other, and colliders on the nodes that they touch.
+
+        :param held_at: where the substep has left its entries of held.glsl; below 0: nowhere
+        """
+        state.bind_in_textures()
+        state.bind_out()
+        self._velocities.bind_storage(bindings.SELF_VELOCITIES)
+        self._velocities.bind_texture(bindings.SELF_VELOCITIES)
+        self._head.bind_dispatches()
+        shader_dispatches_visible()
+        self._let_nodes_move(is_last=False)
+        rounds = 0
+        while True:
+            for number in range(_ROUNDS):
+                program = self._programs['round'].use()
+                program.set_int('part', (
+                    _FIRST_ROUND * (rounds + number == 0)
+                    + _LAST_ROUND * (number == _ROUNDS - 1)))
+                program.dispatch_indirect(_CONTACT_GROUPS)
+                shader_writes_visible()
+                if number < _ROUNDS - 1:
+                    self._let_nodes_move(is_last=False)
+            rounds += _ROUNDS
+            head = self._read_head()
+            if rounds >= _MOST_ROUNDS or (
+                    head['largest_change'] <= _STILL * head['largest_impulse']):
+                break
+            self._let_nodes_move(is_last=False)
+            self._head.write(np.zeros(2, dtype=np.uint32), _place('largest_impulse'))
+        self._rounds = rounds
+        self._let_nodes_move(is_last=True, held_at=held_at)
+
+    def guard(self, state: State) -> SelfContactFigures:
+        """Shorten the ways of nodes so that nothing passes; wait, and return what was done."""
+        state.bind_in_textures()
+        state.bind_out_textures()
+        self._built.bind_texture(bindings.SELF_BUILT)
+        self._run_over_nodes('longest')
+        head = self._read_head()
+        # NaN is no reason to go on: what checks the state finds it.
+        longest = self._longest_way = float(head['longest_way'])
+        nearest = min(float(head['least_distance']), _OF_EDGES * self._thickness)
+        rounding = _ROUNDING * float(head['largest']) + 1e-9
+        if head['cut_nodes'] or (1.0 - _LEFT) * nearest <= 2.0 * (longest + rounding):
+            for guard in self._each_kind_of('guard'):
+                guard.set_float('longest_of_all', longest + rounding)
+                guard.set_vectors('common_way', self._common_way)
+            self._head.write(np.zeros(1, dtype=np.uint32), _place('cut_nodes'))
+            state.bind_out()
+            self._run_over_nodes('cut')
+            head = self._read_head()
+        contacts = int(head['contact_count'])
+        largest = float(head['largest_impulse'])
+        self.figures = SelfContactFigures(
+            contacts=contacts,
+            least_distance=float(head['least_distance']) if contacts else math.inf,
+            cut_nodes=int(head['cut_nodes']), largest_cut=float(head['largest_cut']),
+            left=float(head['largest_change']) / largest if largest else 0.0,
+            undivided=int(head['undivided']), rounds=self._rounds)
+        return self.figures
+
+    def accept(self) -> None:
+        """Go on from the substep that was made."""
+        if self.has_pairs:
+            self._ways_so_far += 2.0 * self._longest_way
+
+    def delete(self) -> None:
+        """Release everything."""
+        for program in self._programs.values():
+            program.delete()
+        for buffer in (
+                self._head, self._features, self._built, self._velocities, self._boxes,
+                self._first, *self._pairs, self._nodes, self._contacts, self._distances):
+            buffer.delete()
+
+    def _run_over_nodes(self, name: str) -> None:
+        program = self._programs[name].use()
+        program.set_float('room', 0.5 * _ROOM * self._reach)
+        program.set_vectors('common_way', self._common_way)
+        program.set_vectors('common_moved', self._common_moved)
+        program.dispatch(*self._strips)
+        shader_writes_visible()
+
+    def _let_nodes_move(self, *, is_last: bool, held_at: int = -1) -> None:
+        program = self._programs['nodes' if held_at < 0 else 'nodes held'].use()
+        if held_at >= 0:
+            program.set_int('held_at', held_at)
+        program.set_int('is_last', int(is_last))
+        program.dispatch_indirect(_NODE_GROUPS)
+        shader_writes_visible()
+
+    def _find_contacts(self, state: State) -> None:
+        state.bind_in_textures()
+        state.bind_out_textures()
+        for _ in self._each_kind_of('contacts'):
+            pass
+
+    def _each_kind_of(self, name: str) -> Iterator[Program]:
+        """Yield the pass over each kind of pairs to be set, and run it."""
+        for of_edges, count in enumerate(self._counts):
+            if count:
+                program = self._programs[f'{name} {of_edges}'].use()
+                program.set_float('ways_so_far', self._ways_so_far)
+                yield program
+                program.dispatch(-(-count // _LOCAL))
+        shader_writes_visible()
+
+    def _build(self, state: State, reach: float) -> None:
+        """List the pairs within ``reach`` [m]; room grows until it suffices."""
+        self._reach = reach
+        self._ways_so_far = 0.0
+        boxes = self._programs['boxes'].use()
+        state.bind_in_textures()
+        self._built.bind_storage(bindings.SELF_BUILT)
+        for level, (rows, cols, *_) in enumerate(self._levels):
+            boxes.set_int('level', level)
+            boxes.dispatch(-(-int(rows * cols) // _LOCAL))
+            shader_writes_visible()
+        if self._crossings != 0:
+            # Nothing passes what has not passed before: asked for a new state, until it is apart.
+            self._look_for_crossings()
+        before = (*self._counts, self._most_pairs, 0)
+        self._pairs.reverse()
+        if self._pairs[0].bytes < self._most_pairs * _PAIR_BYTES:
+            self._make_room(self._most_pairs)
+        pairs = self._programs['pairs']
+        pairs.use().set_float('reach', reach)
+        while True:
+            self._head.write(np.zeros(2, dtype=np.uint32), _place('vertex_pairs'))
+            self._bind_lists()
+            self._tell_room()
+            pairs.use().dispatch(-(-self._scene.node_count // _LOCAL))
+            shader_writes_visible()
+            head = self._read_head()
+            self._counts = int(head['vertex_pairs']), int(head['edge_pairs'])
+            _refuse_unfinished(head)
+            if sum(self._counts) <= self._most_pairs:
+                break
+            self._make_room(2 * sum(self._counts))
+        if self.has_pairs and before[0] + before[1]:
+            keep = self._programs['keep'].use()
+            keep.set_int_vectors('before', np.array([before]))
+            keep.dispatch(-(-(before[0] + before[1]) // _LOCAL))
+            shader_writes_visible()
+
+    def _look_for_crossings(self) -> None:
+        is_new = self._crossings is None
+        self._programs['crossings'].use().dispatch(-(-self._scene.node_count // _LOCAL))
+        shader_writes_visible()
+        head = self._read_head()
+        _refuse_unfinished(head)
+        self._crossings = int(head['crossing_edges'])
+        if is_new and self._crossings:
+            row, col = divmod(int(head['first_crossing']), self._layout.pitch)
+            warnings.warn(
+                f'the cloth begins with {self._crossings} edges that pass through it, the first '
+                f'at node ({row - HALO}, {col - HALO}), and stays so there: begin with layers '
+                f'{self._thickness:g} m apart', stacklevel=4)
+
+    def _make_room(self, pairs: int) -> None:
+        self._most_pairs = pairs
+        # The list before has the impulses; it grows when it is written next.
+        self._pairs[0].delete()
+        self._pairs[0] = Buffer(pairs * _PAIR_BYTES)
+        self._contacts.delete()
+        self._contacts = Buffer(pairs * _CONTACT_BYTES)
+        self._distances.delete()
+        self._distances = Buffer(pairs * 4)
+        self._contacts.bind_storage(bindings.SELF_CONTACTS)
+
+    def _tell_room(self) -> None:
+        if self._told_room != self._most_pairs:
+            self._told_room = self._most_pairs
+            for name, part in self._programs.items():
+                if name.split()[0] in ('pairs', 'keep', 'round', 'contacts', 'guard'):
+                    part.use().set_int('most_pairs', self._most_pairs)
+
+    def _bind(self) -> None:
+        for buffer, place in (
+                (self._head, bindings.SELF_HEAD), (self._features, bindings.SELF_FEATURES),
+                (self._boxes, bindings.SELF_BOXES), (self._contacts, bindings.SELF_CONTACTS),
+                (self._nodes, bindings.SELF_NODES)):
+            buffer.bind_storage(place)
+        self._bind_lists()
+
+    def _bind_lists(self) -> None:
+        self._first.bind_storage(bindings.SELF_FIRST)
+        self._pairs[0].bind_storage(bindings.SELF_PAIRS)
+        self._distances.bind_storage(bindings.SELF_DISTANCES)
+        self._pairs[1].bind_storage(bindings.SELF_PAIRS_BEFORE)
+
+    def _set_length(self, length: float) -> None:
+        self._fresh['vertex_pairs'], self._fresh['edge_pairs'] = self._counts
+        if length == self._length:
+            return
+        self._length = length
+        gravity = float(np.linalg.norm(self._scene['gravity']))
+        for name, part in self._programs.items():
+            program = part.use()
+            program.set_float('substep', length)
+            program.set_float('least_speed_unit', gravity * length + 1e-9)
+            program.set_float('thickness', self._thickness)
+            program.set_float('friction', self._scene['self_contact.friction'])
+            program.set_float('way_unit', length * _WAY_RANGE)
+            if name in ('boxes', 'crossings', 'pairs'):
+                program.set_int('level_count', len(self._levels))
+                program.set_int_vectors('levels', self._levels)
+
+    def _read_head(self) -> np.void:
+        self._head.read_into(self._read)
+        return self._read[0]
+
+
+def _programs(scene: Scene, layout: Layout) -> dict[str, SceneProgram]:
+    """Return the passes by name; of those over pairs, one for each kind: 0 and 1, of edges."""
+    strips = Strips.defines()
+    of_items: dict[str, object] = {'SELF_LOCAL': _LOCAL}
+    forms: dict[str, dict[str, object]] = {
+        **dict.fromkeys(('boxes', 'crossings', 'pairs', 'keep', 'round', 'nodes'), of_items),
+        # Adds what layers do to pinned nodes to the entries of held.glsl.
+        'nodes held': {**of_items, 'HAS_HELD': 1},
+        **{f'{name} {of_edges}': {**of_items, 'OF_EDGES': of_edges}
+           for name in ('contacts', 'guard') for of_edges in (0, 1)},
+        **dict.fromkeys(('ways', 'longest', 'cut'), strips)}
+    return {
+        name: SceneProgram(
+            f'self_contact/{name.split()[0]}.comp', scene, layout, {**_READS, **defines})
+        for name, defines in forms.items()}
+
+
+def _refuse_unfinished(head: np.void) -> None:
+    if head['unfinished']:
+        raise DeviceError(
+            f'{head["unfinished"]} nodes have more of the cloth near them than the device looks '
+            'through in one pass: use fewer nodes, or smaller steps')
+
+
+def _fresh_head() -> np.ndarray:
+    head = np.zeros(1, dtype=_HEAD)
+    head['least_moved'] = head['least_speed'] = _LEAST
+    head['contact_groups'][0, 1:] = head['node_groups'][0, 1:] = 1
+    head['least_distance'] = np.inf
+    head['first_crossing'] = _LEAST
+    return head
+
+
+def _from_order(bits: np.ndarray) -> np.ndarray:
+    """Return the floats of ``in_order`` in head.glsl, float64."""
+    is_negative = bits & 0x80000000 == 0
+    plain = np.where(is_negative, ~bits, bits & 0x7FFFFFFF).astype(np.uint32)
+    return plain.view(np.float32).astype(float)
+
+
+def _levels(rows: int, cols: int) -> np.ndarray:
+    """Return rows, columns and place of each level of the tree of boxes, the lowest first."""
+    levels = []
+    begin = 0
+    while True:
+        levels.append((rows, cols, begin, 0))
+        begin += rows * cols
+        if rows * cols == 1:
+            return np.array(levels)
+        rows, cols = -(-rows // 2), -(-cols // 2)
+
+
+def _owned(scene: Scene) -> np.ndarray:
+    """Return what each node owns, as bits of features.glsl, (rows, cols) uint32."""
+    there = np.ones((scene.rows - 1, scene.cols - 1), dtype=bool)
+    if scene.cut_cells is not None:
+        there = scene.cut_cells
+    around = np.pad(there, 1)
+    here, above, left = around[1:, 1:], around[:-1, 1:], around[1:, :-1]
+    corner = around[:-1, :-1]
+    return (
+        1 * (here | above) + 2 * (here | left) + 4 * here
+        + 8 * (here | above | left | corner)).astype(np.uint32)

@@ -1,0 +1,33 @@
+// SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
+// SPDX-License-Identifier: Apache-2.0
+
+// The features of the surface of the cloth that can touch each other. A node owns itself, the edges
+// to the right, down and across its cell, and the two triangles of the cell. Edges without a triangle
+// have no surface.
+
+#define VERTEX 0
+#define RIGHT 1
+#define DOWN 2
+#define ACROSS 3
+
+// Bits of what a node owns.
+#define OWNS_RIGHT 1u
+#define OWNS_DOWN 2u
+#define OWNS_CELL 4u
+#define OWNS_NODE 8u
+
+layout(std430, binding = SELF_FEATURES) readonly buffer SelfFeatures { uint owned[]; };
+
+bool has_cell(int index) { return (owned[index] & OWNS_CELL) != 0u; }
+
+// Of an edge, 4 times the place of the node that owns it and which one it is.
+ivec2 edge_nodes(int feature) {
+    int kind = feature & 3;
+    return (feature >> 2) + (kind == RIGHT ? ivec2(0, 1)
+        : kind == DOWN ? ivec2(0, PITCH) : ivec2(1, PITCH));
+}
+
+// Of a triangle, twice the place of the node that owns it and which of the two it is.
+ivec3 face_nodes(int face) {
+    return (face >> 1) + ((face & 1) == 0 ? ivec3(0, PITCH, 1) : ivec3(1, PITCH, PITCH + 1));
+}

@@ -1,0 +1,37 @@
+// SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Pairs of features that may touch: a node and a triangle, or two edges. They are in no order, which
+// changes nothing; those of a node and its edges are a chain.
+
+struct Pair {
+    uint own;       // feature: 4 times the node that owns it, and which one
+    uint other;     // edge likewise, or triangle: twice the node that owns it, and which one
+    uint next;      // pair of the same node, one more than its place; 0 for none
+    float kept[3];  // impulse of the last substep [m/s]
+};
+
+// Room for pairs: those of a node and a triangle stand from the first place on, those of two edges
+// from the last one back.
+uniform int most_pairs;
+
+#ifdef OF_EDGES
+// The pair of an invocation; all are of one kind, as software evaluates all branches that some take.
+uint pair_place() {
+    uint i = gl_GlobalInvocationID.x;
+    return OF_EDGES == 1 ? uint(most_pairs) - 1u - i : i;
+}
+
+bool has_pair() {
+    return gl_GlobalInvocationID.x < (OF_EDGES == 1 ? edge_pairs : vertex_pairs);
+}
+
+// The nodes of a pair: one and the three of a triangle, or two and two.
+ivec4 pair_nodes(uint own, uint other) {
+#if OF_EDGES
+    return ivec4(edge_nodes(int(own)), edge_nodes(int(other)));
+#else
+    return ivec4(int(own >> 2), face_nodes(int(other)));
+#endif
+}
+#endif

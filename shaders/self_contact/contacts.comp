@@ -1,0 +1,197 @@
+// SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
+// SPDX-License-Identifier: Apache-2.0
+
+#version 430 core
+// Find the contacts of a substep, one pair an invocation, at the positions that it begins with. A pair
+// acts where its features own the nearest points, so that layers do not catch on inner edges: a point
+// in a triangle, two points within edges, or a corner or edge that all triangles around it name.
+
+#define POSITIONS_ALONE 1
+#include "lattice.glsl"
+#include "state_in.glsl"
+#include "self_contact/features.glsl"
+#include "self_contact/nearest.glsl"
+#include "self_contact/head.glsl"
+#include "self_contact/pairs.glsl"
+#include "self_contact/contacts.glsl"
+
+layout(local_size_x = SELF_LOCAL) in;
+
+layout(std430, binding = SELF_PAIRS) buffer SelfPairs { Pair pairs[]; };
+layout(std430, binding = SELF_DISTANCES) buffer SelfDistances { float distances[]; };
+layout(std430, binding = SELF_CONTACTS) buffer SelfContacts { SelfContact contacts_found[]; };
+layout(binding = VELOCITY_OUT) uniform samplerBuffer velocity_out;
+
+// Thickness between two edges over that between a node and a triangle [1]: flat layers lie on the
+// nodes of both, and edges act where they come nearer.
+#define EDGE_THICKNESS 0.998
+// Gap over the thickness [1] up to which a pair is looked at that moves slowly.
+#define SPARE 0.002
+// Least square of the sine between two edges that touch [1].
+#define LEAST_SQUARE 1e-6
+
+uniform float substep;      // [s]
+uniform float thickness;    // [m] from middle to middle
+uniform float friction;     // [1]
+uniform float ways_so_far;  // [m] that two nodes may have come nearer by, since lists were made
+
+vec3 place_of(int index) { return load_position(index).xyz; }
+
+// Largest speed of the nodes of a pair against the first of them, without contact [m/s].
+float speed_among(ivec4 nodes) {
+    vec3 v = texelFetch(velocity_out, nodes.x).xyz;
+    return max(length(texelFetch(velocity_out, nodes.y).xyz - v), max(
+        length(texelFetch(velocity_out, nodes.z).xyz - v),
+        length(texelFetch(velocity_out, nodes.w).xyz - v))) + least_speed_unit;
+}
+
+// Whether the triangle beyond an edge from a to b agrees that d, from a point of the edge, is
+// nearest there; c: its third corner.
+bool agrees(vec3 a, vec3 b, vec3 c, vec3 d) {
+    vec3 along = b - a, inwards = c - a;
+    inwards -= dot(inwards, along) / max(dot(along, along), 1e-30) * along;
+    return dot(inwards, d) <= 0.0;
+}
+
+// Whether the point q, which is nearest to an edge of a triangle, touches that edge; d: from it.
+bool touches_edge(int index, int face, int place, vec3 d) {
+    int owner = face >> 1;
+    // The edge, the two triangles beside it with their third corners, the one that speaks first.
+    int edge = (face & 1) == 0
+        ? (place == ON_AB ? 4 * owner + DOWN : place == ON_BC ? 4 * owner + ACROSS
+            : 4 * owner + RIGHT)
+        : (place == ON_AB ? 4 * owner + ACROSS : place == ON_BC ? 4 * (owner + PITCH) + RIGHT
+            : 4 * (owner + 1) + DOWN);
+    int base = edge >> 2, kind = edge & 3;
+    int first_cell = base;
+    int second_cell = kind == RIGHT ? base - PITCH : kind == DOWN ? base - 1 : base;
+    int first_corner = kind == RIGHT ? base + PITCH : kind == DOWN ? base + 1 : base;
+    int second_corner = kind == RIGHT ? base - PITCH + 1 : kind == DOWN ? base - 1 + PITCH
+        : base + PITCH + 1;
+    bool has_first = has_cell(first_cell), has_second = has_cell(second_cell);
+    bool is_first = first_cell == owner && (face & 1) == 0;
+    if (!is_first && has_first) {
+        return false;
+    }
+    if (has_first && first_corner == index || has_second && second_corner == index) {
+        return false;
+    }
+    ivec2 ends = edge_nodes(edge);
+    vec3 a = place_of(ends.x), b = place_of(ends.y);
+    return (!has_first || agrees(a, b, place_of(first_corner), d))
+        && (!has_second || agrees(a, b, place_of(second_corner), d));
+}
+
+// The same for the corner at the node `corner`.
+bool touches_corner(int index, int face, int corner, vec3 d) {
+    // The triangles around it, each with its two other corners, in the order in which they speak.
+    int faces[6] = int[6](
+        2 * corner, 2 * (corner - 1) + 1, 2 * (corner - PITCH), 2 * (corner - 1),
+        2 * (corner - PITCH) + 1, 2 * (corner - PITCH - 1) + 1);
+    vec3 b = place_of(corner);
+    bool is_first = true;
+    for (int i = 0; i < 6; ++i) {
+        if (!has_cell(faces[i] >> 1)) {
+            continue;
+        }
+        if (is_first && faces[i] != face) {
+            return false;
+        }
+        is_first = false;
+        ivec3 nodes = face_nodes(faces[i]);
+        for (int k = 0; k < 3; ++k) {
+            if (nodes[k] == index || dot(d, place_of(nodes[k]) - b) > 0.0) {
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
+// Gap of a contact [m]; within what positions are rounded by, there is none.
+float gap_of(float gap, vec3 x) {
+    float rounding = 4e-7 * max(abs(x.x), max(abs(x.y), abs(x.z))) + 1e-9;
+    return sign(gap) * max(abs(gap) - rounding, 0.0);
+}
+
+void add_contact(uint pair, ivec4 nodes, vec3 weights, vec3 d, float distance, float least) {
+    vec3 normal = d / max(distance, 1e-30);
+    float gap = gap_of(distance - least, place_of(nodes.x));
+    // What it had in the last substep, along the normal of this one.
+    vec3 kept = vec3(pairs[pair].kept[0], pairs[pair].kept[1], pairs[pair].kept[2]);
+    float speed = speed_unit();
+    float pressed = clamp(dot(kept, normal), 0.0, IMPULSE_RANGE * speed);
+    vec3 along = kept - dot(kept, normal) * normal;
+    float l = length(along);
+    along *= l > friction * pressed ? friction * pressed / max(l, 1e-30) : 1.0;
+    vec3 impulse = pressed * normal + along;
+    uint at = atomicAdd(contact_count, 1u);
+    atomicAdd(contact_groups[0], at % SELF_LOCAL == 0u ? 1u : 0u);
+    contacts_found[at] = SelfContact(
+        nodes, vec4(normal, gap), vec4(impulse, uintBitsToFloat(pair)),
+        weights, 0.0);
+    float unit = impulse_unit(speed);
+    vec4 all = all_weights(weights);
+    for (int i = 0; i < 4; ++i) {
+        int node = nodes[i];
+        uint shares = uint(ceil(abs(all[i]) * SHARE_PARTS));
+        uint before = atomicAdd(self_nodes[node].shares, shares);
+        if (before == 0u && all[i] != 0.0) {
+            uint place = atomicAdd(self_node_count, 1u);
+            self_nodes[place].listed = uint(node);
+            atomicAdd(node_groups[0], place % SELF_LOCAL == 0u ? 1u : 0u);
+        }
+        ivec3 part = in_units(all[i], impulse, unit);
+        for (int k = 0; k < 3; ++k) {
+            if (part[k] != 0) {
+                atomicAdd(self_nodes[node].impulse[k], part[k]);
+            }
+        }
+    }
+}
+
+void main() {
+    if (!has_pair()) {
+        return;
+    }
+    uint i = pair_place();
+    // Those that can come to the thickness in the substep.
+    float least = OF_EDGES == 1 ? EDGE_THICKNESS * thickness : thickness;
+    float reach = least + max(SPARE * thickness, 2.0 * substep * speed_unit());
+    if (distances[i] - ways_so_far > reach) {
+        return;
+    }
+    uint own = pairs[i].own, other = pairs[i].other;
+    ivec4 nodes = pair_nodes(own, other);
+    vec3 x = place_of(nodes.x);
+    vec3 a = place_of(nodes.y) - x, b = place_of(nodes.z) - x, c = place_of(nodes.w) - x;
+#if OF_EDGES
+    vec3 near = nearest_on_segments(vec3(0.0), a, b, c - b);
+    vec3 d = near.x * a - b - near.y * (c - b);
+    vec3 weights = vec3(1.0 - near.x, near.x, near.y - 1.0);
+    bool acts = near.x > 0.0 && near.x < 1.0 && near.y > 0.0 && near.y < 1.0
+        && near.z > LEAST_SQUARE;
+#else
+    int place;
+    vec3 found = nearest_in_triangle(a, b, c, place);
+    vec3 d = -(found.x * a + found.y * b + found.z * c);
+    vec3 weights = vec3(1.0, -found.xy);
+    bool acts = true;
+#endif
+    float distance = length(d);
+    distances[i] = distance + ways_so_far;
+    atomicMin(least_distance, floatBitsToUint(distance));
+    acts = acts && distance <= least + max(SPARE * thickness, 2.0 * substep * speed_among(nodes));
+#if !OF_EDGES
+    if (acts && place != INSIDE) {
+        int index = nodes.x, face = int(other);
+        acts = place <= AT_C ? touches_corner(index, face, nodes[1 + place], d)
+            : touches_edge(index, face, place, d);
+    }
+#endif
+    if (acts) {
+        add_contact(i, nodes, weights, d, distance, least);
+    } else {
+        pairs[i].kept = float[3](0.0, 0.0, 0.0);
+    }
+}

@@ -1,0 +1,79 @@
+// SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
+// SPDX-License-Identifier: Apache-2.0
+
+#version 430 core
+// The velocity of each node that touches the cloth after a round, with what colliders do to it. The last
+// round writes the state to come.
+
+#define POSITIONS_ALONE 1
+#include "lattice.glsl"
+#include "state_in.glsl"
+#if HAS_CONTACT
+#include "contact.glsl"
+#endif
+#include "low_parts.glsl"
+#include "self_contact/head.glsl"
+#include "self_contact/contacts.glsl"
+
+layout(local_size_x = SELF_LOCAL) in;
+
+layout(std430, binding = POSITION_OUT) buffer PositionOut { vec4 position_out[]; };
+layout(std430, binding = VELOCITY_OUT) buffer VelocityOut { vec4 velocity_out[]; };
+layout(std430, binding = SELF_VELOCITIES) writeonly buffer SelfVelocities { vec4 velocities[]; };
+#if HAS_CONTACT
+#include "contact_record.glsl"
+#endif
+#if HAS_HELD
+#include "held.glsl"
+#endif
+
+uniform float substep;  // [s]
+uniform float way_unit;  // [m]
+uniform int is_last;
+
+vec3 of_numbers(int numbers[3], float unit) {
+    return unit * vec3(numbers[0], numbers[1], numbers[2]);
+}
+
+void main() {
+    uint i = gl_GlobalInvocationID.x;
+    if (i >= self_node_count) {
+        return;
+    }
+    int index = int(self_nodes[i].listed);
+    SelfNode node = self_nodes[index];
+    vec4 free = velocity_out[index];
+    vec3 x = load_position(index).xyz;
+    vec3 v = free.xyz + free.w * of_numbers(node.impulse, impulse_unit(speed_unit()));
+#if HAS_CONTACT
+    Contact contact = contact_with(
+        free.w > 0.0 ? bodies_towards(x, v, substep) : 0u, x, v, v, substep);
+    v = contact.velocity;
+#endif
+    velocities[index] = vec4(v, free.w * float(node.shares) / SHARE_PARTS);
+    if (is_last == 0) {
+        return;
+    }
+#if HAS_HELD
+    vec4 position = load_position(index);
+    if (is_held_by_pin(position, free)) {
+        held[held_entry(index)].xyz += of_numbers(node.impulse, impulse_unit(speed_unit()));
+    }
+#endif
+    self_nodes[index].impulse = int[3](0, 0, 0);
+    self_nodes[index].way = int[3](0, 0, 0);
+    self_nodes[index].shares = 0u;
+    if (free.w > 0.0) {
+        vec3 to = changed_position(
+            index, position_out[index].xyz,
+            substep * (v - free.xyz) + free.w * of_numbers(node.way, way_unit));
+#if HAS_CONTACT
+        if (touched_count > 0) {
+            to = moved_out(to, substep);
+            record_contacts(index, contact.kind);
+        }
+#endif
+        velocity_out[index].xyz = v;
+        position_out[index].xyz = to;
+    }
+}

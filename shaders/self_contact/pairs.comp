@@ -1,0 +1,102 @@
+// SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
+// SPDX-License-Identifier: Apache-2.0
+
+#version 430 core
+// List the pairs of features that are nearer than the reach, those of one node an invocation.
+
+#define POSITIONS_ALONE 1
+#include "lattice.glsl"
+#include "state_in.glsl"
+#include "self_contact/features.glsl"
+#include "self_contact/owned.glsl"
+#include "self_contact/boxes.glsl"
+#include "self_contact/nearest.glsl"
+#include "self_contact/head.glsl"
+#include "self_contact/pairs.glsl"
+
+layout(local_size_x = SELF_LOCAL) in;
+
+layout(std430, binding = SELF_FIRST) buffer SelfFirst { uint first_pair[]; };
+layout(std430, binding = SELF_PAIRS) buffer SelfPairs { Pair pairs[]; };
+layout(std430, binding = SELF_DISTANCES) buffer SelfDistances { float distances[]; };
+
+uniform float reach;  // [m]
+
+uint chain;
+
+void add_pair(uint at, uint own, uint other, float distance) {
+    if (at < uint(most_pairs)) {
+        pairs[at] = Pair(own, other, chain, float[3](0.0, 0.0, 0.0));
+        distances[at] = distance;
+        chain = at + 1u;
+    }
+}
+
+void add_edges(Owned one, Owned other) {
+    for (int kind = RIGHT; kind <= ACROSS; ++kind) {
+        for (int other_kind = RIGHT; other_kind <= ACROSS; ++other_kind) {
+            ivec2 own = edge_nodes(4 * one.index + kind);
+            ivec2 nodes = edge_nodes(4 * other.index + other_kind);
+            // Each pair once, and none that hangs together.
+            bool counts = owns_edge(one, kind) && owns_edge(other, other_kind)
+                && (other.index > one.index || other_kind > kind)
+                && own.x != nodes.x && own.x != nodes.y && own.y != nodes.x && own.y != nodes.y;
+            ivec2 ends = edge_corners(kind), other_ends = edge_corners(other_kind);
+            vec3 x = one.corner[ends.x], d = one.corner[ends.y] - x;
+            vec3 y = other.corner[other_ends.x], e = other.corner[other_ends.y] - y;
+            vec3 near = nearest_on_segments(x, d, y, e);
+            float distance = length(x + near.x * d - y - near.y * e);
+            if (counts && distance <= reach) {
+                add_pair(uint(most_pairs) - 1u - atomicAdd(edge_pairs, 1u), uint(4 * one.index + kind),
+                    uint(4 * other.index + other_kind), distance);
+            }
+        }
+    }
+}
+
+void add_faces(Owned one, Owned other) {
+    for (int face = 0; face < 2; ++face) {
+        ivec3 nodes = face_nodes(2 * other.index + face);
+        vec3 x = one.corner[0];
+        vec3 a = other.corner[face] - x, b = other.corner[2] - x;
+        vec3 c = other.corner[face == 0 ? 1 : 3] - x;
+        int place;
+        vec3 weights = nearest_in_triangle(a, b, c, place);
+        float distance = length(weights.x * a + weights.y * b + weights.z * c);
+        if (distance <= reach && !any(equal(nodes, ivec3(one.index)))) {
+            add_pair(atomicAdd(vertex_pairs, 1u), uint(4 * one.index),
+                uint(2 * other.index + face), distance);
+        }
+    }
+}
+
+void main() {
+    int place = int(gl_GlobalInvocationID.x);
+    if (place >= ROWS * COLS) {
+        return;
+    }
+    Owned one = owned_by(node_index(place / COLS, place % COLS));
+    Box own = boxes[place];
+    own.least -= reach;
+    own.most += reach;
+    chain = 0u;
+    Walk walk = Walk((one.features & OWNS_NODE) != 0u ? level_count - 1 : level_count, ivec2(0));
+    while (walk.level < level_count) {
+        bool is_near = is_box_near(walk, own);
+        if (is_near && walk.level == 0) {
+            Owned other = owned_by(node_index(walk.at.x, walk.at.y));
+            if ((other.features & OWNS_CELL) != 0u) {
+                add_faces(one, other);
+            }
+            if (other.index >= one.index) {
+                add_edges(one, other);
+            }
+        }
+        walk_on(walk, is_near);
+    }
+    // llvmpipe ends all loops of an invocation after 65535 rounds in all.
+    if (walk.level < level_count) {
+        atomicAdd(unfinished, 1u);
+    }
+    first_pair[one.index] = chain;
+}

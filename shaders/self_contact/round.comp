@@ -1,0 +1,93 @@
+// SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
+// SPDX-License-Identifier: Apache-2.0
+
+#version 430 core
+// A round: each contact changes its impulse by what the velocities of its nodes lack. With s_k the sum
+// of the weights of the node k, sum_k |w_k| s_k / m_k is no less than what an impulse changes, whatever
+// other contacts do, so that rounds converge for any stack (Cauchy-Schwarz).
+
+#include "lattice.glsl"
+#include "self_contact/head.glsl"
+#include "self_contact/contacts.glsl"
+#include "self_contact/features.glsl"
+#include "self_contact/pairs.glsl"
+
+layout(local_size_x = SELF_LOCAL) in;
+
+layout(std430, binding = SELF_PAIRS) buffer SelfPairs { Pair pairs[]; };
+layout(std430, binding = SELF_CONTACTS) buffer SelfContacts { SelfContact contacts_found[]; };
+// Velocity that a node has after the round before [m/s], and its inverse mass times its weights.
+layout(binding = SELF_VELOCITIES) uniform samplerBuffer velocities;
+
+uniform float substep;   // [s]
+uniform float friction;  // [1]
+uniform int part;        // FIRST and LAST of the rounds of a substep, as bits
+
+#define FIRST 1
+#define LAST 2
+// Part of what layers are too near by that is made good in a substep, and the fastest way [m/s].
+#define WAY_PART 0.2
+#define MOST_WAY_SPEED 1.0
+
+void add_to(int node, float weight, vec3 before, vec3 now, float unit) {
+    ivec3 change = in_units(weight, now, unit) - in_units(weight, before, unit);
+    for (int k = 0; k < 3; ++k) {
+        if (change[k] != 0) {
+            atomicAdd(self_nodes[node].impulse[k], change[k]);
+        }
+    }
+}
+
+void move_out(int node, float weight, vec3 way) {
+    ivec3 change = in_units(weight, way, MOST_WAY_SPEED * substep * (IMPULSE_RANGE / 2147483648.0));
+    for (int k = 0; k < 3; ++k) {
+        if (change[k] != 0) {
+            atomicAdd(self_nodes[node].way[k], change[k]);
+        }
+    }
+}
+
+void main() {
+    uint i = gl_GlobalInvocationID.x;
+    if (i >= contact_count) {
+        return;
+    }
+    SelfContact found = contacts_found[i];
+    vec4 weights = all_weights(found.weights);
+    vec3 u = vec3(0.0);
+    float share = 0.0;
+    for (int k = 0; k < 4; ++k) {
+        vec4 v = texelFetch(velocities, found.nodes[k]);
+        u += weights[k] * v.xyz;
+        share += abs(weights[k]) * v.w;
+    }
+    if (share <= 0.0) {
+        return;
+    }
+    vec3 normal = found.normal.xyz;
+    float gap = found.normal.w;
+    float speed = speed_unit();
+    float pressed = dot(found.impulse.xyz, normal);
+    float along_normal = dot(u, normal);
+    float now = clamp(
+        pressed - (along_normal + max(gap, 0.0) / substep) / share, 0.0, IMPULSE_RANGE * speed);
+    vec3 along = found.impulse.xyz - pressed * normal - (u - along_normal * normal) / share;
+    float most = friction * now;
+    float l = length(along);
+    along *= l > most ? most / max(l, 1e-30) : 1.0;
+    vec3 impulse = now * normal + along;
+    float unit = impulse_unit(speed);
+    vec3 way = normal * (min(-WAY_PART * gap, MOST_WAY_SPEED * substep) / share);
+    for (int k = 0; k < 4; ++k) {
+        add_to(found.nodes[k], weights[k], found.impulse.xyz, impulse, unit);
+        if ((part & FIRST) != 0 && gap < 0.0) {
+            move_out(found.nodes[k], weights[k], way);
+        }
+    }
+    contacts_found[i].impulse.xyz = impulse;
+    if ((part & LAST) != 0) {
+        pairs[floatBitsToUint(found.impulse.w)].kept = float[3](impulse.x, impulse.y, impulse.z);
+        atomicMax(largest_impulse, floatBitsToUint(length(impulse)));
+        atomicMax(largest_change, floatBitsToUint(share * length(impulse - found.impulse.xyz)));
+    }
+}

@@ -1,0 +1,254 @@
+# SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
+# SPDX-License-Identifier: Apache-2.0
+
+"""A cloth that touches itself: nothing passes, layers carry each other, and friction holds."""
+
+from cloth_sim_ros import Scene
+from cloth_sim_ros import Simulation
+from crossings import crossings
+from layers import CELL
+from layers import layered_scene
+from layers import stacked
+from layers import THICKNESS
+import numpy as np
+import pytest
+
+GRAVITY = 9.81
+SHEET = 8
+SOFT = {
+    'stiffness.structural': 100.0, 'stiffness.shear': 30.0, 'bending.rigidity': [2e-6, 2e-6]}
+FLOOR = {
+    'colliders.names': ['floor'], 'colliders.floor.shape': 'plane',
+    'colliders.floor.friction': 0.3, 'contact.thickness': THICKNESS}
+
+
+def nodes_of(layer: int) -> list[str]:
+    """Return the nodes of a sheet, as pins have them."""
+    return [f'{layer * SHEET + row},{col}' for row in range(SHEET) for col in range(SHEET)]
+
+
+def folded(side: int, cell: float, gap: float) -> np.ndarray:
+    """Return a towel that is folded in half about a round fold, (side, side, 3) [m]."""
+    row, col = np.indices((side, side))
+    along = row * cell - (side - 1) * cell / 2.0
+    arc = np.pi * gap / 4.0
+    x = np.where(
+        np.abs(along) < arc, gap / 2.0 * np.cos(along / (gap / 2.0)), -(np.abs(along) - arc))
+    z = np.where(
+        np.abs(along) < arc, gap / 2.0 * np.sin(along / (gap / 2.0)),
+        np.sign(along) * gap / 2.0)
+    rough = 1e-4 * cell * np.random.default_rng(1).standard_normal((side, side, 3))
+    return np.stack([x, col * cell, z], axis=-1) + rough
+
+
+def falling_ribbon(rough: float = 1e-4, **others: object) -> tuple[Scene, np.ndarray]:
+    """Return a ribbon that hangs over a floor, and where it starts."""
+    scene = Scene({
+        'rows': 48, 'cols': 6, 'width': 0.1, 'height': 0.94, 'pins': ['none'], 'dt': 0.002,
+        'start.z': 0.0, 'start.pose': 'hanging', 'colliders.names': ['floor'],
+        'colliders.floor.shape': 'plane', 'colliders.floor.position': [0.0, 0.0, -0.55],
+        'self_contact.enabled': True, 'self_contact.thickness': 0.005, **others})
+    positions = scene.start_positions().astype(float)
+    positions += rough * np.random.default_rng(1).normal(size=positions.shape)
+    positions[..., 0] += 0.03 * np.linspace(0.0, 1.0, scene.rows)[:, None]**2
+    return scene, positions
+
+
+def frames_with_crossings(scene: Scene, positions: np.ndarray, steps: int, every: int) -> int:
+    """Return in how many of the frames of a run from rest the cloth passes through itself."""
+    found = 0
+    with Simulation(scene) as cloth:
+        cloth.set_state(positions, np.zeros_like(positions))
+        for _ in range(steps // every):
+            cloth.step(every)
+            found += len(crossings(cloth.positions(), scene.cut_cells)) > 0
+    return found
+
+
+def test_no_crossings_in_a_heap() -> None:
+    """A ribbon that falls into a heap passes through itself nowhere; without contact it does."""
+    assert frames_with_crossings(*falling_ribbon(), steps=350, every=5) == 0
+    alone = falling_ribbon(**{'self_contact.enabled': False})
+    assert frames_with_crossings(*alone, steps=350, every=5) > 10
+
+
+def test_heap_gains_no_energy() -> None:
+    """Without damping and air, no step of a falling heap has more energy than the start."""
+    scene, positions = falling_ribbon(1e-7, **{
+        'damping.structural': 0.0, 'damping.shear': 0.0, 'air.density': 0.0, 'dt': 0.001})
+    with Simulation(scene) as cloth:
+        cloth.set_state(positions, np.zeros_like(positions))
+        start = cloth.snapshot().total_energy
+        highest = start
+        fall = scene.mass * GRAVITY * 0.5
+        for _ in range(600):
+            cloth.step(1)
+            highest = max(highest, cloth.snapshot().total_energy)
+    print(f'energy gained over M g L {(highest - start) / fall:.1e}')
+    assert highest - start <= 1e-3 * fall
+
+
+def test_four_layers_carry_each_other() -> None:
+    """Sheets on a floor lie a thickness apart, at rest, and press with all of their weight."""
+    scene = layered_scene(4, SHEET, **SOFT, **FLOOR)
+    positions = stacked(scene, 4, (0.05, 0.03), first=THICKNESS / 2.0)
+    with Simulation(scene) as cloth:
+        cloth.set_state(positions, np.zeros_like(positions))
+        cloth.advance(0.5)
+        top = cloth.positions()[3 * SHEET + 2:-2, 2:-2, 2] / THICKNESS
+        speed = np.abs(cloth.velocities()[3 * SHEET + 2:-2, 2:-2]).max()
+        weight = -cloth.contact_forces()[0].force[2] / (scene.mass * GRAVITY)
+    print(f'top {top.min():.5f} to {top.max():.5f}, {speed:.1e} m/s, weight - 1 {weight - 1:.1e}')
+    assert top == pytest.approx(3.5, abs=1e-3)
+    assert speed < 1e-6
+    assert weight == pytest.approx(1.0, abs=1e-3)
+
+
+@pytest.mark.parametrize('friction', [0.1, 0.3, 1.0])
+def test_incline_of_two_layers(friction: float) -> None:
+    """A sheet on a sheet sticks at 0.99 of the friction limit, and slides by the formula above."""
+    seconds = 0.25
+    ways = {}
+    for share in (0.99, 1.01):
+        angle = np.arctan(friction * share)
+        scene = layered_scene(2, SHEET, **{
+            **SOFT, 'pins': nodes_of(0), 'self_contact.friction': friction,
+            'gravity': [GRAVITY * np.sin(angle), 0.0, -GRAVITY * np.cos(angle)]})
+        positions = stacked(scene, 2)
+        with Simulation(scene) as cloth:
+            cloth.set_state(positions, np.zeros_like(positions))
+            cloth.advance(seconds)
+            length = scene['dt'] / cloth.substeps
+            ways[share] = (cloth.positions() - positions)[SHEET:, :, 0].mean()
+    acceleration = GRAVITY * (np.sin(angle) - friction * np.cos(angle))
+    expected = 0.5 * acceleration * seconds * (seconds + length)
+    print(f'friction {friction}: stuck within {ways[0.99]:.1e} m, slid by formula '
+          f'{ways[1.01] / expected - 1.0:+.1e}')
+    assert abs(ways[0.99]) < 2e-6
+    assert ways[1.01] == pytest.approx(expected, rel=0.02)
+
+
+def test_sheet_pulled_from_between_two() -> None:
+    """A sheet between two others takes friction times the load of both to be pulled out."""
+    friction = 0.3
+    pulled = [f'{SHEET + row},{SHEET - 1}' for row in range(SHEET)]
+    kept = [f'{2 * SHEET + row},0' for row in range(SHEET)]
+    scene = layered_scene(3, SHEET, **{
+        **SOFT, 'pins': nodes_of(0) + pulled + kept, 'self_contact.friction': friction})
+    positions = stacked(scene, 3, (0.11, 0.05))
+    with Simulation(scene) as cloth:
+        cloth.set_state(positions, np.zeros_like(positions))
+        cloth.advance(0.1)
+        for row in range(SHEET, 2 * SHEET):
+            target = positions[row, SHEET - 1] + (0.05, 0.0, 0.0)
+            cloth.move_pin(row, SHEET - 1, target, speed=0.02)
+        cloth.advance(0.3)
+        totals = np.zeros((3, 3))
+        for _ in range(25):
+            cloth.step(1)
+            forces = cloth.pin_forces()
+            for node, force in zip(forces.nodes, forces.forces):
+                totals[node[0] // SHEET] += force / 25.0
+    weight = scene.mass / 3.0 * GRAVITY
+    below, above = -totals[0, 2] - weight, weight + totals[2, 2]
+    ratios = totals[0, 0] / (friction * below), totals[2, 0] / (friction * above)
+    print(f'friction over mu N below {ratios[0]:.4f}, above {ratios[1]:.4f}; pull '
+          f'{-totals[1, 0]:.5f} N')
+    assert ratios == pytest.approx((1.0, 1.0), abs=0.01)
+    assert -totals[1, 0] == pytest.approx(friction * (below + above), rel=0.02)
+
+
+@pytest.mark.parametrize(('speed', 'thickness'), [(5.0, 2e-3), (20.0, 5e-4)])
+def test_clap_keeps_momentum(speed: float, thickness: float) -> None:
+    """Halves that are clapped together do not pass, and neither momentum nor energy is gained."""
+    side = 20
+    scene = Scene({
+        'rows': side, 'cols': side, 'width': CELL * (side - 1), 'height': CELL * (side - 1),
+        'pins': ['none'], 'start.z': 0.0, 'areal_density': 0.2, 'stiffness.structural': 300.0,
+        'stiffness.shear': 90.0, 'dt': 1e-3, 'gravity': [0.0, 0.0, 0.0], 'air.density': 0.0,
+        'self_contact.enabled': True, 'self_contact.thickness': thickness})
+    positions = folded(side, CELL, 0.03)
+    velocities = np.zeros_like(positions)
+    velocities[..., 2] = speed * np.clip((9.5 - np.arange(side)) / 6.0, -1.0, 1.0)[:, None]
+    velocities[..., 0] = 0.3
+    with Simulation(scene) as cloth:
+        cloth.set_state(positions, velocities)
+        start = cloth.snapshot().total_energy
+        centre = cloth.positions().astype(float).mean(axis=(0, 1))
+        mean = cloth.velocities().astype(float).mean(axis=(0, 1))
+        highest = start
+        for _ in range(40):
+            cloth.step(1)
+            assert len(crossings(cloth.positions())) == 0
+            highest = max(highest, cloth.snapshot().total_energy)
+        lost = np.abs(cloth.velocities().astype(float).mean(axis=(0, 1)) - mean).max()
+        way = cloth.positions().astype(float).mean(axis=(0, 1)) - centre - mean * cloth.time
+    print(f'momentum {lost / speed:.1e}, centre {np.abs(way).max():.1e} m, energy '
+          f'{highest / start - 1.0:.1e}')
+    assert lost < 1e-5 * speed
+    assert np.abs(way).max() < 1e-6
+    assert highest <= start * (1.0 + 1e-4)
+
+
+@pytest.mark.parametrize('turns', [2, pytest.param(4, marks=pytest.mark.long)])
+def test_twisted_cloth_keeps_apart(turns: int) -> None:
+    """Two turns leave layers 0.8 of the thickness apart; four squeeze them, and nothing passes."""
+    rows, cols = 32, 16
+    cell = 0.6 / rows
+    thickness, seconds, parts = cell / 4.0, 2.0, 8
+    scene = Scene({
+        'rows': rows, 'cols': cols, 'width': cell * (cols - 1), 'height': cell * (rows - 1),
+        'pins': ['none'], 'start.z': 0.0, 'areal_density': 0.2, 'stiffness.structural': 500.0,
+        'stiffness.shear': 150.0, 'dt': 2e-3, 'gravity': [0.0, 0.0, 0.0], 'air.drag': 5.0,
+        'self_contact.enabled': True, 'self_contact.thickness': thickness})
+    positions = scene.start_positions().astype(float)
+    positions += 1e-3 * cell * np.random.default_rng(3).standard_normal(positions.shape)
+    half = 0.5 * cell * (rows - 1)
+    overlap = 0.0
+    with Simulation(scene) as cloth:
+        cloth.set_state(positions, np.zeros_like(positions))
+        ends = (('top', 0, 1.0), ('bottom', rows - 1, -1.0))
+        for name, row, _ in ends:
+            cloth.grasp(
+                name, positions[row].mean(axis=0), nodes=[(row, col) for col in range(cols)])
+        for part in range(1, parts + 1):
+            for name, _, side in ends:
+                turn = side * turns * np.pi * part / parts / 2.0
+                cloth.move_grasp(
+                    name, (0.0, side * (half - 0.075 * part / parts), 0.0),
+                    (0.0, np.sin(turn), 0.0, np.cos(turn)), speed=10.0, angular_speed=100.0,
+                    duration=seconds / parts)
+            for _ in range(round(seconds / parts / scene['dt'] / 5)):
+                cloth.step(5)
+                assert len(crossings(cloth.positions())) == 0
+                overlap = max(overlap, cloth.snapshot().layer_overlap)
+    print(f'{turns} turns: layers {1.0 - overlap:.3f} of the thickness apart')
+    if turns == 2:
+        assert overlap < 0.2
+
+
+def test_same_bits_where_nothing_touches() -> None:
+    """A cloth that never touches itself moves to the bit as one that could not."""
+    ends = []
+    for enabled in (False, True):
+        scene = Scene({
+            'rows': 12, 'cols': 12, 'dt': 0.005, 'self_contact.enabled': enabled,
+            'colliders.names': ['ball'], 'colliders.ball.shape': 'sphere',
+            'colliders.ball.size': [0.2], 'colliders.ball.position': [0.0, 0.1, -0.3]})
+        with Simulation(scene) as cloth:
+            cloth.advance(0.3)
+            ends.append((cloth.positions(), cloth.velocities()))
+    assert np.array_equal(ends[0][0], ends[1][0])
+    assert np.array_equal(ends[0][1], ends[1][1])
+
+
+def test_same_bits_in_two_runs() -> None:
+    """Impulses are sums of whole numbers, so that a heap has the same bits in each run."""
+    ends = []
+    for _ in range(2):
+        scene, positions = falling_ribbon()
+        with Simulation(scene) as cloth:
+            cloth.set_state(positions, np.zeros_like(positions))
+            cloth.step(250)
+            ends.append(cloth.positions())
+    assert np.array_equal(*ends)
