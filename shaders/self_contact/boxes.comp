@@ -10,6 +10,7 @@
 #include "state_in.glsl"
 #include "self_contact/features.glsl"
 #include "self_contact/boxes.glsl"
+#include "self_contact/cell_ways.glsl"
 
 layout(local_size_x = SELF_LOCAL) in;
 
@@ -22,6 +23,7 @@ Box box_of_node(int row, int col) {
     Box box = empty_box();
     vec4 x = load_position(index);
     built[index] = x;
+    cell_ways[index].x = 0.0;
     uint own = owned[index];
     if ((own & OWNS_NODE) == 0u) {
         return box;

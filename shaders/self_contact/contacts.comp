@@ -18,7 +18,7 @@
 layout(local_size_x = SELF_LOCAL) in;
 
 layout(std430, binding = SELF_PAIRS) buffer SelfPairs { Pair pairs[]; };
-layout(std430, binding = SELF_DISTANCES) buffer SelfDistances { float distances[]; };
+layout(std430, binding = SELF_KEPT) buffer SelfKept { vec4 kept[]; };
 layout(std430, binding = SELF_CONTACTS) buffer SelfContacts { SelfContact contacts_found[]; };
 layout(binding = VELOCITY_OUT) uniform samplerBuffer velocity_out;
 
@@ -33,7 +33,6 @@ layout(binding = VELOCITY_OUT) uniform samplerBuffer velocity_out;
 uniform float substep;      // [s]
 uniform float thickness;    // [m] from middle to middle
 uniform float friction;     // [1]
-uniform float ways_so_far;  // [m] that two nodes may have come nearer by, since lists were made
 
 vec3 place_of(int index) { return load_position(index).xyz; }
 
@@ -118,10 +117,10 @@ void add_contact(uint pair, ivec4 nodes, vec3 weights, vec3 d, float distance, f
     vec3 normal = d / max(distance, 1e-30);
     float gap = gap_of(distance - least, place_of(nodes.x));
     // What it had in the last substep, along the normal of this one.
-    vec3 kept = vec3(pairs[pair].kept[0], pairs[pair].kept[1], pairs[pair].kept[2]);
+    vec3 before = kept[pair].xyz;
     float speed = speed_unit();
-    float pressed = clamp(dot(kept, normal), 0.0, IMPULSE_RANGE * speed);
-    vec3 along = kept - dot(kept, normal) * normal;
+    float pressed = clamp(dot(before, normal), 0.0, IMPULSE_RANGE * speed);
+    vec3 along = before - dot(before, normal) * normal;
     float l = length(along);
     along *= l > friction * pressed ? friction * pressed / max(l, 1e-30) : 1.0;
     vec3 impulse = pressed * normal + along;
@@ -135,8 +134,8 @@ void add_contact(uint pair, ivec4 nodes, vec3 weights, vec3 d, float distance, f
     for (int i = 0; i < 4; ++i) {
         int node = nodes[i];
         uint shares = uint(ceil(abs(all[i]) * SHARE_PARTS));
-        uint before = atomicAdd(self_nodes[node].shares, shares);
-        if (before == 0u && all[i] != 0.0) {
+        uint others = atomicAdd(self_nodes[node].shares, shares);
+        if (others == 0u && all[i] != 0.0) {
             uint place = atomicAdd(self_node_count, 1u);
             self_nodes[place].listed = uint(node);
             atomicAdd(node_groups[0], place % SELF_LOCAL == 0u ? 1u : 0u);
@@ -150,21 +149,12 @@ void add_contact(uint pair, ivec4 nodes, vec3 weights, vec3 d, float distance, f
     }
 }
 
-void main() {
-    if (!has_pair()) {
-        return;
-    }
-    uint i = pair_place();
-    // Those that can come to the thickness in the substep.
-    float least = OF_EDGES == 1 ? EDGE_THICKNESS * thickness : thickness;
-    float reach = least + max(SPARE * thickness, 2.0 * substep * speed_unit());
-    if (distances[i] - ways_so_far > reach) {
-        return;
-    }
-    uint own = pairs[i].own, other = pairs[i].other;
+// Look at a pair where it is.
+void look(uint i, uint own, uint other, float reach, float least, float gone) {
     ivec4 nodes = pair_nodes(own, other);
     vec3 x = place_of(nodes.x);
     vec3 a = place_of(nodes.y) - x, b = place_of(nodes.z) - x, c = place_of(nodes.w) - x;
+    int place = INSIDE;
 #if OF_EDGES
     vec3 near = nearest_on_segments(vec3(0.0), a, b, c - b);
     vec3 d = near.x * a - b - near.y * (c - b);
@@ -172,26 +162,44 @@ void main() {
     bool acts = near.x > 0.0 && near.x < 1.0 && near.y > 0.0 && near.y < 1.0
         && near.z > LEAST_SQUARE;
 #else
-    int place;
     vec3 found = nearest_in_triangle(a, b, c, place);
     vec3 d = -(found.x * a + found.y * b + found.z * c);
     vec3 weights = vec3(1.0, -found.xy);
     bool acts = true;
 #endif
     float distance = length(d);
-    distances[i] = distance + ways_so_far;
+    pairs[i].distance = distance + gone;
     atomicMin(least_distance, floatBitsToUint(distance));
-    acts = acts && distance <= least + max(SPARE * thickness, 2.0 * substep * speed_among(nodes));
+    acts = acts && distance <= reach;
+    if (acts) {
+        acts = distance <= least + max(
+            SPARE * thickness, 2.0 * substep * speed_among(nodes));
+    }
 #if !OF_EDGES
-    if (acts && place != INSIDE) {
-        int index = nodes.x, face = int(other);
-        acts = place <= AT_C ? touches_corner(index, face, nodes[1 + place], d)
-            : touches_edge(index, face, place, d);
+    if (acts && place <= AT_C) {
+        acts = touches_corner(nodes.x, int(other), nodes[1 + place], d);
+    }
+    if (acts && place > AT_C && place != INSIDE) {
+        acts = touches_edge(nodes.x, int(other), place, d);
     }
 #endif
     if (acts) {
         add_contact(i, nodes, weights, d, distance, least);
-    } else {
-        pairs[i].kept = float[3](0.0, 0.0, 0.0);
+    }
+    if (!acts) {
+        kept[i] = vec4(0.0);
+    }
+}
+
+void main() {
+    bool is_there = has_pair();
+    uint i = is_there ? pair_place() : 0u;
+    Pair pair = load_pair(i);
+    // Those that can come to the thickness in the substep, if cells go twice as far as in the last.
+    vec2 ways = ways_of(pair);
+    float least = OF_EDGES == 1 ? EDGE_THICKNESS * thickness : thickness;
+    float reach = least + max(SPARE * thickness, 2.0 * (ways.y + substep * least_speed_unit));
+    if (is_there && pair.distance - ways.x <= reach) {
+        look(i, pair.own, pair.other, reach, least, ways.x);
     }
 }

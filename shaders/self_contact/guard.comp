@@ -17,8 +17,6 @@
 
 layout(local_size_x = SELF_LOCAL) in;
 
-layout(std430, binding = SELF_PAIRS) buffer SelfPairs { Pair pairs[]; };
-layout(std430, binding = SELF_DISTANCES) readonly buffer SelfDistances { float distances[]; };
 layout(binding = POSITION_OUT) uniform samplerBuffer position_out;
 
 // Part of a gap that is left in a substep [1].
@@ -26,10 +24,9 @@ layout(binding = POSITION_OUT) uniform samplerBuffer position_out;
 // Rounding of a position over its coordinates [1].
 #define ROUNDING 4e-7
 
-uniform float thickness;       // [m]
-uniform float ways_so_far;     // [m]
-uniform float longest_of_all;  // [m] of the ways of nodes, with what they are rounded by
-uniform vec3 common_way;       // [m] of all nodes
+uniform float thickness;  // [m]
+uniform float rounding;   // [m] of ways
+uniform vec3 common_way;  // [m] of all nodes
 
 vec3 from[4], way[4];
 
@@ -71,16 +68,8 @@ vec4 spans(vec3 axis) {
     return found;
 }
 
-void main() {
-    if (!has_pair()) {
-        return;
-    }
-    uint i = pair_place();
-    float least = distances[i] - ways_so_far;
-    if ((1.0 - LEFT) * least > 2.0 * longest_of_all) {
-        return;
-    }
-    ivec4 nodes = pair_nodes(pairs[i].own, pairs[i].other);
+void guard(uint own, uint other, float least) {
+    ivec4 nodes = pair_nodes(own, other);
     vec3 origin = load_position(nodes.x).xyz;
     float coordinate = 0.0;
     vec2 longest = vec2(0.0);
@@ -142,5 +131,17 @@ void main() {
         if (towards > 0.0 && towards > -past) {
             atomicMin(self_nodes[nodes[k]].cut, floatBitsToUint(max(-past, 0.0) / towards));
         }
+    }
+}
+
+void main() {
+    bool is_there = has_pair();
+    uint i = is_there ? pair_place() : 0u;
+    Pair pair = load_pair(i);
+    // Cells have gone that far already, with the substep under way.
+    vec2 ways = ways_of(pair);
+    float least = pair.distance - ways.x + ways.y;
+    if (is_there && (1.0 - LEFT) * least <= ways.y + rounding) {
+        guard(pair.own, pair.other, least);
     }
 }

@@ -11,9 +11,11 @@
 
 layout(local_size_x = SELF_LOCAL) in;
 
-layout(std430, binding = SELF_PAIRS) buffer SelfPairs { Pair pairs[]; };
 layout(std430, binding = SELF_FIRST) readonly buffer SelfFirst { uint first_pair[]; };
+layout(std430, binding = SELF_PAIRS) readonly buffer SelfPairs { Pair pairs[]; };
+layout(std430, binding = SELF_KEPT) buffer SelfKept { vec4 kept[]; };
 layout(std430, binding = SELF_PAIRS_BEFORE) readonly buffer SelfPairsBefore { Pair pairs_before[]; };
+layout(std430, binding = SELF_KEPT_BEFORE) readonly buffer SelfKeptBefore { vec4 kept_before[]; };
 
 uniform ivec4 before;  // pairs of nodes and of edges, and room, as there were
 
@@ -23,16 +25,17 @@ void main() {
         return;
     }
     i = i < before.x ? i : before.z - 1 - (i - before.x);
-    Pair pair = pairs_before[i];
-    if (pair.kept[0] == 0.0 && pair.kept[1] == 0.0 && pair.kept[2] == 0.0) {
+    vec4 impulse = kept_before[i];
+    if (impulse.xyz == vec3(0.0)) {
         return;
     }
-    uint next = first_pair[pair.own >> 2];
+    uint own = pairs_before[i].own, other = pairs_before[i].other;
+    uint next = first_pair[own >> 2];
     while (next != 0u) {
-        Pair found = pairs[next - 1u];
-        if (found.own == pair.own && found.other == pair.other) {
-            pairs[next - 1u].kept = pair.kept;
+        uint place = next - 1u;
+        if (pairs[place].own == own && pairs[place].other == other) {
+            kept[place] = impulse;
         }
-        next = found.next;
+        next = pairs[place].next;
     }
 }

@@ -2,13 +2,15 @@
 // SPDX-License-Identifier: Apache-2.0
 
 #version 430 core
-// The longest way of a node in the substep, and how much farther nodes have moved since the lists were
-// made than these allow for: STRIP nodes of a column an invocation.
+// The longest way of a node in the substep, whether nodes have moved farther since lists were made than
+// these allow for, and how far the corners of each cell have gone: STRIP nodes of a column an
+// invocation.
 
 #define POSITIONS_ALONE 1
 #include "lattice.glsl"
 #include "state_in.glsl"
 #include "self_contact/head.glsl"
+#include "self_contact/cell_ways.glsl"
 
 layout(local_size_x = LOCAL_X, local_size_y = LOCAL_Y) in;
 
@@ -19,19 +21,39 @@ uniform float room;          // [m] that nodes may move since lists were made
 uniform vec3 common_way;     // [m] of all nodes in the substep
 uniform vec3 common_moved;   // [m] of all nodes since lists were made
 
+// Of a node: its way in the substep, and how far it had moved since lists were made [m].
+vec2 way_of(int index) {
+    vec4 x = load_position(index);
+    vec3 way = texelFetch(position_out, index).xyz - x.xyz - common_way;
+    vec3 moved = x.xyz - texelFetch(built, index).xyz - common_moved;
+    return x.w != 0.0 ? vec2(length(way), length(moved)) : vec2(0.0);
+}
+
 void main() {
     ivec2 first = ivec2(gl_GlobalInvocationID.xy) * ivec2(1, STRIP);
     if (first.x >= COLS || first.y >= ROWS) {
         return;
     }
     float longest = 0.0, farthest = 0.0;
-    for (int i = 0; i < STRIP && first.y + i < ROWS; ++i) {
-        int index = node_index(first.y + i, first.x);
-        vec4 x = load_position(index);
-        float l = length(texelFetch(position_out, index).xyz - x.xyz - common_way);
-        float moved = length(x.xyz - texelFetch(built, index).xyz - common_moved);
-        longest = max(longest, x.w != 0.0 ? l : 0.0);
-        farthest = max(farthest, x.w != 0.0 ? l + moved : 0.0);
+    int last = min(first.y + STRIP, ROWS - 1);
+    float upper = 0.0;
+    for (int row = first.y; row <= last; ++row) {
+        int index = node_index(row, first.x);
+        vec2 found = way_of(index);
+        float wider = max(found.x, way_of(index + 1).x);
+        // The cell above this row, which the node above owns.
+        if (row > first.y) {
+            add_cell_way(index - PITCH, max(upper, wider));
+        }
+        // The last row belongs to the strip below, if there is one.
+        if (row < first.y + STRIP) {
+            longest = max(longest, found.x);
+            farthest = max(farthest, found.x + found.y);
+        }
+        upper = wider;
+    }
+    if (last == ROWS - 1 && last < first.y + STRIP) {
+        add_cell_way(node_index(last, first.x), upper);
     }
     atomicMax(longest_way, floatBitsToUint(longest));
     if (farthest > room) {

@@ -46,9 +46,14 @@ void main() {
     vec3 x = load_position(index).xyz;
     vec3 v = free.xyz + free.w * of_numbers(node.impulse, impulse_unit(speed_unit()));
 #if HAS_CONTACT
-    Contact contact = contact_with(
-        free.w > 0.0 ? bodies_towards(x, v, substep) : 0u, x, v, v, substep);
-    v = contact.velocity;
+    uint bodies = free.w > 0.0 ? near_bodies(x, 0.0, substep * length(v)) : 0u;
+    touched_count = 0;
+    int kind = FREE;
+    if (bodies != 0u) {
+        Contact contact = contact_with(bodies, x, v, v, substep);
+        v = contact.velocity;
+        kind = contact.kind;
+    }
 #endif
     velocities[index] = vec4(v, free.w * float(node.shares) / SHARE_PARTS);
     if (is_last == 0) {
@@ -70,7 +75,7 @@ void main() {
 #if HAS_CONTACT
         if (touched_count > 0) {
             to = moved_out(to, substep);
-            record_contacts(index, contact.kind);
+            record_contacts(index, kind);
         }
 #endif
         velocity_out[index].xyz = v;

@@ -18,7 +18,7 @@ layout(local_size_x = SELF_LOCAL) in;
 
 layout(std430, binding = SELF_FIRST) buffer SelfFirst { uint first_pair[]; };
 layout(std430, binding = SELF_PAIRS) buffer SelfPairs { Pair pairs[]; };
-layout(std430, binding = SELF_DISTANCES) buffer SelfDistances { float distances[]; };
+layout(std430, binding = SELF_KEPT) buffer SelfKept { vec4 kept[]; };
 
 uniform float reach;  // [m]
 
@@ -26,8 +26,8 @@ uint chain;
 
 void add_pair(uint at, uint own, uint other, float distance) {
     if (at < uint(most_pairs)) {
-        pairs[at] = Pair(own, other, chain, float[3](0.0, 0.0, 0.0));
-        distances[at] = distance;
+        pairs[at] = Pair(own, other, distance, chain);
+        kept[at] = vec4(0.0);
         chain = at + 1u;
     }
 }

@@ -9,13 +9,12 @@
 #include "lattice.glsl"
 #include "self_contact/head.glsl"
 #include "self_contact/contacts.glsl"
-#include "self_contact/features.glsl"
-#include "self_contact/pairs.glsl"
 
 layout(local_size_x = SELF_LOCAL) in;
 
-layout(std430, binding = SELF_PAIRS) buffer SelfPairs { Pair pairs[]; };
+layout(std430, binding = SELF_KEPT) buffer SelfKept { vec4 kept[]; };
 layout(std430, binding = SELF_CONTACTS) buffer SelfContacts { SelfContact contacts_found[]; };
+layout(binding = SELF_CONTACTS) uniform samplerBuffer contact_texels;
 // Velocity that a node has after the round before [m/s], and its inverse mass times its weights.
 layout(binding = SELF_VELOCITIES) uniform samplerBuffer velocities;
 
@@ -28,6 +27,15 @@ uniform int part;        // FIRST and LAST of the rounds of a substep, as bits
 // Part of what layers are too near by that is made good in a substep, and the fastest way [m/s].
 #define WAY_PART 0.2
 #define MOST_WAY_SPEED 1.0
+
+// Software reads four texels much faster than sixteen numbers.
+SelfContact load_contact(int place) {
+    vec4 last = texelFetch(contact_texels, 4 * place + 3);
+    return SelfContact(
+        floatBitsToInt(texelFetch(contact_texels, 4 * place)),
+        texelFetch(contact_texels, 4 * place + 1), texelFetch(contact_texels, 4 * place + 2),
+        last.xyz, last.w);
+}
 
 void add_to(int node, float weight, vec3 before, vec3 now, float unit) {
     ivec3 change = in_units(weight, now, unit) - in_units(weight, before, unit);
@@ -52,7 +60,7 @@ void main() {
     if (i >= contact_count) {
         return;
     }
-    SelfContact found = contacts_found[i];
+    SelfContact found = load_contact(int(i));
     vec4 weights = all_weights(found.weights);
     vec3 u = vec3(0.0);
     float share = 0.0;
@@ -86,7 +94,7 @@ void main() {
     }
     contacts_found[i].impulse.xyz = impulse;
     if ((part & LAST) != 0) {
-        pairs[floatBitsToUint(found.impulse.w)].kept = float[3](impulse.x, impulse.y, impulse.z);
+        kept[floatBitsToUint(found.impulse.w)] = vec4(impulse, 0.0);
         atomicMax(largest_impulse, floatBitsToUint(length(impulse)));
         atomicMax(largest_change, floatBitsToUint(share * length(impulse - found.impulse.xyz)));
     }

@@ -37,6 +37,9 @@ _SKIN, _SKIN_OF_CELL = 1.0, 0.1
 _SKIN_OF_WAY = 4.0
 # Part of the half of that which nodes may have moved by before lists are made anew [1].
 _USED = 0.9
+# Max. substeps without a look at how far nodes have moved, while no pair is near [1], and how many
+# times faster they may become meanwhile [1].
+_MOST_UNLOOKED, _FASTER = 16, 4.0
 # Part of half the reach that nodes may move by since lists were made [1].
 _ROOM = 0.98
 # Part of a gap that is left in a substep [1], as in guard.comp, and rounding of a way over the
@@ -47,7 +50,7 @@ _OF_EDGES = 0.998
 # Pairs that there is room for at first, over nodes [1].
 _PAIRS = 4
 # Size of an entry of each kind in the shaders [bytes].
-_PAIR_BYTES, _CONTACT_BYTES, _NODE_BYTES, _BOX_BYTES = 24, 64, 36, 32
+_PAIR_BYTES, _CONTACT_BYTES, _NODE_BYTES, _BOX_BYTES = 16, 64, 36, 32
 # Place of the share of its way that a node may go, in that of nodes [1].
 _CUT = 7
 # Range of the ways out of layers over the fastest [1], as in round.comp.
@@ -117,6 +120,7 @@ class SelfContact:
         stored = layout.stored
         nothing = np.zeros((stored, 4), dtype=np.float32)
         self._built, self._velocities = Buffer(nothing), Buffer(nothing)
+        self._cell_ways = Buffer(nothing)
         self._boxes = Buffer(int(self._levels[:, 0] @ self._levels[:, 1]) * _BOX_BYTES)
         self._first = Buffer(np.zeros(stored, dtype=np.uint32))
         nodes = np.zeros((stored, _NODE_BYTES // 4), dtype=np.uint32)
@@ -125,7 +129,7 @@ class SelfContact:
         self._most_pairs = _PAIRS * scene.node_count
         self._pairs = [Buffer(self._most_pairs * _PAIR_BYTES) for _ in range(2)]
         self._contacts = Buffer(self._most_pairs * _CONTACT_BYTES)
-        self._distances = Buffer(self._most_pairs * 4)
+        self._kept = [Buffer(self._most_pairs * _PAIR_BYTES) for _ in range(2)]
         self._length = 0.0
         self._told_room = 0
         self._read = np.zeros(1, dtype=_HEAD)
@@ -137,7 +141,8 @@ class SelfContact:
         # Edges that pierce triangles; None where nobody has looked.
         self._crossings: int | None = None
         self._counts = 0, 0
-        self._ways_so_far = 0.0
+        # Substeps until the next look.
+        self._unlooked = 0
         self._common_way = self._common_moved = np.zeros(3)
         self.figures = SelfContactFigures()
 
@@ -171,6 +176,9 @@ class SelfContact:
 
         Both states of ``state`` are there; colliders have not acted yet.
         """
+        if self._unlooked > 0:
+            self._unlooked -= 1
+            return
         self._set_length(length)
         self._bind()
         make(self._reset)
@@ -185,8 +193,12 @@ class SelfContact:
         slowest, fastest = _from_order(head['least_speed']), _from_order(head['most_speed'])
         moved = 0.5 * float(np.linalg.norm(most - least))
         way = 0.5 * length * float(np.linalg.norm(fastest - slowest))
+        room = 0.5 * _USED * (self._reach - self._thickness)
+        if moved - way > 0.5 * _ROOM * self._reach:
+            # Farther than lists that nobody has looked at allow for.
+            self._crossings = None
         # NaN asks for new lists, which are empty then.
-        if not moved <= 0.5 * _USED * (self._reach - self._thickness):
+        if not moved <= room:
             cell = min(self._scene.spacing)
             skin = max(_SKIN * self._thickness, _SKIN_OF_CELL * cell, _SKIN_OF_WAY * way)
             self._build(state, self._thickness + skin)
@@ -199,6 +211,9 @@ class SelfContact:
         self.figures = SelfContactFigures()
         if self.has_pairs:
             self._find_contacts(state)
+        elif way > 0.0:
+            left = 0.5 * _USED * (self._reach - self._thickness) - min(moved, room)
+            self._unlooked = int(min(_MOST_UNLOOKED, left / (_FASTER * way)))
 
     def act(self, state: State, held_at: int = -1) -> None:
         """
@@ -242,12 +257,12 @@ class SelfContact:
         self._run_over_nodes('longest')
         head = self._read_head()
         # NaN is no reason to go on: what checks the state finds it.
-        longest = self._longest_way = float(head['longest_way'])
+        longest = float(head['longest_way'])
         nearest = min(float(head['least_distance']), _OF_EDGES * self._thickness)
         rounding = _ROUNDING * float(head['largest']) + 1e-9
         if head['cut_nodes'] or (1.0 - _LEFT) * nearest <= 2.0 * (longest + rounding):
             for guard in self._each_kind_of('guard'):
-                guard.set_float('longest_of_all', longest + rounding)
+                guard.set_float('rounding', 2.0 * rounding)
                 guard.set_vectors('common_way', self._common_way)
             self._head.write(np.zeros(1, dtype=np.uint32), _place('cut_nodes'))
             state.bind_out()
@@ -263,18 +278,14 @@ class SelfContact:
             undivided=int(head['undivided']), rounds=self._rounds)
         return self.figures
 
-    def accept(self) -> None:
-        """Go on from the substep that was made."""
-        if self.has_pairs:
-            self._ways_so_far += 2.0 * self._longest_way
-
     def delete(self) -> None:
         """Release everything."""
         for program in self._programs.values():
             program.delete()
         for buffer in (
-                self._head, self._features, self._built, self._velocities, self._boxes,
-                self._first, *self._pairs, self._nodes, self._contacts, self._distances):
+                self._head, self._features, self._built, self._velocities, self._cell_ways,
+                self._boxes, self._first, *self._pairs, *self._kept, self._nodes,
+                self._contacts):
             buffer.delete()
 
     def _run_over_nodes(self, name: str) -> None:
@@ -304,7 +315,6 @@ class SelfContact:
         for of_edges, count in enumerate(self._counts):
             if count:
                 program = self._programs[f'{name} {of_edges}'].use()
-                program.set_float('ways_so_far', self._ways_so_far)
                 yield program
                 program.dispatch(-(-count // _LOCAL))
         shader_writes_visible()
@@ -312,7 +322,6 @@ class SelfContact:
     def _build(self, state: State, reach: float) -> None:
         """List the pairs within ``reach`` [m]; room grows until it suffices."""
         self._reach = reach
-        self._ways_so_far = 0.0
         boxes = self._programs['boxes'].use()
         state.bind_in_textures()
         self._built.bind_storage(bindings.SELF_BUILT)
@@ -325,6 +334,7 @@ class SelfContact:
             self._look_for_crossings()
         before = (*self._counts, self._most_pairs, 0)
         self._pairs.reverse()
+        self._kept.reverse()
         if self._pairs[0].bytes < self._most_pairs * _PAIR_BYTES:
             self._make_room(self._most_pairs)
         pairs = self._programs['pairs']
@@ -364,13 +374,13 @@ class SelfContact:
     def _make_room(self, pairs: int) -> None:
         self._most_pairs = pairs
         # The list before has the impulses; it grows when it is written next.
-        self._pairs[0].delete()
-        self._pairs[0] = Buffer(pairs * _PAIR_BYTES)
+        for lists in (self._pairs, self._kept):
+            lists[0].delete()
+            lists[0] = Buffer(pairs * _PAIR_BYTES)
         self._contacts.delete()
         self._contacts = Buffer(pairs * _CONTACT_BYTES)
-        self._distances.delete()
-        self._distances = Buffer(pairs * 4)
         self._contacts.bind_storage(bindings.SELF_CONTACTS)
+        self._contacts.bind_texture(bindings.SELF_CONTACTS)
 
     def _tell_room(self) -> None:
         if self._told_room != self._most_pairs:
@@ -383,14 +393,18 @@ class SelfContact:
         for buffer, place in (
                 (self._head, bindings.SELF_HEAD), (self._features, bindings.SELF_FEATURES),
                 (self._boxes, bindings.SELF_BOXES), (self._contacts, bindings.SELF_CONTACTS),
-                (self._nodes, bindings.SELF_NODES)):
+                (self._nodes, bindings.SELF_NODES), (self._cell_ways, bindings.SELF_WAYS)):
             buffer.bind_storage(place)
+        self._cell_ways.bind_texture(bindings.SELF_WAYS)
+        self._contacts.bind_texture(bindings.SELF_CONTACTS)
         self._bind_lists()
 
     def _bind_lists(self) -> None:
         self._first.bind_storage(bindings.SELF_FIRST)
         self._pairs[0].bind_storage(bindings.SELF_PAIRS)
-        self._distances.bind_storage(bindings.SELF_DISTANCES)
+        self._pairs[0].bind_texture(bindings.SELF_PAIRS)
+        self._kept[0].bind_storage(bindings.SELF_KEPT)
+        self._kept[1].bind_storage(bindings.SELF_KEPT_BEFORE)
         self._pairs[1].bind_storage(bindings.SELF_PAIRS_BEFORE)
 
     def _set_length(self, length: float) -> None:

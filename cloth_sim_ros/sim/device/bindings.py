@@ -48,6 +48,8 @@ SELF_PAIRS_BEFORE = 25
 SELF_CONTACTS = 26
 SELF_NODES = 27
 SELF_VELOCITIES = 28
-SELF_DISTANCES = 29
+SELF_KEPT = 29
+SELF_KEPT_BEFORE = 30
+SELF_WAYS = 31
 
 DEFINES = {name: value for name, value in list(globals().items()) if name.isupper()}

@@ -152,7 +152,6 @@ class LayeredSprings(MassSpring):
                         state, begin + 0.5 * half * length, 0.5 * length, loads, halvings + 1)
                 return
             self._tally.add(figures)
-        self._layers.accept()
         self.last_length = length
         state.swap()
 

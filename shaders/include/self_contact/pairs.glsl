@@ -5,10 +5,10 @@
 // changes nothing; those of a node and its edges are a chain.
 
 struct Pair {
-    uint own;       // feature: 4 times the node that owns it, and which one
-    uint other;     // edge likewise, or triangle: twice the node that owns it, and which one
-    uint next;      // pair of the same node, one more than its place; 0 for none
-    float kept[3];  // impulse of the last substep [m/s]
+    uint own;        // feature: 4 times the node that owns it, and which one
+    uint other;      // edge likewise, or triangle: twice the node that owns it, and which one
+    float distance;  // [m] as it was found last, and what the cells of both had gone by then
+    uint next;       // pair of the same node, one more than its place; 0 for none
 };
 
 // Room for pairs: those of a node and a triangle stand from the first place on, those of two edges
@@ -16,6 +16,15 @@ struct Pair {
 uniform int most_pairs;
 
 #ifdef OF_EDGES
+layout(binding = SELF_PAIRS) uniform samplerBuffer pair_texels;
+
+// Software reads one texel much faster than four numbers.
+Pair load_pair(uint place) {
+    vec4 found = texelFetch(pair_texels, int(place));
+    return Pair(
+        floatBitsToUint(found.x), floatBitsToUint(found.y), found.z, floatBitsToUint(found.w));
+}
+
 // The pair of an invocation; all are of one kind, as software evaluates all branches that some take.
 uint pair_place() {
     uint i = gl_GlobalInvocationID.x;
@@ -24,6 +33,14 @@ uint pair_place() {
 
 bool has_pair() {
     return gl_GlobalInvocationID.x < (OF_EDGES == 1 ? edge_pairs : vertex_pairs);
+}
+
+layout(binding = SELF_WAYS) uniform samplerBuffer way_texels;
+
+// What both cells of a pair have gone, as cell_ways.glsl has it.
+vec2 ways_of(Pair pair) {
+    int own = int(pair.own >> 2), other = int(pair.other >> (OF_EDGES == 1 ? 2 : 1));
+    return texelFetch(way_texels, own).xy + texelFetch(way_texels, other).xy;
 }
 
 // The nodes of a pair: one and the three of a triangle, or two and two.

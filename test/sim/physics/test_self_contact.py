@@ -117,14 +117,18 @@ def test_incline_of_two_layers(friction: float) -> None:
         positions = stacked(scene, 2)
         with Simulation(scene) as cloth:
             cloth.set_state(positions, np.zeros_like(positions))
-            cloth.advance(seconds)
+            # Sheets sink by micrometres, to where edges carry their hems.
+            cloth.advance(0.05)
+            settled = cloth.positions()
+            cloth.advance(seconds - 0.05)
             length = scene['dt'] / cloth.substeps
-            ways[share] = (cloth.positions() - positions)[SHEET:, :, 0].mean()
+            begin = settled if share < 1.0 else positions
+            ways[share] = (cloth.positions() - begin)[SHEET:, :, 0].mean()
     acceleration = GRAVITY * (np.sin(angle) - friction * np.cos(angle))
     expected = 0.5 * acceleration * seconds * (seconds + length)
     print(f'friction {friction}: stuck within {ways[0.99]:.1e} m, slid by formula '
           f'{ways[1.01] / expected - 1.0:+.1e}')
-    assert abs(ways[0.99]) < 2e-6
+    assert abs(ways[0.99]) < 1e-6
     assert ways[1.01] == pytest.approx(expected, rel=0.02)
 
 
