@@ -6,6 +6,7 @@
 from body_distance import distance_to
 from cloth_sim_ros.study.energy_account import compression_energy
 from cloth_sim_ros.study.energy_account import contact_work
+from crossings import crossings
 import numpy as np
 import pytest
 
@@ -86,10 +87,28 @@ def normals(body, positions):
     return slopes / np.maximum(np.linalg.norm(slopes, axis=-1, keepdims=True), 1e-30)
 
 
-def check(simulate, within, mode, seed, seconds):
-    """Run the scene of ``seed``, hold it to what is true of every one, and return its end."""
-    simulation = simulate({'mode': mode, **draw(seed)})
+def layers(seed):
+    """Return what lets layers of the cloth of ``seed`` touch each other."""
+    random = np.random.default_rng([*np.atleast_1d(seed), 38])
+    values = draw(seed)
+    cell = min(
+        values['width'] / (values['cols'] - 1), values['height'] / (values['rows'] - 1))
+    return {
+        'self_contact.enabled': True,
+        'self_contact.thickness': float(cell * random.uniform(0.05, 0.5)),
+        'self_contact.friction': float(random.choice([0.0, random.uniform(0.0, 1.0)])),
+        'start.pose': str(random.choice(['horizontal', 'hanging'])), 'start.z': 0.8}
+
+
+def check(simulate, within, mode, seed, seconds, others=()):
+    """
+    Run the scene of ``seed``, hold it to what is true of every one, and return its end.
+
+    :param others: values that are added to the scene
+    """
+    simulation = simulate({'mode': mode, **draw(seed), **dict(others)})
     scene = simulation.scene
+    touches_itself = scene['self_contact.enabled']
     scale = scene.mass * GRAVITY * 0.5
     clearance = 0.5 * scene['contact.thickness']
 
@@ -108,7 +127,12 @@ def check(simulate, within, mode, seed, seconds):
     deepest, rise, work, moved = 0.0, np.zeros(2), 0.0, 0.0
     # Velocities belong to the middle of a substep: energies swing where forces change at once.
     latest = []
+    most_crossed = 0
     while simulation.time < seconds:
+        if touches_itself:
+            crossed = len(crossings(simulation.positions()))
+            most_crossed = max(most_crossed, crossed)
+            assert not (crossed and simulation.snapshot().surface_contact_held)
         before = simulation.colliders
         simulation.step()
         done = contact_work(simulation.contact_forces(), before, simulation.colliders)
@@ -119,6 +143,7 @@ def check(simulate, within, mode, seed, seconds):
         latest = [*latest[-9:], energies() - work]
         rise = np.maximum(rise, np.min(latest, axis=0) - least)
         least = np.minimum(least, np.min(latest, axis=0))
+    within(f'scene {seed}: crossings', most_crossed, 0)
     within(f'scene {seed}: deepest node [m]', deepest, 1e-6)
     within(f'scene {seed}: energy gained over M g 0.5 m and work', min(rise) / (scale + moved),
            0.01)
@@ -134,6 +159,26 @@ def test_random_scenes(simulate, within, any_mode, seed):
 def test_bodies_that_crush_a_cloth_at_its_limit(simulate, within):
     """Solves would end, and friction not be found, once the search for a limit has ended."""
     check(simulate, within, 'adaptive', (20261123, 128), 1.9)
+
+
+@pytest.mark.parametrize('seed', range(4))
+def test_random_scenes_with_layers(simulate, within, seed):
+    """The cloth would pass through itself, or be thrown apart."""
+    check(simulate, within, 'mass_spring', seed, 0.8, layers(seed))
+
+
+@pytest.mark.long
+def test_200_random_scenes_with_layers(simulate, within, request):
+    """Layers would pass through each other in a rarer place, or the bits not be the same."""
+    seed = request.config.getoption('--seed') or int(np.random.default_rng().integers(2**31))
+    print(f'seed {seed}')
+    for number in range(200):
+        print(f'{number}:')
+        given = layers((seed, number))
+        first = check(simulate, within, 'mass_spring', (seed, number), 1.2, given)
+        if number % 20 == 0:
+            np.testing.assert_array_equal(
+                first, check(simulate, within, 'mass_spring', (seed, number), 1.2, given))
 
 
 @pytest.mark.long
