@@ -4,7 +4,7 @@
 #version 430 core
 // Let thin colliders act on edges and faces of the cloth, in an explicit substep that has been made,
 // before it is the present state: one workgroup, at the nodes that near_nodes.comp lists. It also
-// does what contact.comp does at the nodes that it changes.
+// does what contact.comp does at the nodes that it changes. NOTES_CHANGES as in contact.comp.
 //
 // Rounds find the impulses: each row of a contact takes the velocity of its nodes, and each node
 // the impulses of its rows. With s_k the sum of the weights of the rows of the node k, D = sum_k
@@ -25,6 +25,9 @@ layout(std430, binding = POSITION_OUT) coherent buffer PositionOut { vec4 positi
 layout(std430, binding = VELOCITY_OUT) coherent buffer VelocityOut { vec4 velocity_out[]; };
 
 #include "contact_record.glsl"
+#if NOTES_CHANGES
+layout(std430, binding = LIMIT_CHANGES) buffer Changes { vec4 changes[]; };
+#endif
 
 // Max. rounds of impulses in a substep [1].
 #define IMPULSE_ROUNDS 30
@@ -573,6 +576,9 @@ void main() {
                 substep * (contact.velocity - surface_nodes[index].free));
 #else
             vec3 to = x + substep * contact.velocity;
+#endif
+#if NOTES_CHANGES
+            changes[index].xyz += contact.velocity - surface_nodes[index].free;
 #endif
             velocity_out[index].xyz = contact.velocity;
             position_out[index].xyz = touched_count > 0 ? moved_out(to, substep) : to;

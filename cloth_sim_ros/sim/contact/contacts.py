@@ -184,13 +184,18 @@ class Contacts:
             program.set_float('substep', length)
             program.set_int('block_count', self._layout.block_count)
             self.set_in(program, touch, length)
-        if on_surface and self._surface is not None:
-            for program in self._surface.programs():
-                program.set_float('substep', length)
-                program.set_int('block_count', self._layout.block_count)
-                self.set_in(program, touch, length)
-            self._surface.bind()
+        if on_surface:
+            self._begin_surface(touch, length, notes_changes=False)
         self._near.bind_storage(bindings.NEAR_BLOCKS)
+
+    def _begin_surface(self, touch: '_Touch', length: float, *, notes_changes: bool) -> None:
+        if self._surface is None:
+            return
+        for program in self._surface.programs(notes_changes=notes_changes):
+            program.set_float('substep', length)
+            program.set_int('block_count', self._layout.block_count)
+            self.set_in(program, touch, length)
+        self._surface.bind()
 
     def list_none(self) -> None:
         """Empty the lists of an explicit substep that is about to be made."""
@@ -216,13 +221,16 @@ class Contacts:
         noting.set_int('block_count', self._layout.block_count)
         self.set_in(noting, touch, length)
         changes.bind_storage(bindings.LIMIT_CHANGES)
-        self._act(self._noting_program)
+        self._begin_surface(touch, length, notes_changes=True)
+        self._act(self._noting_program, self._surface, notes_changes=True)
 
     def act(self, *, on_surface: bool) -> None:
         """Act on an explicit substep that was made, both states of which are bound."""
         self._act(self._program, self._surface if on_surface else None)
 
-    def _act(self, act: SceneProgram, surface: SurfaceContact | None = None) -> None:
+    def _act(
+            self, act: SceneProgram, surface: SurfaceContact | None, *,
+            notes_changes: bool = False) -> None:
         self._near.bind_dispatches()
         shader_dispatches_visible()
         if surface is None:
@@ -233,8 +241,7 @@ class Contacts:
         if surface is None:
             act.use().dispatch_indirect(_NODE_GROUPS)
         else:
-            surface.act()
-            surface.act_on_others(_NODE_GROUPS)
+            surface.act(_NODE_GROUPS, notes_changes=notes_changes)
         shader_writes_visible()
         if surface is not None:
             surface.move_out()

@@ -34,12 +34,16 @@ class SurfaceContact:
         defines = {
             'SURFACE_TIPS': tips, 'SURFACE_LOCAL': _LOCAL,
             'SURFACE_COLLIDERS': f'{sum(1 << number for number in numbers)}u'}
-        self._impulses = SceneProgram(
-            'surface_contact.comp', scene, layout, {**defines, 'WAYS_OUT': 0})
+        # By whether changes of velocity are noted for the limits of edges.
+        self._impulses = {notes: SceneProgram(
+            'surface_contact.comp', scene, layout,
+            {**defines, 'WAYS_OUT': 0, 'NOTES_CHANGES': int(notes)}) for notes in (False, True)}
+        self._others = {notes: SceneProgram(
+            'contact.comp', scene, layout,
+            {'NOTES_CHANGES': int(notes), 'HAS_SURFACE': 1}) for notes in (False, True)}
         self._ways = SceneProgram(
-            'surface_contact.comp', scene, layout, {**defines, 'WAYS_OUT': 1})
-        self._others = SceneProgram(
-            'contact.comp', scene, layout, {'NOTES_CHANGES': 0, 'HAS_SURFACE': 1})
+            'surface_contact.comp', scene, layout,
+            {**defines, 'WAYS_OUT': 1, 'NOTES_CHANGES': 0})
         self._near_nodes = SceneProgram('near_nodes.comp', scene, layout, {'HAS_SURFACE': 1})
         self._layout = layout
         self._has_warned = False
@@ -49,11 +53,11 @@ class SurfaceContact:
         self._rows = Buffer(np.zeros(
             (_HEAD_BYTES + self._most_entries * rows * _ROW_BYTES) // 4, dtype=np.float32))
 
-    def programs(self) -> Iterator[Program]:
+    def programs(self, *, notes_changes: bool) -> Iterator[Program]:
         """Yield each pass, in use, to be set to a substep."""
         yield self._near_nodes.use()
-        yield self._others.use()
-        for part in (self._impulses, self._ways):
+        yield self._others[notes_changes].use()
+        for part in (self._impulses[notes_changes], self._ways):
             program = part.use()
             program.set_int_anywhere('most_entries', self._most_entries)
             yield program
@@ -71,18 +75,15 @@ class SurfaceContact:
         """
         self._near_nodes.use().dispatch_indirect(groups)
 
-    def act(self) -> None:
-        """Find the contacts and their impulses, and change what they act on."""
-        self._impulses.use().dispatch(1)
-        shader_writes_visible()
-
-    def act_on_others(self, groups: int) -> None:
+    def act(self, groups: int, *, notes_changes: bool) -> None:
         """
-        Act on the nodes that no edge or face has been acted on at.
+        Find the contacts and their impulses, change what they act on, and act on other nodes.
 
         :param groups: offset of the workgroups in the buffer of dispatches [bytes]
         """
-        self._others.use().dispatch_indirect(groups)
+        self._impulses[notes_changes].use().dispatch(1)
+        shader_writes_visible()
+        self._others[notes_changes].use().dispatch_indirect(groups)
 
     def move_out(self) -> None:
         """Move edges and faces out of colliders that they are left within."""
@@ -103,6 +104,6 @@ class SurfaceContact:
     def delete(self) -> None:
         """Release everything."""
         for part in (
-                self._impulses, self._ways, self._others, self._near_nodes, self._nodes,
-                self._rows):
+                *self._impulses.values(), *self._others.values(), self._ways, self._near_nodes,
+                self._nodes, self._rows):
             part.delete()

@@ -10,7 +10,7 @@ from cloth_sim_ros.sim.model.colliders import THIN
 from cloth_sim_ros.sim.scene import Scene
 
 # Modes in which thin bodies act on edges and faces.
-MODES_WITH_SURFACE = ('mass_spring',)
+MODES_WITH_SURFACE = ('mass_spring', 'adaptive')
 
 
 def warn_of_thin_bodies(scene: Scene, mode: str) -> None:

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-"""Bodies that are thinner than cells hold the cloth between its nodes, in mode mass_spring."""
+"""Bodies that are thinner than cells hold the cloth between its nodes."""
 
 import warnings
 
@@ -37,6 +37,30 @@ BODIES = {
     'finger': {'shape': 'capsule', 'size': (0.01, 0.2), 'position': (*WITHIN[:2], -0.1)},
     'small box': {'shape': 'box', 'size': (0.03, 0.02, 0.02), 'position': WITHIN}}
 
+# What each of them is run in.
+MODES = {
+    'mass_spring': {'mode': 'mass_spring'},
+    'adaptive': {'mode': 'adaptive'},
+    'adaptive at its limit': {
+        'mode': 'adaptive', 'adaptive.threshold': 0.005, 'adaptive.scheme': 'list'}}
+# Bodies that modes other than mass_spring meet without --long.
+FEW = {'rod of 0.003 m', 'edge of a blade', 'sphere of 0.5 cell', 'finger'}
+
+
+def in_modes(names, few):
+    """Return the cases of modes and names of bodies; only few of those in other modes are short."""
+    return pytest.mark.parametrize(('mode', 'name'), [
+        pytest.param(
+            values, name, id=f'{mode}, {name}',
+            marks=[] if mode == 'mass_spring' or name in few else [pytest.mark.long])
+        for mode, values in MODES.items() for name in names])
+
+
+@pytest.fixture(params=MODES.values(), ids=MODES)
+def values_of_mode(request):
+    """Return the values of each mode."""
+    return request.param
+
 
 def scene_with(body, **more):
     """Return a level cloth just above a body."""
@@ -61,10 +85,10 @@ def deepest(simulation, samples=12):
     return CLEARANCE - least
 
 
-@pytest.mark.parametrize('name', BODIES)
-def test_a_thin_body_holds_the_cloth(context, within, name):
+@in_modes(BODIES, FEW)
+def test_a_thin_body_holds_the_cloth(context, within, mode, name):
     """Cloth would fall through a rod between two lines of nodes."""
-    scene = scene_with(BODIES[name])
+    scene = scene_with(BODIES[name], **mode)
     assert scene.thin_colliders == (0,)
     worst = -np.inf
     with Simulation(scene, context=context) as simulation:
@@ -88,9 +112,10 @@ def test_a_thin_body_holds_the_cloth(context, within, name):
 
 @pytest.mark.parametrize('speed', [5.0, 10.0])
 @pytest.mark.parametrize('radius', [0.0005, 0.003])
-def test_a_thin_rod_is_not_passed_at_speed(context, within, radius, speed):
+def test_a_thin_rod_is_not_passed_at_speed(context, within, values_of_mode, radius, speed):
     """Cloth would be on the other side of a rod in one substep."""
-    scene = scene_with({'shape': 'capsule', 'size': (radius, 2.0), 'orientation': ALONG_Y})
+    scene = scene_with(
+        {'shape': 'capsule', 'size': (radius, 2.0), 'orientation': ALONG_Y}, **values_of_mode)
     with Simulation(scene, context=context) as simulation:
         rest = scene.rest_positions()
         simulation.set_state(rest, np.broadcast_to((0.0, 0.0, -speed), rest.shape))
@@ -103,10 +128,11 @@ def test_a_thin_rod_is_not_passed_at_speed(context, within, radius, speed):
     assert heights.max(axis=1).min() > -0.01
 
 
-def test_a_rod_that_moves_lifts_the_cloth(context, within):
+def test_a_rod_that_moves_lifts_the_cloth(context, within, values_of_mode):
     """A hand would go through the cloth that it lifts."""
     scene = scene_with(
-        {'shape': 'capsule', 'size': (0.004, 2.0), 'orientation': ALONG_Y}, **{'start.z': 0.02})
+        {'shape': 'capsule', 'size': (0.004, 2.0), 'orientation': ALONG_Y},
+        **{'start.z': 0.02, **values_of_mode})
     with Simulation(scene, context=context) as simulation:
         simulation.move_collider('body', (BETWEEN[0], 0.0, 0.4), speed=1.0)
         worst = -np.inf
@@ -118,12 +144,12 @@ def test_a_rod_that_moves_lifts_the_cloth(context, within):
     assert middle.min() > 0.3
 
 
-def test_an_edge_of_a_pinned_node_is_held(context, within):
+def test_an_edge_of_a_pinned_node_is_held(context, within, values_of_mode):
     """Cloth would pass a rod beside the nodes that it hangs from."""
     along_x = (0.0, 0.5**0.5, 0.0, 0.5**0.5)
     rod = {'shape': 'capsule', 'size': (0.004, 2.0), 'orientation': along_x,
            'position': (0.0, 0.25 - 0.5 * CELL, 0.0)}
-    scene = scene_with(rod, **{'pins': ('top_edge',), 'start.z': 0.02})
+    scene = scene_with(rod, **{'pins': ('top_edge',), 'start.z': 0.02, **values_of_mode})
     worst = -np.inf
     with Simulation(scene, context=context) as simulation:
         window = simulation.open_force_window()
@@ -135,7 +161,7 @@ def test_an_edge_of_a_pinned_node_is_held(context, within):
     assert force.force[2] < -0.1 * scene.mass * 9.81
 
 
-def random_scene(random):
+def random_scene(random, values):
     """Return the scene of a random thin body below a cloth, and whether it moves; or None."""
     def length(least, most):
         return float(10.0**random.uniform(np.log10(least), np.log10(most)))
@@ -151,19 +177,20 @@ def random_scene(random):
         {'shape': shape, 'size': size, 'orientation': tuple(random.normal(size=4).tolist()),
          'position': (float(x), float(y), -max(size) - 0.02)},
         rows=nodes, cols=nodes, **{
-            'start.z': 0.02, 'colliders.body.friction': float(random.choice([0.0, 0.3, 1.0]))})
+            'start.z': 0.02, 'colliders.body.friction': float(random.choice([0.0, 0.3, 1.0])),
+            **values})
     return scene if scene.thin_colliders else None
 
 
 @pytest.mark.parametrize('count', [8, pytest.param(200, marks=pytest.mark.long)])
-def test_random_thin_bodies_are_not_passed(context, within, count):
+def test_random_thin_bodies_are_not_passed(context, within, values_of_mode, count):
     """A corner, a rim or a turn would let cloth through that the usual scenes hold."""
     seed = int(np.random.default_rng().integers(1_000_000))
     print(f'seed {seed}')
     worst = force_error = -np.inf
     for number in range(count):
         random = np.random.default_rng((seed, number))
-        scene = random_scene(random)
+        scene = random_scene(random, values_of_mode)
         if scene is None:
             continue
         with Simulation(scene, context=context) as simulation:
@@ -185,21 +212,22 @@ def test_random_thin_bodies_are_not_passed(context, within, count):
     within('force, relative to the weight', force_error, 1e-4)
 
 
-@pytest.mark.parametrize('name', ['rod of 0.01 m', 'bar', 'sphere of 0.5 cell'])
-def test_a_thin_body_gives_no_energy(context, within, name):
+@in_modes(['rod of 0.01 m', 'bar', 'sphere of 0.5 cell'], {'bar'})
+def test_a_thin_body_gives_no_energy(context, within, mode, name):
     """Cloth would be thrown by a body at rest."""
-    with Simulation(scene_with(BODIES[name]), context=context) as simulation:
+    with Simulation(scene_with(BODIES[name], **mode), context=context) as simulation:
         account = EnergyAccount(simulation)
         while simulation.time < 0.5:
             account.step()
     within('energy gained, relative to the largest kinetic energy', account.gained, 1e-3)
 
 
-def test_a_run_on_thin_bodies_has_the_same_bits_twice(context):
+def test_a_run_on_thin_bodies_has_the_same_bits_twice(context, values_of_mode):
     """No recording of it could be made again: contacts are found in any order."""
     found = []
     for _ in range(2):
-        with Simulation(scene_with(BODIES['rod of 0.003 m']), context=context) as simulation:
+        scene = scene_with(BODIES['rod of 0.003 m'], **values_of_mode)
+        with Simulation(scene, context=context) as simulation:
             simulation.step(100)
             found.append(simulation.snapshot().state_sha256)
     assert found[0] == found[1]
@@ -232,8 +260,7 @@ def test_a_hole_lets_a_rod_pass(context):
             assert (force.force[2] == 0.0) == passes
 
 
-@pytest.mark.parametrize('given', [
-    {'mode': 'constraint'}, {'mode': 'adaptive'}, {'contact.features': False}])
+@pytest.mark.parametrize('given', [{'mode': 'constraint'}, {'contact.features': False}])
 def test_a_thin_body_that_nodes_pass_is_told_of(context, given):
     """A user would see cloth fall through a rod, and all flags well."""
     scene = scene_with(BODIES['rod of 0.003 m'], **given)
