@@ -5,6 +5,7 @@
 // Let thin colliders act on edges and faces of the cloth, in an explicit substep that has been made,
 // before it is the present state: one workgroup, at the nodes that near_nodes.comp lists. It also
 // does what contact.comp does at the nodes that it changes. NOTES_CHANGES as in contact.comp.
+// FINDS_IMPULSES 0: list the nodes and move them out alone, after a substep of the implicit step.
 //
 // Rounds find the impulses: each row of a contact takes the velocity of its nodes, and each node
 // the impulses of its rows. With s_k the sum of the weights of the rows of the node k, D = sum_k
@@ -32,7 +33,7 @@ layout(std430, binding = LIMIT_CHANGES) buffer Changes { vec4 changes[]; };
 #define IMPULSE_ROUNDS 30
 // Max. searches for what is left within a collider, and rounds of ways out after each [1]; chosen:
 // 200 random bodies are entered by 1e-7 m, and by 7e-6 m with 2 and 8 (test_thin_bodies.py --long).
-#define WAY_SEARCHES 6
+#define WAY_SEARCHES 20
 #define WAY_ROUNDS 12
 // Change of an impulse in a round, over the largest impulse [1], at which rounds end.
 #define STILL 1e-6
@@ -284,7 +285,7 @@ vec4 gathered_of(int index, int collider) {
     return sum;
 }
 
-#if WAYS_OUT
+#if WAYS_OUT || !FINDS_IMPULSES
 // Where a node at x is when the colliders have moved it out, as the substep ends.
 vec3 out_of(uint bodies, vec3 x) {
     for (; bodies != 0u; bodies &= bodies - 1u) {
@@ -294,7 +295,9 @@ vec3 out_of(uint bodies, vec3 x) {
     }
     return x;
 }
+#endif
 
+#if WAYS_OUT
 void main() {
     is_at_end = true;
     bool has_entries = surface_entries > 0u;
@@ -359,6 +362,15 @@ void main() {
         }
     }
     synchronise();
+#if !FINDS_IMPULSES
+    for (EACH_NEAR(i)) {
+        int index = node_at(i);
+        vec3 x = position_out[index].xyz;
+        vec3 way = out_of(near[uint(block_count) + i].bodies & SURFACE_COLLIDERS, x) - x;
+        float most = substep * way_out_speed / max(length(way), 1e-30);
+        position_out[index].xyz = inverse_mass(index) > 0.0 ? x + min(most, 1.0) * way : x;
+    }
+#else
     bool has_entries = surface_entries > 0u;
     if (has_entries) {
         find_all_rows();
@@ -410,5 +422,6 @@ void main() {
             }
         }
     }
+#endif
 }
 #endif

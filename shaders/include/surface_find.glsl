@@ -12,6 +12,7 @@
 #define LEAST_WEIGHT 1e-5
 
 bool is_at_end;  // whether rows are of the positions and colliders at the end of the substep
+bool has_held = false;  // whether a row has acted before: what holds it must not let it pass
 
 vec3 place_of(int index) {
     return is_at_end ? load_end(index) : load_begin(index).xyz;
@@ -65,7 +66,7 @@ SurfaceRow edge_row(int collider, int first, int second) {
         distance_to_collider(collider, arm_of(collider, b)).w) - around;
     float steep = length(near.slope);
     is_near = is_near && steep > 1e-6;
-    if (is_near && !is_at_end && gap > around && 2.0 * limit < collider_thickness[collider]) {
+    if (is_near && !is_at_end && !has_held && gap > around && 2.0 * limit < collider_thickness[collider]) {
         is_near = distance_at_end(
             collider, a, b, load_speed(first), load_speed(second)) < 0.0;
     }

@@ -3,6 +3,7 @@
 
 """The colliders of a run on the device: where they are, and what they do to the cloth."""
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 from dataclasses import replace
 import math
@@ -191,11 +192,15 @@ class Contacts:
     def _begin_surface(self, touch: '_Touch', length: float, *, notes_changes: bool) -> None:
         if self._surface is None:
             return
-        for program in self._surface.programs(notes_changes=notes_changes):
+        self._set_surface(self._surface.programs(notes_changes=notes_changes), touch, length)
+        self._surface.bind()
+
+    def _set_surface(
+            self, programs: Iterable[Program], touch: '_Touch', length: float) -> None:
+        for program in programs:
             program.set_float('substep', length)
             program.set_int('block_count', self._layout.block_count)
             self.set_in(program, touch, length)
-        self._surface.bind()
 
     def list_none(self) -> None:
         """Empty the lists of an explicit substep that is about to be made."""
@@ -208,14 +213,7 @@ class Contacts:
 
         :param changes: of limit_give.glsl, where what is done to nodes is added
         """
-        self.list_none()
-        program = self._near_blocks.use()
-        program.set_float('substep', length)
-        self.set_in(program, touch, length)
-        state.bind_in()
-        if self._layout.texture_loads:
-            state.bind_out_textures()
-        program.dispatch(*self._layout.groups)
+        self._list_blocks(touch, state, length)
         noting = self._noting_program.use()
         noting.set_float('substep', length)
         noting.set_int('block_count', self._layout.block_count)
@@ -223,6 +221,37 @@ class Contacts:
         changes.bind_storage(bindings.LIMIT_CHANGES)
         self._begin_surface(touch, length, notes_changes=True)
         self._act(self._noting_program, self._surface, notes_changes=True)
+
+    def move_out(self, touch: '_Touch', state: State, length: float) -> None:
+        """
+        Move edges and faces out of thin colliders at the end of an implicit substep.
+
+        Both states are bound, and the one that is written is the one at the end.
+        """
+        if self._surface is None:
+            return
+        self._list_blocks(touch, state, length)
+        self._set_surface(self._surface.programs_of_ways(), touch, length)
+        self._surface.bind()
+        self._near.bind_storage(bindings.NEAR_BLOCKS)
+        self._near.bind_dispatches()
+        shader_dispatches_visible()
+        self._surface.list_nodes(0)
+        shader_dispatches_visible()
+        self._surface.list_entries()
+        self._surface.move_out()
+
+    def _list_blocks(self, touch: '_Touch', state: State, length: float) -> None:
+        """List the blocks near colliders in a substep that is written."""
+        self.list_none()
+        program = self._near_blocks.use()
+        program.set_float('substep', length)
+        self.set_in(program, touch, length)
+        self._near.bind_storage(bindings.NEAR_BLOCKS)
+        state.bind_in()
+        if self._layout.texture_loads:
+            state.bind_out_textures()
+        program.dispatch(*self._layout.groups)
 
     def act(self, *, on_surface: bool) -> None:
         """Act on an explicit substep that was made, both states of which are bound."""
@@ -473,6 +502,9 @@ class _Touch:
 
     def act(self, *, on_surface: bool) -> None:
         self._contacts.act(on_surface=on_surface)
+
+    def move_out(self, state: State, length: float) -> None:
+        self._contacts.move_out(self, state, length)
 
     def has_acted(self) -> bool:
         return self._contacts.has_acted()

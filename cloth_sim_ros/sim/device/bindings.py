@@ -38,5 +38,7 @@ LIMIT_PREVIOUS = 15
 LIMIT_FIGURES = 16
 SURFACE_NODES = 17
 SURFACE_ROWS = 18
+SURFACE_LISTS = 19
+SURFACE_COUNTS = 20
 
 DEFINES = {name: value for name, value in list(globals().items()) if name.isupper()}

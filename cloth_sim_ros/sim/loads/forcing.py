@@ -37,6 +37,9 @@ class Touch(Protocol):
     def act(self, *, on_surface: bool) -> None:
         """Act on an explicit substep that was made, both states of which are bound."""
 
+    def move_out(self, state: 'State', length: float) -> None:
+        """Move edges and faces out of thin colliders at the end of an implicit substep."""
+
     def has_acted(self) -> bool:
         """Return whether colliders may have acted on a node in the explicit substep."""
 

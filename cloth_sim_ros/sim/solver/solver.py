@@ -16,7 +16,6 @@ from cloth_sim_ros.sim.solver.active_set import HeldPass
 from cloth_sim_ros.sim.solver.active_set import LimitSearch
 from cloth_sim_ros.sim.solver.active_set import RightSide
 from cloth_sim_ros.sim.solver.active_set import SolverContacts
-from cloth_sim_ros.sim.solver.active_set import Start
 from cloth_sim_ros.sim.solver.edge_law import EdgeLaw
 from cloth_sim_ros.sim.solver.iterations import Iterations
 from cloth_sim_ros.sim.solver.preconditioner import BlockJacobi
@@ -35,6 +34,8 @@ from cloth_sim_ros.sim.solver.solver_buffers import TENSION
 from cloth_sim_ros.sim.solver.solver_programs import PassList
 from cloth_sim_ros.sim.solver.solver_programs import SolverPass
 from cloth_sim_ros.sim.solver.solver_programs import SolverPrograms
+from cloth_sim_ros.sim.solver.start import Start
+from cloth_sim_ros.sim.solver.surface_contacts import SolverSurface
 from cloth_sim_ros.sim.solver.tally import least_scale
 from cloth_sim_ros.sim.solver.tally import report_of
 from cloth_sim_ros.sim.solver.tally import SolveReport
@@ -90,24 +91,28 @@ class Solver:
         levels = Levels(
             state, coarsen=kind.is_multigrid, has_bend='bend' in families,
             has_rigidity=scene.has_rigidity, has_bending_damping=scene.has_bending_damping,
-            has_contact=scene.has_contact)
+            has_contact=scene.has_contact, has_surface=bool(scene.thin_colliders))
         self._programs = SolverPrograms(
             state, levels, families, is_multigrid=kind.is_multigrid,
             has_rigidity=scene.has_rigidity, has_bending_damping=scene.has_bending_damping,
-            has_contact=scene.has_contact, has_cells=scene.cells is not None)
+            has_contact=scene.has_contact, has_cells=scene.cells is not None,
+            has_surface=bool(scene.thin_colliders))
         self._damps_bending = scene.has_bending_damping
         self._has_low_parts = needs_low_parts(scene)
         parts = scene, state, self._programs, levels
+        self._surface = (
+            SolverSurface(*parts, sum_at=levels.sum_count) if scene.thin_colliders else None)
         self._right_side = RightSide(*parts, foresees_turn=foresees_turn)
-        self._search = LimitSearch(*parts, foresees_turn=foresees_turn)
+        self._search = LimitSearch(
+            *parts, foresees_turn=foresees_turn, surface=self._surface)
         self._held = HeldPass(*parts)
         self._tally = Tally(self._programs)
         self._contacts = SolverContacts(
             scene, state, self._programs, levels.cloth.node_groups,
-            levels.cloth.groups) if scene.has_contact else None
-        self._preconditioner = kind(self._programs, levels)
+            levels.cloth.groups, self._surface) if scene.has_contact else None
+        self._preconditioner = kind(self._programs, levels, self._surface)
         self._iterations = Iterations(
-            state, levels, self._programs, self._preconditioner, max_iterations)
+            state, levels, self._programs, self._preconditioner, max_iterations, self._surface)
         self._buffers = self._iterations.buffers
         self._tolerance = tolerance
         self._last_law: EdgeLaw | None = None
@@ -202,6 +207,8 @@ class Solver:
         self._right_side.run(self._law, forcing, kick, self._start, is_further=is_further)
         if self._contacts is not None:
             self._contacts.hold()
+            if self._surface is not None:
+                self._surface.weigh(state, forcing, self._law, self._start)
         elif is_further and not is_again and not self._buffers.is_off():
             self._left_in = LEFT if self._left_share else None
             return False
@@ -266,11 +273,13 @@ class Solver:
         """
         Return whether another solve is due, to ``prepare`` with ``is_again``.
 
-        Limits have come into force then, or out of it, or the last solve was stopped early.
+        Limits or contacts with thin colliders have come into force then, or out of it, or the last
+        solve was stopped early.
 
         :param is_last: True to take where it would start for the solution
         """
-        if not self._law.has_limits:
+        is_in_contact = self._surface is not None and self._surface.has_contacts
+        if not (self._law.has_limits or is_in_contact):
             return False
         found = self._buffers.scalars()
         allowed = (_AIM * self._tolerance)**2 * found.scale
@@ -282,7 +291,7 @@ class Solver:
         self._buffers.bind()
         state.bind_in()
         is_due = self._search.move_start(
-            self._law, self._start, self._buffers, missing, SOLUTION if is_last else START,
+            state, self._law, self._start, self._buffers, missing, SOLUTION if is_last else START,
             is_further=self._is_further, is_early=is_early)
         self._is_cut_short = is_due and is_last
         return is_due
@@ -327,12 +336,14 @@ class Solver:
         """Run what ``move_start`` may need, after a solve, so that the driver compiles it."""
         self._buffers.bind()
         state.bind_in()
-        self._search.run_all_passes(self._law, self._start, self._buffers, START)
+        self._search.run_all_passes(state, self._law, self._start, self._buffers, START)
 
     def expect_nothing(self) -> None:
         """Take no tension, change of velocity or residual over from earlier steps."""
         self._last_rate = 0.0
         self._left_in = None
+        if self._surface is not None:
+            self._surface.forget()
 
     def forget(self) -> None:
         """Drop what earlier solves have left, also where they came to no numbers."""
@@ -373,6 +384,8 @@ class Solver:
         self._held.delete()
         if self._contacts is not None:
             self._contacts.delete()
+        if self._surface is not None:
+            self._surface.delete()
 
     def _take_over(self) -> None:
         """Add the residual of the pass before to the right side of this one."""

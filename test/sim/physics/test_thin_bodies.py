@@ -42,13 +42,16 @@ MODES = {
     'mass_spring': {'mode': 'mass_spring'},
     'adaptive': {'mode': 'adaptive'},
     'adaptive at its limit': {
-        'mode': 'adaptive', 'adaptive.threshold': 0.005, 'adaptive.scheme': 'list'}}
+        'mode': 'adaptive', 'adaptive.threshold': 0.005, 'adaptive.scheme': 'list'},
+    'adaptive, the whole cloth': {
+        'mode': 'adaptive', 'adaptive.threshold': 0.005, 'adaptive.scheme': 'whole'},
+    'constraint': {'mode': 'constraint'}}
 # Bodies that modes other than mass_spring meet without --long.
 FEW = {'rod of 0.003 m', 'edge of a blade', 'sphere of 0.5 cell', 'finger'}
 
 
 def in_modes(names, few):
-    """Return the cases of modes and names of bodies; only few of those in other modes are short."""
+    """Return the cases of modes and names of bodies; few in other modes are short."""
     return pytest.mark.parametrize(('mode', 'name'), [
         pytest.param(
             values, name, id=f'{mode}, {name}',
@@ -85,6 +88,40 @@ def deepest(simulation, samples=12):
     return CLEARANCE - least
 
 
+class ForceAccount:
+    """What the body has to have taken, by the momentum of the cloth and by its weight."""
+
+    def __init__(self, simulation):
+        self._simulation = simulation
+        self._scene = simulation.scene
+        self._begin = simulation.time
+        self._length = self._scene['dt'] / max(simulation.snapshot().substeps, 1)
+        self._before = momenta_of(simulation)[0]
+        self._window = simulation.open_force_window()
+
+    def close(self):
+        """Return the force on the body, and by how much it is off; both over the weight."""
+        simulation, scene = self._simulation, self._scene
+        force, = simulation.frame_forces(self._window).contacts
+        weight, time = scene.mass * 9.81, simulation.time - self._begin
+        # A velocity is that of the middle of its substep, and substeps change.
+        fallen = time + 0.5 * (self._length - scene['dt'] / simulation.snapshot().substeps)
+        expected = np.array((0.0, 0.0, -weight * fallen))
+        expected -= momenta_of(simulation)[0] - self._before
+        return force.force / weight, float(
+            np.abs(force.force - expected / time).max() / weight)
+
+
+# How far the force may be off [1]: solves leave residuals, each of which the next one takes over.
+OFF = {'mass_spring': 1e-4, 'adaptive': 1e-4, 'constraint': 2e-3}
+
+
+def most_off(values):
+    """Return it for the values of a mode."""
+    is_whole = values.get('adaptive.scheme') == 'whole'
+    return OFF['constraint' if is_whole else values['mode']]
+
+
 @in_modes(BODIES, FEW)
 def test_a_thin_body_holds_the_cloth(context, within, mode, name):
     """Cloth would fall through a rod between two lines of nodes."""
@@ -93,20 +130,15 @@ def test_a_thin_body_holds_the_cloth(context, within, mode, name):
     worst = -np.inf
     with Simulation(scene, context=context) as simulation:
         simulation.step(1)
-        before, window = momenta_of(simulation)[0], simulation.open_force_window()
+        account = ForceAccount(simulation)
         for _ in range(20):
             simulation.step(5)
             worst = max(worst, deepest(simulation))
-        force, = simulation.frame_forces(window).contacts
-        gained = momenta_of(simulation)[0] - before
+        force, off = account.close()
         # Its middle is still above the body.
         assert simulation.positions()[..., 2].max() > -0.05
-    weight = scene.mass * 9.81
-    # What the body takes is what the cloth weighs, less what its momentum grows by.
-    expected = np.array((0.0, 0.0, -weight)) - gained / 0.5
-    within('force, relative to the weight',
-           np.abs(force.force - expected).max() / weight, 1e-4)
-    assert force.force[2] < -0.2 * weight
+    within('force, relative to the weight', off, most_off(mode))
+    assert force[2] < -0.2
     within('depth of a triangle [m]', worst, 1e-6)
 
 
@@ -199,17 +231,14 @@ def test_random_thin_bodies_are_not_passed(context, within, values_of_mode, coun
                     'body', random.uniform(-0.1, 0.1, 3).tolist(),
                     random.normal(size=4).tolist(), speed=float(random.uniform(0.2, 2.0)),
                     angular_speed=float(random.uniform(0.5, 6.0)))
-            window, before = simulation.open_force_window(), momenta_of(simulation)[0]
+            simulation.step(1)
+            account = ForceAccount(simulation)
             for _ in range(40):
                 simulation.step(3)
                 worst = max(worst, deepest(simulation, 8))
-            force, = simulation.frame_forces(window).contacts
-            gained = (momenta_of(simulation)[0] - before) / simulation.time
-        weight = scene.mass * 9.81
-        force_error = max(force_error, np.abs(
-            force.force + (0.0, 0.0, weight) + gained).max() / weight)
+            force_error = max(force_error, account.close()[1])
     within('depth of a triangle [m]', worst, 1e-6)
-    within('force, relative to the weight', force_error, 1e-4)
+    within('force, relative to the weight', force_error, most_off(values_of_mode))
 
 
 @in_modes(['rod of 0.01 m', 'bar', 'sphere of 0.5 cell'], {'bar'})
@@ -260,7 +289,8 @@ def test_a_hole_lets_a_rod_pass(context):
             assert (force.force[2] == 0.0) == passes
 
 
-@pytest.mark.parametrize('given', [{'mode': 'constraint'}, {'contact.features': False}])
+@pytest.mark.parametrize('given', [
+    {'mode': 'constraint', 'contact.features': False}, {'contact.features': False}])
 def test_a_thin_body_that_nodes_pass_is_told_of(context, given):
     """A user would see cloth fall through a rod, and all flags well."""
     scene = scene_with(BODIES['rod of 0.003 m'], **given)
