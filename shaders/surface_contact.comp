@@ -79,8 +79,9 @@ void find_row(int entry, int row) {
         found = no_row();
     }
     int slot = entry * SURFACE_ROWS_OF_BODY + row;
-    surface_rows[slot].row = found;
+    surface_rows[slot].row.impulse.w = found.impulse.w;
     if (found.impulse.w != 0.0) {
+        surface_rows[slot].row = found;
         surface_rows[atomicAdd(acting_rows, 1u)].acting = uvec2(slot, index);
         for (int i = 0; i < surface_row_count(row); ++i) {
             surface_nodes[nodes[i]].is_held = 1;

@@ -39,8 +39,10 @@ vec3 turned_on(int collider, vec3 normal) {
 float distance_at_end(int collider, vec3 a, vec3 b, vec3 va, vec3 vb) {
     bool was_at_end = is_at_end;
     is_at_end = true;
+    vec3 arm_a = arm_of(collider, a + substep * va), arm_b = arm_of(collider, b + substep * vb);
     NearEdge found = nearest_on_edge(
-        collider, arm_of(collider, a + substep * va), arm_of(collider, b + substep * vb));
+        collider, arm_a, arm_b, distance_to_collider(collider, arm_a),
+        distance_to_collider(collider, arm_b));
     is_at_end = was_at_end;
     return found.distance - clearance;
 }
@@ -49,8 +51,6 @@ SurfaceRow no_row() { return SurfaceRow(vec4(0.0), vec4(0.0), vec4(0.0)); }
 
 SurfaceRow edge_row(int collider, int first, int second) {
     vec3 a = place_of(first), b = place_of(second);
-    NearEdge near = nearest_on_edge(collider, arm_of(collider, a), arm_of(collider, b));
-    float gap = near.distance - clearance;
     float around = rounding(a, collider);
     // At the end, what is left within the collider.
     float limit = -2.0 * around;
@@ -59,11 +59,18 @@ SurfaceRow edge_row(int collider, int first, int second) {
         vec3 vb = load_speed(second) - surface_velocity(collider, b);
         limit = substep * max(length(va), length(vb));
     }
+    vec3 arm_a = arm_of(collider, a), arm_b = arm_of(collider, b);
+    vec4 at_a = distance_to_collider(collider, arm_a);
+    vec4 at_b = distance_to_collider(collider, arm_b);
+    // No distance falls by more than the way along the edge.
+    if (0.5 * (at_a.w + at_b.w - length(b - a)) - clearance > limit + 2.0 * around) {
+        return no_row();
+    }
+    NearEdge near = nearest_on_edge(collider, arm_a, arm_b, at_a, at_b);
+    float gap = near.distance - clearance;
     bool is_near = near.place > 0.0 && near.place < 1.0 && gap < limit + around;
     // Its nodes own what is nearest to one of them.
-    is_near = is_near && near.distance < min(
-        distance_to_collider(collider, arm_of(collider, a)).w,
-        distance_to_collider(collider, arm_of(collider, b)).w) - around;
+    is_near = is_near && near.distance < min(at_a.w, at_b.w) - around;
     float steep = length(near.slope);
     is_near = is_near && steep > 1e-6;
     if (is_near && !is_at_end && !has_held && gap > around && 2.0 * limit < collider_thickness[collider]) {

@@ -19,6 +19,7 @@
 #endif
 #include "contact.glsl"
 #include "contact_record.glsl"
+#include "near_surface.glsl"
 
 layout(local_size_x = LOCAL_X, local_size_y = LOCAL_Y) in;
 
@@ -127,15 +128,18 @@ void main() {
     int index = node_index(row, col);
     is_at_end = false;
     vec3 x = load_begin(index).xyz;
-    uint some = near_bodies(x, 0.0, substep * length(load_speed(index))) & SURFACE_COLLIDERS;
-    uint near = some != 0u ? colliders_near_cell(index, some) : 0u;
+    uint some = near_surface(SURFACE_COLLIDERS, x, load_speed(index), substep);
+    uint near = 0u;
+    // A loop that ends at once costs software less than a branch, whose body it runs.
+    for (uint asks = some != 0u ? 1u : 0u; asks != 0u; asks &= asks - 1u) {
+        near = colliders_near_cell(index, some);
+    }
     uint bodies = SURFACE_COLLIDERS;
     for (int body = 0; body < THIN_COLLIDERS; ++body) {
         int collider = findLSB(bodies);
         bodies &= bodies - 1u;
         uint known = surface_lists[body * STORED + index];
         uint bits = STAGE == BEGIN ? 0u : known;
-        // A loop that ends at once costs software less than a branch, whose body it runs.
         for (uint asks = near >> uint(collider) & 1u; asks != 0u; asks &= asks - 1u) {
             bits = find_rows(index, body, collider, known);
         }

@@ -90,7 +90,7 @@ _FORMS = {
     'mass_spring_tile.comp': {'TILE_SIDE': 32},
     'contact.comp': {'NOTES_CHANGES': 0},
     'contact.comp, after limits': {'NOTES_CHANGES': 1},
-    'near_nodes.comp, of the surface': {'HAS_SURFACE': 1},
+    'near_nodes.comp, of the surface': {'HAS_SURFACE': 1, **_SURFACE},
     'contact.comp, beside the surface': {'NOTES_CHANGES': 0, 'HAS_SURFACE': 1},
     'surface_contact.comp': {
         'WAYS_OUT': 0, 'NOTES_CHANGES': 0, 'FINDS_IMPULSES': 1, **_SURFACE},

@@ -447,6 +447,7 @@ class Contacts:
         program.set_floats('collider_thickness', [
             min(collider.thickness, _ENDLESS) for collider in self.colliders])
         program.set_float('clearance', self.clearance)
+        program.set_float('feature_reach', self.feature_reach)
         scene = self._scene
         program.set_float(
             'way_out_speed', _WAY_OUT_SPEED * math.sqrt(max(scene['width'], scene['height'])))

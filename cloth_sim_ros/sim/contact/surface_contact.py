@@ -44,7 +44,8 @@ class SurfaceContact:
         self._entries = SceneProgram(
             'surface_contact.comp', scene, layout,
             {**defines, 'WAYS_OUT': 0, 'NOTES_CHANGES': 0, 'FINDS_IMPULSES': 0})
-        self._near_nodes = SceneProgram('near_nodes.comp', scene, layout, {'HAS_SURFACE': 1})
+        self._near_nodes = SceneProgram(
+            'near_nodes.comp', scene, layout, {**defines, 'HAS_SURFACE': 1})
         self._layout = layout
         self._has_warned = False
         self._most_entries = scene.node_count * len(numbers)
