@@ -2,13 +2,15 @@
 // SPDX-License-Identifier: Apache-2.0
 
 #version 430 core
-// Record the impulses of contacts with thin colliders of a substep that ends: one workgroup.
+// Record the impulses of contacts with thin colliders of a substep that ends, with what they do to
+// pinned nodes: one workgroup.
 
 #include "solver/levels.glsl"
 #include "solver/state_index.glsl"
 #include "state_in.glsl"
 #include "contact.glsl"
 #include "contact_record.glsl"
+#include "held.glsl"
 
 layout(local_size_x = SURFACE_LOCAL) in;
 
@@ -44,6 +46,9 @@ void main() {
                 contacts[entry] = vec4(
                     contacts[entry].xyz + given.xyz, max(contacts[entry].w, given.w));
             }
+        }
+        if (held_at >= 0 && is_held_by_pin(load_position(at), load_velocity(at))) {
+            held[held_entry(at)].xyz += surface_holds[index].given;
         }
         surface_holds[index].given = vec3(0.0);
     }

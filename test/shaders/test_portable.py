@@ -45,7 +45,7 @@ _SCENES = {
 # Those that no other scene asks for.
 _OF_CONTACT = (
     'contact.comp', 'foresee_contact.comp', 'near_blocks.comp', 'near_nodes.comp',
-    'surface_contact.comp',
+    'surface_contact.comp', 'surface_pins.comp',
     'solver/contact.comp', 'solver/surface_find.comp', 'solver/surface_give.comp',
     'solver/surface_list.comp', 'solver/surface_product.comp', 'solver/surface_record.comp',
     'solver/surface_search.comp', 'solver/surface_weigh.comp',
@@ -118,6 +118,7 @@ _FORMS = {
     'solver/contact.comp': {'STAGE': 'BEGIN'},
     'solver/contact.comp, again': {'STAGE': 'AGAIN'},
     'solver/contact.comp, end': {'STAGE': 'END'},
+    'surface_pins.comp': _SURFACE,
     'solver/surface_find.comp': {'STAGE': 'BEGIN', **_SURFACE},
     'solver/surface_find.comp, again': {'STAGE': 'AGAIN', **_SURFACE},
     **{f'solver/surface_{name}.comp': _SURFACE for name in (

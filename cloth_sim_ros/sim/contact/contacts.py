@@ -207,11 +207,13 @@ class Contacts:
         make(self._clear_near)
 
     def act_after_limits(
-            self, touch: '_Touch', state: State, length: float, changes: Buffer) -> None:
+            self, touch: '_Touch', state: State, length: float, changes: Buffer,
+            held_at: int) -> None:
         """
         Act on an explicit substep whose velocities have been changed since it was made.
 
         :param changes: of limit_give.glsl, where what is done to nodes is added
+        :param held_at: where its entries of held.glsl are, bound by now; below 0: nowhere
         """
         self._list_blocks(touch, state, length)
         noting = self._noting_program.use()
@@ -220,7 +222,7 @@ class Contacts:
         self.set_in(noting, touch, length)
         changes.bind_storage(bindings.LIMIT_CHANGES)
         self._begin_surface(touch, length, notes_changes=True)
-        self._act(self._noting_program, self._surface, notes_changes=True)
+        self._act(self._noting_program, self._surface, held_at, notes_changes=True)
 
     def move_out(self, touch: '_Touch', state: State, length: float) -> None:
         """
@@ -253,12 +255,12 @@ class Contacts:
             state.bind_out_textures()
         program.dispatch(*self._layout.groups)
 
-    def act(self, *, on_surface: bool) -> None:
+    def act(self, held_at: int, *, on_surface: bool) -> None:
         """Act on an explicit substep that was made, both states of which are bound."""
-        self._act(self._program, self._surface if on_surface else None)
+        self._act(self._program, self._surface if on_surface else None, held_at)
 
     def _act(
-            self, act: SceneProgram, surface: SurfaceContact | None, *,
+            self, act: SceneProgram, surface: SurfaceContact | None, held_at: int, *,
             notes_changes: bool = False) -> None:
         self._near.bind_dispatches()
         shader_dispatches_visible()
@@ -270,7 +272,7 @@ class Contacts:
         if surface is None:
             act.use().dispatch_indirect(_NODE_GROUPS)
         else:
-            surface.act(_NODE_GROUPS, notes_changes=notes_changes)
+            surface.act(_NODE_GROUPS, held_at, notes_changes=notes_changes)
         shader_writes_visible()
         if surface is not None:
             surface.move_out()
@@ -498,11 +500,12 @@ class _Touch:
     def list_none(self) -> None:
         self._contacts.list_none()
 
-    def act_after_limits(self, state: State, length: float, changes: Buffer) -> None:
-        self._contacts.act_after_limits(self, state, length, changes)
+    def act_after_limits(
+            self, state: State, length: float, changes: Buffer, held_at: int) -> None:
+        self._contacts.act_after_limits(self, state, length, changes, held_at)
 
-    def act(self, *, on_surface: bool) -> None:
-        self._contacts.act(on_surface=on_surface)
+    def act(self, held_at: int, *, on_surface: bool) -> None:
+        self._contacts.act(held_at, on_surface=on_surface)
 
     def move_out(self, state: State, length: float) -> None:
         self._contacts.move_out(self, state, length)

@@ -44,6 +44,7 @@ class SurfaceContact:
         self._entries = SceneProgram(
             'surface_contact.comp', scene, layout,
             {**defines, 'WAYS_OUT': 0, 'NOTES_CHANGES': 0, 'FINDS_IMPULSES': 0})
+        self._pins = SceneProgram('surface_pins.comp', scene, layout, defines)
         self._near_nodes = SceneProgram(
             'near_nodes.comp', scene, layout, {**defines, 'HAS_SURFACE': 1})
         self._layout = layout
@@ -76,14 +77,19 @@ class SurfaceContact:
         """
         self._near_nodes.use().dispatch_indirect(groups)
 
-    def act(self, groups: int, *, notes_changes: bool) -> None:
+    def act(self, groups: int, held_at: int, *, notes_changes: bool) -> None:
         """
         Find the contacts and their impulses, change what they act on, and act on other nodes.
 
         :param groups: offset of the workgroups in the buffer of dispatches [bytes]
+        :param held_at: where the entries of held.glsl are, bound by now; below 0: nowhere
         """
         self._impulses[notes_changes].use().dispatch(1)
         shader_writes_visible()
+        if held_at >= 0:
+            pins = self._pins.use()
+            pins.set_int('held_at', held_at)
+            pins.dispatch(1)
         self._others[notes_changes].use().dispatch_indirect(groups)
 
     def move_out(self) -> None:
@@ -111,7 +117,7 @@ class SurfaceContact:
         """Release everything."""
         for program in (
                 *self._impulses.values(), *self._others.values(), self._ways, self._entries,
-                self._near_nodes):
+                self._near_nodes, self._pins):
             program.delete()
         self._nodes.delete()
         self._rows.delete()

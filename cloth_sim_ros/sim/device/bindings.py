@@ -40,5 +40,6 @@ SURFACE_NODES = 17
 SURFACE_ROWS = 18
 SURFACE_LISTS = 19
 SURFACE_COUNTS = 20
+SURFACE_HELD = 21
 
 DEFINES = {name: value for name, value in list(globals().items()) if name.isupper()}

@@ -568,4 +568,4 @@ class Adaptive:
         """Let colliders have the last word on a substep in which edges were held."""
         changes = self._limits.changes
         if forcing.touch is not None and changes is not None:
-            forcing.touch.act_after_limits(state, length, changes)
+            forcing.touch.act_after_limits(state, length, changes, self._springs.held_at)

@@ -311,10 +311,11 @@ class SolverContacts:
 
     def after_solve(
             self, state: State, forcing: Forcing, length: float, *, is_last: bool,
-            ends_turns: bool, left_share: float) -> None:
+            ends_turns: bool, left_share: float, held_at: int) -> None:
         """
         Decide anew once a solve is applied; once more with ``is_last`` to end the substep.
 
+        :param held_at: where entries of held.glsl are; below 0: nowhere
         :param left_share: of the residual of the solve before it, that the solve has taken over
         """
         if not is_last:
@@ -327,7 +328,7 @@ class SolverContacts:
         program.set_int('ends_turns', int(ends_turns))
         self._write(program, state)
         if is_last and self._surface is not None and self._surface.has_contacts:
-            self._surface.record(state, forcing, length)
+            self._surface.record(state, forcing, length, held_at)
             touch_of(forcing).move_out(state, length)
         state.swap()
         if self._surface is not None and not is_last:

@@ -73,7 +73,7 @@ class SolverSurface:
                 **programs.defines, **defines, 'STAGE': stage}) for stage in ('BEGIN', 'AGAIN')}
         self._list, self._weigh, self._search, self._give, self._record = (
             SceneProgram(f'solver/surface_{name}.comp', scene, state, {
-                **programs.defines, **defines})
+                **programs.defines, **defines, 'HELD_BINDING': bindings.SURFACE_HELD})
             for name in ('list', 'weigh', 'search', 'give', 'record'))
         # Forcing and length of the solve that was weighed last.
         self._touch: tuple[Forcing, float] | None = None
@@ -139,10 +139,18 @@ class SolverSurface:
         """Find what else is entered by the velocities that a solve has led to."""
         self._run_find(self._use(self._find['AGAIN'], forcing, length, length), state)
 
-    def record(self, state: State, forcing: Forcing, length: float) -> None:
-        """Record the impulses of a substep that ends."""
-        if self.has_contacts:
-            self._run(self._use(self._record, forcing, length, length), state)
+    def record(self, state: State, forcing: Forcing, length: float, held_at: int) -> None:
+        """
+        Record the impulses of a substep that ends.
+
+        :param held_at: where its entries of held.glsl are; below 0: nowhere
+        """
+        program = self._use(self._record, forcing, length, length)
+        program.set_int('held_at', held_at)
+        if held_at >= 0:
+            assert state.impulses is not None  # it has given held_at
+            state.impulses.bind(bindings.SURFACE_HELD)
+        self._run(program, state)
 
     def forget(self) -> None:
         """Drop all impulses."""

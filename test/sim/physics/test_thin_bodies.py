@@ -89,7 +89,7 @@ def deepest(simulation, samples=12):
 
 
 class ForceAccount:
-    """What the body has to have taken, by the momentum of the cloth and by its weight."""
+    """What bodies and pins have to have taken, by the momentum of the cloth and its weight."""
 
     def __init__(self, simulation):
         self._simulation = simulation
@@ -100,26 +100,27 @@ class ForceAccount:
         self._window = simulation.open_force_window()
 
     def close(self):
-        """Return the force on the body, and by how much it is off; both over the weight."""
+        """Return the force on all bodies, and by how much all is off; both over the weight."""
         simulation, scene = self._simulation, self._scene
-        force, = simulation.frame_forces(self._window).contacts
+        forces = simulation.frame_forces(self._window)
+        force = np.sum([contact.force for contact in forces.contacts], axis=0)
         weight, time = scene.mass * 9.81, simulation.time - self._begin
         # A velocity is that of the middle of its substep, and substeps change.
         fallen = time + 0.5 * (self._length - scene['dt'] / simulation.snapshot().substeps)
         expected = np.array((0.0, 0.0, -weight * fallen))
         expected -= momenta_of(simulation)[0] - self._before
-        return force.force / weight, float(
-            np.abs(force.force - expected / time).max() / weight)
+        taken = force + forces.pins.forces.sum(axis=0)
+        return force / weight, float(np.abs(taken - expected / time).max() / weight)
 
 
-# How far the force may be off [1]: solves leave residuals, each of which the next one takes over.
-OFF = {'mass_spring': 1e-4, 'adaptive': 1e-4, 'constraint': 2e-3}
+# How far the force may be off [1]: solves leave residuals, each of which the next one takes over;
+# with limits, a pass that has not found them all after 32 solves drops it (solver_reached).
+OFF = {'mass_spring': 1e-4, 'adaptive': 1e-4, 'whole': 5e-3, 'constraint': 1e-3}
 
 
 def most_off(values):
     """Return it for the values of a mode."""
-    is_whole = values.get('adaptive.scheme') == 'whole'
-    return OFF['constraint' if is_whole else values['mode']]
+    return OFF['whole' if values.get('adaptive.scheme') == 'whole' else values['mode']]
 
 
 @in_modes(BODIES, FEW)
@@ -177,20 +178,51 @@ def test_a_rod_that_moves_lifts_the_cloth(context, within, values_of_mode):
 
 
 def test_an_edge_of_a_pinned_node_is_held(context, within, values_of_mode):
-    """Cloth would pass a rod beside the nodes that it hangs from."""
+    """Cloth would pass a rod beside the nodes it hangs from, which bear what the rod does not."""
     along_x = (0.0, 0.5**0.5, 0.0, 0.5**0.5)
     rod = {'shape': 'capsule', 'size': (0.004, 2.0), 'orientation': along_x,
            'position': (0.0, 0.25 - 0.5 * CELL, 0.0)}
     scene = scene_with(rod, **{'pins': ('top_edge',), 'start.z': 0.02, **values_of_mode})
     worst = -np.inf
     with Simulation(scene, context=context) as simulation:
-        window = simulation.open_force_window()
+        simulation.step(1)
+        account = ForceAccount(simulation)
         for _ in range(40):
             simulation.step(5)
             worst = max(worst, deepest(simulation))
-        force, = simulation.frame_forces(window).contacts
+        force, off = account.close()
     within('depth of a triangle [m]', worst, 1e-6)
-    assert force.force[2] < -0.1 * scene.mass * 9.81
+    within('force on rod and pins, relative to the weight', off, most_off(values_of_mode))
+    assert force[2] < -0.1
+
+
+def test_two_fingers_lift_the_cloth(context, within, values_of_mode):
+    """A gripper with thin fingers would come up without the cloth."""
+    radius, gap = 0.008, 0.00101
+    place = {'orientation': ALONG_Y, 'shape': 'capsule', 'size': (radius, 0.02), 'friction': 1.0}
+    fingers = {
+        f'colliders.{name}.{key}': value for name, height in (
+            ('upper', radius + 0.01), ('lower', -radius - CLEARANCE))
+        for key, value in {**place, 'position': (*WITHIN[:2], height)}.items()}
+    scene = Scene({
+        **{name: value for name, value in CLOTH.items() if not name.startswith('colliders.')},
+        **fingers, 'colliders.names': ('upper', 'lower'), 'start.z': 0.0, **values_of_mode})
+    assert scene.thin_colliders == (0, 1)
+    with Simulation(scene, context=context) as simulation:
+        simulation.move_collider(
+            'upper', (*WITHIN[:2], radius - CLEARANCE + gap), speed=0.1)
+        simulation.step(40)
+        for name, height in (('upper', radius + gap), ('lower', -radius)):
+            simulation.move_collider(name, (*WITHIN[:2], height - CLEARANCE + 0.15), speed=0.3)
+        simulation.step(110)
+        account = ForceAccount(simulation)
+        simulation.step(50)
+        _, off = account.close()
+        heights = simulation.positions()[..., 2]
+    # It hangs from the fingers by their friction.
+    assert heights.max() > 0.14
+    within('height that the cloth hangs down [m]', 0.15 - heights.min(), 0.36)
+    within('force on both fingers, relative to the weight', off, most_off(values_of_mode))
 
 
 def random_scene(random, values):
