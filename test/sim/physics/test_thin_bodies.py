@@ -161,6 +161,37 @@ def test_a_thin_rod_is_not_passed_at_speed(context, within, values_of_mode, radi
     assert heights.max(axis=1).min() > -0.01
 
 
+@pytest.mark.parametrize(('nodes', 'radius'), [
+    pytest.param(nodes, radius, marks=[] if (nodes, radius) == (16, 0.003) else [pytest.mark.long])
+    for nodes in (16, 33, 65) for radius in (0.001, 0.003, 0.01, 0.02)
+    # Others are not thin.
+    if 2.0 * radius < 1.4 / (nodes - 1)])
+@pytest.mark.parametrize('speed', [0.0, 5.0])
+def test_a_metre_of_cloth_is_held_at_any_resolution(
+        context, within, values_of_mode, nodes, radius, speed):
+    """Cloth of other cells would fall through the same rod, or be torn by it."""
+    # Between two lines of nodes.
+    place = (0.5 / (nodes - 1) if nodes % 2 else 0.0, 0.0, 0.0)
+    scene = scene_with(
+        {'shape': 'capsule', 'size': (radius, 3.0), 'orientation': ALONG_Y, 'position': place},
+        **{'width': 1.0, 'height': 1.0, 'rows': nodes, 'cols': nodes, **values_of_mode})
+    worst = -np.inf
+    with Simulation(scene, context=context) as simulation:
+        rest = scene.rest_positions()
+        simulation.set_state(rest, np.broadcast_to((0.0, 0.0, -speed), rest.shape))
+        simulation.step(1)
+        account = ForceAccount(simulation)
+        for _ in range(15):
+            simulation.step(3)
+            worst = max(worst, deepest(simulation))
+        force, off = account.close()
+        strain = simulation.measure().max_strain
+    within('depth of a triangle [m]', worst, 1e-6)
+    within('force, relative to the weight', off, most_off(values_of_mode) * (1.0 + speed))
+    within('strain', strain, 0.2)
+    assert force[2] < -0.1
+
+
 def test_a_rod_that_moves_lifts_the_cloth(context, within, values_of_mode):
     """A hand would go through the cloth that it lifts."""
     scene = scene_with(
