@@ -21,7 +21,6 @@ from cloth_sim_ros.sim.loads.forcing import Forcing
 from cloth_sim_ros.sim.modes.mass_spring import OnePass
 from cloth_sim_ros.sim.scene import FAMILIES
 from cloth_sim_ros.sim.solver.active_set import RightSide
-from cloth_sim_ros.sim.solver.active_set import Start
 from cloth_sim_ros.sim.solver.edge_law import EdgeLaw
 from cloth_sim_ros.sim.solver.edge_law import spring_law
 from cloth_sim_ros.sim.solver.solver_buffers import CHANGE
@@ -31,6 +30,7 @@ from cloth_sim_ros.sim.solver.solver_programs import POINT_LOCAL
 from cloth_sim_ros.sim.solver.solver_programs import POINTS
 from cloth_sim_ros.sim.solver.solver_programs import SolverPass
 from cloth_sim_ros.sim.solver.solver_programs import SolverPrograms
+from cloth_sim_ros.sim.solver.start import Start
 from cloth_sim_ros.sim.state import State
 from cloth_sim_ros.study.solver_speed import unit_scene
 from cloth_sim_ros.study.speed import bench_scene

@@ -8,6 +8,10 @@
 #include "lattice.glsl"
 #include "state_in.glsl"
 #include "collider_bounds.glsl"
+#if HAS_SURFACE
+#include "contact.glsl"
+#include "near_surface.glsl"
+#endif
 #include "near_blocks.glsl"
 
 layout(local_size_x = NEAR_LOCAL) in;
@@ -37,6 +41,9 @@ void main() {
     bool counts = v.w > 0.0;
 #endif
     uint bodies = counts ? near_among(block.bodies, x.xyz, way) : 0u;
+#if HAS_SURFACE
+    bodies = near_surface(bodies, x.xyz, v.xyz, substep);
+#endif
     if (bodies != 0u) {
         uint entry = atomicAdd(near_node_count, 1u);
         near[block_count + entry] = Near(uint(index), bodies);

@@ -4,7 +4,8 @@
 #version 430 core
 // Let thin colliders act on edges and faces of the cloth, in an explicit substep that has been made,
 // before it is the present state: one workgroup, at the nodes that near_nodes.comp lists. It also
-// does what contact.comp does at the nodes that it changes.
+// does what contact.comp does at the nodes that it changes. NOTES_CHANGES as in contact.comp.
+// FINDS_IMPULSES 0: list the nodes and move them out alone, after a substep of the implicit step.
 //
 // Rounds find the impulses: each row of a contact takes the velocity of its nodes, and each node
 // the impulses of its rows. With s_k the sum of the weights of the rows of the node k, D = sum_k
@@ -16,7 +17,6 @@
 #include "contact.glsl"
 #include "near_blocks.glsl"
 #include "low_parts.glsl"
-#include "surface_edges.glsl"
 #include "surface_rows.glsl"
 
 layout(local_size_x = SURFACE_LOCAL) in;
@@ -25,216 +25,34 @@ layout(std430, binding = POSITION_OUT) coherent buffer PositionOut { vec4 positi
 layout(std430, binding = VELOCITY_OUT) coherent buffer VelocityOut { vec4 velocity_out[]; };
 
 #include "contact_record.glsl"
+#if NOTES_CHANGES
+layout(std430, binding = LIMIT_CHANGES) buffer Changes { vec4 changes[]; };
+#endif
 
 // Max. rounds of impulses in a substep [1].
 #define IMPULSE_ROUNDS 30
 // Max. searches for what is left within a collider, and rounds of ways out after each [1]; chosen:
 // 200 random bodies are entered by 1e-7 m, and by 7e-6 m with 2 and 8 (test_thin_bodies.py --long).
-#define WAY_SEARCHES 6
+#define WAY_SEARCHES 20
 #define WAY_ROUNDS 12
 // Change of an impulse in a round, over the largest impulse [1], at which rounds end.
 #define STILL 1e-6
-// Min. weight of a node of a face [1]: what is nearer to its edge is a contact of the edge.
-#define LEAST_WEIGHT 1e-5
 
 uniform float substep;     // [s]
 uniform int block_count;   // in all
 uniform int most_entries;
 
-bool is_at_end;  // whether rows are of the positions and colliders at the end of the substep
+vec4 load_begin(int index) { return load_position(index); }
 
-vec3 place_of(int index) {
-    return is_at_end ? position_out[index].xyz : load_position(index).xyz;
-}
+vec3 load_end(int index) { return position_out[index].xyz; }
 
-// From the centre of the collider, in the axes that it has as the substep begins.
-vec3 arm_of(int collider, vec3 x) {
-    vec3 arm = x - collider_centre[collider];
-    if (is_at_end) {
-        arm -= substep * collider_velocity[collider];
-        arm += substep * (arm.x * collider_turn[3 * collider]
-            + arm.y * collider_turn[3 * collider + 1] + arm.z * collider_turn[3 * collider + 2]);
-    }
-    return arm;
-}
+vec3 load_speed(int index) { return velocity_out[index].xyz; }
 
-vec3 turned_on(int collider, vec3 normal) {
-    return is_at_end ? normal + substep * vec3(
-        dot(collider_turn[3 * collider], normal), dot(collider_turn[3 * collider + 1], normal),
-        dot(collider_turn[3 * collider + 2], normal)) : normal;
-}
-
-// Distance of two ends of an edge as the substep ends, from x at its begin with velocities v.
-float distance_at_end(int collider, vec3 a, vec3 b, vec3 va, vec3 vb) {
-    bool was_at_end = is_at_end;
-    is_at_end = true;
-    NearEdge found = nearest_on_edge(
-        collider, arm_of(collider, a + substep * va), arm_of(collider, b + substep * vb));
-    is_at_end = was_at_end;
-    return found.distance - clearance;
-}
-
-SurfaceRow no_row() { return SurfaceRow(vec4(0.0), vec4(0.0), vec4(0.0)); }
-
-SurfaceRow edge_row(int collider, int first, int second) {
-    vec3 a = place_of(first), b = place_of(second);
-    NearEdge near = nearest_on_edge(collider, arm_of(collider, a), arm_of(collider, b));
-    float gap = near.distance - clearance;
-    float around = rounding(a, collider);
-    // At the end, what is left within the collider.
-    float limit = -2.0 * around;
-    if (!is_at_end) {
-        vec3 va = velocity_out[first].xyz - surface_velocity(collider, a);
-        vec3 vb = velocity_out[second].xyz - surface_velocity(collider, b);
-        limit = substep * max(length(va), length(vb));
-    }
-    bool is_near = near.place > 0.0 && near.place < 1.0 && gap < limit + around;
-    // Its nodes own what is nearest to one of them.
-    is_near = is_near && near.distance < min(
-        distance_to_collider(collider, arm_of(collider, a)).w,
-        distance_to_collider(collider, arm_of(collider, b)).w) - around;
-    float steep = length(near.slope);
-    is_near = is_near && steep > 1e-6;
-    if (is_near && !is_at_end && gap > around && 2.0 * limit < collider_thickness[collider]) {
-        is_near = distance_at_end(
-            collider, a, b, velocity_out[first].xyz, velocity_out[second].xyz) < 0.0;
-    }
-    if (!is_near) {
-        return no_row();
-    }
-    vec3 normal = turned_on(collider, near.slope / steep);
-    return SurfaceRow(
-        vec4(normal, near.distance / steep - clearance), vec4(0.0, 0.0, 0.0, 1.0),
-        vec4(1.0 - near.place, near.place, 0.0, float(collider)));
-}
-
-// The points of a collider that a face can touch, in its axes; normal: of the face towards it.
-vec3 tip_of(int shape, vec3 size, vec3 normal, int tip) {
-    if (shape == SHAPE_CAPSULE) {
-        return vec3(0.0, 0.0, tip == 0 ? -size.y : size.y);
-    }
-    if (shape == SHAPE_BOX) {
-        return size * vec3((tip & 1) != 0 ? 1.0 : -1.0, (tip & 2) != 0 ? 1.0 : -1.0,
-            (tip & 4) != 0 ? 1.0 : -1.0);
-    }
-    if (shape == SHAPE_CYLINDER) {
-        float l = length(normal.xy);
-        vec2 outwards = l > 1e-6 ? -normal.xy / l : vec2(1.0, 0.0);
-        return vec3((tip & 2) != 0 ? -size.x * outwards : size.x * outwards,
-            (tip & 1) != 0 ? size.y : -size.y);
-    }
-    return vec3(0.0);
-}
-
-// A point within a collider that is as deep below a tip as any can be.
-vec3 core_of(int shape, vec3 size, vec3 tip) {
-    if (shape == SHAPE_BOX) {
-        return tip - sign(tip) * min(size.x, min(size.y, size.z));
-    }
-    if (shape == SHAPE_CYLINDER) {
-        float inset = min(size.x, size.y);
-        return tip - inset * vec3(tip.xy / max(length(tip.xy), 1e-30), sign(tip.z));
-    }
-    return tip;
-}
-
-int tip_count(int shape) {
-    return shape == SHAPE_BOX ? 8 : shape == SHAPE_CYLINDER ? 4 : shape == SHAPE_CAPSULE ? 2 : 1;
-}
-
-SurfaceRow face_row(int collider, ivec3 nodes, int tip) {
-    int shape = int(collider_shape[collider]);
-    if (tip >= tip_count(shape)) {
-        return no_row();
-    }
-    vec3 x0 = arm_of(collider, place_of(nodes.x));
-    vec3 side = arm_of(collider, place_of(nodes.y)) - x0;
-    vec3 other = arm_of(collider, place_of(nodes.z)) - x0;
-    vec3 across = cross(side, other);
-    float area = length(across);
-    vec3 normal = across / max(area, 1e-30);
-    bool is_round = shape == SHAPE_SPHERE || shape == SHAPE_CAPSULE;
-    vec3 axis_x = collider_axes[3 * collider], axis_y = collider_axes[3 * collider + 1];
-    vec3 axis_z = collider_axes[3 * collider + 2];
-    vec3 size = collider_size[collider];
-    // Towards the collider: a point deep within it below the tip, which is never passed. For the
-    // points of a cylinder the normal decides which they are, and their opposites are others.
-    vec3 in_axes = vec3(dot(axis_x, normal), dot(axis_y, normal), dot(axis_z, normal));
-    vec3 own = tip_of(shape, size, in_axes, tip);
-    vec3 core = core_of(shape, size, own);
-    core = core.x * axis_x + core.y * axis_y + core.z * axis_z;
-    normal = dot(normal, x0 - core) > 0.0 ? -normal : normal;
-    vec3 place = own.x * axis_x + own.y * axis_y + own.z * axis_z - x0;
-    float gap = dot(normal, place) - (is_round ? size.x : 0.0) - clearance;
-    float around = rounding(place_of(nodes.x), collider);
-    float limit = -2.0 * around;
-    if (!is_at_end) {
-        limit = 0.0;
-        for (int i = 0; i < 3; ++i) {
-            int index = nodes[i];
-            limit = max(limit, length(velocity_out[index].xyz
-                - surface_velocity(collider, place_of(index))));
-        }
-        limit *= substep;
-    }
-    float scale = 1.0 / max(area * area, 1e-30);
-    float second = dot(cross(place, other), across) * scale;
-    float third = dot(cross(side, place), across) * scale;
-    float least = min(min(second, third), 1.0 - second - third);
-    float deepest = max(max(size.x, max(size.y, size.z)), clearance);
-    bool is_near = area > 0.0 && least > LEAST_WEIGHT
-        && gap < limit + around && gap > -2.0 * deepest;
-    if (!is_near) {
-        return no_row();
-    }
-    return SurfaceRow(
-        vec4(turned_on(collider, -normal), gap), vec4(0.0, 0.0, 0.0, 1.0),
-        vec4(1.0 - second - third, second, third, float(collider)));
-}
+#include "surface_find.glsl"
 
 bool are_listed(ivec3 nodes) {
     return surface_nodes[nodes.x].is_listed == 1 && surface_nodes[nodes.y].is_listed == 1
         && surface_nodes[nodes.z].is_listed == 1;
-}
-
-// Whether there is the edge or the face of a row at its node.
-bool owns(int index, int row) {
-    vec4 here = load_position(index);
-    if (row == 0) {
-        return edge_share(here, load_position(index + 1), EDGE_ROW) > 0.0;
-    }
-    if (row == 1) {
-        return edge_share(here, load_position(index + PITCH), EDGE_COLUMN) > 0.0;
-    }
-    return edge_share(here, load_position(index + PITCH + 1), EDGE_DIAGONAL) > 0.0;
-}
-
-// The thin colliders that the cell of a node may come to.
-uint colliders_near_cell(int index, uint bodies) {
-    vec3 x = load_position(index).xyz;
-    ivec3 others = index + ivec3(1, PITCH, PITCH + 1);
-    float reach = 0.0;
-    for (int i = 0; i < 3; ++i) {
-        vec4 other = load_position(others[i]);
-        // Ghosts are nowhere.
-        if (other.w != 0.0) {
-            reach = max(reach, length(other.xyz - x));
-        }
-    }
-    uint near = 0u;
-    for (bodies &= SURFACE_COLLIDERS; bodies != 0u; bodies &= bodies - 1u) {
-        int collider = findLSB(bodies);
-        float way = length(velocity_out[index].xyz - surface_velocity(collider, x));
-        for (int i = 0; i < 3; ++i) {
-            vec4 other = load_position(others[i]);
-            way = max(way, other.w != 0.0 ? length(velocity_out[others[i]].xyz
-                - surface_velocity(collider, other.xyz)) : 0.0);
-        }
-        float away = distance_to_collider(collider, x - collider_centre[collider]).w - clearance;
-        near |= away < reach + substep * way + 2.0 * rounding(x, collider)
-            ? 1u << uint(collider) : 0u;
-    }
-    return near;
 }
 
 void synchronise() {
@@ -261,8 +79,9 @@ void find_row(int entry, int row) {
         found = no_row();
     }
     int slot = entry * SURFACE_ROWS_OF_BODY + row;
-    surface_rows[slot].row = found;
+    surface_rows[slot].row.impulse.w = found.impulse.w;
     if (found.impulse.w != 0.0) {
+        surface_rows[slot].row = found;
         surface_rows[atomicAdd(acting_rows, 1u)].acting = uvec2(slot, index);
         for (int i = 0; i < surface_row_count(row); ++i) {
             surface_nodes[nodes[i]].is_held = 1;
@@ -467,7 +286,7 @@ vec4 gathered_of(int index, int collider) {
     return sum;
 }
 
-#if WAYS_OUT
+#if WAYS_OUT || !FINDS_IMPULSES
 // Where a node at x is when the colliders have moved it out, as the substep ends.
 vec3 out_of(uint bodies, vec3 x) {
     for (; bodies != 0u; bodies &= bodies - 1u) {
@@ -477,7 +296,9 @@ vec3 out_of(uint bodies, vec3 x) {
     }
     return x;
 }
+#endif
 
+#if WAYS_OUT
 void main() {
     is_at_end = true;
     bool has_entries = surface_entries > 0u;
@@ -542,6 +363,15 @@ void main() {
         }
     }
     synchronise();
+#if !FINDS_IMPULSES
+    for (EACH_NEAR(i)) {
+        int index = node_at(i);
+        vec3 x = position_out[index].xyz;
+        vec3 way = out_of(near[uint(block_count) + i].bodies & SURFACE_COLLIDERS, x) - x;
+        float most = substep * way_out_speed / max(length(way), 1e-30);
+        position_out[index].xyz = inverse_mass(index) > 0.0 ? x + min(most, 1.0) * way : x;
+    }
+#else
     bool has_entries = surface_entries > 0u;
     if (has_entries) {
         find_all_rows();
@@ -574,6 +404,9 @@ void main() {
 #else
             vec3 to = x + substep * contact.velocity;
 #endif
+#if NOTES_CHANGES
+            changes[index].xyz += contact.velocity - surface_nodes[index].free;
+#endif
             velocity_out[index].xyz = contact.velocity;
             position_out[index].xyz = touched_count > 0 ? moved_out(to, substep) : to;
             if (touched_count > 0) {
@@ -590,5 +423,6 @@ void main() {
             }
         }
     }
+#endif
 }
 #endif

@@ -21,6 +21,11 @@
 #define SLIDES 2
 #define SLIDES_ON_TWO 3
 
+// The colliders that act on nodes by this law, as bits.
+#ifndef NODE_COLLIDERS
+#define NODE_COLLIDERS 0xffffffffu
+#endif
+
 uniform vec3 collider_velocity[COLLIDERS];    // [m/s] mean one of the centre in the substep
 uniform vec3 collider_turn[3 * COLLIDERS];    // [1/s] rows of (R - 1) / h, R the rotation in it
 uniform float collider_friction[COLLIDERS];
@@ -83,7 +88,8 @@ vec4 gap_at_end(int collider, vec3 x, float h) {
 // The bodies that a node at x may come to in the time h at the velocity towards. Software asks each
 // node whatever others need, so most bodies are to be ruled out first.
 uint bodies_towards(vec3 x, vec3 towards, float h) {
-    return COLLIDERS > 1 ? near_bodies(x, 0.0, h * length(towards) + spare_way) : 1u;
+    return NODE_COLLIDERS
+        & (COLLIDERS > 1 ? near_bodies(x, 0.0, h * length(towards) + spare_way) : 1u);
 }
 
 // Remember the surfaces of bodies that a node at x can come to in the time h at the velocity

@@ -12,23 +12,20 @@ struct NearEdge {
     vec3 slope;      // of the distance across the edge; its length is 1 where the surface is smooth
 };
 
-// a, b: ends of the edge from the centre of the collider [m]. The signed distance is convex along a
-// line, and its gradients at both ends of a bracket bound it from below: cuts of the two tangents
-// alternate with halves.
-NearEdge nearest_on_edge(int collider, vec3 a, vec3 b) {
+// a, b: ends of the edge from the centre of the collider [m]; first, last: gradients and distances
+// there. The signed distance is convex along a line, and its gradients at both ends of a bracket
+// bound it from below: cuts of the two tangents alternate with halves.
+NearEdge nearest_on_edge(int collider, vec3 a, vec3 b, vec4 first, vec4 last) {
     vec3 along = b - a;
-    vec4 first = distance_to_collider(collider, a);
-    vec4 last = distance_to_collider(collider, b);
     float slope_first = dot(first.xyz, along);
     float slope_last = dot(last.xyz, along);
-    if (!(slope_first < 0.0)) {
-        return NearEdge(0.0, first.w, first.xyz);
-    }
-    if (!(slope_last > 0.0)) {
-        return NearEdge(1.0, last.w, last.xyz);
-    }
+    bool is_first = !(slope_first < 0.0);
+    bool is_last = !is_first && !(slope_last > 0.0);
     float begin = 0.0, end = 1.0;
-    for (int i = 0; i < EDGE_STEPS; ++i) {
+    // Software runs the body of a branch for edges that do not take it, but no loop that ends at
+    // once.
+    int steps = is_first || is_last ? 0 : EDGE_STEPS;
+    for (int i = 0; i < steps; ++i) {
         float middle = 0.5 * (begin + end);
         float cut = begin + (last.w - first.w - slope_last * (end - begin))
             / (slope_first - slope_last);
@@ -44,6 +41,12 @@ NearEdge nearest_on_edge(int collider, vec3 a, vec3 b) {
             last = found;
             slope_last = slope;
         }
+    }
+    if (is_first) {
+        return NearEdge(0.0, first.w, first.xyz);
+    }
+    if (is_last) {
+        return NearEdge(1.0, last.w, last.xyz);
     }
     // At a rim the gradients of both sides differ: the one across the edge lies between them.
     float share = slope_last / max(slope_last - slope_first, 1e-30);

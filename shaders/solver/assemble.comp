@@ -59,6 +59,9 @@ void main() {
 #endif
     float moves = load_node(at).w > 0.0 ? 1.0 : 0.0;
     int index = node_index(at.x, at.y);
+#if HAS_SURFACE
+    diagonal += load_surface_ground(index);
+#endif
     Symmetric inverse_block = moves * inverse_above(diagonal, mass);
 #if HAS_CONTACT
     vec4 contact = load_contact(index);

@@ -39,6 +39,12 @@ void main() {
         }
     }
 #endif
+#if HAS_SURFACE
+    FOR_BLOCK {
+        store_vector(
+            cloth_entry(SURFACE_VALUE, tile_index(first, row, col)), value[row][col]);
+    }
+#endif
     make_product(first);
     FOR_BLOCK {
         int index = tile_index(first, row, col);

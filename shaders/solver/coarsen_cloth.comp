@@ -157,6 +157,9 @@ void main() {
         ivec2 at = first + ivec2(i / 2, i % 2);
         if (inside(0, at.x, at.y)) {
             ground += mass_share(load_node(at)) * grip_tensor(node_index(at.x, at.y));
+#if HAS_SURFACE
+            ground += load_surface_ground(node_index(at.x, at.y));
+#endif
         }
     }
 #endif

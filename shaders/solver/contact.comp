@@ -50,7 +50,7 @@ uniform float most_unsolved;  // [m] that a node may be moved by without another
 
 // Whether a node at x may come to a collider in the substep, at this velocity.
 bool is_near_body(vec3 x, vec3 v) {
-    return near_bodies(x, 0.0, substep * length(v) + spare_way) != 0u;
+    return (near_bodies(x, 0.0, substep * length(v) + spare_way) & NODE_COLLIDERS) != 0u;
 }
 
 // Contact of a node; grip and impulse enter the next solve.

@@ -45,8 +45,10 @@ _SCENES = {
 # Those that no other scene asks for.
 _OF_CONTACT = (
     'contact.comp', 'foresee_contact.comp', 'near_blocks.comp', 'near_nodes.comp',
-    'surface_contact.comp',
-    'solver/contact.comp',
+    'surface_contact.comp', 'surface_pins.comp',
+    'solver/contact.comp', 'solver/surface_find.comp', 'solver/surface_give.comp',
+    'solver/surface_list.comp', 'solver/surface_product.comp', 'solver/surface_record.comp',
+    'solver/surface_search.comp', 'solver/surface_weigh.comp',
     'solver/hold.comp', 'solver/reaction.comp')
 # Where integers are counted by atomics, and no result depends on the order.
 _COUNTING = {
@@ -70,6 +72,8 @@ _COUNTING = {
         'atomicAdd(held_nodes, 1u)', 'atomicAdd(listed_rows, uint(count))',
         'atomicMax(largest, floatBitsToUint(length(impulse)))',
         'atomicMax(largest_change, floatBitsToUint(length(impulse - before)))'],
+    # Only whether there are any counts.
+    'solver/surface_find.comp': ['atomicAdd(changed_owners, 1u)', 'atomicAdd(owners, 1u)'],
     # Sums of whole numbers, least and largest numbers, counts, and lists in no order.
     'self_contact/ways.comp': [
         'atomicMax(largest, floatBitsToUint(max(most_place.x, max(most_place.y, most_place.z))))',
@@ -106,6 +110,8 @@ _COUNTING = {
         'atomicAdd(near_node_count, 1u)',
         'atomicAdd(node_groups_x, entry % NEAR_LOCAL == 0u ? 1u : 0u)'],
 }
+_SURFACE = {
+    'SURFACE_TIPS': 8, 'SURFACE_LOCAL': 64, 'SURFACE_COLLIDERS': '2u', 'THIN_COLLIDERS': 1}
 # What each shader is compiled with besides; a comma sets further forms of one apart.
 _FORMS = {
     'bounds_check.comp': {'STRIP': 16},
@@ -116,12 +122,16 @@ _FORMS = {
     'mass_spring_tile.comp': {'TILE_SIDE': 32},
     'contact.comp': {'NOTES_CHANGES': 0},
     'contact.comp, after limits': {'NOTES_CHANGES': 1},
-    'near_nodes.comp, of the surface': {'HAS_SURFACE': 1},
+    'near_nodes.comp, of the surface': {'HAS_SURFACE': 1, **_SURFACE},
     'contact.comp, beside the surface': {'NOTES_CHANGES': 0, 'HAS_SURFACE': 1},
     'surface_contact.comp': {
-        'WAYS_OUT': 0, 'SURFACE_TIPS': 8, 'SURFACE_LOCAL': 64, 'SURFACE_COLLIDERS': '2u'},
+        'WAYS_OUT': 0, 'NOTES_CHANGES': 0, 'FINDS_IMPULSES': 1, **_SURFACE},
+    'surface_contact.comp, after limits': {
+        'WAYS_OUT': 0, 'NOTES_CHANGES': 1, 'FINDS_IMPULSES': 1, **_SURFACE},
     'surface_contact.comp, ways out': {
-        'WAYS_OUT': 1, 'SURFACE_TIPS': 2, 'SURFACE_LOCAL': 64, 'SURFACE_COLLIDERS': '1u'},
+        'WAYS_OUT': 1, 'NOTES_CHANGES': 0, 'FINDS_IMPULSES': 1, **_SURFACE, 'SURFACE_TIPS': 2},
+    'surface_contact.comp, of nodes': {
+        'WAYS_OUT': 0, 'NOTES_CHANGES': 0, 'FINDS_IMPULSES': 0, **_SURFACE},
     'contact.comp, beside layers': {'NOTES_CHANGES': 0, 'HAS_SELF': 1},
     **{f'self_contact/{name}.comp': {'LOADS_TEXTURE': 1, 'SELF_LOCAL': 32} for name in (
         'boxes', 'crossings', 'keep', 'nodes', 'pairs', 'round')},
@@ -150,6 +160,12 @@ _FORMS = {
     'solver/contact.comp': {'STAGE': 'BEGIN'},
     'solver/contact.comp, again': {'STAGE': 'AGAIN'},
     'solver/contact.comp, end': {'STAGE': 'END'},
+    'surface_pins.comp': _SURFACE,
+    'solver/surface_find.comp': {'STAGE': 'BEGIN', **_SURFACE},
+    'solver/surface_find.comp, again': {'STAGE': 'AGAIN', **_SURFACE},
+    **{f'solver/surface_{name}.comp': _SURFACE for name in (
+        'give', 'list', 'product', 'record', 'search', 'weigh')},
+    'solver/contact.comp, beside the surface': {'STAGE': 'AGAIN', 'NODE_COLLIDERS': '1u'},
     'solver/limit_search.comp': {'FORESEES_TURN': 1},
     'solver/limit_search.comp, turn not foreseen': {'FORESEES_TURN': 0},
     'solver/reduce.comp': {'MOST_GROUPS_COUNTS': 48},
@@ -183,12 +199,13 @@ def variants(form: str) -> dict[str, str]:
             levels = Levels(
                 layout, coarsen=True, has_bend='bend' in families,
                 has_rigidity=model.has_rigidity, has_bending_damping=model.has_bending_damping,
-                has_contact=model.has_contact)
+                has_contact=model.has_contact, has_surface='surface' in form)
             defines.update(solver_defines(
                 layout, levels, families, is_multigrid=multigrid,
                 has_rigidity=model.has_rigidity,
                 has_bending_damping=model.has_bending_damping,
-                has_contact=model.has_contact, has_cells=model.cells is not None))
+                has_contact=model.has_contact, has_cells=model.cells is not None,
+                has_surface='surface' in form))
         text = without_idle_defines(ShaderSource(name, defines).text)
         found.setdefault(text, f'{scene}, texture {texture}, multigrid {multigrid}, {block}')
     return found
@@ -252,7 +269,7 @@ def test_version_is_430_core():
 MOST_STORAGE_BLOCKS = 8
 MOST_SHARED_BYTES = 32 * 1024
 MOST_INVOCATIONS = 1024
-_BYTES_OF = {'float': 4, 'uint': 4, 'int': 4, 'vec3': 16, 'vec4': 16}
+_BYTES_OF = {'float': 4, 'uint': 4, 'int': 4, 'vec3': 16, 'uvec3': 16, 'vec4': 16}
 
 
 def preprocessed(text: str) -> str:

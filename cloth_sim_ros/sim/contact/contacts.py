@@ -3,6 +3,7 @@
 
 """The colliders of a run on the device: where they are, and what they do to the cloth."""
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 from dataclasses import replace
 import math
@@ -197,45 +198,83 @@ class Contacts:
             program.set_float('substep', length)
             program.set_int('block_count', self._layout.block_count)
             self.set_in(program, touch, length)
-        if on_surface and self._surface is not None:
-            for program in self._surface.programs():
-                program.set_float('substep', length)
-                program.set_int('block_count', self._layout.block_count)
-                self.set_in(program, touch, length)
-            self._surface.bind()
+        if on_surface:
+            self._begin_surface(touch, length, notes_changes=False)
         self._near.bind_storage(bindings.NEAR_BLOCKS)
+
+    def _begin_surface(self, touch: '_Touch', length: float, *, notes_changes: bool) -> None:
+        if self._surface is None:
+            return
+        self._set_surface(self._surface.programs(notes_changes=notes_changes), touch, length)
+        self._surface.bind()
+
+    def _set_surface(
+            self, programs: Iterable[Program], touch: '_Touch', length: float) -> None:
+        for program in programs:
+            program.set_float('substep', length)
+            program.set_int('block_count', self._layout.block_count)
+            self.set_in(program, touch, length)
 
     def list_none(self) -> None:
         """Empty the lists of an explicit substep that is about to be made."""
         make(self._clear_near)
 
     def act_after_limits(
-            self, touch: '_Touch', state: State, length: float, changes: Buffer) -> None:
+            self, touch: '_Touch', state: State, length: float, changes: Buffer,
+            held_at: int) -> None:
         """
         Act on an explicit substep whose velocities have been changed since it was made.
 
         :param changes: of limit_give.glsl, where what is done to nodes is added
+        :param held_at: where its entries of held.glsl are, bound by now; below 0: nowhere
         """
-        self.list_none()
-        program = self._near_blocks.use()
-        program.set_float('substep', length)
-        self.set_in(program, touch, length)
-        state.bind_in()
-        if self._layout.texture_loads:
-            state.bind_out_textures()
-        program.dispatch(*self._layout.groups)
+        self._list_blocks(touch, state, length)
         noting = self._noting_program.use()
         noting.set_float('substep', length)
         noting.set_int('block_count', self._layout.block_count)
         self.set_in(noting, touch, length)
         changes.bind_storage(bindings.LIMIT_CHANGES)
-        self._act(self._noting_program)
+        self._begin_surface(touch, length, notes_changes=True)
+        self._act(self._noting_program, self._surface, held_at, notes_changes=True)
 
-    def act(self, *, on_surface: bool) -> None:
+    def move_out(self, touch: '_Touch', state: State, length: float) -> None:
+        """
+        Move edges and faces out of thin colliders at the end of an implicit substep.
+
+        Both states are bound, and the one that is written is the one at the end.
+        """
+        if self._surface is None:
+            return
+        self._list_blocks(touch, state, length)
+        self._set_surface(self._surface.programs_of_ways(), touch, length)
+        self._surface.bind()
+        self._near.bind_storage(bindings.NEAR_BLOCKS)
+        self._near.bind_dispatches()
+        shader_dispatches_visible()
+        self._surface.list_nodes(0)
+        shader_dispatches_visible()
+        self._surface.list_entries()
+        self._surface.move_out()
+
+    def _list_blocks(self, touch: '_Touch', state: State, length: float) -> None:
+        """List the blocks near colliders in a substep that is written."""
+        self.list_none()
+        program = self._near_blocks.use()
+        program.set_float('substep', length)
+        self.set_in(program, touch, length)
+        self._near.bind_storage(bindings.NEAR_BLOCKS)
+        state.bind_in()
+        if self._layout.texture_loads:
+            state.bind_out_textures()
+        program.dispatch(*self._layout.groups)
+
+    def act(self, held_at: int, *, on_surface: bool) -> None:
         """Act on an explicit substep that was made, both states of which are bound."""
-        self._act(self._program, self._surface if on_surface else None)
+        self._act(self._program, self._surface if on_surface else None, held_at)
 
-    def _act(self, act: SceneProgram, surface: SurfaceContact | None = None) -> None:
+    def _act(
+            self, act: SceneProgram, surface: SurfaceContact | None, held_at: int, *,
+            notes_changes: bool = False) -> None:
         self._near.bind_dispatches()
         shader_dispatches_visible()
         if surface is None:
@@ -246,8 +285,7 @@ class Contacts:
         if surface is None:
             act.use().dispatch_indirect(_NODE_GROUPS)
         else:
-            surface.act()
-            surface.act_on_others(_NODE_GROUPS)
+            surface.act(_NODE_GROUPS, held_at, notes_changes=notes_changes)
         shader_writes_visible()
         if surface is not None:
             surface.move_out()
@@ -424,6 +462,7 @@ class Contacts:
         program.set_floats('collider_thickness', [
             min(collider.thickness, _ENDLESS) for collider in self.colliders])
         program.set_float('clearance', self.clearance)
+        program.set_float('feature_reach', self.feature_reach)
         scene = self._scene
         program.set_float(
             'way_out_speed', _WAY_OUT_SPEED * math.sqrt(max(scene['width'], scene['height'])))
@@ -474,11 +513,15 @@ class _Touch:
     def list_none(self) -> None:
         self._contacts.list_none()
 
-    def act_after_limits(self, state: State, length: float, changes: Buffer) -> None:
-        self._contacts.act_after_limits(self, state, length, changes)
+    def act_after_limits(
+            self, state: State, length: float, changes: Buffer, held_at: int) -> None:
+        self._contacts.act_after_limits(self, state, length, changes, held_at)
 
-    def act(self, *, on_surface: bool) -> None:
-        self._contacts.act(on_surface=on_surface)
+    def act(self, held_at: int, *, on_surface: bool) -> None:
+        self._contacts.act(held_at, on_surface=on_surface)
+
+    def move_out(self, state: State, length: float) -> None:
+        self._contacts.move_out(self, state, length)
 
     def begin_try(self) -> None:
         self._contacts.begin_try()

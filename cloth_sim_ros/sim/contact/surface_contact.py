@@ -12,14 +12,13 @@ from cloth_sim_ros.gl.program import Program
 from cloth_sim_ros.sim.device import bindings
 from cloth_sim_ros.sim.device.layout import Layout
 from cloth_sim_ros.sim.device.scene_program import SceneProgram
+from cloth_sim_ros.sim.model.colliders import rows_of
+from cloth_sim_ros.sim.model.colliders import surface_defines
 from cloth_sim_ros.sim.scene import Scene
 import numpy as np
 
 # Invocations of the workgroup [1].
 _LOCAL = 16
-# Points that a face can touch, of each shape [1].
-_TIPS = {'plane': 1, 'sphere': 1, 'capsule': 2, 'box': 8, 'cylinder': 4}
-_EDGES = 3
 # Size of an entry of each kind in surface_rows.glsl and surface_nodes.glsl [bytes].
 _ROW_BYTES, _NODE_BYTES, _HEAD_BYTES = 96, 48, 32
 
@@ -30,33 +29,40 @@ class SurfaceContact:
     def __init__(self, scene: Scene, layout: Layout) -> None:
         """Allocate; the passes are compiled when they are first used."""
         numbers = scene.thin_colliders
-        tips = max(_TIPS[scene.colliders[number].shape] for number in numbers)
-        defines = {
-            'SURFACE_TIPS': tips, 'SURFACE_LOCAL': _LOCAL,
-            'SURFACE_COLLIDERS': f'{sum(1 << number for number in numbers)}u'}
-        self._impulses = SceneProgram(
-            'surface_contact.comp', scene, layout, {**defines, 'WAYS_OUT': 0})
+        defines = {'SURFACE_LOCAL': _LOCAL, **surface_defines(scene.colliders, numbers)}
+        # By whether changes of velocity are noted for the limits of edges.
+        self._impulses = {notes: SceneProgram(
+            'surface_contact.comp', scene, layout,
+            {**defines, 'WAYS_OUT': 0, 'NOTES_CHANGES': int(notes), 'FINDS_IMPULSES': 1})
+            for notes in (False, True)}
+        self._others = {notes: SceneProgram(
+            'contact.comp', scene, layout,
+            {'NOTES_CHANGES': int(notes), 'HAS_SURFACE': 1}) for notes in (False, True)}
         self._ways = SceneProgram(
-            'surface_contact.comp', scene, layout, {**defines, 'WAYS_OUT': 1})
-        self._others = SceneProgram(
-            'contact.comp', scene, layout, {'NOTES_CHANGES': 0, 'HAS_SURFACE': 1})
-        self._near_nodes = SceneProgram('near_nodes.comp', scene, layout, {'HAS_SURFACE': 1})
+            'surface_contact.comp', scene, layout,
+            {**defines, 'WAYS_OUT': 1, 'NOTES_CHANGES': 0, 'FINDS_IMPULSES': 1})
+        self._entries = SceneProgram(
+            'surface_contact.comp', scene, layout,
+            {**defines, 'WAYS_OUT': 0, 'NOTES_CHANGES': 0, 'FINDS_IMPULSES': 0})
+        self._pins = SceneProgram('surface_pins.comp', scene, layout, defines)
+        self._near_nodes = SceneProgram(
+            'near_nodes.comp', scene, layout, {**defines, 'HAS_SURFACE': 1})
         self._layout = layout
         self._has_warned = False
         self._most_entries = scene.node_count * len(numbers)
-        rows = _EDGES + 2 * tips
+        rows = max(rows_of(scene.colliders[number]) for number in numbers)
         self._nodes = Buffer(np.zeros(layout.stored * _NODE_BYTES // 4, dtype=np.float32))
         self._rows = Buffer(np.zeros(
             (_HEAD_BYTES + self._most_entries * rows * _ROW_BYTES) // 4, dtype=np.float32))
 
-    def programs(self) -> Iterator[Program]:
+    def programs(self, *, notes_changes: bool) -> Iterator[Program]:
         """Yield each pass, in use, to be set to a substep."""
-        yield self._near_nodes.use()
-        yield self._others.use()
-        for part in (self._impulses, self._ways):
-            program = part.use()
-            program.set_int_anywhere('most_entries', self._most_entries)
-            yield program
+        yield self._others[notes_changes].use()
+        yield from self._set(self._near_nodes, self._impulses[notes_changes], self._ways)
+
+    def programs_of_ways(self) -> Iterator[Program]:
+        """Yield the passes that move edges and faces out alone, as ``programs``."""
+        yield from self._set(self._near_nodes, self._entries, self._ways)
 
     def bind(self) -> None:
         """Let the passes find their rows and nodes."""
@@ -71,22 +77,29 @@ class SurfaceContact:
         """
         self._near_nodes.use().dispatch_indirect(groups)
 
-    def act(self) -> None:
-        """Find the contacts and their impulses, and change what they act on."""
-        self._impulses.use().dispatch(1)
-        shader_writes_visible()
-
-    def act_on_others(self, groups: int) -> None:
+    def act(self, groups: int, held_at: int, *, notes_changes: bool) -> None:
         """
-        Act on the nodes that no edge or face has been acted on at.
+        Find the contacts and their impulses, change what they act on, and act on other nodes.
 
         :param groups: offset of the workgroups in the buffer of dispatches [bytes]
+        :param held_at: where the entries of held.glsl are, bound by now; below 0: nowhere
         """
-        self._others.use().dispatch_indirect(groups)
+        self._impulses[notes_changes].use().dispatch(1)
+        shader_writes_visible()
+        if held_at >= 0:
+            pins = self._pins.use()
+            pins.set_int('held_at', held_at)
+            pins.dispatch(1)
+        self._others[notes_changes].use().dispatch_indirect(groups)
 
     def move_out(self) -> None:
         """Move edges and faces out of colliders that they are left within."""
         self._ways.use().dispatch(1)
+        shader_writes_visible()
+
+    def list_entries(self) -> None:
+        """List for ``move_out`` what ``act`` lists, and move nodes out."""
+        self._entries.use().dispatch(1)
         shader_writes_visible()
 
     def warn_of_losses(self) -> int:
@@ -103,7 +116,15 @@ class SurfaceContact:
 
     def delete(self) -> None:
         """Release everything."""
-        for part in (
-                self._impulses, self._ways, self._others, self._near_nodes, self._nodes,
-                self._rows):
-            part.delete()
+        for program in (
+                *self._impulses.values(), *self._others.values(), self._ways, self._entries,
+                self._near_nodes, self._pins):
+            program.delete()
+        self._nodes.delete()
+        self._rows.delete()
+
+    def _set(self, *parts: SceneProgram) -> Iterator[Program]:
+        for part in parts:
+            program = part.use()
+            program.set_int_anywhere('most_entries', self._most_entries)
+            yield program

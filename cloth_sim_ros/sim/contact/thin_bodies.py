@@ -9,13 +9,11 @@ from cloth_sim_ros.sim.model.colliders import is_thin
 from cloth_sim_ros.sim.model.colliders import THIN
 from cloth_sim_ros.sim.scene import Scene
 
-# Modes in which thin bodies act on edges and faces.
-MODES_WITH_SURFACE = ('mass_spring',)
-
 
 def warn_of_thin_bodies(scene: Scene, mode: str) -> None:
     """Warn of the thinnest body, where bodies act on nodes alone."""
-    if scene['contact.features'] and mode in MODES_WITH_SURFACE and scene['layout'] == 'fused':
+    is_paper = scene['layout'] == 'paper' and mode == 'mass_spring'
+    if scene['contact.features'] and not is_paper:
         return
     thin = [body for body in scene.colliders if is_thin(body, scene.spacing)]
     if not thin or min(scene.rows, scene.cols) < 2:
@@ -25,6 +23,6 @@ def warn_of_thin_bodies(scene: Scene, mode: str) -> None:
     most = body.thickness / THIN
     warnings.warn(
         f'{body.name} is {body.thickness:.3g} m thick, {body.thickness / cell:.2g} of a cell of '
-        f'{cell:.3g} m, and can pass between nodes: step in mode mass_spring with '
-        f'contact.features: true, or give rows and cols for cells of at most {most:.2g} m',
+        f'{cell:.3g} m, and can pass between nodes: give contact.features: true and '
+        f'layout: fused, or rows and cols for cells of at most {most:.2g} m',
         stacklevel=3)

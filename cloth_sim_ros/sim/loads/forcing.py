@@ -31,11 +31,19 @@ class Touch(Protocol):
     def list_none(self) -> None:
         """Empty that list: an explicit substep is about to be made."""
 
-    def act_after_limits(self, state: 'State', length: float, changes: Buffer) -> None:
+    def act_after_limits(
+            self, state: 'State', length: float, changes: Buffer, held_at: int) -> None:
         """Act on such a substep after its velocities were changed, and add up what is done."""
 
-    def act(self, *, on_surface: bool) -> None:
-        """Act on an explicit substep that was made, both states of which are bound."""
+    def act(self, held_at: int, *, on_surface: bool) -> None:
+        """
+        Act on an explicit substep that was made, both states of which are bound.
+
+        :param held_at: where its entries of held.glsl are, bound by now; below 0: nowhere
+        """
+
+    def move_out(self, state: 'State', length: float) -> None:
+        """Move edges and faces out of thin colliders at the end of an implicit substep."""
 
     def begin_try(self) -> None:
         """Begin a substep that may be made again: remember what was done before it."""

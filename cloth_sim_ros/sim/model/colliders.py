@@ -29,6 +29,9 @@ SHAPES = {
 # Thickness of a collider over the longer side of a cell [1], below which it can pass between
 # nodes: the diagonal of a square of four nodes.
 THIN = 1.4
+# Edges that a node owns, and points that a face can touch, of each shape [1].
+_EDGES_OF_A_NODE = 3
+_TIPS = {'plane': 1, 'sphere': 1, 'capsule': 2, 'box': 8, 'cylinder': 4}
 NAME_PATTERN = re.compile(r'[a-z][a-z0-9_]{0,39}')
 
 # NAME stands for each of colliders.names.
@@ -168,6 +171,19 @@ def collider_defines(colliders: Sequence[Collider]) -> dict[str, int]:
     return {
         'COLLIDERS': len(colliders),
         **{f'HAS_{shape.upper()}': int(shape in present) for shape in SHAPES}}
+
+
+def rows_of(collider: Collider) -> int:
+    """Return how many contacts a node's edges and faces can have with ``collider``."""
+    return _EDGES_OF_A_NODE + 2 * _TIPS[collider.shape]
+
+
+def surface_defines(colliders: Sequence[Collider], thin: Sequence[int]) -> dict[str, object]:
+    """Return what shaders compile in that let the ``thin`` colliders act on edges and faces."""
+    return {
+        'SURFACE_TIPS': max(_TIPS[colliders[number].shape] for number in thin),
+        'SURFACE_COLLIDERS': f'{sum(1 << number for number in thin)}u',
+        'THIN_COLLIDERS': len(thin)}
 
 
 def _from_sides(q: np.ndarray) -> np.ndarray:

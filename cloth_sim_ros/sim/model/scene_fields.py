@@ -320,7 +320,7 @@ SCENE_FIELDS = (
     Field('contact.thickness', float, 0.001, 'thickness of the cloth, half of which its nodes '
           'keep from colliders', 'm', low=0.0, high=1.0),
     Field('contact.features', bool, True, 'let colliders that are thinner than 1.4 cells act on '
-          'edges and faces as well, not on nodes alone; in mode mass_spring'),
+          'edges and faces as well, not on nodes alone'),
     Field('contact.compression', float, 1e4, 'pressure at which a cloth between two colliders '
           'would be compressed to nothing; it grows in proportion to the compression', 'Pa',
           low=0.0, high=1e9),

@@ -125,7 +125,7 @@ class Adaptive:
         self._layout = layout
         self._dt: float = scene['dt']
         self._length = self._dt / self.substeps
-        self._springs = OnePass(scene, layout)
+        self._springs = OnePass(scene, layout, acts_on_surface=True)
         self._watch = StrainWatch(scene, layout, NEAR * self.strain_bound)
         self._turns = TurnWatch(
             scene, layout, tuple(family for family in FAMILIES if family in scene.families))
@@ -568,4 +568,4 @@ class Adaptive:
         """Let colliders have the last word on a substep in which edges were held."""
         changes = self._limits.changes
         if forcing.touch is not None and changes is not None:
-            forcing.touch.act_after_limits(state, length, changes)
+            forcing.touch.act_after_limits(state, length, changes, self._springs.held_at)

@@ -366,7 +366,8 @@ class ImplicitStep(ABC):
             solves += 1
             is_due = self._resolve_contacts(state, forcing, solves)
         if forcing.touch is not None:
-            self._solver.resolve_contacts(state, forcing, is_last=True)
+            self._solver.resolve_contacts(
+                state, forcing, is_last=True, held_at=self._held_at)
 
     def _resolve_contacts(self, state: State, forcing: Forcing, solves: int) -> bool:
         """Let colliders act on what was solved; return whether another solve is due for it."""

@@ -137,7 +137,7 @@ class LayeredSprings(MassSpring):
         if touch is not None:
             if may_halve:
                 touch.begin_try()
-            touch.act(on_surface=True)
+            touch.act(self._springs.held_at, on_surface=True)
         if self._layers.has_pairs:
             self._layers.act(state, self._springs.held_at)
             figures = self._layers.guard(state)

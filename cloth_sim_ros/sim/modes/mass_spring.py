@@ -143,7 +143,7 @@ class OnePass:
         if touch is None or not acts:
             shader_writes_visible()
         else:
-            touch.act(on_surface=self._acts_on_surface)
+            touch.act(held_at, on_surface=self._acts_on_surface)
 
     def delete(self) -> None:
         """Release the pass."""

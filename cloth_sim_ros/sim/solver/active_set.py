@@ -22,6 +22,8 @@ from cloth_sim_ros.sim.solver.solver_programs import POINT_LOCAL
 from cloth_sim_ros.sim.solver.solver_programs import POINTS
 from cloth_sim_ros.sim.solver.solver_programs import SolverPass
 from cloth_sim_ros.sim.solver.solver_programs import SolverPrograms
+from cloth_sim_ros.sim.solver.start import Start
+from cloth_sim_ros.sim.solver.surface_contacts import SolverSurface
 from cloth_sim_ros.sim.state import State
 
 # Looks of a line search [1], by false position, not nearer than a tenth to the ends of what is
@@ -34,28 +36,6 @@ _FLAT = 0.05
 # to 1e-2 less changes than by half the tolerance, 1e-6 costs 35 % more solves
 # (constants.py --only _MOST_UNSOLVED).
 _MOST_UNSOLVED = 1e-4
-
-
-@dataclass(frozen=True)
-class Start:
-    """
-    Where a solve starts, and where it takes the law of each edge for a straight line.
-
-    :param field: of SolverBuffers, a change of velocity
-    :param share: of it
-    :param judges_by_tension: at the length that the tension found last belongs to, where a limit
-        pulled; else at the length that the start leads to
-    """
-
-    field: int
-    share: float
-    judges_by_tension: bool = False
-
-    def set_in(self, program: Program) -> None:
-        """Set it in the program in use."""
-        program.set_int('start_field', self.field)
-        program.set_float('guess', self.share)
-        program.set_int('judges_by_tension', int(self.judges_by_tension))
 
 
 class RightSide:
@@ -173,12 +153,14 @@ class LimitSearch:
     ``last_share`` is that of the way of the last solve after which the next one starts.
 
     :param foresees_turn: as of RightSide
+    :param surface: contacts of edges and faces; None where there can be none
     """
 
     def __init__(
             self, scene: Scene, state: Layout, programs: SolverPrograms, levels: Levels, *,
-            foresees_turn: bool) -> None:
+            foresees_turn: bool, surface: SolverSurface | None = None) -> None:
         """Prepare."""
+        self._surface = surface
         # In a further solve it makes no difference, with velocities of 0.
         defines = {**programs.defines, 'FORESEES_TURN': int(foresees_turn)}
         self._look_at = SceneProgram('solver/limit_search.comp', scene, state, defines)
@@ -190,10 +172,11 @@ class LimitSearch:
         self.last_share = 1.0
 
     def run_all_passes(
-            self, law: EdgeLaw, start: Start, buffers: SolverBuffers, into: int) -> None:
+            self, state: State, law: EdgeLaw, start: Start, buffers: SolverBuffers,
+            into: int) -> None:
         """Run both passes once, so that the driver compiles them; as ``move_start``."""
         self._set(law, start, is_further=False)
-        self._look(1.0, buffers)
+        self._look(state, 1.0, start, buffers, is_first=True)
         self._start_between(1.0, start, into)
 
     def delete(self) -> None:
@@ -202,8 +185,8 @@ class LimitSearch:
         self._move.delete()
 
     def move_start(
-            self, law: EdgeLaw, start: Start, buffers: SolverBuffers, missing: float,
-            into: int, *, is_further: bool, is_early: bool = False) -> bool:
+            self, state: State, law: EdgeLaw, start: Start, buffers: SolverBuffers,
+            missing: float, into: int, *, is_further: bool, is_early: bool = False) -> bool:
         """
         Leave in a field where the next solve starts; return False where none is needed.
 
@@ -215,7 +198,7 @@ class LimitSearch:
         """
         self._set(law, start, is_further=is_further)
         share = 1.0
-        look = self._look(share, buffers)
+        look = self._look(state, share, start, buffers, is_first=True)
         # Written so that NaN is not looked at again. Where nothing moves and nothing
         # is applied there is no way to go.
         if not ((is_early or look.missing > missing) and look.curvature > 0.0):
@@ -226,7 +209,7 @@ class LimitSearch:
             for _ in range(_LOOKS):
                 share = low - low_slope * (high - low) / (high_slope - low_slope)
                 share = min(max(share, low + 0.1 * (high - low)), high - 0.1 * (high - low))
-                slope = self._look(share, buffers).slope(share)
+                slope = self._look(state, share, start, buffers).slope(share)
                 if abs(slope) <= _FLAT:
                     break
                 if slope < 0.0:
@@ -250,12 +233,19 @@ class LimitSearch:
         program.set_float('to_come', float(not is_further))
         start.set_in(program)
 
-    def _look(self, share: float, buffers: SolverBuffers) -> _Look:
-        program = self._look_at.use()
-        program.set_float('share', share)
-        program.dispatch(*self._groups)
-        shader_writes_visible()
-        return _Look(*buffers.sums())
+    def _look(
+            self, state: State, share: float, start: Start, buffers: SolverBuffers, *,
+            is_first: bool = False) -> _Look:
+        # Without limits, edges have the same sums everywhere.
+        if is_first or (self._law_in is not None and self._law_in.has_limits):
+            program = self._look_at.use()
+            program.set_float('share', share)
+            program.dispatch(*self._groups)
+            shader_writes_visible()
+        is_in_contact = self._surface is not None and self._surface.has_contacts
+        if self._surface is not None and is_in_contact:
+            self._surface.look(state, share, start)
+        return _Look(*buffers.sums(with_surface=is_in_contact))
 
     def _start_between(self, share: float, start: Start, into: int) -> None:
         program = self._move.use()
@@ -278,18 +268,25 @@ class SolverContacts:
 
     :param groups: workgroups of passes with one node an invocation
     :param block_groups: workgroups of those with a block of nodes
+    :param surface: contacts of edges and faces; None where there can be none
     """
 
     def __init__(
             self, scene: Scene, state: Layout, programs: SolverPrograms,
-            groups: tuple[int, int], block_groups: tuple[int, int]) -> None:
+            groups: tuple[int, int], block_groups: tuple[int, int],
+            surface: SolverSurface | None) -> None:
         """Compile the passes of each solve; the others are compiled when first needed."""
         self._programs = programs
         self._groups = groups
+        self._surface = surface
         self._most_unsolved = _MOST_UNSOLVED * min(scene.spacing)
+        # Thin colliders act by SolverSurface alone.
+        others = {} if surface is None else {
+            'NODE_COLLIDERS': f'{surface.bits ^ 0xffffffff}u'}
         self._decide = {
             stage: SceneProgram('solver/contact.comp', scene, state, {
-                **programs.defines, 'STAGE': stage}) for stage in ('BEGIN', 'AGAIN', 'END')}
+                **programs.defines, **others, 'STAGE': stage})
+            for stage in ('BEGIN', 'AGAIN', 'END')}
         self._hold = SolverPass(programs.make('hold.comp'), groups)
         self._react = SolverPass(programs.make('reaction.comp'), block_groups)
 
@@ -305,6 +302,8 @@ class SolverContacts:
         program = self._use('BEGIN', forcing, length, kick)
         program.set_float('guess', guess)
         self._run(program, state)
+        if self._surface is not None:
+            self._surface.begin(state, forcing, length, kick, guess)
 
     def hold(self) -> None:
         """Take from a right side what nodes that touch a collider can't follow."""
@@ -312,19 +311,28 @@ class SolverContacts:
 
     def after_solve(
             self, state: State, forcing: Forcing, length: float, *, is_last: bool,
-            ends_turns: bool, left_share: float) -> None:
+            ends_turns: bool, left_share: float, held_at: int) -> None:
         """
         Decide anew once a solve is applied; once more with ``is_last`` to end the substep.
 
+        :param held_at: where entries of held.glsl are; below 0: nowhere
         :param left_share: of the residual of the solve before it, that the solve has taken over
         """
         if not is_last:
             self._react.set_float('left_share', left_share)
             self._react.run()
         touch_of(forcing).begin_decision()
+        if self._surface is not None and not is_last:
+            self._surface.give(state, forcing, length)
         program = self._use('END' if is_last else 'AGAIN', forcing, length, length)
         program.set_int('ends_turns', int(ends_turns))
-        self._run(program, state)
+        self._write(program, state)
+        if is_last and self._surface is not None and self._surface.has_contacts:
+            self._surface.record(state, forcing, length, held_at)
+            touch_of(forcing).move_out(state, length)
+        state.swap()
+        if self._surface is not None and not is_last:
+            self._surface.find_again(state, forcing, length)
 
     def delete(self) -> None:
         """Release the passes."""
@@ -339,8 +347,11 @@ class SolverContacts:
         return program
 
     def _run(self, program: Program, state: State) -> None:
+        self._write(program, state)
+        state.swap()
+
+    def _write(self, program: Program, state: State) -> None:
         state.bind_in()
         state.bind_out()
         program.dispatch(*self._groups)
         shader_writes_visible()
-        state.swap()

@@ -7,16 +7,21 @@ from cloth_sim_ros.gl.buffer import DISPATCHES_VISIBLE
 from cloth_sim_ros.gl.buffer import shader_dispatches_visible
 from cloth_sim_ros.gl.quick_calls import make
 from cloth_sim_ros.sim.device.layout import Layout
-from cloth_sim_ros.sim.solver.active_set import Start
+from cloth_sim_ros.sim.solver import surface_contacts as kinds
 from cloth_sim_ros.sim.solver.preconditioner import Preconditioner
 from cloth_sim_ros.sim.solver.solver_buffers import Levels
 from cloth_sim_ros.sim.solver.solver_buffers import MOST_LEVELS
+from cloth_sim_ros.sim.solver.solver_buffers import PRECONDITIONED
+from cloth_sim_ros.sim.solver.solver_buffers import PRODUCT
+from cloth_sim_ros.sim.solver.solver_buffers import SOLUTION
 from cloth_sim_ros.sim.solver.solver_buffers import SolverBuffers
 from cloth_sim_ros.sim.solver.solver_programs import PassList
 from cloth_sim_ros.sim.solver.solver_programs import POINT_LOCAL
 from cloth_sim_ros.sim.solver.solver_programs import POINTS
 from cloth_sim_ros.sim.solver.solver_programs import SolverPass
 from cloth_sim_ros.sim.solver.solver_programs import SolverPrograms
+from cloth_sim_ros.sim.solver.start import Start
+from cloth_sim_ros.sim.solver.surface_contacts import SolverSurface
 from cloth_sim_ros.sim.stop import leave_if
 from cloth_sim_ros.sim.stop import Stop
 import numpy as np
@@ -33,35 +38,41 @@ class Iterations:
 
     :param state: how the state is stored
     :param most: iterations of a solve
+    :param surface: contacts of edges and faces; None where there can be none
     """
 
     def __init__(
             self, state: Layout, levels: Levels, programs: SolverPrograms,
-            preconditioner: Preconditioner, most: int) -> None:
+            preconditioner: Preconditioner, most: int,
+            surface: SolverSurface | None = None) -> None:
         """Compile the passes, and allocate what is small of the buffers."""
         cloth = levels.cloth
+        self._surface = surface
         self._begin = SolverPass(programs.make('begin.comp'), cloth.groups)
         self._update = SolverPass(
             programs.make('update.comp'), (-(-cloth.stored // (POINTS * POINT_LOCAL)), 1))
         self.multiply = SolverPass(programs.make('product.comp'), cloth.groups)
         dispatches = [(1, 1)]
-        self._first = [*preconditioner.cycle, self.multiply]
-        for each in (*self._first, self._update):
+        cycles = [[*preconditioner.cycle, self.multiply]]
+        begins = [[self._begin]]
+        if surface is not None:
+            begins.append([self._begin, surface.adds_to(kinds.RESIDUAL, SOLUTION)])
+            cycles.append([
+                *preconditioner.cycle_in_contact, self.multiply,
+                surface.adds_to(kinds.PRODUCT, PRECONDITIONED, PRODUCT)])
+        for each in (*(each for cycle in cycles for each in cycle), self._update):
             each.switch(dispatches)
         self.buffers = SolverBuffers(levels, len(dispatches))
         reduce = programs.make('reduce.comp', MOST_GROUPS_COUNTS=_MOST_GROUPS_COUNTS)
         reduce.set_int('groups_count', len(dispatches))
         reduce.set_int_vectors('groups_of_each', np.array(dispatches))
-        reduce.set_int('sum_count', self.buffers.sum_count)
-        self._reduce = SolverPass(reduce, (1, 1))
-        self._first.append(self._reduce)
-        self._further = [self._update, *self._first]
-        self._further_calls = [
-            call for each in self._further for call in each.calls_if_going()]
-        self._further_calls.append(DISPATCHES_VISIBLE)
-        # None until all passes have run: the driver compiles each as it first does.
-        self._first_go: PassList | None = None
+        # With contact there is one sum more.
+        self._passes = [
+            _Passes(begin, cycle, self._update, SolverPass(
+                reduce, (1, 1), sum_count=self.buffers.sum_count + more))
+            for more, (begin, cycle) in enumerate(zip(begins, cycles))]
         self._most = most
+        self._reduce = reduce
         self._batch = 1 if state.texture_loads else _BATCH
         self._first_batch = self._batch
 
@@ -86,6 +97,7 @@ class Iterations:
         :param may_stay: True where the solve begins may be the solution
         :param early: of the residual at the start, what may be left in any case
         """
+        self._reduce.use()
         self._reduce.set_float('tolerance_square', tolerance**2)
         self._reduce.set_int('sets_scale', int(least_scale is not None))
         self._reduce.set_float('least_scale', least_scale or 0.0)
@@ -95,19 +107,16 @@ class Iterations:
     def solve(self, stop: Stop) -> None:
         """Find the solution; raise StepAbandoned where ``stop`` asks for it in between."""
         self.buffers.bind()
-        first = self._begin, *self._first
-        if self._first_go is None:
-            for each in first:
-                each.run()
-                leave_if(stop)
-            self._first_go = PassList(first)
-        else:
-            self._first_go.run()
+        is_in_contact = self._surface is not None and self._surface.has_contacts
+        passes = self._passes[int(is_in_contact)]
+        if self._surface is not None and is_in_contact:
+            self._surface.bind()
+        passes.run_first(stop)
         shader_dispatches_visible()
-        self._go_on(stop)
+        self._go_on(passes, stop)
         self._update.run()
 
-    def _go_on(self, stop: Stop) -> None:
+    def _go_on(self, passes: '_Passes', stop: Stop) -> None:
         # To ask whether the device goes on costs little where that is this processor, and a wait
         # elsewhere: there, as many are submitted at once as the last solve took.
         made, batch = 1, self._first_batch
@@ -115,10 +124,43 @@ class Iterations:
             leave_if(stop)
             batch = min(batch, self._most - made)
             for _ in range(batch):
-                make(self._further_calls)
+                make(passes.further_calls)
             made += batch
             batch = self._batch
         if self._batch > 1:
             self._first_batch = max(self.buffers.iterations() - 1, 1)
+        passes.submitted(made - 1)
+
+
+class _Passes:
+    """
+    Those of the first iteration and of further ones.
+
+    :param begin: what comes before the first one
+    """
+
+    def __init__(
+            self, begin: list[SolverPass], cycle: list[SolverPass], update: SolverPass,
+            reduce: SolverPass) -> None:
+        self._first = [*begin, *cycle, reduce]
+        self._further = [update, *cycle, reduce]
+        self.further_calls = [
+            call for each in self._further for call in each.calls_if_going()]
+        self.further_calls.append(DISPATCHES_VISIBLE)
+        # None until all passes have run: the driver compiles each as it first does.
+        self._first_go: PassList | None = None
+
+    def run_first(self, stop: Stop) -> None:
+        """Begin, and make the first iteration."""
+        if self._first_go is None:
+            for each in self._first:
+                each.run()
+                leave_if(stop)
+            self._first_go = PassList(self._first)
+        else:
+            self._first_go.run()
+
+    def submitted(self, count: int) -> None:
+        """Count ``count`` times that the calls of a further iteration were made."""
         for each in self._further:
-            each.submitted(made - 1)
+            each.submitted(count)

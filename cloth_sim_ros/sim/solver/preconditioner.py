@@ -9,8 +9,14 @@ from cloth_sim_ros.sim.device.layout import Layout
 from cloth_sim_ros.sim.solver.edge_law import EdgeLaw
 from cloth_sim_ros.sim.solver.solver_buffers import COARSEST_SIDE
 from cloth_sim_ros.sim.solver.solver_buffers import Levels
+from cloth_sim_ros.sim.solver.solver_buffers import PRECONDITIONED
+from cloth_sim_ros.sim.solver.solver_buffers import PRODUCT
+from cloth_sim_ros.sim.solver.solver_buffers import SURFACE_VALUE
 from cloth_sim_ros.sim.solver.solver_programs import SolverPass
 from cloth_sim_ros.sim.solver.solver_programs import SolverPrograms
+from cloth_sim_ros.sim.solver.surface_contacts import DEFECT
+from cloth_sim_ros.sim.solver.surface_contacts import SMOOTHED
+from cloth_sim_ros.sim.solver.surface_contacts import SolverSurface
 
 # Chebyshev steps on the coarsest level [1]; chosen: 5 and 20 change iterations by +3 and 0 %
 # (constants.py --only _COARSEST_STEPS).
@@ -33,13 +39,17 @@ class Preconditioner(Protocol):
 
     :param assembly: run once for each system, after the blocks of the cloth are inverted
     :param cycle: run in each iteration
+    :param cycle_in_contact: the same where edges or faces are in contact
     """
 
     is_multigrid: bool
     assembly: list[SolverPass]
     cycle: list[SolverPass]
+    cycle_in_contact: list[SolverPass]
 
-    def __init__(self, programs: SolverPrograms, levels: Levels) -> None:
+    def __init__(
+            self, programs: SolverPrograms, levels: Levels,
+            surface: SolverSurface | None = None) -> None:
         """Compile the passes."""
 
     def set_law(self, law: EdgeLaw) -> None:
@@ -51,10 +61,13 @@ class BlockJacobi:
 
     is_multigrid = False
 
-    def __init__(self, programs: SolverPrograms, levels: Levels) -> None:
+    def __init__(
+            self, programs: SolverPrograms, levels: Levels,
+            surface: SolverSurface | None = None) -> None:
         """Leave it all to the update."""
         self.assembly: list[SolverPass] = []
         self.cycle: list[SolverPass] = []
+        self.cycle_in_contact: list[SolverPass] = []
 
     def set_law(self, law: EdgeLaw) -> None:
         """Set nothing."""
@@ -68,13 +81,18 @@ class Multigrid:
 
     is_multigrid = True
 
-    def __init__(self, programs: SolverPrograms, levels: Levels) -> None:
+    def __init__(
+            self, programs: SolverPrograms, levels: Levels,
+            surface: SolverSurface | None = None) -> None:
         """Compile the passes of all levels; one program serves all coarse levels."""
         self._levels = levels
         self._coarsest = programs.make(
             'coarsest.comp', COARSEST_SIDE=COARSEST_SIDE, COARSEST_STEPS=_COARSEST_STEPS)
         self.assembly = self._assembly(programs)
-        self.cycle = self._cycle(programs)
+        down, coarse, up = self._cycle(programs)
+        self.cycle = [*down, *coarse, *up]
+        self.cycle_in_contact = self.cycle if surface is None else [
+            *_with_contact(surface, down, _DOWN), *coarse, *_with_contact(surface, up, _UP)]
 
     def set_law(self, law: EdgeLaw) -> None:
         """Set the eigenvalues to damp on the coarsest level."""
@@ -98,19 +116,41 @@ class Multigrid:
             passes.append(SolverPass(invert, layout.node_groups, level=level))
         return passes
 
-    def _cycle(self, programs: SolverPrograms) -> list[SolverPass]:
+    def _cycle(
+            self, programs: SolverPrograms,
+            ) -> tuple[list[SolverPass], list[SolverPass], list[SolverPass]]:
+        """Return the passes over the cloth, over what is coarser, and over the cloth again."""
         layouts, last = self._levels.layouts, self._levels.coarsest
         restrict = programs.make('restrict.comp')
         of_cloth, of_level = _Smoothing(programs, 'cloth_'), _Smoothing(programs, '')
+        down: list[SolverPass] = []
+        up: list[SolverPass] = []
         passes = [SolverPass(self._coarsest, (1, 1), level=last)]
         for level in reversed(range(last)):
             smoothing = of_level if level else of_cloth
             passes = [
-                *smoothing.down(level, layouts[level].groups),
                 SolverPass(restrict, _restrict_groups(layouts[level + 1]), level=level + 1),
-                *passes,
-                *smoothing.up(level, layouts[level].groups)]
-        return passes
+                *passes]
+            down = smoothing.down(level, layouts[level].groups)
+            up = smoothing.up(level, layouts[level].groups)
+            if level:
+                passes = [*down, *passes, *up]
+        return down, passes, up
+
+
+# What the passes over the cloth multiply, and where they leave what: by solver_fields.py SMOOTHED,
+# DEFECT and CORRECTED are in the place of PRODUCT, SMOOTHED_TWICE in that of PRECONDITIONED.
+_DOWN = ((PRODUCT, PRECONDITIONED, SMOOTHED, 0), (PRECONDITIONED, PRODUCT, DEFECT, 0))
+_UP = (
+    (SURFACE_VALUE, PRODUCT, SMOOTHED, 0), (PRODUCT, PRECONDITIONED, SMOOTHED, 1))
+
+
+def _with_contact(
+        surface: SolverSurface, passes: list[SolverPass],
+        fields: tuple[tuple[int, int, int, int], ...]) -> list[SolverPass]:
+    """Return each of ``passes`` with that of the contacts after it."""
+    return [each for made, (field, into, kind, goes_up) in zip(passes, fields) for each in (
+        made, surface.adds_to(kind, field, into, goes_up=goes_up))]
 
 
 def _restrict_groups(layout: Layout) -> tuple[int, int]:

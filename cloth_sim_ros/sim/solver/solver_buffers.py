@@ -24,6 +24,8 @@ from cloth_sim_ros.sim.solver.solver_fields import CONTACT_SYSTEM
 from cloth_sim_ros.sim.solver.solver_fields import CONTACT_VECTORS
 from cloth_sim_ros.sim.solver.solver_fields import count
 from cloth_sim_ros.sim.solver.solver_fields import numbers
+from cloth_sim_ros.sim.solver.solver_fields import SURFACE_SYSTEM
+from cloth_sim_ros.sim.solver.solver_fields import SURFACE_VECTORS
 from cloth_sim_ros.sim.solver.solver_fields import VECTORS
 import numpy as np
 
@@ -53,12 +55,13 @@ class Levels:
     :param has_rigidity: whether there is rigidity in it
     :param has_bending_damping: whether there is damped bending in it
     :param has_contact: whether nodes can touch something
+    :param has_surface: whether edges and faces can
     """
 
     def __init__(
             self, state: Layout, *, coarsen: bool, has_bend: bool,
             has_rigidity: bool = False, has_bending_damping: bool = False,
-            has_contact: bool = False) -> None:
+            has_contact: bool = False, has_surface: bool = False) -> None:
         """Lay out all levels."""
         has_much = has_bending_damping or (has_bend and has_rigidity)
         self.layouts = [_layout(state, state.rows, state.cols, has_much)]
@@ -67,14 +70,18 @@ class Levels:
             self.layouts.append(
                 _layout(state, -(-finer.rows // 2), -(-finer.cols // 2), has_much))
         coarse = len(self.layouts) - 1
-        cloth_vectors = (VECTORS, CLOTH_VECTORS, *[CONTACT_VECTORS] * has_contact)
+        cloth_vectors = (
+            VECTORS, CLOTH_VECTORS, *[CONTACT_VECTORS] * has_contact,
+            *[SURFACE_VECTORS] * has_surface)
         cloth_system = (
             CLOTH_SYSTEM, *[BEND_SYSTEM] * has_bend,
-            *[BENDING_DAMPING_SYSTEM] * has_bending_damping, *[CONTACT_SYSTEM] * has_contact)
+            *[BENDING_DAMPING_SYSTEM] * has_bending_damping, *[CONTACT_SYSTEM] * has_contact,
+            *[SURFACE_SYSTEM] * has_surface)
         # A shader can name a field that no scene of this kind has.
         self._fields = {
-            **numbers(VECTORS, CLOTH_VECTORS, CONTACT_VECTORS), **numbers(COARSE_SYSTEM),
-            **numbers(BEND_SYSTEM, BENDING_DAMPING_SYSTEM, CONTACT_SYSTEM),
+            **numbers(VECTORS, CLOTH_VECTORS, CONTACT_VECTORS, SURFACE_VECTORS),
+            **numbers(COARSE_SYSTEM),
+            **numbers(BEND_SYSTEM, BENDING_DAMPING_SYSTEM, CONTACT_SYSTEM, SURFACE_SYSTEM),
             **numbers(*cloth_system)}
         vectors = [count(*cloth_vectors)] + [count(VECTORS)] * coarse
         system = [count(*cloth_system)] + [count(COARSE_SYSTEM)] * coarse
@@ -87,6 +94,12 @@ class Levels:
     def cloth(self) -> Layout:
         """Return the finest level."""
         return self.layouts[0]
+
+    @property
+    def sum_count(self) -> int:
+        """Return how many sums passes over the cloth leave."""
+        cloth = self.cloth
+        return math.prod(cloth.groups) * (math.prod(cloth.local) if cloth.texture_loads else 1)
 
     @property
     def coarsest(self) -> int:
@@ -127,11 +140,12 @@ def _layout(state: Layout, rows: int, cols: int, has_much: bool) -> Layout:
 
 # What the solver keeps on the device.
 
-_VECTOR = numbers(VECTORS, CLOTH_VECTORS)
+_VECTOR = numbers(VECTORS, CLOTH_VECTORS, CONTACT_VECTORS, SURFACE_VECTORS)
 RESIDUAL, PRODUCT, PRECONDITIONED = (
     _VECTOR[name] for name in ('RESIDUAL', 'PRODUCT', 'PRECONDITIONED'))
 SOLUTION, CHANGE, START, LEFT = (
     _VECTOR[name] for name in ('SOLUTION', 'CHANGE', 'START', 'LEFT'))
+SURFACE_VALUE = _VECTOR['SURFACE_VALUE']
 _SYSTEM = numbers(CLOTH_SYSTEM, BEND_SYSTEM)
 TENSION, BEND_TENSION = _SYSTEM['TENSION'], _SYSTEM['BEND_TENSION']
 
@@ -174,11 +188,10 @@ class SolverBuffers:
         """
         refuse_too_large(levels, most_bytes())
         self._cloth = levels.cloth
-        self.sum_count = math.prod(self._cloth.groups)
-        if self._cloth.texture_loads:
-            self.sum_count *= math.prod(self._cloth.local)
+        self.sum_count = levels.sum_count
+        # One more for what edges and faces in contact add.
         self._sizes = (
-            levels.vector_bytes, levels.system_bytes, self.sum_count * _ENTRY_BYTES)
+            levels.vector_bytes, levels.system_bytes, (self.sum_count + 1) * _ENTRY_BYTES)
         self._large: _Large | None = None
         self._bind_calls: list[Call] | None = None
         self._scalars = Buffer(np.zeros(_SCALARS, dtype=np.float32), is_polled=True)
@@ -209,9 +222,13 @@ class SolverBuffers:
         self._scalars.read_into(values)
         return Scalars(*values.tolist())
 
-    def sums(self) -> tuple[float, float, float]:
-        """Return what a pass has stored by partial_sums.glsl, added up."""
-        values = np.empty((self.sum_count, 4), dtype=np.float32)
+    def sums(self, *, with_surface: bool = False) -> tuple[float, float, float]:
+        """
+        Return what a pass has stored by partial_sums.glsl, added up.
+
+        :param with_surface: add what surface_product.comp has stored
+        """
+        values = np.empty((self.sum_count + int(with_surface), 4), dtype=np.float32)
         self._allocated().sums.read_into(values)
         first, second, third, _ = values.sum(axis=0, dtype=np.float64)
         return float(first), float(second), float(third)

@@ -54,6 +54,10 @@ CONTACT_VECTORS = (
     Field(('GIVEN',)),           # impulse that the next solve has to add, over the node mass
     Field(('RIGHT',)),           # the right side, also where a node can't follow it
 )
+# Vectors of the cloth with thin colliders.
+SURFACE_VECTORS = (
+    Field(('SURFACE_VALUE',)),  # what cloth_correct.comp has multiplied
+)
 # System of the cloth.
 CLOTH_SYSTEM = (
     Field(('INVERSE',), 2),  # of the node's diagonal block, zero where the node can't move
@@ -79,6 +83,10 @@ CONTACT_SYSTEM = (
                           # leaves it free
     Field(('GRIP',)),     # the direction that a node slides in, where friction does not resist, if
                           # any, and what it resists across that, over the node mass
+)
+# With thin colliders.
+SURFACE_SYSTEM = (
+    Field(('SURFACE_GROUND',), 2),  # what contacts of edges and faces resist with at a node
 )
 # System of the coarse levels.
 COARSE_SYSTEM = (

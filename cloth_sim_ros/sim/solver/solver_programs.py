@@ -72,17 +72,19 @@ class SolverPrograms:
     :param has_bending_damping: whether bending is damped
     :param has_contact: whether nodes can touch something
     :param has_cells: whether the cloth is one of cells
+    :param has_surface: whether edges and faces can touch something
     """
 
     def __init__(
             self, state: Layout, levels: Levels, families: Collection[str], *,
             is_multigrid: bool, has_rigidity: bool, has_bending_damping: bool,
-            has_contact: bool = False, has_cells: bool = False) -> None:
+            has_contact: bool = False, has_cells: bool = False,
+            has_surface: bool = False) -> None:
         """Gather the choices made at compile time."""
         self.defines = solver_defines(
             state, levels, families, is_multigrid=is_multigrid, has_rigidity=has_rigidity,
             has_bending_damping=has_bending_damping, has_contact=has_contact,
-            has_cells=has_cells)
+            has_cells=has_cells, has_surface=has_surface)
         self._state = state
         self._levels = levels
         self._is_multigrid = is_multigrid
@@ -124,7 +126,7 @@ def solver_defines(
         state: Layout, levels: Levels, families: Collection[str], *,
         is_multigrid: bool, has_rigidity: bool,
         has_bending_damping: bool = False, has_contact: bool = False,
-        has_cells: bool = False) -> dict[str, object]:
+        has_cells: bool = False, has_surface: bool = False) -> dict[str, object]:
     """Return what every shader of the solver compiles in."""
     return {
         **levels.cloth.defines(),
@@ -135,6 +137,7 @@ def solver_defines(
         'HAS_BENDING_DAMPING': int(has_bending_damping),
         'HAS_CONTACT': int(has_contact),
         'HAS_CELLS': int(has_cells),
+        'HAS_SURFACE': int(has_surface),
         'BLOCKS_IN_LINE': int(state.texture_loads),
         'SUMS_BY_GROUP': int(not state.texture_loads),
         'POINT_LOCAL': POINT_LOCAL,

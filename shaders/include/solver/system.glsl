@@ -35,3 +35,12 @@ Symmetric load_cloth_inverse(int index) {
 vec3 times_inverse(int which, int index, vec3 v) {
     return times(load_symmetric(which, INVERSE, index), v);
 }
+
+#if HAS_SURFACE
+// What contacts of edges and faces resist with at a node, no less than they do together.
+Symmetric load_surface_ground(int index) {
+    return Symmetric(
+        load_system(cloth_entry(SURFACE_GROUND, index)).xyz,
+        load_system(cloth_entry(SURFACE_GROUND + 1, index)).xyz);
+}
+#endif

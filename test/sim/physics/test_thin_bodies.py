@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-"""Bodies that are thinner than cells hold the cloth between its nodes, in mode mass_spring."""
+"""Bodies that are thinner than cells hold the cloth between its nodes."""
 
 import warnings
 
@@ -37,6 +37,33 @@ BODIES = {
     'finger': {'shape': 'capsule', 'size': (0.01, 0.2), 'position': (*WITHIN[:2], -0.1)},
     'small box': {'shape': 'box', 'size': (0.03, 0.02, 0.02), 'position': WITHIN}}
 
+# What each of them is run in.
+MODES = {
+    'mass_spring': {'mode': 'mass_spring'},
+    'adaptive': {'mode': 'adaptive'},
+    'adaptive at its limit': {
+        'mode': 'adaptive', 'adaptive.threshold': 0.005, 'adaptive.scheme': 'list'},
+    'adaptive, the whole cloth': {
+        'mode': 'adaptive', 'adaptive.threshold': 0.005, 'adaptive.scheme': 'whole'},
+    'constraint': {'mode': 'constraint'}}
+# Bodies that modes other than mass_spring meet without --long.
+FEW = {'rod of 0.003 m', 'edge of a blade', 'sphere of 0.5 cell', 'finger'}
+
+
+def in_modes(names, few):
+    """Return the cases of modes and names of bodies; few in other modes are short."""
+    return pytest.mark.parametrize(('mode', 'name'), [
+        pytest.param(
+            values, name, id=f'{mode}, {name}',
+            marks=[] if mode == 'mass_spring' or name in few else [pytest.mark.long])
+        for mode, values in MODES.items() for name in names])
+
+
+@pytest.fixture(params=MODES.values(), ids=MODES)
+def values_of_mode(request):
+    """Return the values of each mode."""
+    return request.param
+
 
 def scene_with(body, **more):
     """Return a level cloth just above a body."""
@@ -61,36 +88,67 @@ def deepest(simulation, samples=12):
     return CLEARANCE - least
 
 
-@pytest.mark.parametrize('name', BODIES)
-def test_a_thin_body_holds_the_cloth(context, within, name):
+class ForceAccount:
+    """What bodies and pins have to have taken, by the momentum of the cloth and its weight."""
+
+    def __init__(self, simulation):
+        self._simulation = simulation
+        self._scene = simulation.scene
+        self._begin = simulation.time
+        self._length = self._scene['dt'] / max(simulation.snapshot().substeps, 1)
+        self._before = momenta_of(simulation)[0]
+        self._window = simulation.open_force_window()
+
+    def close(self):
+        """Return the force on all bodies, and by how much all is off; both over the weight."""
+        simulation, scene = self._simulation, self._scene
+        forces = simulation.frame_forces(self._window)
+        force = np.sum([contact.force for contact in forces.contacts], axis=0)
+        weight, time = scene.mass * 9.81, simulation.time - self._begin
+        # A velocity is that of the middle of its substep, and substeps change.
+        fallen = time + 0.5 * (self._length - scene['dt'] / simulation.snapshot().substeps)
+        expected = np.array((0.0, 0.0, -weight * fallen))
+        expected -= momenta_of(simulation)[0] - self._before
+        taken = force + forces.pins.forces.sum(axis=0)
+        return force / weight, float(np.abs(taken - expected / time).max() / weight)
+
+
+# How far the force may be off [1]: solves leave residuals, each of which the next one takes over;
+# with limits, a pass that has not found them all after 32 solves drops it (solver_reached).
+OFF = {'mass_spring': 1e-4, 'adaptive': 1e-4, 'whole': 5e-3, 'constraint': 1e-3}
+
+
+def most_off(values):
+    """Return it for the values of a mode."""
+    return OFF['whole' if values.get('adaptive.scheme') == 'whole' else values['mode']]
+
+
+@in_modes(BODIES, FEW)
+def test_a_thin_body_holds_the_cloth(context, within, mode, name):
     """Cloth would fall through a rod between two lines of nodes."""
-    scene = scene_with(BODIES[name])
+    scene = scene_with(BODIES[name], **mode)
     assert scene.thin_colliders == (0,)
     worst = -np.inf
     with Simulation(scene, context=context) as simulation:
         simulation.step(1)
-        before, window = momenta_of(simulation)[0], simulation.open_force_window()
+        account = ForceAccount(simulation)
         for _ in range(20):
             simulation.step(5)
             worst = max(worst, deepest(simulation))
-        force, = simulation.frame_forces(window).contacts
-        gained = momenta_of(simulation)[0] - before
+        force, off = account.close()
         # Its middle is still above the body.
         assert simulation.positions()[..., 2].max() > -0.05
-    weight = scene.mass * 9.81
-    # What the body takes is what the cloth weighs, less what its momentum grows by.
-    expected = np.array((0.0, 0.0, -weight)) - gained / 0.5
-    within('force, relative to the weight',
-           np.abs(force.force - expected).max() / weight, 1e-4)
-    assert force.force[2] < -0.2 * weight
+    within('force, relative to the weight', off, most_off(mode))
+    assert force[2] < -0.2
     within('depth of a triangle [m]', worst, 1e-6)
 
 
 @pytest.mark.parametrize('speed', [5.0, 10.0])
 @pytest.mark.parametrize('radius', [0.0005, 0.003])
-def test_a_thin_rod_is_not_passed_at_speed(context, within, radius, speed):
+def test_a_thin_rod_is_not_passed_at_speed(context, within, values_of_mode, radius, speed):
     """Cloth would be on the other side of a rod in one substep."""
-    scene = scene_with({'shape': 'capsule', 'size': (radius, 2.0), 'orientation': ALONG_Y})
+    scene = scene_with(
+        {'shape': 'capsule', 'size': (radius, 2.0), 'orientation': ALONG_Y}, **values_of_mode)
     with Simulation(scene, context=context) as simulation:
         rest = scene.rest_positions()
         simulation.set_state(rest, np.broadcast_to((0.0, 0.0, -speed), rest.shape))
@@ -103,10 +161,42 @@ def test_a_thin_rod_is_not_passed_at_speed(context, within, radius, speed):
     assert heights.max(axis=1).min() > -0.01
 
 
-def test_a_rod_that_moves_lifts_the_cloth(context, within):
+@pytest.mark.parametrize(('nodes', 'radius'), [
+    pytest.param(nodes, radius, marks=[] if (nodes, radius) == (16, 0.003) else [pytest.mark.long])
+    for nodes in (16, 33, 65) for radius in (0.001, 0.003, 0.01, 0.02)
+    # Others are not thin.
+    if 2.0 * radius < 1.4 / (nodes - 1)])
+@pytest.mark.parametrize('speed', [0.0, 5.0])
+def test_a_metre_of_cloth_is_held_at_any_resolution(
+        context, within, values_of_mode, nodes, radius, speed):
+    """Cloth of other cells would fall through the same rod, or be torn by it."""
+    # Between two lines of nodes.
+    place = (0.5 / (nodes - 1) if nodes % 2 else 0.0, 0.0, 0.0)
+    scene = scene_with(
+        {'shape': 'capsule', 'size': (radius, 3.0), 'orientation': ALONG_Y, 'position': place},
+        **{'width': 1.0, 'height': 1.0, 'rows': nodes, 'cols': nodes, **values_of_mode})
+    worst = -np.inf
+    with Simulation(scene, context=context) as simulation:
+        rest = scene.rest_positions()
+        simulation.set_state(rest, np.broadcast_to((0.0, 0.0, -speed), rest.shape))
+        simulation.step(1)
+        account = ForceAccount(simulation)
+        for _ in range(15):
+            simulation.step(3)
+            worst = max(worst, deepest(simulation))
+        force, off = account.close()
+        strain = simulation.measure().max_strain
+    within('depth of a triangle [m]', worst, 1e-6)
+    within('force, relative to the weight', off, most_off(values_of_mode) * (1.0 + speed))
+    within('strain', strain, 0.2)
+    assert force[2] < -0.1
+
+
+def test_a_rod_that_moves_lifts_the_cloth(context, within, values_of_mode):
     """A hand would go through the cloth that it lifts."""
     scene = scene_with(
-        {'shape': 'capsule', 'size': (0.004, 2.0), 'orientation': ALONG_Y}, **{'start.z': 0.02})
+        {'shape': 'capsule', 'size': (0.004, 2.0), 'orientation': ALONG_Y},
+        **{'start.z': 0.02, **values_of_mode})
     with Simulation(scene, context=context) as simulation:
         simulation.move_collider('body', (BETWEEN[0], 0.0, 0.4), speed=1.0)
         worst = -np.inf
@@ -118,24 +208,55 @@ def test_a_rod_that_moves_lifts_the_cloth(context, within):
     assert middle.min() > 0.3
 
 
-def test_an_edge_of_a_pinned_node_is_held(context, within):
-    """Cloth would pass a rod beside the nodes that it hangs from."""
+def test_an_edge_of_a_pinned_node_is_held(context, within, values_of_mode):
+    """Cloth would pass a rod beside the nodes it hangs from, which bear what the rod does not."""
     along_x = (0.0, 0.5**0.5, 0.0, 0.5**0.5)
     rod = {'shape': 'capsule', 'size': (0.004, 2.0), 'orientation': along_x,
            'position': (0.0, 0.25 - 0.5 * CELL, 0.0)}
-    scene = scene_with(rod, **{'pins': ('top_edge',), 'start.z': 0.02})
+    scene = scene_with(rod, **{'pins': ('top_edge',), 'start.z': 0.02, **values_of_mode})
     worst = -np.inf
     with Simulation(scene, context=context) as simulation:
-        window = simulation.open_force_window()
+        simulation.step(1)
+        account = ForceAccount(simulation)
         for _ in range(40):
             simulation.step(5)
             worst = max(worst, deepest(simulation))
-        force, = simulation.frame_forces(window).contacts
+        force, off = account.close()
     within('depth of a triangle [m]', worst, 1e-6)
-    assert force.force[2] < -0.1 * scene.mass * 9.81
+    within('force on rod and pins, relative to the weight', off, most_off(values_of_mode))
+    assert force[2] < -0.1
 
 
-def random_scene(random):
+def test_two_fingers_lift_the_cloth(context, within, values_of_mode):
+    """A gripper with thin fingers would come up without the cloth."""
+    radius, gap = 0.008, 0.00101
+    place = {'orientation': ALONG_Y, 'shape': 'capsule', 'size': (radius, 0.02), 'friction': 1.0}
+    fingers = {
+        f'colliders.{name}.{key}': value for name, height in (
+            ('upper', radius + 0.01), ('lower', -radius - CLEARANCE))
+        for key, value in {**place, 'position': (*WITHIN[:2], height)}.items()}
+    scene = Scene({
+        **{name: value for name, value in CLOTH.items() if not name.startswith('colliders.')},
+        **fingers, 'colliders.names': ('upper', 'lower'), 'start.z': 0.0, **values_of_mode})
+    assert scene.thin_colliders == (0, 1)
+    with Simulation(scene, context=context) as simulation:
+        simulation.move_collider(
+            'upper', (*WITHIN[:2], radius - CLEARANCE + gap), speed=0.1)
+        simulation.step(40)
+        for name, height in (('upper', radius + gap), ('lower', -radius)):
+            simulation.move_collider(name, (*WITHIN[:2], height - CLEARANCE + 0.15), speed=0.3)
+        simulation.step(110)
+        account = ForceAccount(simulation)
+        simulation.step(50)
+        _, off = account.close()
+        heights = simulation.positions()[..., 2]
+    # It hangs from the fingers by their friction.
+    assert heights.max() > 0.14
+    within('height that the cloth hangs down [m]', 0.15 - heights.min(), 0.36)
+    within('force on both fingers, relative to the weight', off, most_off(values_of_mode))
+
+
+def random_scene(random, values):
     """Return the scene of a random thin body below a cloth, and whether it moves; or None."""
     def length(least, most):
         return float(10.0**random.uniform(np.log10(least), np.log10(most)))
@@ -151,19 +272,20 @@ def random_scene(random):
         {'shape': shape, 'size': size, 'orientation': tuple(random.normal(size=4).tolist()),
          'position': (float(x), float(y), -max(size) - 0.02)},
         rows=nodes, cols=nodes, **{
-            'start.z': 0.02, 'colliders.body.friction': float(random.choice([0.0, 0.3, 1.0]))})
+            'start.z': 0.02, 'colliders.body.friction': float(random.choice([0.0, 0.3, 1.0])),
+            **values})
     return scene if scene.thin_colliders else None
 
 
 @pytest.mark.parametrize('count', [8, pytest.param(200, marks=pytest.mark.long)])
-def test_random_thin_bodies_are_not_passed(context, within, count):
+def test_random_thin_bodies_are_not_passed(context, within, values_of_mode, count):
     """A corner, a rim or a turn would let cloth through that the usual scenes hold."""
     seed = int(np.random.default_rng().integers(1_000_000))
     print(f'seed {seed}')
     worst = force_error = -np.inf
     for number in range(count):
         random = np.random.default_rng((seed, number))
-        scene = random_scene(random)
+        scene = random_scene(random, values_of_mode)
         if scene is None:
             continue
         with Simulation(scene, context=context) as simulation:
@@ -172,34 +294,32 @@ def test_random_thin_bodies_are_not_passed(context, within, count):
                     'body', random.uniform(-0.1, 0.1, 3).tolist(),
                     random.normal(size=4).tolist(), speed=float(random.uniform(0.2, 2.0)),
                     angular_speed=float(random.uniform(0.5, 6.0)))
-            window, before = simulation.open_force_window(), momenta_of(simulation)[0]
+            simulation.step(1)
+            account = ForceAccount(simulation)
             for _ in range(40):
                 simulation.step(3)
                 worst = max(worst, deepest(simulation, 8))
-            force, = simulation.frame_forces(window).contacts
-            gained = (momenta_of(simulation)[0] - before) / simulation.time
-        weight = scene.mass * 9.81
-        force_error = max(force_error, np.abs(
-            force.force + (0.0, 0.0, weight) + gained).max() / weight)
+            force_error = max(force_error, account.close()[1])
     within('depth of a triangle [m]', worst, 1e-6)
-    within('force, relative to the weight', force_error, 1e-4)
+    within('force, relative to the weight', force_error, most_off(values_of_mode))
 
 
-@pytest.mark.parametrize('name', ['rod of 0.01 m', 'bar', 'sphere of 0.5 cell'])
-def test_a_thin_body_gives_no_energy(context, within, name):
+@in_modes(['rod of 0.01 m', 'bar', 'sphere of 0.5 cell'], {'bar'})
+def test_a_thin_body_gives_no_energy(context, within, mode, name):
     """Cloth would be thrown by a body at rest."""
-    with Simulation(scene_with(BODIES[name]), context=context) as simulation:
+    with Simulation(scene_with(BODIES[name], **mode), context=context) as simulation:
         account = EnergyAccount(simulation)
         while simulation.time < 0.5:
             account.step()
     within('energy gained, relative to the largest kinetic energy', account.gained, 1e-3)
 
 
-def test_a_run_on_thin_bodies_has_the_same_bits_twice(context):
+def test_a_run_on_thin_bodies_has_the_same_bits_twice(context, values_of_mode):
     """No recording of it could be made again: contacts are found in any order."""
     found = []
     for _ in range(2):
-        with Simulation(scene_with(BODIES['rod of 0.003 m']), context=context) as simulation:
+        scene = scene_with(BODIES['rod of 0.003 m'], **values_of_mode)
+        with Simulation(scene, context=context) as simulation:
             simulation.step(100)
             found.append(simulation.snapshot().state_sha256)
     assert found[0] == found[1]
@@ -233,7 +353,7 @@ def test_a_hole_lets_a_rod_pass(context):
 
 
 @pytest.mark.parametrize('given', [
-    {'mode': 'constraint'}, {'mode': 'adaptive'}, {'contact.features': False}])
+    {'mode': 'constraint', 'contact.features': False}, {'contact.features': False}])
 def test_a_thin_body_that_nodes_pass_is_told_of(context, given):
     """A user would see cloth fall through a rod, and all flags well."""
     scene = scene_with(BODIES['rod of 0.003 m'], **given)

@@ -1,0 +1,32 @@
+// SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Contact of an edge or a face with a thin collider. A node owns the edges to the right and down,
+// the one across its cell, and the two triangles of the cell.
+
+#define SURFACE_EDGES 3
+#define SURFACE_ROWS_OF_BODY (SURFACE_EDGES + 2 * SURFACE_TIPS)
+
+// What acts on up to three nodes, with weights that add up to 1.
+struct SurfaceRow {
+    vec4 normal;    // away from the collider, and the gap [m] less the clearance
+    vec4 impulse;   // on the cloth [m/s of a node amid it], and whether there is a contact, 1 or 0
+    vec4 weights;   // of the three nodes, and the collider
+};
+
+// The offset of the nodes of a row from its owner.
+ivec3 surface_offsets(int row) {
+    if (row == 0) {
+        return ivec3(0, 1, 0);
+    }
+    if (row == 1) {
+        return ivec3(0, PITCH, 0);
+    }
+    if (row == 2) {
+        return ivec3(1, PITCH, 0);
+    }
+    return row < SURFACE_EDGES + SURFACE_TIPS
+        ? ivec3(0, PITCH, 1) : ivec3(1, PITCH, PITCH + 1);
+}
+
+int surface_row_count(int row) { return row < SURFACE_EDGES ? 2 : 3; }
