@@ -55,6 +55,34 @@ bool are_listed(ivec3 nodes) {
         && surface_nodes[nodes.z].is_listed == 1;
 }
 
+#if HAS_SELF
+// Parts of the pass, so that layers of the cloth act between them: list rows, let them act, and give
+// nodes what they have then. Nodes that layers act on get it in self_contact/nodes.comp.
+#define LISTS 1
+#define ACTS 2
+#define GIVES 4
+
+layout(binding = SELF_NODES) uniform samplerBuffer self_texels;
+
+uniform int parts;
+uniform float layer_unit;  // [m/s] of impulses of layers; 0: there are none
+
+bool has_part(int part) { return (parts & part) != 0; }
+
+bool has_layers(int index) {
+    return layer_unit > 0.0 && floatBitsToUint(texelFetch(self_texels, 3 * index).w) != 0u;
+}
+
+// Impulse of layers on a node [m/s].
+vec3 by_layers(int index) {
+    return layer_unit > 0.0
+        ? layer_unit * vec3(floatBitsToInt(texelFetch(self_texels, 3 * index).xyz)) : vec3(0.0);
+}
+#define ALL_IMPULSES(index) (gathered(index) + by_layers(index))
+#else
+#define ALL_IMPULSES(index) gathered(index)
+#endif
+
 void synchronise() {
     memoryBarrierBuffer();
     barrier();
@@ -335,15 +363,20 @@ void main() {
     }
 }
 #else
-void main() {
-    is_at_end = false;
+#if HAS_SELF
+#define NO_IMPULSES , vec4(0.0)
+#else
+#define NO_IMPULSES
+#endif
+
+void list_entries() {
     if (gl_LocalInvocationID.x == 0u) {
         surface_entries = 0u;
     }
     for (EACH_NEAR(i)) {
         int index = node_at(i);
         surface_nodes[index] = SurfaceNode(
-            velocity_out[index].xyz, 1, 0, 0, 0, 0.0, 0, 0, ivec2(0));
+            velocity_out[index].xyz, 1, 0, 0, 0, 0.0, 0, 0, ivec2(0) NO_IMPULSES);
     }
     synchronise();
     for (EACH_NEAR(i)) {
@@ -363,38 +396,51 @@ void main() {
         }
     }
     synchronise();
-#if !FINDS_IMPULSES
-    for (EACH_NEAR(i)) {
-        int index = node_at(i);
-        vec3 x = position_out[index].xyz;
-        vec3 way = out_of(near[uint(block_count) + i].bodies & SURFACE_COLLIDERS, x) - x;
-        float most = substep * way_out_speed / max(length(way), 1e-30);
-        position_out[index].xyz = inverse_mass(index) > 0.0 ? x + min(most, 1.0) * way : x;
+}
+
+#if FINDS_IMPULSES
+// The velocities of held nodes by the impulses that there are.
+void move_held_nodes() {
+    for (EACH_HELD(i)) {
+        int index = held_node(i);
+#if HAS_SELF
+        surface_nodes[index].by_rows.xyz = gathered(index);
+#endif
+        if (inverse_mass(index) > 0.0) {
+            vec3 x = load_position(index).xyz;
+            vec3 v = surface_nodes[index].free + inverse_mass(index) * ALL_IMPULSES(index);
+            velocity_out[index].xyz = contact_with(
+                near[uint(block_count) + held_place(i)].bodies, x, v, v, substep).velocity;
+        }
     }
-#else
-    bool has_entries = surface_entries > 0u;
-    if (has_entries) {
-        find_all_rows();
+    synchronise();
+}
+
+void let_rows_act() {
+    bool is_done = surface_entries == 0u || acting_rows == 0u;
+#if HAS_SELF
+    if (!is_done) {
+        move_held_nodes();
     }
-    bool is_done = !has_entries || acting_rows == 0u;
+#endif
     for (int round = 0; !is_done && round < IMPULSE_ROUNDS; ++round) {
         is_done = rows_act();
-        for (EACH_HELD(i)) {
-            int index = held_node(i);
-            if (inverse_mass(index) > 0.0) {
-                vec3 x = load_position(index).xyz;
-                vec3 v = surface_nodes[index].free + inverse_mass(index) * gathered(index);
-                velocity_out[index].xyz = contact_with(
-                    near[uint(block_count) + held_place(i)].bodies, x, v, v, substep).velocity;
-            }
-        }
-        synchronise();
+        move_held_nodes();
     }
-    for (uint i = gl_LocalInvocationID.x; has_entries && i < held_nodes; i += SURFACE_LOCAL) {
+}
+
+// Write the state to come of held nodes, and what was done to colliders.
+void give() {
+    for (uint i = gl_LocalInvocationID.x; i < held_nodes; i += SURFACE_LOCAL) {
         int index = held_node(i);
         vec3 x = load_position(index).xyz;
-        if (inverse_mass(index) > 0.0) {
-            vec3 v = surface_nodes[index].free + inverse_mass(index) * gathered(index);
+#if HAS_SELF
+        bool is_given = inverse_mass(index) > 0.0 && !has_layers(index);
+#else
+        bool is_given = inverse_mass(index) > 0.0;
+#endif
+        if (is_given) {
+            vec3 v = surface_nodes[index].free + inverse_mass(index) * ALL_IMPULSES(index);
             Contact contact = contact_with(
                 near[uint(block_count) + held_place(i)].bodies, x, v, v, substep);
 #if HAS_LOW_PARTS
@@ -423,6 +469,41 @@ void main() {
             }
         }
     }
+}
+#endif
+
+void main() {
+    is_at_end = false;
+#if !FINDS_IMPULSES
+    list_entries();
+    for (EACH_NEAR(i)) {
+        int index = node_at(i);
+        vec3 x = position_out[index].xyz;
+        vec3 way = out_of(near[uint(block_count) + i].bodies & SURFACE_COLLIDERS, x) - x;
+        float most = substep * way_out_speed / max(length(way), 1e-30);
+        position_out[index].xyz = inverse_mass(index) > 0.0 ? x + min(most, 1.0) * way : x;
+    }
+#else
+#if HAS_SELF
+    if (has_part(LISTS)) {
+        list_entries();
+        find_all_rows();
+    }
+    if (has_part(ACTS)) {
+        let_rows_act();
+    }
+    if (has_part(GIVES)) {
+        give();
+    }
+#else
+    list_entries();
+    bool has_entries = surface_entries > 0u;
+    if (has_entries) {
+        find_all_rows();
+        let_rows_act();
+        give();
+    }
+#endif
 #endif
 }
 #endif

@@ -13,6 +13,9 @@ struct SurfaceNode {
     int first_row;  // in the list of its rows
     int row_count;
     ivec2 held;     // of the list of held nodes: its place among the near ones, and the node
+#if HAS_SELF
+    vec4 by_rows;   // sum of their impulses [m/s]
+#endif
 };
 
 layout(std430, binding = SURFACE_NODES) coherent buffer SurfaceNodes { SurfaceNode surface_nodes[]; };

@@ -27,6 +27,11 @@ layout(std430, binding = SELF_VELOCITIES) writeonly buffer SelfVelocities { vec4
 #include "held.glsl"
 #endif
 
+#if HAS_SURFACE
+// Nodes of surface_nodes.glsl, four texels each.
+layout(binding = SURFACE_NODES) uniform samplerBuffer surface_texels;
+#endif
+
 uniform float substep;  // [s]
 uniform float way_unit;  // [m]
 uniform int is_last;
@@ -44,7 +49,18 @@ void main() {
     SelfNode node = self_nodes[index];
     vec4 free = velocity_out[index];
     vec3 x = load_position(index).xyz;
-    vec3 v = free.xyz + free.w * of_numbers(node.impulse, impulse_unit(speed_unit()));
+    vec3 impulse = of_numbers(node.impulse, impulse_unit(speed_unit()));
+#if HAS_SURFACE
+    // Thin colliders have changed the velocity already.
+    vec4 without = texelFetch(surface_texels, 4 * index);
+    bool is_listed = floatBitsToInt(without.w) == 1;
+    bool is_held = is_listed && floatBitsToInt(texelFetch(surface_texels, 4 * index + 1).z) == 1;
+    free.xyz = is_listed ? without.xyz : free.xyz;
+    vec3 by_rows = texelFetch(surface_texels, 4 * index + 3).xyz;
+    vec3 v = free.xyz + free.w * (impulse + (is_held ? by_rows : vec3(0.0)));
+#else
+    vec3 v = free.xyz + free.w * impulse;
+#endif
 #if HAS_CONTACT
     uint bodies = free.w > 0.0 ? near_bodies(x, 0.0, substep * length(v)) : 0u;
     touched_count = 0;
@@ -62,7 +78,7 @@ void main() {
 #if HAS_HELD
     vec4 position = load_position(index);
     if (is_held_by_pin(position, free)) {
-        held[held_entry(index)].xyz += of_numbers(node.impulse, impulse_unit(speed_unit()));
+        held[held_entry(index)].xyz += impulse;
     }
 #endif
     self_nodes[index].impulse = int[3](0, 0, 0);

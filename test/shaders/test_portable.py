@@ -132,6 +132,10 @@ _FORMS = {
         'WAYS_OUT': 1, 'NOTES_CHANGES': 0, 'FINDS_IMPULSES': 1, **_SURFACE, 'SURFACE_TIPS': 2},
     'surface_contact.comp, of nodes': {
         'WAYS_OUT': 0, 'NOTES_CHANGES': 0, 'FINDS_IMPULSES': 0, **_SURFACE},
+    'surface_contact.comp, beside layers': {
+        'WAYS_OUT': 0, 'NOTES_CHANGES': 0, 'FINDS_IMPULSES': 1, 'HAS_SELF': 1, **_SURFACE},
+    'self_contact/nodes.comp, beside the surface': {
+        'LOADS_TEXTURE': 1, 'SELF_LOCAL': 32, 'HAS_HELD': 1, 'HAS_SELF': 1, 'HAS_SURFACE': 1},
     'contact.comp, beside layers': {'NOTES_CHANGES': 0, 'HAS_SELF': 1},
     **{f'self_contact/{name}.comp': {'LOADS_TEXTURE': 1, 'SELF_LOCAL': 32} for name in (
         'boxes', 'crossings', 'keep', 'nodes', 'pairs', 'round')},

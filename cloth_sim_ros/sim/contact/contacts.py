@@ -18,6 +18,7 @@ from cloth_sim_ros.sim.device import bindings
 from cloth_sim_ros.sim.device.layout import Layout
 from cloth_sim_ros.sim.device.scene_program import SceneProgram
 from cloth_sim_ros.sim.loads.forcing import Forcing
+from cloth_sim_ros.sim.loads.forcing import Layers
 from cloth_sim_ros.sim.model.colliders import Collider
 from cloth_sim_ros.sim.model.colliders import SHAPES
 from cloth_sim_ros.sim.model.frame_paths import FrameMove
@@ -272,6 +273,24 @@ class Contacts:
         """Act on an explicit substep that was made, both states of which are bound."""
         self._act(self._program, self._surface if on_surface else None, held_at)
 
+    def act_beside(self, layers: Layers, held_at: int) -> None:
+        """Act on an explicit substep in which ``layers`` of the cloth touch, and let them act."""
+        self._near.bind_dispatches()
+        shader_dispatches_visible()
+        if self._surface is None:
+            self._near_nodes.use().dispatch_indirect(0)
+            shader_dispatches_visible()
+            self._program.use().dispatch_indirect(_NODE_GROUPS)
+            shader_writes_visible()
+            layers.let_act()
+            layers.give(held_at)
+        else:
+            self._surface.list_nodes(0)
+            shader_dispatches_visible()
+            self._surface.act_beside(layers, _NODE_GROUPS, held_at)
+            shader_writes_visible()
+            self._surface.move_out()
+
     def _act(
             self, act: SceneProgram, surface: SurfaceContact | None, held_at: int, *,
             notes_changes: bool = False) -> None:
@@ -522,6 +541,9 @@ class _Touch:
 
     def move_out(self, state: State, length: float) -> None:
         self._contacts.move_out(self, state, length)
+
+    def act_beside(self, layers: Layers, held_at: int) -> None:
+        self._contacts.act_beside(layers, held_at)
 
     def begin_try(self) -> None:
         self._contacts.begin_try()

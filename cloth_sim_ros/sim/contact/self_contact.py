@@ -50,7 +50,10 @@ _OF_EDGES = 0.998
 # Pairs that there is room for at first, over nodes [1].
 _PAIRS = 4
 # Size of an entry of each kind in the shaders [bytes].
-_PAIR_BYTES, _CONTACT_BYTES, _NODE_BYTES, _BOX_BYTES = 16, 64, 36, 32
+_PAIR_BYTES, _CONTACT_BYTES, _NODE_BYTES, _BOX_BYTES = 16, 64, 48, 32
+# Range of the sums of impulses over the speed in a substep [1], as in contacts.glsl, and the least
+# such speed [m/s].
+_SUM_RANGE, _LEAST_SPEED = 4096.0, 1e-9
 # Place of the share of its way that a node may go, in that of nodes [1].
 _CUT = 7
 # Range of the ways out of layers over the fastest [1], as in round.comp.
@@ -109,6 +112,7 @@ class SelfContact:
     def __init__(self, scene: Scene, layout: Layout) -> None:
         """Allocate; passes are compiled when they are first used."""
         self._scene, self._layout = scene, layout
+        self._gravity = float(np.linalg.norm(scene['gravity']))
         self._thickness: float = scene['self_contact.thickness']
         self._levels = _levels(layout.rows, layout.cols)
         self._programs = _programs(scene, layout)
@@ -138,6 +142,7 @@ class SelfContact:
     def forget(self) -> None:
         """Drop lists and impulses: the next state is not the result of the last substep."""
         self._reach = 0.0
+        self._impulse_unit = 0.0
         # Edges that pierce triangles; None where nobody has looked.
         self._crossings: int | None = None
         self._counts = 0, 0
@@ -156,12 +161,19 @@ class SelfContact:
         """Return whether there may be contacts in the substep under way."""
         return any(self._counts)
 
+    @property
+    def impulse_unit(self) -> float:
+        """Return the unit of the impulses of nodes [m/s], as contacts.glsl has it."""
+        return self._impulse_unit
+
     def run_all_passes(self, state: State) -> None:
         """Run each pass on a ``state`` that nobody needs, the next state of which is written."""
         self.find(state, self._scene['dt'])
         self._build(state, self._thickness)
         self._find_contacts(state)
-        self.act(state)
+        self.begin(state)
+        self.let_act()
+        self.give(-1)
         self.guard(state)
         self.forget()
 
@@ -208,6 +220,8 @@ class SelfContact:
         # Pins and what lies on a collider stay where they are, whatever ways are cut.
         is_free = not (self._scene.has_contact or state.pinned.any())
         self._common_way = 0.5 * length * (slowest + fastest) if is_free else np.zeros(3)
+        speed = way / length + self._gravity * length + _LEAST_SPEED
+        self._impulse_unit = speed * _SUM_RANGE / 2.0**31 if self.has_pairs else 0.0
         self.figures = SelfContactFigures()
         if self.has_pairs:
             self._find_contacts(state)
@@ -215,16 +229,18 @@ class SelfContact:
             left = 0.5 * _USED * (self._reach - self._thickness) - min(moved, room)
             self._unlooked = int(min(_MOST_UNLOOKED, left / (_FASTER * way)))
 
-    def act(self, state: State, held_at: int = -1) -> None:
-        """
-        Let layers act on each other, and colliders on the nodes that they touch.
-
-        :param held_at: where the substep has left its entries of held.glsl; below 0: nowhere
-        """
+    def begin(self, state: State) -> None:
+        """Begin to act: the impulses of the last substep."""
         state.bind_in_textures()
         state.bind_out()
         self._velocities.bind_storage(bindings.SELF_VELOCITIES)
         self._velocities.bind_texture(bindings.SELF_VELOCITIES)
+        self._nodes.bind_texture(bindings.SELF_NODES)
+        self._is_first = True
+        self._rounds = 0
+
+    def let_act(self) -> None:
+        """Let contacts act on each other, in rounds, and colliders on the nodes that they hold."""
         self._head.bind_dispatches()
         shader_dispatches_visible()
         self._let_nodes_move(is_last=False)
@@ -233,10 +249,10 @@ class SelfContact:
             for number in range(_ROUNDS):
                 program = self._programs['round'].use()
                 program.set_int('part', (
-                    _FIRST_ROUND * (rounds + number == 0)
-                    + _LAST_ROUND * (number == _ROUNDS - 1)))
+                    _FIRST_ROUND * self._is_first + _LAST_ROUND * (number == _ROUNDS - 1)))
                 program.dispatch_indirect(_CONTACT_GROUPS)
                 shader_writes_visible()
+                self._is_first = False
                 if number < _ROUNDS - 1:
                     self._let_nodes_move(is_last=False)
             rounds += _ROUNDS
@@ -246,7 +262,15 @@ class SelfContact:
                 break
             self._let_nodes_move(is_last=False)
             self._head.write(np.zeros(2, dtype=np.uint32), _place('largest_impulse'))
-        self._rounds = rounds
+        self._rounds += rounds
+
+    def give(self, held_at: int) -> None:
+        """
+        Write the state to come of the nodes that touch.
+
+        :param held_at: where the substep has left its entries of held.glsl; below 0: nowhere
+        """
+        self._head.bind_dispatches()
         self._let_nodes_move(is_last=True, held_at=held_at)
 
     def guard(self, state: State) -> SelfContactFigures:
@@ -412,11 +436,10 @@ class SelfContact:
         if length == self._length:
             return
         self._length = length
-        gravity = float(np.linalg.norm(self._scene['gravity']))
         for name, part in self._programs.items():
             program = part.use()
             program.set_float('substep', length)
-            program.set_float('least_speed_unit', gravity * length + 1e-9)
+            program.set_float('least_speed_unit', self._gravity * length + _LEAST_SPEED)
             program.set_float('thickness', self._thickness)
             program.set_float('friction', self._scene['self_contact.friction'])
             program.set_float('way_unit', length * _WAY_RANGE)
@@ -433,10 +456,12 @@ def _programs(scene: Scene, layout: Layout) -> dict[str, SceneProgram]:
     """Return the passes by name; of those over pairs, one for each kind: 0 and 1, of edges."""
     strips = Strips.defines()
     of_items: dict[str, object] = {'SELF_LOCAL': _LOCAL}
+    has_surface = int(bool(scene.thin_colliders))
     forms: dict[str, dict[str, object]] = {
-        **dict.fromkeys(('boxes', 'crossings', 'pairs', 'keep', 'round', 'nodes'), of_items),
+        **dict.fromkeys(('boxes', 'crossings', 'pairs', 'keep', 'round'), of_items),
+        'nodes': {**of_items, 'HAS_SURFACE': has_surface},
         # Adds what layers do to pinned nodes to the entries of held.glsl.
-        'nodes held': {**of_items, 'HAS_HELD': 1},
+        'nodes held': {**of_items, 'HAS_SURFACE': has_surface, 'HAS_HELD': 1},
         **{f'{name} {of_edges}': {**of_items, 'OF_EDGES': of_edges}
            for name in ('contacts', 'guard') for of_edges in (0, 1)},
         **dict.fromkeys(('ways', 'longest', 'cut'), strips)}

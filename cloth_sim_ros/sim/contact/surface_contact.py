@@ -12,6 +12,7 @@ from cloth_sim_ros.gl.program import Program
 from cloth_sim_ros.sim.device import bindings
 from cloth_sim_ros.sim.device.layout import Layout
 from cloth_sim_ros.sim.device.scene_program import SceneProgram
+from cloth_sim_ros.sim.loads.forcing import Layers
 from cloth_sim_ros.sim.model.colliders import rows_of
 from cloth_sim_ros.sim.model.colliders import surface_defines
 from cloth_sim_ros.sim.scene import Scene
@@ -21,6 +22,12 @@ import numpy as np
 _LOCAL = 16
 # Size of an entry of each kind in surface_rows.glsl and surface_nodes.glsl [bytes].
 _ROW_BYTES, _NODE_BYTES, _HEAD_BYTES = 96, 48, 32
+# Size of a node where layers of the cloth touch as well [bytes]: with the sum of its impulses.
+_LAYERED_NODE_BYTES = 64
+# Turns of thin colliders and layers in a substep [1].
+_TURNS = 4
+# Parts of surface_contact.comp, between which layers act.
+_LISTS, _ACTS, _GIVES = 1, 2, 4
 
 
 class SurfaceContact:
@@ -51,7 +58,9 @@ class SurfaceContact:
         self._has_warned = False
         self._most_entries = scene.node_count * len(numbers)
         rows = max(rows_of(scene.colliders[number]) for number in numbers)
-        self._nodes = Buffer(np.zeros(layout.stored * _NODE_BYTES // 4, dtype=np.float32))
+        self._has_layers: bool = scene['self_contact.enabled']
+        node_bytes = _LAYERED_NODE_BYTES if self._has_layers else _NODE_BYTES
+        self._nodes = Buffer(np.zeros(layout.stored * node_bytes // 4, dtype=np.float32))
         self._rows = Buffer(np.zeros(
             (_HEAD_BYTES + self._most_entries * rows * _ROW_BYTES) // 4, dtype=np.float32))
 
@@ -84,13 +93,47 @@ class SurfaceContact:
         :param groups: offset of the workgroups in the buffer of dispatches [bytes]
         :param held_at: where the entries of held.glsl are, bound by now; below 0: nowhere
         """
-        self._impulses[notes_changes].use().dispatch(1)
+        program = self._impulses[notes_changes].use()
+        if self._has_layers:
+            program.set_int('parts', _LISTS | _ACTS | _GIVES)
+            program.set_float('layer_unit', 0.0)
+        program.dispatch(1)
         shader_writes_visible()
+        self._act_on_pins(held_at)
+        self._others[notes_changes].use().dispatch_indirect(groups)
+
+    def act_beside(self, layers: Layers, groups: int, held_at: int) -> None:
+        """
+        Do the same in turns with ``layers``, whose contacts have been found.
+
+        :param groups: offset of the workgroups in the buffer of dispatches [bytes]
+        :param held_at: where the entries of held.glsl are, bound by now; below 0: nowhere
+        """
+        program = self._impulses[False].use()
+        program.set_float('layer_unit', layers.impulse_unit)
+        self._nodes.bind_texture(bindings.SURFACE_NODES)
+        self._run_part(_LISTS)
+        # Nodes that neither rows nor layers act on.
+        self._others[False].use().dispatch_indirect(groups)
+        shader_writes_visible()
+        for _ in range(_TURNS):
+            self._run_part(_ACTS)
+            layers.let_act()
+        self._run_part(_GIVES)
+        self._act_on_pins(held_at)
+        layers.give(held_at)
+
+    def _run_part(self, part: int) -> None:
+        program = self._impulses[False].use()
+        program.set_int('parts', part)
+        program.dispatch(1)
+        shader_writes_visible()
+
+    def _act_on_pins(self, held_at: int) -> None:
         if held_at >= 0:
             pins = self._pins.use()
             pins.set_int('held_at', held_at)
             pins.dispatch(1)
-        self._others[notes_changes].use().dispatch_indirect(groups)
 
     def move_out(self) -> None:
         """Move edges and faces out of colliders that they are left within."""

@@ -15,6 +15,20 @@ if TYPE_CHECKING:
     from cloth_sim_ros.sim.state import State
 
 
+class Layers(Protocol):
+    """The contact of the cloth with itself in a substep."""
+
+    @property
+    def impulse_unit(self) -> float:
+        """Get the unit of the impulses of nodes [m/s]."""
+
+    def let_act(self) -> None:
+        """Let the contacts act on the velocities that nodes have now."""
+
+    def give(self, held_at: int) -> None:
+        """Write the state to come of the nodes that touch."""
+
+
 class Touch(Protocol):
     """What the cloth touches in one step."""
 
@@ -44,6 +58,9 @@ class Touch(Protocol):
 
     def move_out(self, state: 'State', length: float) -> None:
         """Move edges and faces out of thin colliders at the end of an implicit substep."""
+
+    def act_beside(self, layers: Layers, held_at: int) -> None:
+        """Do the same where ``layers`` of the cloth touch, in turns with them."""
 
     def begin_try(self) -> None:
         """Begin a substep that may be made again: remember what was done before it."""

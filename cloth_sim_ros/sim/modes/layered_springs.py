@@ -134,12 +134,19 @@ class LayeredSprings(MassSpring):
         self._layers.find(state, length)
         touch = forcing.touch
         may_halve = self._layers.has_pairs and halvings < _MOST_HALVINGS
-        if touch is not None:
-            if may_halve:
-                touch.begin_try()
-            touch.act(self._springs.held_at, on_surface=True)
-        if self._layers.has_pairs:
-            self._layers.act(state, self._springs.held_at)
+        held_at = self._springs.held_at
+        if touch is not None and may_halve:
+            touch.begin_try()
+        if not self._layers.has_pairs:
+            if touch is not None:
+                touch.act(held_at, on_surface=True)
+        else:
+            self._layers.begin(state)
+            if touch is not None:
+                touch.act_beside(self._layers, held_at)
+            else:
+                self._layers.let_act()
+                self._layers.give(held_at)
             figures = self._layers.guard(state)
             if may_halve and figures.largest_cut > self._most_cut:
                 self._tally.halvings += 1

@@ -18,6 +18,7 @@ struct SelfNode {
     int way[3];      // out of layers that are too near
     uint cut;        // bits of the share of its way that it may go
     uint listed;     // of the list of nodes with contacts, which stands here: a node
+    uint spare[3];   // so that it is three texels
 };
 
 #define SHARE_PARTS 1048576.0
