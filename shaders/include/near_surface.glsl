@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Which thin colliders a node, or what it is a node of, may come to: by their distance, as the
-// sphere around a long rod holds most of a cloth.
+// Thin colliders that a node, or an edge or face of it, may come to: by their distance, as the sphere
+// around a long rod holds most of a cloth.
 
 uniform float feature_reach;  // [m] that a node may be from where an edge or face of it touches
 
-// Of some bodies, those that are not thin, or that a node at x with velocity v is near.
+// Bits of the bodies that are not thin, or that a node at x with velocity v is near.
 uint near_surface(uint bodies, vec3 x, vec3 v, float h) {
     uint near = bodies & ~SURFACE_COLLIDERS;
     for (bodies &= SURFACE_COLLIDERS; bodies != 0u; bodies &= bodies - 1u) {

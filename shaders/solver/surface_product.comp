@@ -5,7 +5,7 @@
 // What contacts with thin colliders add to a pass over the cloth: their part of the matrix times a
 // vector, at the nodes that they act on. One workgroup.
 
-// Where it goes.
+// Kinds of a field that it is added to.
 #define TO_RESIDUAL 0    // of an initial solution, and its first smoothing
 #define TO_SMOOTHED 1
 #define TO_DEFECT 2
@@ -24,7 +24,7 @@ layout(std430, binding = SOLVER_SUMS) writeonly buffer PartialSums { vec4 partia
 
 uniform int field;       // of the vector
 uniform int into_field;
-uniform int into;        // what that is
+uniform int into;        // the kind of that field
 uniform bool goes_up;    // of a smoothing: which of the two steps it is
 uniform int sum_at;      // of the scalar product
 
