@@ -16,7 +16,7 @@ from cloth_sim_ros.messages.frame_names import grasp_frame
 from cloth_sim_ros.messages.frame_names import node_of_pin
 from cloth_sim_ros.messages.frame_names import pin_frame
 from cloth_sim_ros.messages.stamp import NANOSECONDS
-from cloth_sim_ros.messages.stamp import nanoseconds
+from cloth_sim_ros.messages.time_base import TimeBase
 from cloth_sim_ros.node.frame_tree import checked_pose
 from cloth_sim_ros.node.frame_tree import FrameHistory
 from cloth_sim_ros.node.frame_tree import FrameTree
@@ -55,13 +55,16 @@ class OwnFrames:
 
     :param node_name: with its namespace
     :param frame_id: of the cloth, their parent
+    :param base: of the stamps
     """
 
-    def __init__(self, simulation: Simulation, node_name: str, frame_id: str) -> None:
+    def __init__(
+            self, simulation: Simulation, node_name: str, frame_id: str, base: TimeBase) -> None:
         """Begin with the present."""
         self._simulation = simulation
         self._node_name = node_name
         self._frame_id = frame_id
+        self._base = base
         self._prefixes = tuple(
             name(node_name, '') for name in (grasp_frame, collider_frame, _pins_frame))
         self._bodies: dict[str, FrameHistory] = {}
@@ -81,14 +84,14 @@ class OwnFrames:
 
     def _note_bodies(self) -> None:
         """Remember where grasps and colliders are now."""
-        now, poses = nanoseconds(self._simulation.time), self._body_poses()
+        now, poses = self._base.at(self._simulation.time), self._body_poses()
         self._bodies = {name: self._bodies.get(name, FrameHistory()) for name in poses}
         for name, pose in poses.items():
             self._add(self._bodies[name], now, pose)
 
     def _note_pins(self, snapshot: Snapshot) -> None:
         """Remember where pins are in ``snapshot``."""
-        now = nanoseconds(snapshot.time)
+        now = self._base.at(snapshot.time)
         nodes = np.flatnonzero(self._pinned())
         while self._pins and not now - KEPT <= self._pins[0][0] <= now:
             self._pins.popleft()
@@ -107,7 +110,7 @@ class OwnFrames:
         """
         if not self.owns(frame):
             return None
-        now, pose = nanoseconds(self._simulation.time), self._body_poses().get(frame)
+        now, pose = self._base.at(self._simulation.time), self._body_poses().get(frame)
         if pose is not None:
             history = self._bodies.setdefault(frame, FrameHistory())
             self._add(history, now, pose)

@@ -17,6 +17,13 @@ NODE_FIELDS = (
     Field('real_time_factor', float, 1.0, 'target ratio of simulated time to wall time, at least '
           f'{SLOWEST:g}; 0 to run as fast as possible', low=0.0, high=1e6, live=True),
     Field('start_paused', bool, False, 'start paused; ~/pause resumes, ~/step advances'),
+    Field('time.source', str, 'own', 'what sets pace and stamps: own, simulated time at '
+          '`real_time_factor`; ros, /clock in lockstep', choices=('own', 'ros')),
+    Field('time.epoch', str, 'zero', 'stamp of simulated time 0 with `time.source: own`: zero, or '
+          'that of the wall clock', choices=('zero', 'wall')),
+    Field('time.jump_back', str, 'reset', 'with `time.source: ros`, what a /clock that goes back '
+          'behind the cloth does: reset the cloth, or refuse, which stops the run',
+          choices=('reset', 'refuse')),
     Field('publish.rate', float, 50.0, 'frames per second of simulated time', 'Hz',
           low=1e-3, high=1e6),
     Field('publish.points', bool, True, 'publish ~/points', live=True),
@@ -75,6 +82,8 @@ def check_together(values: Mapping[str, Any]) -> None:
         raise ClothSimError(
             f'real_time_factor {factor:g} is slower than {SLOWEST:g}: give 0 to run as fast as '
             'possible, or a larger one; to stand still, pause')
+    if values['time.source'] == 'ros':
+        _check_one_source(values)
     count = len(values['clicked_point.force'])
     if count != 3:
         raise ClothSimError(
@@ -84,3 +93,14 @@ def check_together(values: Mapping[str, Any]) -> None:
             raise ClothSimError(
                 f'{name} must be 0 or {least} and more, got {values[name]}: give {least}, or 0 '
                 'for no limit')
+
+
+def _check_one_source(values: Mapping[str, Any]) -> None:
+    if values['publish.clock']:
+        raise ClothSimError(
+            'time.source: ros follows /clock and publish.clock: true publishes it: set '
+            'time.source: own or publish.clock: false')
+    if values['time.epoch'] != 'zero':
+        raise ClothSimError(
+            f'time.source: ros takes stamps from /clock and time.epoch: {values["time.epoch"]} '
+            'sets them: leave time.epoch out, or set time.source: own')

@@ -12,6 +12,7 @@ from cloth_sim_interfaces.msg import ClothState
 from cloth_sim_ros.gl.errors import DeviceError
 from cloth_sim_ros.messages.frame_messages import Pace
 from cloth_sim_ros.messages.state import slow_pace
+from cloth_sim_ros.node.node_time import NodeTime
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.simulation import Simulation
 from cloth_sim_ros.sim.stop import StepAbandoned
@@ -144,6 +145,7 @@ class RunLoop:
     :param is_due: returns whether a job waits for the end of the step
     :param stop: returns whether to abandon the step
     :param is_held_back: returns whether frames wait that have to be served first
+    :param node_time: may hold the steps back, and hears when they go on
     """
 
     def __init__(
@@ -151,7 +153,8 @@ class RunLoop:
             report: PaceReport, paused: bool,
             on_frame: Callable[[Callable[[], Pace]], None], on_stop: Callable[[], None],
             note: Callable[[Exception, str], str], is_due: Callable[[], bool],
-            stop: Callable[[], bool], is_held_back: Callable[[], bool]) -> None:
+            stop: Callable[[], bool], is_held_back: Callable[[], bool],
+            node_time: NodeTime) -> None:
         """Prepare; nothing moves before there is a mode."""
         self._simulation = simulation
         self._frame_seconds = frame_seconds
@@ -161,8 +164,9 @@ class RunLoop:
         self._on_stop = on_stop
         self._note = note
         self._is_due = is_due
-        self._stop = stop
+        self._is_stopped = stop
         self._is_held_back = is_held_back
+        self._time = node_time
         self._paused = paused
         self._problem = ''
         # Wall time at which the next frame is due [s].
@@ -198,6 +202,7 @@ class RunLoop:
 
     def start(self) -> None:
         """Pace frames from now on."""
+        self._time.catch_up()
         now = time.monotonic()
         self._pacing.restart(now)
         self._due = now
@@ -222,6 +227,10 @@ class RunLoop:
             self._paused = False
             self._problem = ''
             self.start()
+
+    def stop(self, error: ClothSimError) -> None:
+        """Stop with ``error``, which is not of a step."""
+        self._end_run(error)
 
     def restart(self) -> None:
         """Forget a stop, and begin with a whole frame."""
@@ -265,8 +274,15 @@ class RunLoop:
         left = self._due - time.monotonic()
         if left > 0.0 and self._answer is None:
             return left
+        if self._is_waiting_for_time():
+            return None
         self._work()
         return 0.0
+
+    def _is_waiting_for_time(self) -> bool:
+        """Return whether the next step is one that the time that is followed has not reached."""
+        goal = self._time.goal
+        return goal is not None and self._answer is None and self._simulation.steps >= goal
 
     def _work(self) -> None:
         """Make steps until the frame, or all steps, are made, or a job waits."""
@@ -278,7 +294,12 @@ class RunLoop:
                 self._begin_frame()
                 self._is_frame_open = True
                 stepping.aim(self._frame_seconds)
-            self._simulation.work(self._is_due, self._stop)
+                self._frame_goal = stepping.goal
+            if self._answer is None:
+                # Within a frame, the time that is followed may have come less far.
+                goal = self._time.goal
+                stepping.goal = self._frame_goal if goal is None else min(self._frame_goal, goal)
+            self._simulation.work(self._is_due, self._is_stopped)
         except StepAbandoned:
             return
         except (ClothSimError, DeviceError) as error:
@@ -291,12 +312,13 @@ class RunLoop:
         self._worked += time.monotonic() - begin
         if problem is not None:
             self._end_run(problem)
-        elif not stepping.is_behind:
+        elif not stepping.is_behind and self._simulation.steps >= self._frame_goal:
             self._end_frame()
 
     def _begin_frame(self) -> None:
         """Let what comes next be a whole frame."""
         self._is_frame_open = False
+        self._frame_goal = 0
         self._worked = 0.0
         self._first = self._simulation.steps
 

@@ -27,6 +27,12 @@ BAD_PARAMETERS = {
     'two weights': ({'total_mass': 0.3, 'areal_density': 0.2}, 'total_mass 0.3 and areal_density '
                     '0.2 each set the mass of the cloth: give one of them'),
     'pin off the cloth': ({'pin_points.positions': [0.0, 0.0, 1.4]}, 'no node is within'),
+    'two sources of time': ({'time.source': 'ros', 'time.epoch': 'wall'}, 'time.source: ros takes '
+                            'stamps from /clock and time.epoch: wall sets them: leave'),
+    'its own clock to follow': ({'time.source': 'ros', 'publish.clock': True}, 'time.source: ros '
+                                'follows /clock and publish.clock: true publishes it: set'),
+    'a clock not to be used': ({'time.source': 'ros', 'use_sim_time': False}, 'time.source: ros '
+                               'follows /clock and use_sim_time is false: leave'),
     'mixed list': ({'gravity': [0, 0, -9.81]}, 'write lists of numbers alike'),
 }
 

@@ -39,6 +39,7 @@ NAMES_AND_TYPES = {
     '~/inputs/mode': 'cloth_sim_interfaces/msg/ModeChange',
     '~/inputs/command': 'cloth_sim_interfaces/msg/Command',
     '~/inputs/parameters': 'rcl_interfaces/msg/ParameterEvent',
+    '~/inputs/time_base': 'cloth_sim_interfaces/msg/TimeBase',
 }
 SERVICES = {
     'set_mode': 'cloth_sim_interfaces/srv/SetMode',
@@ -56,7 +57,7 @@ SERVICES = {
     'start_recording': 'cloth_sim_interfaces/srv/StartRecording',
     'stop_recording': 'std_srvs/srv/Trigger',
 }
-KEPT = ('topology', 'state')
+KEPT = {'topology', 'state', 'time_base'}
 
 
 @pytest.mark.parametrize('name', NAMES_AND_TYPES)
