@@ -50,6 +50,7 @@ from cloth_sim_ros.recording.bag_folder import RecordingOptions
 from cloth_sim_ros.recording.recording_faults import RecordingError
 from cloth_sim_ros.recording.recording_faults import RecordingFull
 from cloth_sim_ros.sim.errors import ClothSimError
+from cloth_sim_ros.sim.errors import WrongStateError
 from cloth_sim_ros.sim.model.colliders import fields_with_colliders
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.simulation import Simulation
@@ -341,7 +342,7 @@ class ClothSimNode(GuardedNode):
 
     def _start_recording(self, name: str) -> str:
         if not self._time.is_known:
-            raise ClothSimError(
+            raise WrongStateError(
                 'no message has come on /clock, so that a recording would have no time: start '
                 'what publishes it first, or set time.source: own')
         if not self._run_loop.running:

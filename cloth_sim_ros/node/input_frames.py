@@ -25,6 +25,7 @@ from cloth_sim_ros.node.frame_tree import MOST_SAMPLES
 from cloth_sim_ros.node.frame_tree import read_transforms
 from cloth_sim_ros.node.frame_tree import Sample
 from cloth_sim_ros.node.refusals import IgnoredMessages
+from cloth_sim_ros.node.result_codes import UnknownFrameError
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.model.pose import Pose
 from cloth_sim_ros.sim.model.pose import product
@@ -117,7 +118,7 @@ class OwnFrames:
             return history
         node = self._pin(frame)
         if node is None:
-            raise ClothSimError(
+            raise UnknownFrameError(
                 f'the frame {shown(frame)} would be of a grasp, a collider or a pin of this node '
                 'that is not there: grasp or pin first, or give another frame')
         history = FrameHistory()

@@ -25,6 +25,7 @@ from cloth_sim_ros.recording.bag_folder import RecordingOptions
 from cloth_sim_ros.recording.recording_faults import RecordingError
 from cloth_sim_ros.recording.recording_faults import refusal
 from cloth_sim_ros.sim.errors import ClothSimError
+from cloth_sim_ros.sim.errors import WrongStateError
 from cloth_sim_ros.sim.inputs import Input
 from cloth_sim_ros.sim.inputs import MoveCollider
 from cloth_sim_ros.sim.inputs import MoveGrasp
@@ -163,7 +164,7 @@ class RecordingSession:
         with self._lock:
             self.check()
             if self._recorder is not None:
-                raise ClothSimError(
+                raise WrongStateError(
                     f'a recording is being written to {self.path}: stop it first, with '
                     '~/stop_recording or `cloth_sim record stop`')
             self._recorder = self._open(name)
@@ -220,7 +221,7 @@ class RecordingSession:
         """
         with self._lock:
             if self._recorder is None:
-                raise self._ending or ClothSimError(
+                raise self._ending or WrongStateError(
                     'no recording is being written: start one first, with ~/start_recording or '
                     '`cloth_sim record start`')
             path = self.path

@@ -13,7 +13,10 @@ from cloth_sim_ros.gl.errors import DeviceError
 from cloth_sim_ros.messages.frame_messages import Pace
 from cloth_sim_ros.messages.state import slow_pace
 from cloth_sim_ros.node.node_time import NodeTime
+from cloth_sim_ros.node.result_codes import InterruptedRequestError
+from cloth_sim_ros.node.result_codes import RunFailedError
 from cloth_sim_ros.sim.errors import ClothSimError
+from cloth_sim_ros.sim.errors import WrongStateError
 from cloth_sim_ros.sim.simulation import Simulation
 from cloth_sim_ros.sim.stop import StepAbandoned
 
@@ -236,7 +239,7 @@ class RunLoop:
         """Forget a stop, and begin with a whole frame."""
         self._problem = ''
         self._begin_frame()
-        self._end_steps(ClothSimError(
+        self._end_steps(InterruptedRequestError(
             'the cloth was reset before all steps were done: request them again'))
         self.start()
 
@@ -249,14 +252,14 @@ class RunLoop:
         :raises ClothSimError: while running
         """
         if not self._paused and not self._problem:
-            raise ClothSimError(
+            raise WrongStateError(
                 'the simulation is running, and single steps need it paused: pause it first, with '
                 '~/pause with data: true or `cloth_sim pause`')
         if not 1 <= steps <= MOST_STEPS:
             raise ClothSimError(
                 f'steps {steps} is outside its range: give a value from 1 to {MOST_STEPS}')
         if self._answer is not None:
-            raise ClothSimError(
+            raise WrongStateError(
                 'another caller is stepping: wait until ~/step has responded')
         self._simulation.stepping.aim_steps(steps)
         self._begin_frame()
@@ -306,7 +309,7 @@ class RunLoop:
             problem = error
         except Exception as error:
             # A fault in a step comes again with the next: it ends the run, and not the node.
-            problem = ClothSimError(
+            problem = RunFailedError(
                 f'the run failed unexpectedly, {self._note(error, "a step")}: report it with the '
                 'trace from the log')
         self._worked += time.monotonic() - begin
@@ -358,7 +361,7 @@ class RunLoop:
     def _cut_short(self, made: int) -> ClothSimError | None:
         if made == self._asked:
             return None
-        return ClothSimError(
+        return InterruptedRequestError(
             f'~/pause ended the steps at {self._simulation.time:.6g} s, after {made} of '
             f'{self._asked}: request the other {self._asked - made} with ~/step')
 
