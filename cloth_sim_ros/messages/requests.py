@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from cloth_sim_interfaces.msg import PinTarget
 from cloth_sim_interfaces.msg import Push
 from cloth_sim_interfaces.srv import ApplyPush
+from cloth_sim_interfaces.srv import FollowFrame
 from cloth_sim_interfaces.srv import Grasp
 from cloth_sim_interfaces.srv import MoveFrame
 from cloth_sim_interfaces.srv import MovePin
@@ -60,6 +61,9 @@ SERVICES = (
             'time of arrival'),
     Request('~/move_collider', MoveFrame, 'move a collider in a straight line, and turn it; '
             'returns the time of arrival'),
+    Request('~/follow_grasp', FollowFrame, 'attach a grasp rigidly to a frame on /tf, or no '
+            'longer'),
+    Request('~/follow_collider', FollowFrame, 'attach a collider likewise'),
     Request('~/reset', Trigger, 'restore the initial pose, pins and time, and the pushes, grasps '
             'and moves of the scene'),
     Request('~/pause', SetBool, 'pause or resume simulated time'),

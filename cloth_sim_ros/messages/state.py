@@ -68,6 +68,7 @@ def state_message(
 # The health of a run, in words.
 
 LATE = 1.0          # [s] that stamps are behind; as long as between two diagnostics
+FAR = 1e-3          # [m] that a body may be behind its frame: twice as much and it is seen
 SLOW = 0.9          # share of the wanted real-time factor below which a run is slow
 SAFE_MARGIN = 0.85  # what auto_substeps keeps
 # Up to there a run is that of exact solves (docs/explanation/solver.md, Accuracy).
@@ -105,7 +106,9 @@ def diagnostics_message(
         real_time_factor: float, wanted_factor: float, automatic_substeps: bool, problem: str = '',
         recording_path: str = '', recording_error: str = '', recording_is_whole: bool = False,
         faults: int = 0, latest_fault: str = '', ignored: int = 0, source: str = 'own',
-        behind: float = 0.0, time_problem: str = '') -> DiagnosticArray:
+        behind: float = 0.0, time_problem: str = '',
+        followers: Sequence[tuple[str, str, bool, float]] = (),
+        waiting: Sequence[tuple[str, str]] = ()) -> DiagnosticArray:
     """
     Return the health of each part: device, pace, solver, stability, recorder and program.
 
@@ -126,6 +129,9 @@ def diagnostics_message(
     :param source: of the stamps, TimeBase.OWN or TimeBase.ROS
     :param behind: how far the cloth is behind the time that its stamps are of [s]
     :param time_problem: what is wrong with /clock; empty for nothing
+    :param followers: of each body that follows a frame: its name, the frame, whether that is late,
+        and how far the body is behind [m]
+    :param waiting: bodies whose frame is not known yet, and the frame
     """
     findings = {'GL device': _device(snapshot, device)}
     if snapshot is not None:
@@ -136,6 +142,8 @@ def diagnostics_message(
             'stability': _stability(snapshot, problem, automatic_substeps),
             'pins': _pins(snapshot)})
     findings['time'] = _time(source, behind, time_problem, paused)
+    if followers or waiting:
+        findings['followed frames'] = _followed(followers, waiting)
     findings['recorder'] = _recorder(recording_path, recording_error, recording_is_whole)
     findings['program'] = _program(faults, latest_fault, ignored)
     return DiagnosticArray(
@@ -274,6 +282,25 @@ def _time(source: str, behind: float, problem: str, paused: bool) -> _Verdict:
             f'stamps are {behind:.3g} s behind {clock}, as the cloth is slower: use fewer nodes, '
             'a longer dt or another mode, or pause and resume to leave that time out'), values
     return OK, 'stamps follow /clock' if source == TimeBase.ROS else 'own time', values
+
+
+def _followed(
+        followers: Sequence[tuple[str, str, bool, float]],
+        waiting: Sequence[tuple[str, str]]) -> _Verdict:
+    values: dict[str, Any] = {
+        f'{name}, behind {frame} [m]': float(behind) for name, frame, _, behind in followers}
+    missing = [frame for _, frame in waiting] + [
+        frame for _, frame, is_late, _ in followers if is_late]
+    if missing:
+        return WARN, (
+            f'{", ".join(sorted(set(missing)))} have not come on /tf: start what publishes them, '
+            'or call ~/follow_grasp or ~/follow_collider with an empty frame'), values
+    slow = [name for name, _, _, behind in followers if behind > FAR]
+    if slow:
+        return WARN, (
+            f'{", ".join(slow)} are behind their frames, which are faster than max_speed: move '
+            'the frames more slowly, or give a higher one'), values
+    return OK, f'{len(followers)} bodies follow frames of tf', values
 
 
 def _recorder(path: str, error: str, is_whole: bool) -> _Verdict:

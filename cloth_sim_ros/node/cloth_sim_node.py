@@ -16,6 +16,8 @@ from cloth_sim_ros.messages.stamp import stamp
 from cloth_sim_ros.messages.state import diagnostics_message
 from cloth_sim_ros.node.device_thread import DeviceThread
 from cloth_sim_ros.node.followed_time import FollowedTime
+from cloth_sim_ros.node.followers import Followers
+from cloth_sim_ros.node.followers import frames_of_scene
 from cloth_sim_ros.node.graph_checks import ClockSource
 from cloth_sim_ros.node.graph_checks import ClockTopic
 from cloth_sim_ros.node.graph_checks import Namesake
@@ -156,6 +158,11 @@ class ClothSimNode(GuardedNode):
         self._input_frames = InputFrames(
             self, own, values['frame_id'], self._ignored, listens=values['tf.listen'])
         log = self.get_logger()
+        self._followers = Followers(
+            simulation, self._input_frames, self._time.base,
+            frames_of_scene(values['tf.follow'], simulation),
+            lambda: (values['tf.follow_speed'], values['tf.follow_angular_speed']),
+            lambda text: self._device.emit(lambda: log.warning(text)))
         self._reports = simulation.listener = Reports(
             self._device, simulation, self._outlet, self._recording, values, name,
             self._input_frames, self._time,
@@ -169,7 +176,7 @@ class ClothSimNode(GuardedNode):
             report=pace_report, paused=values['start_paused'], on_frame=self._reports.frame,
             on_stop=self._on_stop, note=self._device.note, is_due=self._device.has_jobs,
             stop=self._device.is_closing, is_held_back=self._reports.is_held_back,
-            node_time=self._time)
+            before_part=self._before_part, node_time=self._time)
         self._device.set_turns(self._run_loop)
         return simulation
 
@@ -253,8 +260,8 @@ class ClothSimNode(GuardedNode):
         frames, ignored = self._input_frames, self._ignored
         LoadRequests(*parts, self._values, frames, ignored)
         PinRequests(*parts, frames, ignored)
-        GraspRequests(*parts, frames)
-        self._moves = MoveRequests(*parts, frames, ignored)
+        GraspRequests(*parts, frames, self._followers)
+        self._moves = MoveRequests(*parts, frames, ignored, self._followers)
         RunServices(
             *parts, self._run_loop, reset=self._reset, changed=self._report_state_now)
         RecordingServices(
@@ -364,6 +371,9 @@ class ClothSimNode(GuardedNode):
             # The request that changed the moment is carried out all the same.
             self._device.note(error, 'a frame')
 
+    def _before_part(self, seconds: float) -> bool:
+        return self._followers.move(seconds)
+
     def _on_clock(self) -> None:
         self._device.emit(lambda: self.get_logger().info('following /clock'))
         self._report_state_now()
@@ -393,6 +403,7 @@ class ClothSimNode(GuardedNode):
 
     def _reset(self) -> None:
         self._simulation.reset()
+        self._followers.forget_grasps()
         self._run_loop.restart()
         self._report_state_now()
         self._show()
@@ -421,7 +432,11 @@ class ClothSimNode(GuardedNode):
         known = {
             'paused': not loop.running, 'problem': loop.problem,
             'real_time_factor': loop.real_time_factor, 'stamp': stamp(now, base.epoch),
-            'source': base.source, 'behind': self._time.behind}
+            'source': base.source, 'behind': self._time.behind,
+            'followers': [
+                (each.name, each.frame, each.is_late, each.behind)
+                for each in self._followers.present],
+            'waiting': list(self._followers.waiting)}
         epoch = base.epoch
         self._device.emit(lambda: self._send_health(snapshot, now, number, epoch, known))
 

@@ -230,7 +230,7 @@ class FrameTree:
         """
         if time is not None:
             return self._pose(frame, to, _at(frame, time))
-        common = self._common_time(frame, to)
+        common = self.latest_time(frame, to)
         return self._pose(frame, to, _latest if common is None else _in_common(frame, to, common))
 
     def _pose(self, frame: str, to: str, pick: Pick) -> Pose:
@@ -265,8 +265,12 @@ class FrameTree:
             place = sample.parent
         return found, None
 
-    def _common_time(self, frame: str, to: str) -> int | None:
-        """Return the latest time [ns] that all frames between have; None where none moves."""
+    def latest_time(self, frame: str, to: str) -> int | None:
+        """
+        Return the latest time [ns] that all frames between have; None where none moves.
+
+        :raises ClothSimError: when they are not connected
+        """
         here, there, meeting = self._meet(frame, to, _latest)
         times = []
         for chain in (here, there):

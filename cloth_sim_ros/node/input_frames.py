@@ -4,6 +4,7 @@
 """What is given in any frame of tf or of the node, in the frame of the cloth."""
 
 from collections import deque
+from contextlib import suppress
 from dataclasses import dataclass
 import threading
 from typing import Any
@@ -261,6 +262,26 @@ class InputFrames:
         with self._lock:
             self.take_waiting()
             return Given(self._tree.pose(header.frame_id, self._frame_id, time or None))
+
+    def place(self, frame: str, wanted: int) -> tuple[Pose, int | None]:
+        """
+        Return where a frame of tf is in the frame of the cloth, and of which time that is.
+
+        :param wanted: the time [ns] of that, where it is known; the latest elsewhere
+        :return: with None for a frame that is fixed
+        :raises ClothSimError: when it is not known, or one of the node's own
+        """
+        if self._own.owns(frame) or frame == self._frame_id:
+            raise ClothSimError(
+                f'the frame {shown(frame)} is one of this node, and only one of tf can be '
+                'followed: give a frame that another node publishes')
+        with self._lock:
+            self.take_waiting()
+            latest = self._tree.latest_time(frame, self._frame_id)
+            if latest is not None and wanted < latest:
+                with suppress(UnknownFrameError):
+                    return self._tree.pose(frame, self._frame_id, wanted), wanted
+            return self._tree.pose(frame, self._frame_id, None), latest
 
     def note(self, frame: FrameContent) -> None:
         """Remember the poses of the node's own frames that have a transform in ``frame``."""

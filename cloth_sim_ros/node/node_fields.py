@@ -37,6 +37,12 @@ NODE_FIELDS = (
           'node does'),
     Field('tf.listen', bool, True, 'take inputs in other frames than `frame_id`, by the '
           'transforms on /tf and /tf_static'),
+    Field('tf.follow', str, (), 'grasps and colliders of the scene that are rigidly attached to '
+          'frames on /tf as soon as these are known, NAME=FRAME each', is_array=True),
+    Field('tf.follow_speed', float, 2.0, 'highest speed at which a body follows its frame, unless '
+          'its request sets one', 'm/s', low=1e-6, high=1e3, live=True),
+    Field('tf.follow_angular_speed', float, 10.0, 'highest angular speed likewise', 'rad/s',
+          low=1e-6, high=1e3, live=True),
     Field('recording.directory', str, 'bags', 'directory in which recordings are created'),
     Field('recording.enabled', bool, False, 'start recording when the node starts'),
     Field('recording.name', str, '', 'name of that recording, with a number appended '
@@ -82,6 +88,9 @@ def check_together(values: Mapping[str, Any]) -> None:
         raise ClothSimError(
             f'real_time_factor {factor:g} is slower than {SLOWEST:g}: give 0 to run as fast as '
             'possible, or a larger one; to stand still, pause')
+    if values['tf.follow'] and not values['tf.listen']:
+        raise ClothSimError(
+            'tf.follow needs the frames on /tf and tf.listen is false: leave one of them out')
     if values['time.source'] == 'ros':
         _check_one_source(values)
     count = len(values['clicked_point.force'])

@@ -28,6 +28,7 @@ _WINDOW = 1.0
 # is said.
 QUIET = 60.0
 STEADY = 5.0
+_ROUNDING = 1e-6  # of a whole number of steps [1], as Stepping has it
 
 
 class Pacing:
@@ -148,6 +149,8 @@ class RunLoop:
     :param is_due: returns whether a job waits for the end of the step
     :param stop: returns whether to abandon the step
     :param is_held_back: returns whether frames wait that have to be served first
+    :param before_part: called before the steps of a frame, and within longer work as often, with
+        the length of a frame [s]; returns whether it is needed at all
     :param node_time: may hold the steps back, and hears when they go on
     """
 
@@ -157,7 +160,7 @@ class RunLoop:
             on_frame: Callable[[Callable[[], Pace]], None], on_stop: Callable[[], None],
             note: Callable[[Exception, str], str], is_due: Callable[[], bool],
             stop: Callable[[], bool], is_held_back: Callable[[], bool],
-            node_time: NodeTime) -> None:
+            before_part: Callable[[float], bool], node_time: NodeTime) -> None:
         """Prepare; nothing moves before there is a mode."""
         self._simulation = simulation
         self._frame_seconds = frame_seconds
@@ -169,9 +172,13 @@ class RunLoop:
         self._is_due = is_due
         self._is_stopped = stop
         self._is_held_back = is_held_back
+        self._before_part = before_part
         self._time = node_time
         self._paused = paused
         self._problem = ''
+        # Steps at the end of the frame, and at that of the part of it that is worked on.
+        self._frame_goal = 0
+        self._part_end = 0
         # Wall time at which the next frame is due [s].
         self._due = 0.0
         # Who is answered when steps are made, and how many were asked for.
@@ -261,9 +268,11 @@ class RunLoop:
         if self._answer is not None:
             raise WrongStateError(
                 'another caller is stepping: wait until ~/step has responded')
-        self._simulation.stepping.aim_steps(steps)
+        stepping = self._simulation.stepping
+        stepping.aim_steps(steps)
         self._begin_frame()
         self._is_frame_open = True
+        self._frame_goal = stepping.goal
         self._answer, self._asked = answer, steps
         self._paused, self._problem = True, ''
         self.start()
@@ -298,10 +307,7 @@ class RunLoop:
                 self._is_frame_open = True
                 stepping.aim(self._frame_seconds)
                 self._frame_goal = stepping.goal
-            if self._answer is None:
-                # Within a frame, the time that is followed may have come less far.
-                goal = self._time.goal
-                stepping.goal = self._frame_goal if goal is None else min(self._frame_goal, goal)
+            stepping.goal = self._part_goal()
             self._simulation.work(self._is_due, self._is_stopped)
         except StepAbandoned:
             return
@@ -318,10 +324,22 @@ class RunLoop:
         elif not stepping.is_behind and self._simulation.steps >= self._frame_goal:
             self._end_frame()
 
+    def _part_goal(self) -> int:
+        """Return up to which step to work now: the end of the frame, or of a part of it."""
+        goal, steps = self._frame_goal, self._simulation.steps
+        if steps >= self._part_end:
+            self._part_end = goal
+            if self._before_part(self._frame_seconds):
+                length = math.ceil(self._frame_seconds / self._simulation.dt - _ROUNDING)
+                self._part_end = steps + max(length, 1)
+        # Within a frame, the time that is followed may have come less far.
+        reached = self._time.goal if self._answer is None else None
+        return min(goal, self._part_end, goal if reached is None else reached)
+
     def _begin_frame(self) -> None:
         """Let what comes next be a whole frame."""
         self._is_frame_open = False
-        self._frame_goal = 0
+        self._frame_goal = self._part_end = 0
         self._worked = 0.0
         self._first = self._simulation.steps
 

@@ -33,6 +33,10 @@ BAD_PARAMETERS = {
                                 'follows /clock and publish.clock: true publishes it: set'),
     'a clock not to be used': ({'time.source': 'ros', 'use_sim_time': False}, 'time.source: ros '
                                'follows /clock and use_sim_time is false: leave'),
+    'no body to follow': ({'tf.follow': ['hand=tool0']}, "tf.follow has 'hand=tool0', and needs "
+                          'NAME=FRAME with one grasp or collider of the scene: give one of none'),
+    'nothing to follow with': ({'tf.follow': ['a=b'], 'tf.listen': False}, 'tf.follow needs the '
+                               'frames on /tf and tf.listen is false: leave'),
     'mixed list': ({'gravity': [0, 0, -9.81]}, 'write lists of numbers alike'),
 }
 

@@ -51,6 +51,8 @@ SERVICES = {
     'release': 'cloth_sim_interfaces/srv/Release',
     'move_grasp': 'cloth_sim_interfaces/srv/MoveFrame',
     'move_collider': 'cloth_sim_interfaces/srv/MoveFrame',
+    'follow_grasp': 'cloth_sim_interfaces/srv/FollowFrame',
+    'follow_collider': 'cloth_sim_interfaces/srv/FollowFrame',
     'reset': 'std_srvs/srv/Trigger',
     'pause': 'std_srvs/srv/SetBool',
     'step': 'cloth_sim_interfaces/srv/Step',
