@@ -14,6 +14,8 @@ from cloth_sim_ros.messages.frame_messages import Pace
 from cloth_sim_ros.messages.geometry import serialise_topology
 from cloth_sim_ros.messages.stamp import stamp
 from cloth_sim_ros.messages.state import diagnostics_message
+from cloth_sim_ros.node.action_servers import MoveActions
+from cloth_sim_ros.node.action_servers import StepAction
 from cloth_sim_ros.node.device_thread import DeviceThread
 from cloth_sim_ros.node.followed_time import FollowedTime
 from cloth_sim_ros.node.followers import Followers
@@ -27,6 +29,7 @@ from cloth_sim_ros.node.input_frames import OwnFrames
 from cloth_sim_ros.node.load_requests import LoadRequests
 from cloth_sim_ros.node.mode_switch import ModeService
 from cloth_sim_ros.node.mode_switch import ModeSwitch
+from cloth_sim_ros.node.motions import Motions
 from cloth_sim_ros.node.node_time import NodeTime
 from cloth_sim_ros.node.node_time import WallTime
 from cloth_sim_ros.node.outlet import Outlet
@@ -173,10 +176,11 @@ class ClothSimNode(GuardedNode):
             say=lambda text: self._device.emit(lambda: log.info(text)))
         self._run_loop = RunLoop(
             simulation, frame_seconds=1.0 / values['publish.rate'], pacing=self._pacing,
-            report=pace_report, paused=values['start_paused'], on_frame=self._reports.frame,
+            report=pace_report, paused=values['start_paused'], on_frame=self._on_frame,
             on_stop=self._on_stop, note=self._device.note, is_due=self._device.has_jobs,
             stop=self._device.is_closing, is_held_back=self._reports.is_held_back,
             before_part=self._before_part, node_time=self._time)
+        self._motions = Motions(simulation, lambda: self._run_loop.problem)
         self._device.set_turns(self._run_loop)
         return simulation
 
@@ -262,6 +266,8 @@ class ClothSimNode(GuardedNode):
         PinRequests(*parts, frames, ignored)
         GraspRequests(*parts, frames, self._followers)
         self._moves = MoveRequests(*parts, frames, ignored, self._followers)
+        MoveActions(*parts, frames, self._followers, self._motions)
+        self._steps = StepAction(*parts, self._run_loop, self._report_state_now)
         RunServices(
             *parts, self._run_loop, reset=self._reset, changed=self._report_state_now)
         RecordingServices(
@@ -372,7 +378,10 @@ class ClothSimNode(GuardedNode):
             self._device.note(error, 'a frame')
 
     def _before_part(self, seconds: float) -> bool:
-        return self._followers.move(seconds)
+        is_waited_for = self._motions.look()
+        # Each of them has to be asked.
+        is_stepped = self._steps.look()
+        return self._followers.move(seconds) or is_waited_for or is_stepped
 
     def _on_clock(self) -> None:
         self._device.emit(lambda: self.get_logger().info('following /clock'))
@@ -393,7 +402,12 @@ class ClothSimNode(GuardedNode):
             f'{text}, behind the cloth, and {reason}: call ~/reset to begin there, or resume to '
             'wait until it has come so far again'))
 
+    def _on_frame(self, pace: Callable[[], Pace]) -> None:
+        self._reports.frame(pace)
+        self._motions.look()
+
     def _on_stop(self) -> None:
+        self._motions.look()
         problem = self._run_loop.problem
         self._device.emit(lambda: self.get_logger().error(
             problem if '~/reset' in problem else
@@ -404,6 +418,7 @@ class ClothSimNode(GuardedNode):
     def _reset(self) -> None:
         self._simulation.reset()
         self._followers.forget_grasps()
+        self._motions.look()
         self._run_loop.restart()
         self._report_state_now()
         self._show()

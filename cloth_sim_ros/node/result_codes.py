@@ -25,12 +25,22 @@ class RunFailedError(ClothSimError):
     """The run could not go on, for another reason than a state that is not finite."""
 
 
+class CanceledError(ClothSimError):
+    """A request has ended as it was asked to."""
+
+
+class StalledError(ClothSimError):
+    """A move has ended before its end point, as the cloth pulls too hard."""
+
+
 _CODES: tuple[tuple[type[Exception], int], ...] = (
     (UnknownFrameError, ResultCode.UNKNOWN_FRAME),
     (NotFoundError, ResultCode.NOT_FOUND),
     (NameTakenError, ResultCode.NAME_TAKEN),
     (WrongStateError, ResultCode.WRONG_STATE),
     (InterruptedRequestError, ResultCode.INTERRUPTED),
+    (CanceledError, ResultCode.CANCELED),
+    (StalledError, ResultCode.STALLED),
     (NonFiniteStateError, ResultCode.RUN_STOPPED),
     (RunFailedError, ResultCode.RUN_STOPPED),
     (DeviceError, ResultCode.RUN_STOPPED),

@@ -13,6 +13,7 @@ from cloth_sim_ros.gl.errors import DeviceError
 from cloth_sim_ros.messages.frame_messages import Pace
 from cloth_sim_ros.messages.state import slow_pace
 from cloth_sim_ros.node.node_time import NodeTime
+from cloth_sim_ros.node.result_codes import CanceledError
 from cloth_sim_ros.node.result_codes import InterruptedRequestError
 from cloth_sim_ros.node.result_codes import RunFailedError
 from cloth_sim_ros.sim.errors import ClothSimError
@@ -184,6 +185,7 @@ class RunLoop:
         # Who is answered when steps are made, and how many were asked for.
         self._answer: Answer | None = None
         self._asked = 0
+        self._is_canceled = False
         self._begin_frame()
 
     @property
@@ -273,9 +275,16 @@ class RunLoop:
         self._begin_frame()
         self._is_frame_open = True
         self._frame_goal = stepping.goal
-        self._answer, self._asked = answer, steps
+        self._answer, self._asked, self._is_canceled = answer, steps, False
         self._paused, self._problem = True, ''
         self.start()
+
+    def cancel_steps(self, answer: Answer) -> None:
+        """End the steps that ``answer`` waits for; does nothing where they have ended."""
+        if self._answer is answer:
+            self._is_canceled = True
+            self._simulation.stepping.drop_aim()
+            self._end_frame()
 
     def turn(self) -> float | None:
         """Work on the frame that is due; return the time to wait before the next turn [s]."""
@@ -327,14 +336,14 @@ class RunLoop:
     def _part_goal(self) -> int:
         """Return up to which step to work now: the end of the frame, or of a part of it."""
         goal, steps = self._frame_goal, self._simulation.steps
-        if steps >= self._part_end:
-            self._part_end = goal
-            if self._before_part(self._frame_seconds):
-                length = math.ceil(self._frame_seconds / self._simulation.dt - _ROUNDING)
-                self._part_end = steps + max(length, 1)
+        if steps >= self._part_end and self._before_part(self._frame_seconds):
+            length = math.ceil(self._frame_seconds / self._simulation.dt - _ROUNDING)
+            self._part_end = steps + max(length, 1)
+        if steps < self._part_end:
+            goal = min(goal, self._part_end)
         # Within a frame, the time that is followed may have come less far.
         reached = self._time.goal if self._answer is None else None
-        return min(goal, self._part_end, goal if reached is None else reached)
+        return goal if reached is None else min(goal, reached)
 
     def _begin_frame(self) -> None:
         """Let what comes next be a whole frame."""
@@ -379,6 +388,9 @@ class RunLoop:
     def _cut_short(self, made: int) -> ClothSimError | None:
         if made == self._asked:
             return None
+        if self._is_canceled:
+            return CanceledError(
+                f'canceled at {self._simulation.time:.6g} s, after {made} of {self._asked} steps')
         return InterruptedRequestError(
             f'~/pause ended the steps at {self._simulation.time:.6g} s, after {made} of '
             f'{self._asked}: request the other {self._asked - made} with ~/step')
