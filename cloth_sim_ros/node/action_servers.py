@@ -22,6 +22,7 @@ from cloth_sim_ros.node.motions import Motion
 from cloth_sim_ros.node.motions import Motions
 from cloth_sim_ros.node.motions import PIN
 from cloth_sim_ros.node.motions import Progress
+from cloth_sim_ros.node.result_codes import CanceledError
 from cloth_sim_ros.node.result_codes import code_of
 from cloth_sim_ros.node.run_loop import RunLoop
 from cloth_sim_ros.sim.errors import ClothSimError
@@ -34,24 +35,25 @@ from rclpy.callback_groups import ReentrantCallbackGroup
 Answer = Callable[[Any], None]
 
 
-class _Actions:
+class Actions:
     """
     What all of them share.
 
+    :ivar stops: by the number of the goal: what ends it, called on the device thread
     :param device: carries out what goals ask for
     """
 
     def __init__(self, node: GuardedNode, device: DeviceThread) -> None:
+        """Serve none yet."""
         self._node = node
         self._device = device
-        # By the number of the goal: what stops it, called on the device thread.
-        self._stops: dict[bytes, Callable[[], object]] = {}
+        self.stops: dict[bytes, Callable[[], object]] = {}
 
-    def _serve(self, kind: type, name: str, begin: Callable[..., Any]) -> None:
+    def serve(self, kind: type, name: str, begin: Callable[..., Any]) -> None:
         """
         Serve the action ``name``.
 
-        :param begin: is given the handle of a goal, its result, and what to call with None or an
+        :param begin: is given the handle of a goal, its result, and what to call with a text or an
             exception when it has ended; called on the device thread
         """
         ActionServer(
@@ -59,50 +61,111 @@ class _Actions:
             execute_callback=partial(self._execute, kind, name, begin),
             cancel_callback=self._on_cancel, callback_group=ReentrantCallbackGroup())
 
-    async def _execute(
-            self, kind: Any, name: str, begin: Callable[..., Any],
-            handle: ServerGoalHandle) -> Any:
-        result = kind.Result()
-        try:
-            result.message = await self._device.ask_later(
-                lambda answer: begin(handle, result, answer))
-            result.success, result.code = True, ResultCode.OK
-            handle.succeed()
-        except ClothSimError as error:
-            result.message, result.code = str(error), code_of(error)
-            if result.code == ResultCode.CANCELED and handle.is_cancel_requested:
-                handle.canceled()
-            else:
-                handle.abort()
-        except Exception as error:
-            if not self._node.context.ok():
-                raise
-            result.message = self._node.faults.note(error, name)
-            result.code = ResultCode.UNEXPECTED
-            handle.abort()
-        finally:
-            self._stops.pop(_number(handle), None)
-        return result
+    def note_end(self, result: Any, message: str, error: Exception | None) -> None:
+        """Write how it has ended into ``result``; None for no error."""
+        result.success, result.message = error is None, message
+        result.code = ResultCode.OK if error is None else code_of(error)
 
-    def _on_cancel(self, handle: ServerGoalHandle) -> CancelResponse:
-        number = _number(handle)
-
-        def stop() -> None:
-            # What has ended meanwhile has none.
-            self._stops.get(number, _do_nothing)()
-
-        self._device.post(stop)
-        return CancelResponse.ACCEPT
-
-    def _publish(self, handle: ServerGoalHandle, feedback: Any) -> None:
+    def publish(self, handle: ServerGoalHandle, feedback: Any) -> None:
+        """Send ``feedback``; called on the device thread."""
         def publish() -> None:
             if handle.is_active:
                 handle.publish_feedback(feedback)
 
         self._device.emit(publish, 'a feedback')
 
+    async def _execute(
+            self, kind: Any, name: str, begin: Callable[..., Any],
+            handle: ServerGoalHandle) -> Any:
+        result = kind.Result()
+        try:
+            text = await self._device.ask_later(
+                lambda answer: begin(handle, result, answer))
+            self.note_end(result, text, None)
+            handle.succeed()
+        except ClothSimError as error:
+            self.note_end(result, str(error), error)
+            if isinstance(error, CanceledError) and handle.is_cancel_requested:
+                handle.canceled()
+            else:
+                handle.abort()
+        except Exception as error:
+            if not self._node.context.ok():
+                raise
+            self.note_end(result, self._node.faults.note(error, name), error)
+            handle.abort()
+        finally:
+            self.stops.pop(handle_number(handle), None)
+        return result
 
-class MoveActions(_Actions):
+    def _on_cancel(self, handle: ServerGoalHandle) -> CancelResponse:
+        number = handle_number(handle)
+
+        def stop() -> None:
+            # What has ended meanwhile has none.
+            self.stops.get(number, _do_nothing)()
+
+        self._device.post(stop)
+        return CancelResponse.ACCEPT
+
+
+class Steps:
+    """
+    Make steps for a goal; used on the device thread.
+
+    :param changed: called when the run state has changed
+    """
+
+    def __init__(
+            self, simulation: Simulation, run_loop: RunLoop, changed: Callable[[], None]) -> None:
+        """Begin with no goal."""
+        self._simulation = simulation
+        self._run_loop = run_loop
+        self._changed = changed
+        # Of the goal at work: tells its progress.
+        self._look: Callable[[], None] | None = None
+
+    def look(self) -> bool:
+        """Tell how far the steps are; return whether any are asked for."""
+        if self._look is None:
+            return False
+        self._look()
+        return True
+
+    def begin(
+            self, steps: int, feedback: Callable[[int, float], object],
+            end: Callable[[Exception | None, int, float], object]) -> Callable[[], object]:
+        """
+        Begin ``steps`` steps, and return what cancels them.
+
+        :param feedback: is given the steps made and the time [s], now and then
+        :param end: is given None or why they were not all made, the steps made and the time [s]
+        """
+        simulation, run_loop = self._simulation, self._run_loop
+        first, before, told = simulation.steps, run_loop.run_state, time.monotonic()
+
+        def made() -> int:
+            # After a reset they are counted anew.
+            return max(simulation.steps - first, 0)
+
+        def done(error: Exception | None) -> None:
+            self._look = None
+            if run_loop.run_state != before:
+                self._changed()
+            end(error, made(), simulation.time)
+
+        def look() -> None:
+            nonlocal told
+            if time.monotonic() - told >= FEEDBACK_PERIOD:
+                told = time.monotonic()
+                feedback(made(), simulation.time)
+
+        run_loop.step(steps, done)
+        self._look = look
+        return lambda: run_loop.cancel_steps(done)
+
+
+class MoveActions(Actions):
     """
     Serve ~/move_pin, ~/move_grasp and ~/move_collider as actions.
 
@@ -121,7 +184,7 @@ class MoveActions(_Actions):
         self._followers = followers
         self._motions = motions
         for kind in (PIN, GRASP, COLLIDER):
-            self._serve(MoveFrame, f'~/move_{kind}', partial(self._begin, kind))
+            self.serve(MoveFrame, f'~/move_{kind}', partial(self._begin, kind))
 
     def _begin(
             self, kind: str, handle: ServerGoalHandle, result: MoveFrame.Result,
@@ -135,7 +198,7 @@ class MoveActions(_Actions):
         name: Any = (goal.row, goal.col) if kind == PIN else goal.name
 
         def feedback(progress: Progress) -> None:
-            self._publish(handle, _filled(MoveFrame.Feedback(), progress))
+            self.publish(handle, _filled(MoveFrame.Feedback(), progress))
 
         def end(error: Exception | None, progress: Progress) -> None:
             _filled(result, progress)
@@ -143,7 +206,7 @@ class MoveActions(_Actions):
 
         motion: Motion = self._motions.begin(
             kind, name, path, goal.max_force, feedback, end)
-        self._stops[_number(handle)] = lambda: self._motions.cancel(motion)
+        self.stops[handle_number(handle)] = lambda: self._motions.cancel(motion)
 
     def _move(self, kind: str, goal: MoveFrame.Goal) -> Any:
         given = self._frames.given(goal.header)
@@ -158,7 +221,7 @@ class MoveActions(_Actions):
             goal.speed or None, goal.angular_speed or None)
 
 
-class StepAction(_Actions):
+class StepAction(Actions):
     """
     Serve ~/step as an action.
 
@@ -171,44 +234,22 @@ class StepAction(_Actions):
         """Make the server."""
         super().__init__(node, device)
         self._simulation = simulation
-        self._run_loop = run_loop
-        self._changed = changed
-        # Of the goal at work: tells its progress.
-        self._look: Callable[[], None] | None = None
-        self._serve(Step, '~/step', self._begin)
-
-    def look(self) -> bool:
-        """Tell how far the steps are; return whether any are asked for."""
-        if self._look is None:
-            return False
-        self._look()
-        return True
+        self._steps = Steps(simulation, run_loop, changed)
+        self.look = self._steps.look
+        self.serve(Step, '~/step', self._begin)
 
     def _begin(self, handle: ServerGoalHandle, result: Step.Result, answer: Answer) -> None:
-        simulation, run_loop = self._simulation, self._run_loop
-        first, before, steps = simulation.steps, run_loop.run_state, handle.request.steps
-        told = time.monotonic()
+        steps = handle.request.steps
+        result.sim_time = self._simulation.time
 
-        def done(error: Exception | None) -> None:
-            self._look = None
-            result.sim_time = simulation.time
-            # After a reset they are counted anew.
-            result.steps = max(simulation.steps - first, 0)
-            if run_loop.run_state != before:
-                self._changed()
-            answer(error or f'{steps} steps done, now at {simulation.time:.6g} s')
+        def feedback(made: int, now: float) -> None:
+            self.publish(handle, Step.Feedback(steps=made, sim_time=now))
 
-        def look() -> None:
-            nonlocal told
-            if time.monotonic() - told >= FEEDBACK_PERIOD:
-                told = time.monotonic()
-                self._publish(handle, Step.Feedback(
-                    steps=max(simulation.steps - first, 0), sim_time=simulation.time))
+        def end(error: Exception | None, made: int, now: float) -> None:
+            result.steps, result.sim_time = made, now
+            answer(error or f'{made} steps done, now at {now:.6g} s')
 
-        result.sim_time = simulation.time
-        run_loop.step(steps, done)
-        self._look = look
-        self._stops[_number(handle)] = lambda: run_loop.cancel_steps(done)
+        self.stops[handle_number(handle)] = self._steps.begin(steps, feedback, end)
 
 
 def _filled(message: Any, progress: Progress) -> Any:
@@ -217,7 +258,8 @@ def _filled(message: Any, progress: Progress) -> Any:
     return message
 
 
-def _number(handle: ServerGoalHandle) -> bytes:
+def handle_number(handle: ServerGoalHandle) -> bytes:
+    """Return the number of a goal."""
     return bytes(handle.goal_id.uuid)
 
 

@@ -117,6 +117,7 @@ class ClothSimNode(GuardedNode):
             options=RecordingOptions.from_values(values), wake=self._on_recording_ended)
         # The thread that writes triggers it; the check runs on the ROS thread.
         self._recording_ended = self.create_guard_condition(self._recording.check)
+        self._simulated_steps: Callable[[], bool] = lambda: False
         self._is_asked_for_health = False
         self._ignored = IgnoredMessages(warn)
         self._outlet = Outlet(
@@ -268,11 +269,29 @@ class ClothSimNode(GuardedNode):
         self._moves = MoveRequests(*parts, frames, ignored, self._followers)
         MoveActions(*parts, frames, self._followers, self._motions)
         self._steps = StepAction(*parts, self._run_loop, self._report_state_now)
+        if self._values['simulation_interfaces']:
+            self._serve_simulation_interfaces()
         RunServices(
             *parts, self._run_loop, reset=self._reset, changed=self._report_state_now)
         RecordingServices(
             self, self._device, self._recording, start=self._start_recording,
             started=self._on_recording_started, stopped=self._report_state)
+
+    def _serve_simulation_interfaces(self) -> None:
+        try:
+            # A ROS without that package runs a node without these services.
+            from cloth_sim_ros.node.simulation_services import SimulateStepsAction
+            from cloth_sim_ros.node.simulation_services import SimulationServices
+        except ImportError as error:
+            raise ClothSimError(
+                'simulation_interfaces: true needs the package simulation_interfaces, which is '
+                'not here: install ros-jazzy-simulation-interfaces, or leave it out') from error
+        parts = self, self._device, self._simulation, self._run_loop
+        SimulationServices(
+            *parts, base=self._time.base, frame_id=self._values['frame_id'],
+            is_stopped=self._values['start_paused'], reset=self._reset,
+            changed=self._report_state_now)
+        self._simulated_steps = SimulateStepsAction(*parts, self._report_state_now).look
 
     # Called on the ROS thread.
 
@@ -380,7 +399,7 @@ class ClothSimNode(GuardedNode):
     def _before_part(self, seconds: float) -> bool:
         is_waited_for = self._motions.look()
         # Each of them has to be asked.
-        is_stepped = self._steps.look()
+        is_stepped = self._steps.look() or self._simulated_steps()
         return self._followers.move(seconds) or is_waited_for or is_stepped
 
     def _on_clock(self) -> None:

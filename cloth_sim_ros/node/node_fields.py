@@ -43,6 +43,8 @@ NODE_FIELDS = (
           'its request sets one', 'm/s', low=1e-6, high=1e3, live=True),
     Field('tf.follow_angular_speed', float, 10.0, 'highest angular speed likewise', 'rad/s',
           low=1e-6, high=1e3, live=True),
+    Field('simulation_interfaces', bool, False, 'serve get_entities, set_simulation_state and '
+          'others of the package simulation_interfaces, in the namespace of the node'),
     Field('recording.directory', str, 'bags', 'directory in which recordings are created'),
     Field('recording.enabled', bool, False, 'start recording when the node starts'),
     Field('recording.name', str, '', 'name of that recording, with a number appended '
