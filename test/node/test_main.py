@@ -147,7 +147,7 @@ def test_says_that_there_is_no_device(tmp_path):
 
 
 @pytest.mark.parametrize('module, reason', [
-    ('cloth_sim_interfaces', 'colcon build --base-paths'),
+    ('cloth_sim_interfaces', 'src/cloth_sim_interfaces && colcon build'),
     ('rclpy', 'source /opt/ros/jazzy/setup.bash'),
 ])
 def test_says_how_to_get_what_is_missing(module, reason, tmp_path):
