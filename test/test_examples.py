@@ -4,11 +4,14 @@
 """The examples, each run as its docstring says, on less time."""
 
 import ast
+import os
 from pathlib import Path
 import re
 import subprocess
 import sys
+import sysconfig
 
+from cloth_sim_interfaces.msg import ResultCode
 from cloth_sim_ros import Recording
 from cloth_sim_ros.sim.model.given_values import load_parameters
 from cloth_sim_ros.sim.model.pose import Pose
@@ -206,3 +209,34 @@ def held_cloth(folder):
     held = (np.abs(closed - (0.0, -0.0135, 0.0)) < (0.05, 0.005, 0.02)).all(axis=-1)
     assert held.sum() > 10
     return seen[:, held], times
+
+
+def test_a_client_in_c_plus_plus_acts_on_codes(tmp_path):
+    """A user of C++ would find no way in, or one that does not build."""
+    source, build = ROOT / 'examples' / 'cpp_client', tmp_path / 'build'
+    prefix = {'CMAKE_PREFIX_PATH': os.pathsep.join(
+        [sys.prefix, *filter(None, [os.environ.get('CMAKE_PREFIX_PATH')])])}
+    for command in (['cmake', '-S', str(source), '-B', str(build)],
+                    ['cmake', '--build', str(build)]):
+        done = subprocess.run(
+            command, env={**os.environ, **prefix}, capture_output=True, text=True)
+        assert done.returncode == 0, done.stdout + done.stderr
+    # ROS from wheels expects Python to be there, in whatever uses it.
+    python = Path(sysconfig.get_config_var('LIBDIR'), sysconfig.get_config_var('LDLIBRARY'))
+
+    def run(*arguments):
+        return subprocess.run(
+            [str(build / 'cloth_client'), *arguments], env={
+                **os.environ, 'LD_PRELOAD': str(python)},
+            capture_output=True, text=True, timeout=300)
+
+    with NodeProcess(tmp_path, {'rows': 4, 'cols': 4, 'start_paused': True}):
+        done = run('/cloth_sim', '5')
+        assert (done.returncode, done.stdout) == (
+            ResultCode.OK, '5 steps done, now at 0.025 s\n'), done.stderr
+        done = run('/cloth_sim', '0')
+        assert done.returncode == ResultCode.INVALID_VALUE
+        assert 'steps 0 is outside its range' in done.stdout
+    with NodeProcess(tmp_path, {'rows': 4, 'cols': 4}):
+        done = run('/cloth_sim', '5')
+        assert done.returncode == ResultCode.WRONG_STATE and 'pause it first: ros2' in done.stdout
