@@ -24,6 +24,14 @@ from launch_ros.substitutions import FindPackageShare
 
 AS_IN_FILE = ''
 
+# What a larger system sets, as parameters of the node.
+SYSTEM = {
+    'frame_id': lambda value: {'frame_id': value},
+    'time': lambda value: {
+        'time.source': 'ros' if value == 'ros' else 'own',
+        'time.epoch': 'wall' if value == 'wall' else 'zero'},
+    'simulation_interfaces': lambda value: {'simulation_interfaces': value == 'true'}}
+
 # What config/cloth_sim.rviz shows, by the names that a node without a namespace has.
 RVIZ_TOPICS = ('/cloth_sim/markers', '/cloth_sim/points', '/cloth_sim/pins/wrenches')
 # A click belongs to the cloth of its namespace.
@@ -59,6 +67,10 @@ def simulator(context: LaunchContext) -> list[Node]:
     recording = LaunchConfiguration('recording').perform(context)
     if recording != AS_IN_FILE:
         given['recording.enabled'] = recording == 'true'
+    for argument, parameters in SYSTEM.items():
+        value = LaunchConfiguration(argument, default=AS_IN_FILE).perform(context)
+        if value != AS_IN_FILE:
+            given |= parameters(value)
     return [Node(
         package='cloth_sim_ros',
         executable='cloth_sim_node',
@@ -110,6 +122,18 @@ def generate_launch_description() -> LaunchDescription:
             description='start RViz with a view of the cloth'),
         DeclareLaunchArgument(
             'namespace', default_value='', description='namespace of the node and of RViz'),
+        DeclareLaunchArgument(
+            'frame_id', default_value=AS_IN_FILE,
+            description='frame of the cloth in the tf tree of the system (default: as in '
+            'params_file)'),
+        DeclareLaunchArgument(
+            'time', default_value=AS_IN_FILE, choices=[AS_IN_FILE, 'own', 'ros', 'wall'],
+            description='stamps and pace: own, begin at 0; ros, follow /clock; wall, those of the '
+            'wall clock (default: as in params_file)'),
+        DeclareLaunchArgument(
+            'simulation_interfaces', default_value=AS_IN_FILE,
+            choices=[AS_IN_FILE, 'true', 'false'],
+            description='serve simulation_interfaces (default: as in params_file)'),
         # The actions below take these two by their names.
         DeclareLaunchArgument(
             'sigterm_timeout', default_value='30',

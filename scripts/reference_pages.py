@@ -20,6 +20,7 @@ from importlib import import_module
 from pathlib import Path
 import sys
 
+from cloth_sim_ros.messages.requests import ACTIONS
 from cloth_sim_ros.messages.requests import Request
 from cloth_sim_ros.messages.requests import SERVICES
 from cloth_sim_ros.messages.requests import SUBSCRIPTIONS
@@ -152,19 +153,28 @@ def request_cells(request: Request) -> list[str]:
 
 
 def services_page() -> str:
-    """Return the page of the services and their types."""
+    """Return the page of the services and actions, and their types."""
     return f"""{NOTE}
-# Services
+# Services and actions
 
 `~` stands for the name of the node, `/cloth_sim` by default. Every answer has `success` and
-`message`. A request that cannot be carried out changes nothing: `success` is false, and `message`
-gives the rule, the value and a way out. [ROS interface](ros_interface.md) explains when a request
+`message`, and those of the project's own types a [code](ros_interface.md#codes). A request that
+cannot be carried out changes nothing: `success` is false, and `message` gives the rule, the value
+and a way out. [ROS interface](ros_interface.md) explains when a request
 takes effect.
 
 {table(('service', 'type', 'description'), map(request_cells, SERVICES))}
+## Actions
+
+[ROS interface](ros_interface.md#actions) explains when they end.
+
+{table(('action', 'type', 'description'), map(request_cells, ACTIONS))}
 ## Service types
 
-{definitions([service.kind for service in SERVICES], 'srv')}"""
+{definitions([service.kind for service in SERVICES], 'srv')}
+## Action types
+
+{definitions([action.kind for action in ACTIONS], 'action')}"""
 
 
 def definitions(kinds: Iterable[type], part: str) -> str:

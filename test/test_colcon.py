@@ -8,6 +8,8 @@ from pathlib import Path
 import shlex
 import subprocess
 
+from catkin_pkg.package import parse_package
+from catkin_pkg.packages import find_packages
 from cloth_sim_ros.node.missing_module import BUILD_COMMAND
 import pytest
 
@@ -107,6 +109,16 @@ def test_workspace_build(installed, tmp_path):
         command.replace('colcon build', 'colcon build --packages-ignore cloth_sim_interfaces')
         + ' && python3 -c "import cloth_sim_ros.node as node; print(node.__file__)"', tmp_path)
     assert Path(printed.split()[-1]).is_relative_to(tmp_path / 'install')
-    listed = bash(command.partition('&&')[0].replace('colcon build', 'colcon list'), tmp_path)
-    assert {line.split()[0] for line in listed.splitlines()} == {
+    listed = bash('colcon list', tmp_path)
+    assert sorted(line.split()[0] for line in listed.splitlines()) == [
+        'cloth_sim_interfaces', 'cloth_sim_ros']
+    # What rosdep finds them by.
+    assert {package.name for package in find_packages(str(tmp_path / 'src')).values()} == {
         'cloth_sim_interfaces', 'cloth_sim_ros'}
+
+
+def test_a_workspace_needs_no_viewer():
+    """A machine without a display, such as a robot, would have to install one."""
+    depends = parse_package(str(ROOT / 'package.xml')).exec_depends
+    assert 'rclpy' in {each.name for each in depends}
+    assert not {each.name for each in depends} & {'rviz2', 'simulation_interfaces'}

@@ -4,13 +4,17 @@
 """The examples, each run as its docstring says, on less time."""
 
 import ast
+import os
 from pathlib import Path
 import re
 import subprocess
 import sys
+import sysconfig
 
+from cloth_sim_interfaces.msg import ResultCode
 from cloth_sim_ros import Recording
 from cloth_sim_ros.sim.model.given_values import load_parameters
+from cloth_sim_ros.sim.model.pose import Pose
 from matplotlib.image import imread
 from node_process import NodeProcess
 import numpy as np
@@ -36,7 +40,7 @@ def run_example(name, folder, *arguments):
 
 def test_each_is_short_says_how_to_run_it_and_is_run_here():
     """An example would be too long to read, or rot."""
-    assert len(EXAMPLES) == 9
+    assert len(EXAMPLES) == 10
     tests = Path(__file__).read_text(encoding='utf-8')
     for path in EXAMPLES:
         text = path.read_text(encoding='utf-8')
@@ -160,3 +164,79 @@ def test_two_stiffnesses_share_a_plot(tmp_path):
     soft, stiff = (float(strain) for strain in re.findall(r'strain (.*) %', shown))
     assert soft > stiff
     assert imread(tmp_path / 'stiffness.png').shape[:2] == (660, 880)
+
+
+@pytest.mark.parametrize('seconds', [2.3, pytest.param(7.0, marks=pytest.mark.long)])
+def test_fingers_in_tf_fold_a_towel(tmp_path, seconds):
+    """A robot in tf would need a program that moves its fingers in the simulation."""
+    values = load_parameters(ROOT / 'config' / 'tf_fingers.yaml')
+    values |= {'recording.enabled': True, 'recording.name': 'fold'}
+    values = {name: list(value) if isinstance(value, tuple) else value
+              for name, value in values.items()}
+    with NodeProcess(tmp_path, values):
+        shown = run_example('fold_by_tf', tmp_path, seconds)
+    forces = {float(time): (float(front), float(back)) for time, front, back in re.findall(
+        r'(\S+) s front +(\S+) N back +(\S+) N', shown)}
+    front, back = forces[1.99]
+    assert front == pytest.approx(-back, rel=0.05) and back > 3.0, 'it is pinched'
+    if seconds < 7.0:
+        return
+    assert max(map(abs, forces[6.99])) < 0.1, 'it is let go'
+    clouds, times = held_cloth(tmp_path / 'bags' / 'fold')
+    carried = clouds[(times > 2.1) & (times < 5.18)]
+    assert np.linalg.norm(carried - carried[0], axis=-1).max() <= 1e-5, 'it does not slip'
+    last = Recording(tmp_path / 'bags' / 'fold').arrays('points')['positions'][-1]
+    assert last[-1, :, 1].min() > 0.05 and last[..., 2].max() < 0.05, 'its end lies on the other'
+
+
+def held_cloth(folder):
+    """Return where the pinched nodes are, seen from a finger, (frames, nodes, 3), and when [s]."""
+    recording = Recording(folder)
+    poses = {}
+    for raw in recording.raw_messages():
+        for each in recording.decode(raw).transforms if raw.topic == '/tf' else ():
+            if each.child_frame_id.endswith('collider_back'):
+                place, turn = each.transform.translation, each.transform.rotation
+                poses[raw.time] = Pose((place.x, place.y, place.z), (
+                    turn.x, turn.y, turn.z, turn.w))
+    epoch = min(poses)
+    clouds = recording.arrays('points')
+    seen = np.array([
+        poses[epoch + round(time * 1e9)].seen_from(cloud.reshape(-1, 3).astype(float))
+        for time, cloud in zip(clouds['time'], clouds['positions'])])
+    times = clouds['time'] + 1e-9 * epoch
+    closed = seen[np.searchsorted(times, 2.1)]
+    held = (np.abs(closed - (0.0, -0.0135, 0.0)) < (0.05, 0.005, 0.02)).all(axis=-1)
+    assert held.sum() > 10
+    return seen[:, held], times
+
+
+def test_a_client_in_c_plus_plus_acts_on_codes(tmp_path):
+    """A user of C++ would find no way in, or one that does not build."""
+    source, build = ROOT / 'examples' / 'cpp_client', tmp_path / 'build'
+    prefix = {'CMAKE_PREFIX_PATH': os.pathsep.join(
+        [sys.prefix, *filter(None, [os.environ.get('CMAKE_PREFIX_PATH')])])}
+    for command in (['cmake', '-S', str(source), '-B', str(build)],
+                    ['cmake', '--build', str(build)]):
+        done = subprocess.run(
+            command, env={**os.environ, **prefix}, capture_output=True, text=True)
+        assert done.returncode == 0, done.stdout + done.stderr
+    # ROS from wheels expects Python to be there, in whatever uses it.
+    python = Path(sysconfig.get_config_var('LIBDIR'), sysconfig.get_config_var('LDLIBRARY'))
+
+    def run(*arguments):
+        return subprocess.run(
+            [str(build / 'cloth_client'), *arguments], env={
+                **os.environ, 'LD_PRELOAD': str(python)},
+            capture_output=True, text=True, timeout=300)
+
+    with NodeProcess(tmp_path, {'rows': 4, 'cols': 4, 'start_paused': True}):
+        done = run('/cloth_sim', '5')
+        assert (done.returncode, done.stdout) == (
+            ResultCode.OK, '5 steps done, now at 0.025 s\n'), done.stderr
+        done = run('/cloth_sim', '0')
+        assert done.returncode == ResultCode.INVALID_VALUE
+        assert 'steps 0 is outside its range' in done.stdout
+    with NodeProcess(tmp_path, {'rows': 4, 'cols': 4}):
+        done = run('/cloth_sim', '5')
+        assert done.returncode == ResultCode.WRONG_STATE and 'pause it first: ros2' in done.stdout

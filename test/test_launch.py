@@ -14,7 +14,7 @@ ROOT = Path(__file__).resolve().parents[1]
 pytest.importorskip('launch_ros')
 
 
-def simulator(params_file: str) -> list:
+def simulator(params_file: str, **arguments: str) -> list:
     """Return the nodes that the launch file starts with ``params_file``."""
     from launch import LaunchContext
     spec = spec_from_file_location('cloth_sim_launch', ROOT / 'launch' / 'cloth_sim.launch.py')
@@ -22,7 +22,7 @@ def simulator(params_file: str) -> list:
     spec.loader.exec_module(module)
     context = LaunchContext()
     context.launch_configurations.update(
-        params_file=params_file, mode='', recording='', namespace='', rviz='false')
+        params_file=params_file, mode='', recording='', namespace='', rviz='false', **arguments)
     return module.simulator(context)
 
 

@@ -6,6 +6,7 @@
 
 from argparse import ArgumentParser
 import ast
+from functools import partial
 from importlib import import_module
 from pathlib import Path
 import re
@@ -13,6 +14,7 @@ import shlex
 import subprocess
 import sys
 
+from cloth_sim_ros.messages.requests import ACTIONS
 from cloth_sim_ros.messages.requests import SERVICES
 from cloth_sim_ros.messages.requests import SUBSCRIPTIONS
 from cloth_sim_ros.messages.topics import TOPICS
@@ -21,6 +23,7 @@ from cloth_sim_ros.verb.main import VERBS
 from graph_client import GraphClient
 from node_process import NodeProcess
 import pytest
+from rclpy.action import get_action_server_names_and_types_by_node
 from rclpy.node import NodeNameNonExistentError
 from std_srvs.srv import SetBool
 
@@ -78,8 +81,15 @@ def test_topics_are_those_of_the_code():
 
 def test_services_are_those_of_the_code():
     """The page would lack a service, or give another type."""
-    assert {row[0]: row[1] for row in rows(reference('services'), '# Services')} == {
+    assert {row[0]: row[1] for row in rows(
+            reference('services'), '# Services and actions')} == {
         service.name: service.type_name for service in SERVICES}
+
+
+def test_actions_are_those_of_the_code():
+    """The page would lack an action, or give another type."""
+    assert {row[0]: row[1] for row in rows(reference('services'), '## Actions')} == {
+        action.name: action.type_name for action in ACTIONS}
 
 
 def test_subscriptions_are_those_of_the_code():
@@ -110,10 +120,12 @@ def test_a_node_has_the_services_and_subscriptions(tmp_path):
             # ROS gives each node services for its parameters and types.
             return {
                 one_for_any.get(name, name): kind for name, kind in own.items()
-                if 'parameter' not in name and not name.endswith('get_type_description')}
+                if 'parameter' not in name and '/_action/' not in name
+                and not name.endswith('get_type_description')}
 
         for kinds, ask in (
                 (SERVICES, client.node.get_service_names_and_types_by_node),
+                (ACTIONS, partial(get_action_server_names_and_types_by_node, client.node)),
                 (SUBSCRIPTIONS, client.node.get_subscriber_names_and_types_by_node)):
             expected = {each.name: each.type_name for each in kinds}
             client.spin_until(lambda: expected.keys() <= offered(ask).keys(), 'all of them')

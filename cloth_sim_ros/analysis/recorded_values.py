@@ -61,6 +61,7 @@ _NEEDED: dict[str, dict[str, Any]] = {
     'inputs/mode': {**_STAMP, 'mode': str},
     'inputs/command': {**_STAMP, 'command': str},
     'inputs/parameters': {'stamp.sec': int, 'stamp.nanosec': int},
+    'inputs/time_base': {**_STAMP, 'epoch.sec': int, 'epoch.nanosec': int},
 }
 # Fields of the elements of list fields.
 _ELEMENTS: dict[str, dict[str, dict[str, Any]]] = {

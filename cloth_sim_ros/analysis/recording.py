@@ -8,6 +8,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from dataclasses import fields
 from dataclasses import is_dataclass
+from dataclasses import replace
 from functools import cached_property
 from pathlib import Path
 from typing import Any
@@ -167,7 +168,24 @@ TYPES = {
     'inputs/mode': f'{_OWN}ModeChange',
     'inputs/command': f'{_OWN}Command',
     'inputs/parameters': 'rcl_interfaces/msg/ParameterEvent',
+    'inputs/time_base': f'{_OWN}TimeBase',
 }
+
+
+_TIME_BASE = 'inputs/time_base'
+_SECOND = 1_000_000_000  # [ns]
+
+
+def _in_nanoseconds(stamp: Any) -> int:
+    return int(stamp.sec) * _SECOND + int(stamp.nanosec)
+
+
+def _take_off(message: Any, epoch: int) -> None:
+    """Stamp ``message`` with the time since ``epoch`` [ns]."""
+    holder = message.header if hasattr(message, 'header') else message
+    if epoch and hasattr(holder, 'stamp'):
+        sec, nanosec = divmod(_in_nanoseconds(holder.stamp) - epoch, _SECOND)
+        holder.stamp = replace(holder.stamp, sec=sec, nanosec=nanosec)
 
 
 class SteadyTime:
@@ -290,23 +308,29 @@ class Recording:
 
     def entries(self, *keys: str) -> Iterator[Entry]:
         """
-        Yield the messages of the topics ``keys`` as they were recorded.
+        Yield the messages of the topics ``keys``, stamped with simulated time.
 
+        Where the node had other stamps, such as those of the wall clock, their epoch is taken off.
         Topics of another type than the node's are skipped.
 
         :raises ClothSimError: when a message makes no sense
         """
         # Resets are always read: the time must not depend on what else is.
         names = {
-            topic.name: topic.type_name for topic in self._known_topics((*keys, 'inputs/command'))}
+            topic.name: topic.type_name
+            for topic in self._known_topics((*keys, 'inputs/command', _TIME_BASE))}
         begin = len(self.node) + 1
         time = SteadyTime()
+        epoch = self._first_epoch()
         for raw in self._bag.messages(names) if names else ():
             if raw.type_name != names[raw.topic]:
                 continue
             message = self._bag.decode(raw)
             key = raw.topic[begin:]
             check_message(key, message)
+            if key == _TIME_BASE:
+                epoch = _in_nanoseconds(message.epoch)
+            _take_off(message, epoch)
             if hasattr(message, 'header'):
                 time.read(message.header.stamp, raw.topic)
             if key in keys:
@@ -371,6 +395,16 @@ class Recording:
         return ClothSimError(
             f'{self.path} holds no frame of the node {self.node}: name the recorded node with '
             '--node, or record with publish.points: true')
+
+    def _first_epoch(self) -> int:
+        """Return the stamp of simulated time 0 [ns] at the beginning of the recording."""
+        # Another recorder may have it behind the first messages of other topics.
+        for topic in self._known_topics([_TIME_BASE]):
+            for raw in self._bag.messages([topic.name]):
+                message = self._bag.decode(raw)
+                check_message(_TIME_BASE, message)
+                return _in_nanoseconds(message.epoch)
+        return 0
 
     def _known_topics(self, keys: Iterable[str]) -> list[BagTopic]:
         keys = list(keys)

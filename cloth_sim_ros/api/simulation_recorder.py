@@ -18,6 +18,7 @@ from cloth_sim_ros.messages.frame_messages import FrameTaker
 from cloth_sim_ros.messages.frame_messages import Pace
 from cloth_sim_ros.messages.inputs import input_message
 from cloth_sim_ros.messages.pins import too_many_pins
+from cloth_sim_ros.messages.stamp import nanoseconds
 from cloth_sim_ros.messages.state import state_of
 from cloth_sim_ros.node.node_fields import checked_node_values
 from cloth_sim_ros.node.node_fields import NODE_FIELDS
@@ -108,7 +109,7 @@ class RunRecording:
             key, message = made
             self._session.write(key, serialize_message(message), time)
         if isinstance(given, Reset):
-            self._session.rewind(time)
+            self._session.rewind(nanoseconds(time))
 
     def write_stop(self) -> None:
         """Write that the run has stopped before its end."""

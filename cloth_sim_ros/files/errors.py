@@ -8,6 +8,18 @@ class ClothSimError(ValueError):
     """A request that cannot be carried out; it has changed nothing."""
 
 
+class NotFoundError(ClothSimError):
+    """What a request names or points at is not there."""
+
+
+class NameTakenError(ClothSimError):
+    """A name is in use already."""
+
+
+class WrongStateError(ClothSimError):
+    """The request could be carried out at another time."""
+
+
 # Inputs quoted in error messages, shortened.
 
 # Max. length of a quoted input [characters]: enough to find it again.

@@ -36,14 +36,16 @@ def body_poses(
         **{collider_frame(node_name, collider.name): collider.pose for collider in colliders}}
 
 
-def body_frames(poses: Mapping[str, Pose], sim_time: float, frame_id: str) -> TFMessage:
+def body_frames(
+        poses: Mapping[str, Pose], sim_time: float, frame_id: str, epoch: int = 0) -> TFMessage:
     """
     Return the transforms of ``poses`` at ``sim_time`` [s].
 
     :param poses: by the names of their frames
     :param frame_id: the parent, frame of the positions
+    :param epoch: stamp of simulated time 0 [ns]
     """
-    header = Header(stamp=stamp(sim_time), frame_id=frame_id)
+    header = Header(stamp=stamp(sim_time, epoch), frame_id=frame_id)
     return TFMessage(transforms=[
         TransformStamped(
             header=header, child_frame_id=name,
@@ -54,33 +56,34 @@ def body_frames(poses: Mapping[str, Pose], sim_time: float, frame_id: str) -> TF
 
 def grasp_wrenches(
         node_name: str, grasps: Sequence[Grasp], forces: Sequence[GraspForce],
-        sim_time: float) -> list[WrenchStamped]:
+        sim_time: float, epoch: int = 0) -> list[WrenchStamped]:
     """
     Return what each of ``grasps`` feels at ``sim_time`` [s], in its frame and about its origin.
 
     :param node_name: with its namespace
     :param forces: of the cloth on them; those on others are left out
+    :param epoch: stamp of simulated time 0 [ns]
     """
     poses = {grasp.name: grasp.pose for grasp in grasps}
     return [
-        _wrench(grasp_frame(node_name, felt.name), poses[felt.name], felt, sim_time)
+        _wrench(grasp_frame(node_name, felt.name), poses[felt.name], felt, sim_time, epoch)
         for felt in forces if felt.name in poses]
 
 
 def grasp_peaks(
         node_name: str, grasps: Sequence[Grasp], forces: Sequence[GraspForce],
-        sim_time: float) -> list[WrenchStamped]:
+        sim_time: float, epoch: int = 0) -> list[WrenchStamped]:
     """Return the strongest force in a substep that each of them feels, with a torque of 0."""
     strongest = [replace(felt, force=felt.peak, torque=np.zeros(3)) for felt in forces]
-    return grasp_wrenches(node_name, grasps, strongest, sim_time)
+    return grasp_wrenches(node_name, grasps, strongest, sim_time, epoch)
 
 
 def collider_wrenches(
         node_name: str, colliders: Sequence[Collider], forces: Sequence[ContactForce],
-        sim_time: float) -> list[WrenchStamped]:
+        sim_time: float, epoch: int = 0) -> list[WrenchStamped]:
     """Return the same for ``colliders``."""
     return [
-        _wrench(collider_frame(node_name, collider.name), collider.pose, felt, sim_time)
+        _wrench(collider_frame(node_name, collider.name), collider.pose, felt, sim_time, epoch)
         for collider, felt in zip(colliders, forces)]
 
 
@@ -100,8 +103,8 @@ def vector(parts: Sequence[float] | np.ndarray) -> Vector3:
 
 def _wrench(
         frame: str, pose: Pose, felt: GraspForce | ContactForce,
-        sim_time: float) -> WrenchStamped:
+        sim_time: float, epoch: int) -> WrenchStamped:
     return WrenchStamped(
-        header=Header(stamp=stamp(sim_time), frame_id=frame),
+        header=Header(stamp=stamp(sim_time, epoch), frame_id=frame),
         wrench=Wrench(
             force=vector(pose.axes @ felt.force), torque=vector(pose.axes @ felt.torque)))

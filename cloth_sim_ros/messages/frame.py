@@ -59,14 +59,14 @@ class PointsMessage:
             self._head, place - _LENGTH.size, rows * cols * POINT_DTYPE.itemsize)
         self._tail = bytearray(template[place + len(_MARK):])
 
-    def serialise(self, snapshot: Snapshot) -> bytes:
-        """Return the CDR bytes of the PointCloud2 of ``snapshot``."""
+    def serialise(self, snapshot: Snapshot, epoch: int = 0) -> bytes:
+        """Return the CDR bytes of the PointCloud2 of ``snapshot``, stamped from ``epoch`` [ns]."""
         records = snapshot.records
         if records.shape != self._shape or records.dtype != POINT_DTYPE:
             raise ValueError(
                 f'points are {records.shape} {records.dtype}, the message is {self._shape} '
                 f'{POINT_DTYPE}: create a PointsMessage for this cloth')
-        STAMP.pack_into(self._head, STAMP_AT, *stamp_parts(snapshot.time))
+        STAMP.pack_into(self._head, STAMP_AT, *stamp_parts(snapshot.time, epoch))
         self._tail[0] = self._is_dense and snapshot.finite  # is_dense, the last field
         return b''.join((self._head, np.ascontiguousarray(records).data, self._tail))
 
@@ -161,8 +161,8 @@ class StatsMessage:
 
     def serialise(
             self, snapshot: Snapshot, *, step_wall_time: float, real_time_factor: float,
-            wanted_factor: float, too_slow: bool) -> bytes:
-        """Return the CDR bytes of what ``stats_message`` returns."""
-        STAMP.pack_into(self._head, STAMP_AT, *stamp_parts(snapshot.time))
+            wanted_factor: float, too_slow: bool, epoch: int = 0) -> bytes:
+        """Return the CDR bytes of what ``stats_message`` returns, stamped from ``epoch`` [ns]."""
+        STAMP.pack_into(self._head, STAMP_AT, *stamp_parts(snapshot.time, epoch))
         return bytes(self._head) + self._fields.pack(*_stats(
             snapshot, step_wall_time, real_time_factor, wanted_factor, too_slow).values())

@@ -79,6 +79,7 @@ class FrameContent:
     :param snapshot: None where nothing but the clock is wanted
     :param pinned: which nodes are held by pins alone, (rows, cols) bool
     :param forces: means over the frame; None where they are not wanted, or not known
+    :param epoch: stamp of simulated time 0 [ns]
     """
 
     keys: frozenset[str]
@@ -90,6 +91,7 @@ class FrameContent:
     pushes: tuple[Push, ...]
     grasps: tuple[Grasp, ...]
     colliders: tuple[Collider, ...]
+    epoch: int = 0
 
 
 class FrameTaker:
@@ -105,12 +107,15 @@ class FrameTaker:
         self._values = values
         self._window: ForceWindow | None = None
 
-    def take(self, is_read: Callable[[str], bool], pace: Callable[[], Pace]) -> FrameContent:
+    def take(
+            self, is_read: Callable[[str], bool], pace: Callable[[], Pace],
+            epoch: int = 0) -> FrameContent:
         """
         Return what is read of the present moment.
 
         :param is_read: returns whether anybody reads the topic of a key
         :param pace: returns how fast the frame was made, asked when the device is done
+        :param epoch: stamp of simulated time 0 [ns]
         """
         simulation = self._simulation
         pinned = simulation.pinned_nodes() & ~simulation.grasped_nodes()
@@ -131,7 +136,7 @@ class FrameTaker:
         return FrameContent(
             wanted, simulation.time, pace(), snapshot, pinned & has_pins,
             forces,
-            tuple(applied.push for applied in simulation.pushes), grasps, colliders)
+            tuple(applied.push for applied in simulation.pushes), grasps, colliders, epoch)
 
     def close(self) -> None:
         """Add up no forces any more."""
@@ -180,22 +185,23 @@ class FrameMessages:
         """Yield the key of a topic and each message, frames before what is given in them."""
         keys = frame.keys
         if 'clock' in keys:
-            yield 'clock', serialise_clock(frame.time)
+            yield 'clock', serialise_clock(frame.time, frame.epoch)
         snapshot = frame.snapshot
         if snapshot is None:
             return
         if 'points' in keys:
-            yield 'points', self._points.serialise(snapshot)
+            yield 'points', self._points.serialise(snapshot, frame.epoch)
         if 'markers' in keys:
             yield 'markers', self._markers.serialise(
-                snapshot, frame.pushes, frame.colliders, frame.grasps)
+                snapshot, frame.pushes, frame.colliders, frame.grasps, frame.epoch)
         if 'stats' in keys:
             pace = frame.pace
             yield 'stats', self._stats.serialise(
                 snapshot, step_wall_time=pace.step_wall_time, real_time_factor=pace.achieved,
-                wanted_factor=pace.wanted, too_slow=pace.too_slow)
+                wanted_factor=pace.wanted, too_slow=pace.too_slow, epoch=frame.epoch)
         if 'tf' in keys and frame.pinned.any():
-            yield 'tf', self._pin_frames.serialise(snapshot, ~frame.pinned)
+            yield 'tf', self._pin_frames.serialise(
+                snapshot, ~frame.pinned, frame.epoch)
         yield from self._pin_wrenches(frame)
         yield from self._of_bodies(frame)
 
@@ -206,22 +212,23 @@ class FrameMessages:
         for key, values in (
                 ('pins/wrenches', pins.forces), ('pins/peak_wrenches', pins.peaks)):
             if key in frame.keys:
-                for data in self._wrenches.serialise(pins.nodes, values, frame.time):
+                for data in self._wrenches.serialise(
+                        pins.nodes, values, frame.time, frame.epoch):
                     yield key, data
 
     def _of_bodies(self, frame: FrameContent) -> Iterator[tuple[str, bytes]]:
-        name, now = self._node_name, frame.time
+        name, now, epoch = self._node_name, frame.time, frame.epoch
         if 'tf' in frame.keys and (frame.grasps or frame.colliders):
             poses = body_poses(name, frame.grasps, frame.colliders)
-            yield 'tf', serialize_message(body_frames(poses, now, self._frame_id))
+            yield 'tf', serialize_message(body_frames(poses, now, self._frame_id, epoch))
         forces = frame.forces
         if forces is None:
             return
         wrenches = {
-            'grasps/wrenches': grasp_wrenches(name, frame.grasps, forces.grasps, now),
-            'grasps/peak_wrenches': grasp_peaks(name, frame.grasps, forces.grasps, now),
+            'grasps/wrenches': grasp_wrenches(name, frame.grasps, forces.grasps, now, epoch),
+            'grasps/peak_wrenches': grasp_peaks(name, frame.grasps, forces.grasps, now, epoch),
             'colliders/wrenches': collider_wrenches(
-                name, frame.colliders, forces.contacts, now)}
+                name, frame.colliders, forces.contacts, now, epoch)}
         for key, messages in wrenches.items():
             if key in frame.keys:
                 for message in messages:

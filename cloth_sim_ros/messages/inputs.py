@@ -108,15 +108,17 @@ def _put_numbers(writer: CdrWriter, code: str, numbers: Any) -> None:
         writer.put(code, *numbers)
 
 
-def input_message(given: Input, time: float, frame_id: str) -> tuple[str, Any] | None:
+def input_message(
+        given: Input, time: float, frame_id: str, epoch: int = 0) -> tuple[str, Any] | None:
     """
     Return the topic and the message of an accepted input; None where it has changed nothing.
 
     :param time: simulated time from which it acts [s]
     :param frame_id: of the cloth
+    :param epoch: stamp of simulated time 0 [ns]
     :raises TypeError: for an input that has no message
     """
-    header = Header(stamp=stamp(time), frame_id=frame_id)
+    header = Header(stamp=stamp(time, epoch), frame_id=frame_id)
     match given:
         case PushNodes(push):
             return 'inputs/push', PushMessage(
@@ -161,10 +163,11 @@ def _frame_target(given: MoveFrame, header: Header) -> FrameTarget:
         angular_speed=given.angular_speed)
 
 
-def place_message(name: str, pose: Pose, sim_time: float, frame_id: str) -> FrameTarget:
-    """Return that the collider ``name`` is at ``pose`` at ``sim_time`` [s]."""
+def place_message(
+        name: str, pose: Pose, sim_time: float, frame_id: str, epoch: int = 0) -> FrameTarget:
+    """Return that the collider ``name`` is at ``pose`` ``sim_time`` [s] after ``epoch`` [ns]."""
     return FrameTarget(
-        header=Header(stamp=stamp(sim_time), frame_id=frame_id), name=name,
+        header=Header(stamp=stamp(sim_time, epoch), frame_id=frame_id), name=name,
         pose=pose_message(pose))
 
 
@@ -180,18 +183,19 @@ def _xyz(values: Sequence[float]) -> dict[str, float]:
 
 def parameters_message(
         values: Mapping[str, Any], fields: Iterable[Field], sim_time: float, node_name: str, *,
-        is_change: bool = False) -> ParameterEvent:
+        is_change: bool = False, epoch: int = 0) -> ParameterEvent:
     """
     Return the parameters in ``values``, typed as ``fields`` has them.
 
     :param values: by name; names that ``fields`` lacks are left out
     :param node_name: with its namespace
     :param is_change: True for a change while running, False for what holds from here on
+    :param epoch: stamp of simulated time 0 [ns]
     """
     parameters = [
         Parameter(name=field.name, value=parameter_value(field, values[field.name]))
         for field in fields if field.name in values]
-    event = ParameterEvent(stamp=stamp(sim_time), node=f'/{node_name.lstrip("/")}')
+    event = ParameterEvent(stamp=stamp(sim_time, epoch), node=f'/{node_name.lstrip("/")}')
     if is_change:
         event.changed_parameters = parameters
     else:

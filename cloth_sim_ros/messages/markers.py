@@ -161,13 +161,15 @@ class MarkersMessage:
 
     def serialise(
             self, snapshot: Snapshot, pushes: Iterable[Push] = (),
-            colliders: Sequence[Collider] = (), grasps: Sequence[Grasp] = ()) -> bytes:
+            colliders: Sequence[Collider] = (), grasps: Sequence[Grasp] = (),
+            epoch: int = 0) -> bytes:
         """
         Return the CDR bytes of the MarkerArray.
 
         :param pushes: those that act
         :param colliders: where they are now
         :param grasps: those that hold nodes
+        :param epoch: stamp of simulated time 0 [ns]
         """
         size = _size(snapshot.positions, self._is_whole)
         # Half the distance of nodes, but still to be seen on a fine cloth.
@@ -187,7 +189,7 @@ class MarkersMessage:
             for namespace, number in sorted(self._shown - shown)]
         writer = CdrWriter()
         writer.put('I', len(markers))
-        time = stamp(snapshot.time)
+        time = stamp(snapshot.time, epoch)
         for marker in markers:
             put_marker(writer, time=time, frame_id=self._frame_id, **marker)
         return writer.finish()

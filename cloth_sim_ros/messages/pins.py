@@ -43,11 +43,13 @@ class PinFrames:
         self._template = bytearray()
         self._fields: list[tuple[int, int]] = []
 
-    def serialise(self, snapshot: Snapshot, held: np.ndarray | None = None) -> bytes:
+    def serialise(
+            self, snapshot: Snapshot, held: np.ndarray | None = None, epoch: int = 0) -> bytes:
         """
         Return the CDR bytes of the frames of ``snapshot``, row by row of the pins.
 
         :param held: (rows, cols) bool, nodes to leave out: they have the frame of their grasp
+        :param epoch: stamp of simulated time 0 [ns]
         """
         pinned = snapshot.flags & FLAG_PINNED != 0
         if held is not None:
@@ -55,7 +57,7 @@ class PinFrames:
         pins = np.argwhere(pinned).tolist()
         if pins != self._pins:
             self._make_template(pins)
-        time = stamp_parts(snapshot.time)
+        time = stamp_parts(snapshot.time, epoch)
         for (stamp_at, place_at), place in zip(self._fields, snapshot.positions[pinned].tolist()):
             STAMP.pack_into(self._template, stamp_at, *time)
             _PLACE.pack_into(self._template, place_at, *place)
@@ -103,14 +105,16 @@ class WrenchMessages:
         self._templates: dict[tuple[int, int], tuple[bytearray, int]] = {}
 
     def serialise(
-            self, nodes: np.ndarray, forces: np.ndarray, sim_time: float) -> list[bytes]:
+            self, nodes: np.ndarray, forces: np.ndarray, sim_time: float,
+            epoch: int = 0) -> list[bytes]:
         """
         Return the CDR bytes of each message of a frame at ``sim_time`` [s].
 
         :param nodes: rows and columns of pins, (pins, 2) int
         :param forces: of the cloth on each [N], (pins, 3)
+        :param epoch: stamp of simulated time 0 [ns]
         """
-        time = stamp_parts(sim_time)
+        time = stamp_parts(sim_time, epoch)
         messages = []
         for node, force in zip(nodes.tolist(), forces.tolist()):
             data, place = self._template(*node)

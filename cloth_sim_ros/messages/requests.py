@@ -1,13 +1,16 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-"""What can be asked of the node: its services, and the topics that it subscribes to."""
+"""What can be asked of the node: its services, actions, and the topics that it subscribes to."""
 
 from dataclasses import dataclass
 
+from cloth_sim_interfaces.action import MoveFrame as MoveFrameAction
+from cloth_sim_interfaces.action import Step as StepAction
 from cloth_sim_interfaces.msg import PinTarget
 from cloth_sim_interfaces.msg import Push
 from cloth_sim_interfaces.srv import ApplyPush
+from cloth_sim_interfaces.srv import FollowFrame
 from cloth_sim_interfaces.srv import Grasp
 from cloth_sim_interfaces.srv import MoveFrame
 from cloth_sim_interfaces.srv import MovePin
@@ -27,10 +30,10 @@ from tf2_msgs.msg import TFMessage
 @dataclass(frozen=True)
 class Request:
     """
-    A service, or a topic that the node subscribes to.
+    A service, an action, or a topic that the node subscribes to.
 
     :param name: ~ stands for the name of the node
-    :param kind: class of the service, or of the message
+    :param kind: class of the service, of the action, or of the message
     :param text: one line for people
     """
 
@@ -60,6 +63,9 @@ SERVICES = (
             'time of arrival'),
     Request('~/move_collider', MoveFrame, 'move a collider in a straight line, and turn it; '
             'returns the time of arrival'),
+    Request('~/follow_grasp', FollowFrame, 'attach a grasp rigidly to a frame on /tf, or no '
+            'longer'),
+    Request('~/follow_collider', FollowFrame, 'attach a collider likewise'),
     Request('~/reset', Trigger, 'restore the initial pose, pins and time, and the pushes, grasps '
             'and moves of the scene'),
     Request('~/pause', SetBool, 'pause or resume simulated time'),
@@ -67,6 +73,14 @@ SERVICES = (
             'when they are done'),
     Request('~/start_recording', StartRecording, 'start a recording in `recording.directory`'),
     Request('~/stop_recording', Trigger, 'complete and close the recording'),
+)
+
+ACTIONS = (
+    Request('~/move_pin', MoveFrameAction, 'move a pin, with feedback, until it has arrived'),
+    Request('~/move_grasp', MoveFrameAction, 'move a grasp likewise, and turn it'),
+    Request('~/move_collider', MoveFrameAction, 'move a collider likewise, and turn it'),
+    Request('~/step', StepAction, 'advance a paused simulation by a number of time steps, with '
+            'feedback'),
 )
 
 SUBSCRIPTIONS = (

@@ -1,7 +1,11 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-"""Simulated time as ROS writes it."""
+"""
+Simulated time as ROS writes it.
+
+A stamp is an epoch, the stamp of simulated time 0 [ns], and the simulated time since.
+"""
 
 import math
 import struct
@@ -22,17 +26,17 @@ def nanoseconds(seconds: float) -> int:
     return whole * NANOSECONDS + round((seconds - whole) * NANOSECONDS)
 
 
-def stamp(seconds: float) -> Time:
-    """Return simulated ``seconds`` as a ROS time."""
-    sec, nanosec = stamp_parts(seconds)
+def stamp(seconds: float, epoch: int = 0) -> Time:
+    """Return simulated ``seconds`` after ``epoch`` [ns] as a ROS time."""
+    sec, nanosec = stamp_parts(seconds, epoch)
     return Time(sec=sec, nanosec=nanosec)
 
 
-def stamp_parts(seconds: float) -> tuple[int, int]:
+def stamp_parts(seconds: float, epoch: int = 0) -> tuple[int, int]:
     """Return the fields of that, sec and nanosec, for messages that are no objects."""
-    return divmod(nanoseconds(seconds), NANOSECONDS)
+    return divmod(epoch + nanoseconds(seconds), NANOSECONDS)
 
 
-def serialise_clock(seconds: float) -> bytes:
-    """Return the CDR bytes of a rosgraph_msgs/Clock at simulated ``seconds``."""
-    return ENCAPSULATION + STAMP.pack(*stamp_parts(seconds))
+def serialise_clock(seconds: float, epoch: int = 0) -> bytes:
+    """Return the CDR bytes of a rosgraph_msgs/Clock at simulated ``seconds`` after ``epoch``."""
+    return ENCAPSULATION + STAMP.pack(*stamp_parts(seconds, epoch))

@@ -8,6 +8,7 @@ from typing import Any
 
 from builtin_interfaces.msg import Time
 from cloth_sim_interfaces.msg import ClothState
+from cloth_sim_interfaces.msg import TimeBase
 from cloth_sim_ros.messages.stamp import stamp
 from cloth_sim_ros.sim.simulation import Simulation
 from cloth_sim_ros.sim.snapshot import Snapshot
@@ -19,7 +20,7 @@ from std_msgs.msg import Header
 
 def state_of(
         simulation: Simulation, *, frame_id: str, run_state: str, preparing: str = '',
-        compiled: int = 0, recording_path: str = '') -> ClothState:
+        compiled: int = 0, recording_path: str = '', epoch: int = 0) -> ClothState:
     """Return the state of ``simulation`` now; the rest as in state_message."""
     return state_message(
         frame_id=frame_id, sim_time=simulation.time, mode=simulation.mode,
@@ -27,14 +28,14 @@ def state_of(
         rows=simulation.scene.rows, cols=simulation.scene.cols, dt=simulation.dt,
         substeps=simulation.substeps, stability_limit=simulation.stability_limit,
         device=simulation.device, preparing=preparing, compiled=compiled,
-        recording_path=recording_path)
+        recording_path=recording_path, epoch=epoch)
 
 
 def state_message(
         *, frame_id: str, sim_time: float, mode: str, available_modes: Sequence[str],
         run_state: str, rows: int, cols: int, dt: float, substeps: int, stability_limit: float,
         device: str, preparing: str = '', compiled: int = 0,
-        recording_path: str = '') -> ClothState:
+        recording_path: str = '', epoch: int = 0) -> ClothState:
     """
     Return the state of the node.
 
@@ -45,9 +46,10 @@ def state_message(
     :param preparing: mode that is being compiled, empty when none is
     :param compiled: its programs that are ready
     :param recording_path: folder being written to, empty when not recording
+    :param epoch: stamp of simulated time 0 [ns]
     """
     return ClothState(
-        header=Header(stamp=stamp(sim_time), frame_id=frame_id),
+        header=Header(stamp=stamp(sim_time, epoch), frame_id=frame_id),
         mode=mode,
         preparing=preparing,
         compiled=compiled,
@@ -65,6 +67,8 @@ def state_message(
 
 # The health of a run, in words.
 
+LATE = 1.0          # [s] that stamps are behind; as long as between two diagnostics
+FAR = 1e-3          # [m] that a body may be behind its frame: twice as much and it is seen
 SLOW = 0.9          # share of the wanted real-time factor below which a run is slow
 SAFE_MARGIN = 0.85  # what auto_substeps keeps
 # Up to there a run is that of exact solves (docs/explanation/solver.md, Accuracy).
@@ -101,12 +105,15 @@ def diagnostics_message(
         snapshot: Snapshot | None, *, stamp: Time, node_name: str, device: str, paused: bool,
         real_time_factor: float, wanted_factor: float, automatic_substeps: bool, problem: str = '',
         recording_path: str = '', recording_error: str = '', recording_is_whole: bool = False,
-        faults: int = 0, latest_fault: str = '', ignored: int = 0) -> DiagnosticArray:
+        faults: int = 0, latest_fault: str = '', ignored: int = 0, source: str = 'own',
+        behind: float = 0.0, time_problem: str = '',
+        followers: Sequence[tuple[str, str, bool, float]] = (),
+        waiting: Sequence[tuple[str, str]] = ()) -> DiagnosticArray:
     """
     Return the health of each part: device, pace, solver, stability, recorder and program.
 
     :param snapshot: None before the first mode is compiled
-    :param stamp: time of the node's clock: aggregators compare it with their own
+    :param stamp: of the present simulated time
     :param device: GL_RENDERER
     :param real_time_factor: simulated time per wall time, achieved
     :param wanted_factor: the same as asked for, 0 for as fast as possible
@@ -119,6 +126,12 @@ def diagnostics_message(
     :param faults: unexpected errors since the start
     :param latest_fault: the last of them, in one line
     :param ignored: messages on topics that made no sense, since the start
+    :param source: of the stamps, TimeBase.OWN or TimeBase.ROS
+    :param behind: how far the cloth is behind the time that its stamps are of [s]
+    :param time_problem: what is wrong with /clock; empty for nothing
+    :param followers: of each body that follows a frame: its name, the frame, whether that is late,
+        and how far the body is behind [m]
+    :param waiting: bodies whose frame is not known yet, and the frame
     """
     findings = {'GL device': _device(snapshot, device)}
     if snapshot is not None:
@@ -128,6 +141,9 @@ def diagnostics_message(
             'solver': _solver(snapshot),
             'stability': _stability(snapshot, problem, automatic_substeps),
             'pins': _pins(snapshot)})
+    findings['time'] = _time(source, behind, time_problem, paused)
+    if followers or waiting:
+        findings['followed frames'] = _followed(followers, waiting)
     findings['recorder'] = _recorder(recording_path, recording_error, recording_is_whole)
     findings['program'] = _program(faults, latest_fault, ignored)
     return DiagnosticArray(
@@ -260,6 +276,37 @@ def _turns(margin: float, values: dict[str, Any], automatic: bool) -> _Verdict:
         way_out = 'raise constraint.max_substeps' if automatic else 'set auto_substeps: true'
         return WARN, f'{text}: {way_out}, or use a shorter dt', values
     return OK, text, values
+
+
+def _time(source: str, behind: float, problem: str, paused: bool) -> _Verdict:
+    values = {'source': source, 'behind [s]': float(behind)}
+    if problem:
+        return WARN, problem, values
+    if behind > LATE and not paused:
+        clock = '/clock' if source == TimeBase.ROS else 'the wall clock'
+        return WARN, (
+            f'stamps are {behind:.3g} s behind {clock}, as the cloth is slower: use fewer nodes, '
+            'a longer dt or another mode, or pause and resume to leave that time out'), values
+    return OK, 'stamps follow /clock' if source == TimeBase.ROS else 'own time', values
+
+
+def _followed(
+        followers: Sequence[tuple[str, str, bool, float]],
+        waiting: Sequence[tuple[str, str]]) -> _Verdict:
+    values: dict[str, Any] = {
+        f'{name}, behind {frame} [m]': float(behind) for name, frame, _, behind in followers}
+    missing = [frame for _, frame in waiting] + [
+        frame for _, frame, is_late, _ in followers if is_late]
+    if missing:
+        return WARN, (
+            f'{", ".join(sorted(set(missing)))} have not come on /tf: start what publishes them, '
+            'or call ~/follow_grasp or ~/follow_collider with an empty frame'), values
+    slow = [name for name, _, _, behind in followers if behind > FAR]
+    if slow:
+        return WARN, (
+            f'{", ".join(slow)} are behind their frames, which are faster than max_speed: move '
+            'the frames more slowly, or give a higher one'), values
+    return OK, f'{len(followers)} bodies follow frames of tf', values
 
 
 def _recorder(path: str, error: str, is_whole: bool) -> _Verdict:

@@ -14,6 +14,7 @@ from cloth_sim_interfaces.msg import ModeChange
 from cloth_sim_interfaces.msg import PinChange
 from cloth_sim_interfaces.msg import PinTarget
 from cloth_sim_interfaces.msg import Push
+from cloth_sim_interfaces.msg import TimeBase
 from cloth_sim_ros.messages.pins import MOST_PINS
 from diagnostic_msgs.msg import DiagnosticArray
 from geometry_msgs.msg import Vector3Stamped
@@ -112,4 +113,6 @@ TOPICS = {
         Topic('inputs/command', Command, depth=100, text='each reset, and each cancellation of '
               'all pushes'),
         Topic('inputs/parameters', ParameterEvent, depth=100, text='each parameter change'),
+        Topic('inputs/time_base', TimeBase, depth=1, transient_local=True, text='each change of '
+              'the stamp of simulated time 0'),
     )}

@@ -12,8 +12,15 @@ import warnings
 
 from cloth_sim_ros.messages.frame_messages import Pace
 from cloth_sim_ros.messages.geometry import serialise_topology
+from cloth_sim_ros.messages.stamp import stamp
 from cloth_sim_ros.messages.state import diagnostics_message
+from cloth_sim_ros.node.action_servers import MoveActions
+from cloth_sim_ros.node.action_servers import StepAction
 from cloth_sim_ros.node.device_thread import DeviceThread
+from cloth_sim_ros.node.followed_time import FollowedTime
+from cloth_sim_ros.node.followers import Followers
+from cloth_sim_ros.node.followers import frames_of_scene
+from cloth_sim_ros.node.graph_checks import ClockSource
 from cloth_sim_ros.node.graph_checks import ClockTopic
 from cloth_sim_ros.node.graph_checks import Namesake
 from cloth_sim_ros.node.guarded_node import GuardedNode
@@ -22,6 +29,9 @@ from cloth_sim_ros.node.input_frames import OwnFrames
 from cloth_sim_ros.node.load_requests import LoadRequests
 from cloth_sim_ros.node.mode_switch import ModeService
 from cloth_sim_ros.node.mode_switch import ModeSwitch
+from cloth_sim_ros.node.motions import Motions
+from cloth_sim_ros.node.node_time import NodeTime
+from cloth_sim_ros.node.node_time import WallTime
 from cloth_sim_ros.node.outlet import Outlet
 from cloth_sim_ros.node.parameters import declare_fields
 from cloth_sim_ros.node.parameters import LiveParameters
@@ -44,6 +54,8 @@ from cloth_sim_ros.recording.bag_folder import fresh_name
 from cloth_sim_ros.recording.bag_folder import RecordingOptions
 from cloth_sim_ros.recording.recording_faults import RecordingError
 from cloth_sim_ros.recording.recording_faults import RecordingFull
+from cloth_sim_ros.sim.errors import ClothSimError
+from cloth_sim_ros.sim.errors import WrongStateError
 from cloth_sim_ros.sim.model.colliders import fields_with_colliders
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.simulation import Simulation
@@ -105,11 +117,16 @@ class ClothSimNode(GuardedNode):
             options=RecordingOptions.from_values(values), wake=self._on_recording_ended)
         # The thread that writes triggers it; the check runs on the ROS thread.
         self._recording_ended = self.create_guard_condition(self._recording.check)
+        self._simulated_steps: Callable[[], bool] = lambda: False
         self._is_asked_for_health = False
         self._ignored = IgnoredMessages(warn)
         self._outlet = Outlet(
             self, self._recording, heard_here=('tf',) if values['tf.listen'] else ())
-        self._pacing = Pacing(values['real_time_factor'])
+        if values['time.source'] == 'ros':
+            self._use_clock()
+        # With /clock, each frame is made as soon as that has come so far.
+        self._pacing = Pacing(
+            0.0 if values['time.source'] == 'ros' else values['real_time_factor'])
         self._device = DeviceThread(self._wake, self._note_fault)
         self._has_events = self.create_guard_condition(self._device.serve)
         try:
@@ -124,6 +141,9 @@ class ClothSimNode(GuardedNode):
                 failed=self._on_mode_failed, changed=self._report_state)
             self._namesake = Namesake(self, '~/set_mode', warn)
             self._clock_topic = ClockTopic(self, self._outlet, values['publish.clock'])
+            self._clock_source = ClockSource(
+                self, self._outlet, is_followed=self._time.is_followed,
+                is_known=lambda: self._time.is_known, warn=warn)
             LiveParameters(
                 self, values, ask_mode=self._switch.ask, changed=self._on_parameters_changed)
             self._serve()
@@ -137,13 +157,19 @@ class ClothSimNode(GuardedNode):
         """Make what lives on the device thread, there."""
         values, name = self._values, self.get_fully_qualified_name()
         simulation = Simulation(scene, compiles=False)
-        own = OwnFrames(simulation, name, values['frame_id'])
+        self._time = self._make_time(simulation)
+        own = OwnFrames(simulation, name, values['frame_id'], self._time.base)
         self._input_frames = InputFrames(
             self, own, values['frame_id'], self._ignored, listens=values['tf.listen'])
         log = self.get_logger()
+        self._followers = Followers(
+            simulation, self._input_frames, self._time.base,
+            frames_of_scene(values['tf.follow'], simulation),
+            lambda: (values['tf.follow_speed'], values['tf.follow_angular_speed']),
+            lambda text: self._device.emit(lambda: log.warning(text)))
         self._reports = simulation.listener = Reports(
             self._device, simulation, self._outlet, self._recording, values, name,
-            self._input_frames,
+            self._input_frames, self._time,
             warn=log.warning, follow=lambda names: self._moves.follow(names))
         pace_report = PaceReport(
             simulation, self._pacing,
@@ -151,11 +177,37 @@ class ClothSimNode(GuardedNode):
             say=lambda text: self._device.emit(lambda: log.info(text)))
         self._run_loop = RunLoop(
             simulation, frame_seconds=1.0 / values['publish.rate'], pacing=self._pacing,
-            report=pace_report, paused=values['start_paused'], on_frame=self._reports.frame,
+            report=pace_report, paused=values['start_paused'], on_frame=self._on_frame,
             on_stop=self._on_stop, note=self._device.note, is_due=self._device.has_jobs,
-            stop=self._device.is_closing, is_held_back=self._reports.is_held_back)
+            stop=self._device.is_closing, is_held_back=self._reports.is_held_back,
+            before_part=self._before_part, node_time=self._time)
+        self._motions = Motions(simulation, lambda: self._run_loop.problem)
         self._device.set_turns(self._run_loop)
         return simulation
+
+    def _make_time(self, simulation: Simulation) -> NodeTime:
+        """Make what says which time it is."""
+        def changed(before: int) -> None:
+            self._reports.time_base(before)
+
+        if self._values['time.source'] == 'ros':
+            return FollowedTime(
+                self, simulation, self._device.post, begun=self._on_clock,
+                went_back=self._on_clock_back,
+                leapt=lambda text: self._device.emit(lambda: self.get_logger().warning(text)),
+                changed=changed)
+        if self._values['time.epoch'] == 'wall':
+            return WallTime(simulation, changed)
+        return NodeTime(simulation, changed)
+
+    def _use_clock(self) -> None:
+        """Have the clock of the node be /clock: what ROS itself stamps has that time as well."""
+        given = self._parameter_overrides.get('use_sim_time')
+        if given is not None and given.value is False:
+            raise ClothSimError(
+                'time.source: ros follows /clock and use_sim_time is false: leave use_sim_time '
+                'out, or set time.source: own')
+        self.set_parameters([Parameter('use_sim_time', Parameter.Type.BOOL, True)])
 
     def _close_simulation(self) -> None:
         self._simulation.close()
@@ -181,9 +233,12 @@ class ClothSimNode(GuardedNode):
 
     def begin(self) -> None:
         """Say what runs where, record when the parameters say so, and run."""
-        scene = self._simulation.scene
-        self._outlet.send('topology', lambda: serialise_topology(scene), self._simulation.time)
-        if self._values['recording.enabled']:
+        scene, now, base = self._simulation.scene, self._simulation.time, self._time.base
+        self._outlet.send(
+            'topology', lambda: serialise_topology(scene), now, epoch=base.epoch)
+        self._device.post(lambda: self._reports.time_base(base.at(now)))
+        # Before /clock has come, a recording would have no time.
+        if self._values['recording.enabled'] and self._time.is_known:
             self._start_first_recording()
         else:
             self._report_state()
@@ -210,13 +265,33 @@ class ClothSimNode(GuardedNode):
         frames, ignored = self._input_frames, self._ignored
         LoadRequests(*parts, self._values, frames, ignored)
         PinRequests(*parts, frames, ignored)
-        GraspRequests(*parts, frames)
-        self._moves = MoveRequests(*parts, frames, ignored)
+        GraspRequests(*parts, frames, self._followers)
+        self._moves = MoveRequests(*parts, frames, ignored, self._followers)
+        MoveActions(*parts, frames, self._followers, self._motions)
+        self._steps = StepAction(*parts, self._run_loop, self._report_state_now)
+        if self._values['simulation_interfaces']:
+            self._serve_simulation_interfaces()
         RunServices(
             *parts, self._run_loop, reset=self._reset, changed=self._report_state_now)
         RecordingServices(
             self, self._device, self._recording, start=self._start_recording,
             started=self._on_recording_started, stopped=self._report_state)
+
+    def _serve_simulation_interfaces(self) -> None:
+        try:
+            # A ROS without that package runs a node without these services.
+            from cloth_sim_ros.node.simulation_services import SimulateStepsAction
+            from cloth_sim_ros.node.simulation_services import SimulationServices
+        except ImportError as error:
+            raise ClothSimError(
+                'simulation_interfaces: true needs the package simulation_interfaces, which is '
+                'not here: install ros-jazzy-simulation-interfaces, or leave it out') from error
+        parts = self, self._device, self._simulation, self._run_loop
+        SimulationServices(
+            *parts, base=self._time.base, frame_id=self._values['frame_id'],
+            is_stopped=self._values['start_paused'], reset=self._reset,
+            changed=self._report_state_now)
+        self._simulated_steps = SimulateStepsAction(*parts, self._report_state_now).look
 
     # Called on the ROS thread.
 
@@ -265,7 +340,7 @@ class ClothSimNode(GuardedNode):
 
         def change() -> None:
             self._reports.parameters(parameters)
-            if factor != self._pacing.factor:
+            if factor != self._pacing.factor and not self._time.is_followed:
                 self._pacing.factor = factor
                 self._run_loop.start()
 
@@ -275,11 +350,15 @@ class ClothSimNode(GuardedNode):
         """Once a second: the health of the run, and a still picture for those who come late."""
         self._input_frames.take_waiting()
         self._clock_topic.watch()
+        self._clock_source.watch()
         self._namesake.watch()
         self._recording.check()
 
         def show() -> None:
-            if self._simulation.is_ready and not self._run_loop.running:
+            is_still = self._time.is_still()
+            if not self._run_loop.running:
+                self._time.catch_up()
+            if self._simulation.is_ready and (is_still or not self._run_loop.running):
                 self._reports.frame(Pace, to_recording=False)
 
         self._device.post(show)
@@ -294,8 +373,15 @@ class ClothSimNode(GuardedNode):
     # Called on the device thread.
 
     def _start_recording(self, name: str) -> str:
+        if not self._time.is_known:
+            raise WrongStateError(
+                'no message has come on /clock, so that a recording would have no time: start '
+                'what publishes it first, or set time.source: own')
+        if not self._run_loop.running:
+            self._time.catch_up()
         path = self._recording.start(name, lambda: write_opening(
-            self._recording, self._simulation, self._values, self.get_fully_qualified_name()))
+            self._recording, self._simulation, self._values, self.get_fully_qualified_name(),
+            self._time.base))
         self._report_state_now()
         self._show()
         return path
@@ -310,15 +396,48 @@ class ClothSimNode(GuardedNode):
             # The request that changed the moment is carried out all the same.
             self._device.note(error, 'a frame')
 
+    def _before_part(self, seconds: float) -> bool:
+        is_waited_for = self._motions.look()
+        # Each of them has to be asked.
+        is_stepped = self._steps.look() or self._simulated_steps()
+        return self._followers.move(seconds) or is_waited_for or is_stepped
+
+    def _on_clock(self) -> None:
+        self._device.emit(lambda: self.get_logger().info('following /clock'))
+        self._report_state_now()
+        if self._values['recording.enabled']:
+            self._device.emit(self._start_first_recording)
+
+    def _on_clock_back(self, text: str) -> None:
+        # Of two clocks, each goes back behind the other again and again.
+        is_one = self.count_publishers('/clock') < 2
+        if is_one and self._values['time.jump_back'] == 'reset':
+            self._device.emit(lambda: self.get_logger().warning(
+                f'{text}: the cloth is reset, and begins there'))
+            self._reset()
+            return
+        reason = 'time.jump_back is refuse' if is_one else 'it has several publishers'
+        self._run_loop.stop(ClothSimError(
+            f'{text}, behind the cloth, and {reason}: call ~/reset to begin there, or resume to '
+            'wait until it has come so far again'))
+
+    def _on_frame(self, pace: Callable[[], Pace]) -> None:
+        self._reports.frame(pace)
+        self._motions.look()
+
     def _on_stop(self) -> None:
+        self._motions.look()
         problem = self._run_loop.problem
         self._device.emit(lambda: self.get_logger().error(
+            problem if '~/reset' in problem else
             f'{problem}; then resume to try again, or call ~/reset'))
         self._report_state_now()
         self._device.emit(self._watch)
 
     def _reset(self) -> None:
         self._simulation.reset()
+        self._followers.forget_grasps()
+        self._motions.look()
         self._run_loop.restart()
         self._report_state_now()
         self._show()
@@ -343,24 +462,30 @@ class ClothSimNode(GuardedNode):
         self._is_asked_for_health = False
         simulation, loop = self._simulation, self._run_loop
         snapshot = simulation.snapshot() if simulation.is_ready else None
-        now, number = simulation.time, self._recording.number
+        now, number, base = simulation.time, self._recording.number, self._time.base
         known = {
             'paused': not loop.running, 'problem': loop.problem,
-            'real_time_factor': loop.real_time_factor}
-        self._device.emit(lambda: self._send_health(snapshot, now, number, known))
+            'real_time_factor': loop.real_time_factor, 'stamp': stamp(now, base.epoch),
+            'source': base.source, 'behind': self._time.behind,
+            'followers': [
+                (each.name, each.frame, each.is_late, each.behind)
+                for each in self._followers.present],
+            'waiting': list(self._followers.waiting)}
+        epoch = base.epoch
+        self._device.emit(lambda: self._send_health(snapshot, now, number, epoch, known))
 
     # Called on the ROS thread.
 
     def _send_health(
-            self, snapshot: Snapshot | None, now: float, number: int,
+            self, snapshot: Snapshot | None, now: float, number: int, epoch: int,
             known: dict[str, Any]) -> None:
         ending = self._recording.ending
         self._outlet.send_message('diagnostics', diagnostics_message(
-            snapshot, stamp=self.get_clock().now().to_msg(), node_name=self.get_name(),
+            snapshot, node_name=self.get_name(),
             device=self._simulation.device, **known,
-            wanted_factor=self._values['real_time_factor'],
+            wanted_factor=self._pacing.factor, time_problem=self._clock_source.problem,
             automatic_substeps=self._values['auto_substeps'],
             recording_path=self._recording.path, recording_error=str(ending or ''),
             recording_is_whole=isinstance(ending, RecordingFull),
             faults=self.faults.count, latest_fault=self.faults.latest,
-            ignored=self._ignored.count), now, number=number)
+            ignored=self._ignored.count), now, number=number, epoch=epoch)

@@ -6,12 +6,14 @@
 from collections.abc import Callable
 from typing import Any
 
+from rclpy.action import ActionServer
 from rclpy.executors import ExternalShutdownException
 from rclpy.executors import ShutdownException
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.executors import TimeoutException
 from rclpy.impl.implementation_singleton import rclpy_implementation as _rclpy
 from rclpy.node import Node
+from rclpy.waitable import NumberOfEntities
 
 _NANOSECONDS = 1e9
 _FOR_EVER = -1
@@ -43,6 +45,7 @@ class FrameExecutor(SingleThreadedExecutor):
         self._context_handle = node.context.handle
         self._is_changed = True
         self._waited: list[tuple[Callable[[Any], Any], Any]] = []
+        self._servers: list[ActionServer] = []
         self._wait_set: Any = None
 
     def wake(self) -> None:
@@ -69,12 +72,15 @@ class FrameExecutor(SingleThreadedExecutor):
             wait_set.clear_entities()
             for add, handle in self._waited:
                 add(handle)
+            for server in self._servers:
+                server.add_to_wait_set(wait_set)
             wait_set.wait(_FOR_EVER if seconds is None else int(seconds * _NANOSECONDS))
             if not self._context.ok():
                 raise ExternalShutdownException
             guards = wait_set.get_ready_entities(_GUARD)
             is_ready = any(
-                wait_set.get_ready_entities(kind) for kind in _KINDS if kind != _GUARD)
+                wait_set.get_ready_entities(kind) for kind in _KINDS if kind != _GUARD) or any(
+                    server.is_ready(wait_set) for server in self._servers)
         # Its own guard only ends the wait: what waits then is a task, or other entities.
         return is_ready, [
             guard for guard in self._node.guards if guard.handle.pointer in guards]
@@ -88,9 +94,16 @@ class FrameExecutor(SingleThreadedExecutor):
             for kind, entities in zip(_KINDS, (
                 node.subscriptions, node.guards, node.timers, node.clients, node.services))}
         waited[_GUARD] += [self._guard, self._sigint_gc]
+        self._servers = [
+            each for each in node.waitables
+            if isinstance(each, ActionServer) and self.can_execute(each)]
+        counts = NumberOfEntities(*(len(waited[kind]) for kind in _KINDS))
+        for server in self._servers:
+            counts += server.get_num_entities()
         with self._context_handle:
             self._wait_set = _rclpy.WaitSet(
-                *(len(waited[kind]) for kind in _KINDS), 0, self._context_handle)
+                counts.num_subscriptions, counts.num_guard_conditions, counts.num_timers,
+                counts.num_clients, counts.num_services, counts.num_events, self._context_handle)
         self._waited = [
             (getattr(self._wait_set, f'add_{kind}'), entity.handle)
             for kind, entities in waited.items() for entity in entities]

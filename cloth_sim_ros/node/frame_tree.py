@@ -11,6 +11,7 @@ import struct
 
 from cloth_sim_ros.files.errors import shown
 from cloth_sim_ros.messages.stamp import NANOSECONDS
+from cloth_sim_ros.node.result_codes import UnknownFrameError
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.model.pose import between
 from cloth_sim_ros.sim.model.pose import Pose
@@ -229,7 +230,7 @@ class FrameTree:
         """
         if time is not None:
             return self._pose(frame, to, _at(frame, time))
-        common = self._common_time(frame, to)
+        common = self.latest_time(frame, to)
         return self._pose(frame, to, _latest if common is None else _in_common(frame, to, common))
 
     def _pose(self, frame: str, to: str, pick: Pick) -> Pose:
@@ -264,8 +265,12 @@ class FrameTree:
             place = sample.parent
         return found, None
 
-    def _common_time(self, frame: str, to: str) -> int | None:
-        """Return the latest time [ns] that all frames between have; None where none moves."""
+    def latest_time(self, frame: str, to: str) -> int | None:
+        """
+        Return the latest time [ns] that all frames between have; None where none moves.
+
+        :raises ClothSimError: when they are not connected
+        """
         here, there, meeting = self._meet(frame, to, _latest)
         times = []
         for chain in (here, there):
@@ -287,11 +292,11 @@ class FrameTree:
     def _not_connected(
             self, frame: str, to: str, here: _Seen, there: _Seen) -> ClothSimError:
         if len(here) == 1 and not self._is_parent(frame):
-            return ClothSimError(
+            return UnknownFrameError(
                 f'its frame {shown(frame)} is not known: {self._way_out}, or give the message in '
                 f'{shown(to)}, the frame of the cloth')
         ends = [next(reversed(chain)) for chain in (here, there)]
-        return ClothSimError(
+        return UnknownFrameError(
             f'its frame {shown(frame)} is not connected to {shown(to)}, the frame of the cloth: '
             f'publish a transform between {shown(ends[0])} and {shown(ends[1])}, or start the '
             'node with a frame_id that is connected')
@@ -309,7 +314,7 @@ def _at(frame: str, time: int) -> Pick:
     def pick(name: str, history: FrameHistory) -> Sample:
         sample = history.at(time)
         if sample is None:
-            raise ClothSimError(
+            raise UnknownFrameError(
                 f'the stamp of its frame {shown(frame)} is {seconds(time)} s but {shown(name)} is '
                 f'known {_span(history)}: give a stamp in between, or 0 for the latest')
         return sample
@@ -321,7 +326,7 @@ def _in_common(frame: str, to: str, time: int) -> Pick:
     def pick(name: str, history: FrameHistory) -> Sample:
         sample = history.at(time)
         if sample is None:
-            raise ClothSimError(
+            raise UnknownFrameError(
                 f'its frame {shown(frame)} and {shown(to)} have no time in common, as what is '
                 f'between them is known up to {seconds(time)} s and {shown(name)} '
                 f'{_span(history)}: have their publishers use the same clock')
@@ -332,7 +337,7 @@ def _in_common(frame: str, to: str, time: int) -> Pick:
 
 def _in_a_circle(frames: _Seen) -> ClothSimError:
     names = ', '.join(shown(name) for name in list(frames)[:3])
-    return ClothSimError(
+    return UnknownFrameError(
         f'{len(frames)} frames on /tf hang on each other in a circle, {names}: let each frame '
         'have one parent, and one of them none')
 

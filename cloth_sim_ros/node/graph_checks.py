@@ -8,6 +8,9 @@ from collections.abc import Callable
 from cloth_sim_ros.node.outlet import Outlet
 from rclpy.node import Node
 
+# How long a first message on /clock may take before that is said [s].
+PATIENCE = 5
+
 
 class ClockTopic:
     """
@@ -39,6 +42,60 @@ class ClockTopic:
                 '/clock has another publisher, so this node does not publish it: stop the '
                 'other one, or set publish.clock: false')
             self._warned = True
+
+
+class ClockSource:
+    """
+    Watch whether /clock comes, from one node, where it is needed; warn once of each.
+
+    :param is_followed: whether the time of the node is that of /clock
+    :param is_known: returns whether a message has come
+    :param warn: logs a sentence
+    """
+
+    def __init__(
+            self, node: Node, outlet: Outlet, *, is_followed: bool, is_known: Callable[[], bool],
+            warn: Callable[[str], None]) -> None:
+        """Begin to wait."""
+        self._node = node
+        self._outlet = outlet
+        self._is_followed = is_followed
+        self._is_known = is_known
+        self._warn = warn
+        self._watches = 0
+        self._told = ''
+
+    @property
+    def others(self) -> int:
+        """Get the number of publishers of /clock besides this node."""
+        return self._node.count_publishers('/clock') - int(self._outlet.is_open('clock'))
+
+    @property
+    def problem(self) -> str:
+        """Return what is wrong; empty for nothing."""
+        others = self.others
+        if not self._is_followed:
+            is_used = self._node.get_parameter('use_sim_time').value
+            return (
+                '/clock comes from another node, and this one has use_sim_time and its own time: '
+                'set time.source: ros to follow it, or use_sim_time: false'
+                if is_used and others else '')
+        if others > 1:
+            return (
+                f'/clock has {others} publishers and the cloth can follow one: stop the others')
+        if not self._is_known() and self._watches > PATIENCE:
+            return (
+                'no message has come on /clock, which time.source: ros waits for: start what '
+                'publishes it, or set time.source: own')
+        return ''
+
+    def watch(self) -> None:
+        """Look; once a second."""
+        self._watches += 1
+        problem = self.problem
+        if problem and problem != self._told:
+            self._warn(problem)
+        self._told = problem
 
 
 class Namesake:

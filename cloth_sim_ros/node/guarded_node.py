@@ -12,6 +12,7 @@ from typing import Any
 from typing import NamedTuple
 import warnings
 
+from cloth_sim_interfaces.msg import ResultCode
 from cloth_sim_ros.files.errors import cut
 from cloth_sim_ros.node.frame_executor import FrameExecutor
 from cloth_sim_ros.node.refusals import LogThrottle
@@ -295,6 +296,8 @@ def _answer_with(reason: str, request: Any, response: Any) -> Any:
         'log, and call ~/reset if the cloth is in a wrong state')
     if hasattr(response, 'success'):
         response.success, response.message = False, text
+    if hasattr(response, 'code'):
+        response.code = ResultCode.UNEXPECTED
     refused = SetParametersResult(successful=False, reason=text)
     if isinstance(response, SetParameters.Response):
         response.results = [refused] * len(request.parameters)

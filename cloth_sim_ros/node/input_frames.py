@@ -4,6 +4,7 @@
 """What is given in any frame of tf or of the node, in the frame of the cloth."""
 
 from collections import deque
+from contextlib import suppress
 from dataclasses import dataclass
 import threading
 from typing import Any
@@ -16,7 +17,7 @@ from cloth_sim_ros.messages.frame_names import grasp_frame
 from cloth_sim_ros.messages.frame_names import node_of_pin
 from cloth_sim_ros.messages.frame_names import pin_frame
 from cloth_sim_ros.messages.stamp import NANOSECONDS
-from cloth_sim_ros.messages.stamp import nanoseconds
+from cloth_sim_ros.messages.time_base import TimeBase
 from cloth_sim_ros.node.frame_tree import checked_pose
 from cloth_sim_ros.node.frame_tree import FrameHistory
 from cloth_sim_ros.node.frame_tree import FrameTree
@@ -25,6 +26,7 @@ from cloth_sim_ros.node.frame_tree import MOST_SAMPLES
 from cloth_sim_ros.node.frame_tree import read_transforms
 from cloth_sim_ros.node.frame_tree import Sample
 from cloth_sim_ros.node.refusals import IgnoredMessages
+from cloth_sim_ros.node.result_codes import UnknownFrameError
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.model.pose import Pose
 from cloth_sim_ros.sim.model.pose import product
@@ -55,13 +57,16 @@ class OwnFrames:
 
     :param node_name: with its namespace
     :param frame_id: of the cloth, their parent
+    :param base: of the stamps
     """
 
-    def __init__(self, simulation: Simulation, node_name: str, frame_id: str) -> None:
+    def __init__(
+            self, simulation: Simulation, node_name: str, frame_id: str, base: TimeBase) -> None:
         """Begin with the present."""
         self._simulation = simulation
         self._node_name = node_name
         self._frame_id = frame_id
+        self._base = base
         self._prefixes = tuple(
             name(node_name, '') for name in (grasp_frame, collider_frame, _pins_frame))
         self._bodies: dict[str, FrameHistory] = {}
@@ -81,14 +86,14 @@ class OwnFrames:
 
     def _note_bodies(self) -> None:
         """Remember where grasps and colliders are now."""
-        now, poses = nanoseconds(self._simulation.time), self._body_poses()
+        now, poses = self._base.at(self._simulation.time), self._body_poses()
         self._bodies = {name: self._bodies.get(name, FrameHistory()) for name in poses}
         for name, pose in poses.items():
             self._add(self._bodies[name], now, pose)
 
     def _note_pins(self, snapshot: Snapshot) -> None:
         """Remember where pins are in ``snapshot``."""
-        now = nanoseconds(snapshot.time)
+        now = self._base.at(snapshot.time)
         nodes = np.flatnonzero(self._pinned())
         while self._pins and not now - KEPT <= self._pins[0][0] <= now:
             self._pins.popleft()
@@ -107,14 +112,14 @@ class OwnFrames:
         """
         if not self.owns(frame):
             return None
-        now, pose = nanoseconds(self._simulation.time), self._body_poses().get(frame)
+        now, pose = self._base.at(self._simulation.time), self._body_poses().get(frame)
         if pose is not None:
             history = self._bodies.setdefault(frame, FrameHistory())
             self._add(history, now, pose)
             return history
         node = self._pin(frame)
         if node is None:
-            raise ClothSimError(
+            raise UnknownFrameError(
                 f'the frame {shown(frame)} would be of a grasp, a collider or a pin of this node '
                 'that is not there: grasp or pin first, or give another frame')
         history = FrameHistory()
@@ -257,6 +262,26 @@ class InputFrames:
         with self._lock:
             self.take_waiting()
             return Given(self._tree.pose(header.frame_id, self._frame_id, time or None))
+
+    def place(self, frame: str, wanted: int) -> tuple[Pose, int | None]:
+        """
+        Return where a frame of tf is in the frame of the cloth, and of which time that is.
+
+        :param wanted: the time [ns] of that, where it is known; the latest elsewhere
+        :return: with None for a frame that is fixed
+        :raises ClothSimError: when it is not known, or one of the node's own
+        """
+        if self._own.owns(frame) or frame == self._frame_id:
+            raise ClothSimError(
+                f'the frame {shown(frame)} is one of this node, and only one of tf can be '
+                'followed: give a frame that another node publishes')
+        with self._lock:
+            self.take_waiting()
+            latest = self._tree.latest_time(frame, self._frame_id)
+            if latest is not None and wanted < latest:
+                with suppress(UnknownFrameError):
+                    return self._tree.pose(frame, self._frame_id, wanted), wanted
+            return self._tree.pose(frame, self._frame_id, None), latest
 
     def note(self, frame: FrameContent) -> None:
         """Remember the poses of the node's own frames that have a transform in ``frame``."""

@@ -4,8 +4,8 @@
 """What to do about a Python module that this machine lacks."""
 
 BUILD_COMMAND = (
-    'colcon build --base-paths src/cloth_sim_ros src/cloth_sim_ros/cloth_sim_interfaces '
-    '&& . install/setup.bash')
+    'ln -sfn cloth_sim_ros/cloth_sim_interfaces src/cloth_sim_interfaces && colcon build && '
+    '. install/setup.bash')
 
 
 def way_out(error: ImportError) -> str:

@@ -10,6 +10,7 @@ import time
 from cloth_sim_interfaces.srv import SetMode
 from cloth_sim_ros.node.device_thread import DeviceThread
 from cloth_sim_ros.node.refusals import serve_later
+from cloth_sim_ros.node.result_codes import InterruptedRequestError
 from cloth_sim_ros.sim.engine import Preparation
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.simulation import Simulation
@@ -170,7 +171,7 @@ class ModeSwitch:
         others = [(mode, future) for mode, future in self._waiting if mode != self._wanted]
         self._waiting = [entry for entry in self._waiting if entry not in others]
         for mode, future in others:
-            future.set_exception(ClothSimError(
+            future.set_exception(InterruptedRequestError(
                 f'mode {self._wanted} was requested before mode {mode} was ready: request {mode} '
                 'again'))
 

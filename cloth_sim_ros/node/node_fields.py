@@ -17,6 +17,13 @@ NODE_FIELDS = (
     Field('real_time_factor', float, 1.0, 'target ratio of simulated time to wall time, at least '
           f'{SLOWEST:g}; 0 to run as fast as possible', low=0.0, high=1e6, live=True),
     Field('start_paused', bool, False, 'start paused; ~/pause resumes, ~/step advances'),
+    Field('time.source', str, 'own', 'what sets pace and stamps: own, simulated time at '
+          '`real_time_factor`; ros, /clock in lockstep', choices=('own', 'ros')),
+    Field('time.epoch', str, 'zero', 'stamp of simulated time 0 with `time.source: own`: zero, or '
+          'that of the wall clock', choices=('zero', 'wall')),
+    Field('time.jump_back', str, 'reset', 'with `time.source: ros`, what a /clock that goes back '
+          'behind the cloth does: reset the cloth, or refuse, which stops the run',
+          choices=('reset', 'refuse')),
     Field('publish.rate', float, 50.0, 'frames per second of simulated time', 'Hz',
           low=1e-3, high=1e6),
     Field('publish.points', bool, True, 'publish ~/points', live=True),
@@ -30,6 +37,14 @@ NODE_FIELDS = (
           'node does'),
     Field('tf.listen', bool, True, 'take inputs in other frames than `frame_id`, by the '
           'transforms on /tf and /tf_static'),
+    Field('tf.follow', str, (), 'grasps and colliders of the scene that are rigidly attached to '
+          'frames on /tf as soon as these are known, NAME=FRAME each', is_array=True),
+    Field('tf.follow_speed', float, 2.0, 'highest speed at which a body follows its frame, unless '
+          'its request sets one', 'm/s', low=1e-6, high=1e3, live=True),
+    Field('tf.follow_angular_speed', float, 10.0, 'highest angular speed likewise', 'rad/s',
+          low=1e-6, high=1e3, live=True),
+    Field('simulation_interfaces', bool, False, 'serve get_entities, set_simulation_state and '
+          'others of the package simulation_interfaces, in the namespace of the node'),
     Field('recording.directory', str, 'bags', 'directory in which recordings are created'),
     Field('recording.enabled', bool, False, 'start recording when the node starts'),
     Field('recording.name', str, '', 'name of that recording, with a number appended '
@@ -75,6 +90,11 @@ def check_together(values: Mapping[str, Any]) -> None:
         raise ClothSimError(
             f'real_time_factor {factor:g} is slower than {SLOWEST:g}: give 0 to run as fast as '
             'possible, or a larger one; to stand still, pause')
+    if values['tf.follow'] and not values['tf.listen']:
+        raise ClothSimError(
+            'tf.follow needs the frames on /tf and tf.listen is false: leave one of them out')
+    if values['time.source'] == 'ros':
+        _check_one_source(values)
     count = len(values['clicked_point.force'])
     if count != 3:
         raise ClothSimError(
@@ -84,3 +104,14 @@ def check_together(values: Mapping[str, Any]) -> None:
             raise ClothSimError(
                 f'{name} must be 0 or {least} and more, got {values[name]}: give {least}, or 0 '
                 'for no limit')
+
+
+def _check_one_source(values: Mapping[str, Any]) -> None:
+    if values['publish.clock']:
+        raise ClothSimError(
+            'time.source: ros follows /clock and publish.clock: true publishes it: set '
+            'time.source: own or publish.clock: false')
+    if values['time.epoch'] != 'zero':
+        raise ClothSimError(
+            f'time.source: ros takes stamps from /clock and time.epoch: {values["time.epoch"]} '
+            'sets them: leave time.epoch out, or set time.source: own')

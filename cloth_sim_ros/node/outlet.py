@@ -59,24 +59,25 @@ class Outlet:
 
     def send(
             self, key: str, serialise: Callable[[], bytes], sim_time: float, *,
-            number: int = 0) -> None:
+            number: int = 0, epoch: int = 0) -> None:
         """
         Publish and record what ``serialise`` makes, if anybody reads it.
 
         :param sim_time: [s]
         :param number: of the recording that it belongs to; 0 for none
+        :param epoch: stamp of simulated time 0 [ns]
         """
         # What is kept for late subscribers has readers that are not there yet.
         is_kept = TOPICS[key].transient_local
         if is_kept or self.wanted(key, by_recording=number > 0):
-            self.send_bytes(key, serialise(), sim_time, number=number)
+            self.send_bytes(key, serialise(), sim_time, number=number, epoch=epoch)
 
     def send_bytes(
             self, key: str, data: bytes, sim_time: float, *, number: int = 0,
-            to_topic: bool = True) -> None:
+            to_topic: bool = True, epoch: int = 0) -> None:
         """Publish and record a serialised message, as ``send`` does."""
         if number and self._recording.takes(key):
-            self._recording.write(key, data, sim_time, number)
+            self._recording.write(key, data, sim_time, number, epoch)
         if to_topic and key in self._publishers:
             try:
                 publish(self._publishers[key], data)
@@ -86,9 +87,10 @@ class Outlet:
                     raise
 
     def send_message(
-            self, key: str, message: Any, sim_time: float, *, number: int = 0) -> None:
+            self, key: str, message: Any, sim_time: float, *, number: int = 0,
+            epoch: int = 0) -> None:
         """Do the same with a ROS message object; for messages that are small."""
-        self.send(key, lambda: serialize_message(message), sim_time, number=number)
+        self.send(key, lambda: serialize_message(message), sim_time, number=number, epoch=epoch)
 
     def _subscribed(self, key: str) -> bool:
         publisher = self._publishers.get(key)

@@ -237,6 +237,12 @@ class LiveParameters:
                 self._ask_mode(checked['mode'])
         except ClothSimError as error:
             return SetParametersResult(successful=False, reason=str(error))
+        if self._values['time.source'] == 'ros' and any(
+                parameter.name == 'use_sim_time' and parameter.value is False
+                for parameter in parameters):
+            return SetParametersResult(successful=False, reason=(
+                'use_sim_time stays true with time.source: ros, which follows /clock: restart the '
+                'node with time.source: own'))
         self._values.update(checked)
         return SetParametersResult(successful=True)
 

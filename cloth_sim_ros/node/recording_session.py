@@ -17,6 +17,7 @@ from cloth_sim_ros.messages.inputs import input_message
 from cloth_sim_ros.messages.inputs import parameters_message
 from cloth_sim_ros.messages.inputs import place_message
 from cloth_sim_ros.messages.inputs import serialise_parameter_event
+from cloth_sim_ros.messages.time_base import TimeBase
 from cloth_sim_ros.node.missing_module import way_out
 from cloth_sim_ros.node.parameters import FIELDS
 from cloth_sim_ros.recording.bag_folder import DIRECTORY_SETTING
@@ -24,6 +25,7 @@ from cloth_sim_ros.recording.bag_folder import RecordingOptions
 from cloth_sim_ros.recording.recording_faults import RecordingError
 from cloth_sim_ros.recording.recording_faults import refusal
 from cloth_sim_ros.sim.errors import ClothSimError
+from cloth_sim_ros.sim.errors import WrongStateError
 from cloth_sim_ros.sim.inputs import Input
 from cloth_sim_ros.sim.inputs import MoveCollider
 from cloth_sim_ros.sim.inputs import MoveGrasp
@@ -45,7 +47,7 @@ if TYPE_CHECKING:
 
 def write_opening(
         recording: RecordingSession, simulation: Simulation, values: Mapping[str, Any],
-        node_name: str) -> None:
+        node_name: str, base: TimeBase = TimeBase()) -> None:
     """
     Record the rest shape, and as inputs all that holds now.
 
@@ -57,15 +59,19 @@ def write_opening(
 
     :param values: parameter values by name
     :param node_name: with its namespace
+    :param base: of the stamps
     """
-    now = simulation.time
+    now, epoch = simulation.time, base.epoch
     frame_id = values['frame_id']
-    recording.write('topology', serialise_topology(simulation.scene), now)
+    recording.write('topology', serialise_topology(simulation.scene), now, epoch=epoch)
+    recording.write(
+        'inputs/time_base', serialize_message(base.message(now)), now, epoch=epoch)
     parameters = parameters_message(
         {**values, **vars(simulation.layout.choice),
          'shape.mask': simulation.scene['shape.mask']}, fields_with_colliders(values, FIELDS), now,
-        node_name)
-    recording.write('inputs/parameters', serialise_parameter_event(parameters), now)
+        node_name, epoch=epoch)
+    recording.write(
+        'inputs/parameters', serialise_parameter_event(parameters), now, epoch=epoch)
     held: list[Input] = []
     pinned = simulation.pinned_nodes() & ~simulation.grasped_nodes()
     for row, col in np.argwhere(pinned != simulation.scene.pinned_nodes()).tolist():
@@ -77,17 +83,19 @@ def write_opening(
     if simulation.loads.wind not in (None, simulation.scene['air.wind']):
         later.append(SetWind(simulation.loads.wind))
     inputs = [
-        input_message(SetMode(simulation.mode), now, frame_id),
-        *(input_message(given, now, frame_id) for given in held)]
+        input_message(SetMode(simulation.mode), now, frame_id, epoch),
+        *(input_message(given, now, frame_id, epoch) for given in held)]
     for moved in simulation.moved_colliders:
         inputs.append((
-            'inputs/collider_target', place_message(moved.name, moved.pose, now, frame_id)))
+            'inputs/collider_target', place_message(
+                moved.name, moved.pose, now, frame_id, epoch)))
         if moved.path is not None:
-            inputs.append(input_message(MoveCollider.of(moved.path.move), now, frame_id))
-    inputs += [input_message(given, now, frame_id) for given in later]
+            inputs.append(input_message(
+                MoveCollider.of(moved.path.move), now, frame_id, epoch))
+    inputs += [input_message(given, now, frame_id, epoch) for given in later]
     for made in filter(None, inputs):
         key, message = made
-        recording.write(key, serialize_message(message), now)
+        recording.write(key, serialize_message(message), now, epoch=epoch)
 
 
 class RecordingSession:
@@ -119,7 +127,7 @@ class RecordingSession:
         self._number = 0
         self._recorder: Recorder | None = None
         self._ending: RecordingError | None = None
-        self._offset = 0.0
+        self._offset = 0  # [ns]
 
     @property
     def active(self) -> bool:
@@ -156,29 +164,32 @@ class RecordingSession:
         with self._lock:
             self.check()
             if self._recorder is not None:
-                raise ClothSimError(
+                raise WrongStateError(
                     f'a recording is being written to {self.path}: stop it first, with '
                     '~/stop_recording or `cloth_sim record stop`')
             self._recorder = self._open(name)
             self._number += 1
             self._ending = None
-            self._offset = 0.0
+            self._offset = 0
             path = self.path
             if opening is not None:
                 opening()
             return path
 
-    def write(self, key: str, data: bytes, sim_time: float, number: int | None = None) -> None:
+    def write(
+            self, key: str, data: bytes, sim_time: float, number: int | None = None,
+            epoch: int = 0) -> None:
         """
         Write the serialised message of the topic ``key`` at ``sim_time`` [s].
 
         :param number: of the recording that it belongs to; None for the present one
+        :param epoch: stamp of simulated time 0 [ns]
         """
         with self._lock:
             if self._recorder is None or number not in (None, self._number):
                 return
             try:
-                self._recorder.write(key, data, self._offset + sim_time)
+                self._recorder.write(key, data, sim_time, self._offset + epoch)
             except RecordingError as error:
                 self._end(error)
 
@@ -192,15 +203,15 @@ class RecordingSession:
             except RecordingError as error:
                 self._end(error)
 
-    def rewind(self, sim_time: float, number: int | None = None) -> None:
+    def rewind(self, before: int, number: int | None = None, after: int = 0) -> None:
         """
-        Go on as simulated time returns from ``sim_time`` [s] to 0: players need it to grow.
+        Go on as stamps return from ``before`` to ``after`` [ns]: players need them to grow.
 
         :param number: as of ``write``
         """
         with self._lock:
             if number in (None, self._number):
-                self._offset += sim_time
+                self._offset += max(before - after, 0)
 
     def stop(self) -> str:
         """
@@ -210,7 +221,7 @@ class RecordingSession:
         """
         with self._lock:
             if self._recorder is None:
-                raise self._ending or ClothSimError(
+                raise self._ending or WrongStateError(
                     'no recording is being written: start one first, with ~/start_recording or '
                     '`cloth_sim record start`')
             path = self.path

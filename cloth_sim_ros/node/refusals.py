@@ -9,7 +9,9 @@ import os
 import time
 from typing import Any
 
+from cloth_sim_interfaces.msg import ResultCode
 from cloth_sim_ros.files.errors import cut
+from cloth_sim_ros.node.result_codes import code_of
 from cloth_sim_ros.sim.errors import ClothSimError
 from rclpy.callback_groups import ReentrantCallbackGroup
 from rclpy.node import Node
@@ -36,11 +38,16 @@ def serve_later(
 
 def _done(response: Any, message: str) -> Any:
     response.success, response.message = True, message
+    if hasattr(response, 'code'):
+        response.code = ResultCode.OK
     return response
 
 
 def _refused(response: Any, error: ClothSimError) -> Any:
     response.success, response.message = False, str(error)
+    # Services of std_srvs have none.
+    if hasattr(response, 'code'):
+        response.code = code_of(error)
     return response
 
 

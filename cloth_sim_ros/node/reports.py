@@ -21,6 +21,7 @@ from cloth_sim_ros.messages.state import state_of
 from cloth_sim_ros.node.device_thread import DeviceThread
 from cloth_sim_ros.node.input_frames import InputFrames
 from cloth_sim_ros.node.mode_switch import ModeSwitch
+from cloth_sim_ros.node.node_time import NodeTime
 from cloth_sim_ros.node.outlet import Outlet
 from cloth_sim_ros.node.parameters import FIELDS
 from cloth_sim_ros.node.parameters import plain_value
@@ -50,6 +51,7 @@ class Reports(InputListener):
     :param values: the node's parameter values, read at each frame
     :param node_name: with its namespace
     :param frames: keeps the poses of pins, grasps and colliders of each frame
+    :param node_time: has the base of all stamps
     :param warn: called on the ROS thread with what a user should know
     :param follow: called on the ROS thread with the names of the grasps when they have changed
     """
@@ -57,7 +59,7 @@ class Reports(InputListener):
     def __init__(
             self, device: DeviceThread, simulation: Simulation, outlet: Outlet,
             recording: RecordingSession, values: Mapping[str, Any], node_name: str,
-            frames: InputFrames, *, warn: Callable[[str], None],
+            frames: InputFrames, node_time: NodeTime, *, warn: Callable[[str], None],
             follow: Callable[[Sequence[str]], None]) -> None:
         """Prepare the messages of this cloth."""
         scene = simulation.scene
@@ -69,6 +71,9 @@ class Reports(InputListener):
         self._node_name = node_name
         self._frame_id = values['frame_id']
         self._frames = frames
+        self._time = node_time
+        self._base = node_time.base
+        self._told_epoch: int | None = None
         self._warn = warn
         self._follow = follow
         self._taker = FrameTaker(simulation, values)
@@ -94,7 +99,8 @@ class Reports(InputListener):
         self._frames.take_waiting()
         self._check_pins()
         frame = self._taker.take(
-            lambda key: self._outlet.wanted(key, by_recording=to_recording), pace)
+            lambda key: self._outlet.wanted(key, by_recording=to_recording), pace,
+            self._base.epoch)
         if not frame.keys:
             return
         self._frames.note(frame)
@@ -104,29 +110,31 @@ class Reports(InputListener):
 
     def state(self, run_loop: RunLoop, switch: ModeSwitch) -> None:
         """Report the state as it is now."""
-        number, now = self._recording.number, self._simulation.time
+        number, now, epoch = self._recording.number, self._simulation.time, self._base.epoch
         state = state_of(
             self._simulation, frame_id=self._frame_id, run_state=run_loop.run_state,
             preparing=switch.preparing, compiled=switch.compiled,
-            recording_path=self._recording.path)
+            recording_path=self._recording.path, epoch=epoch)
         self._device.emit(
-            lambda: self._outlet.send_message('state', state, now, number=number), '~/state')
+            lambda: self._outlet.send_message(
+                'state', state, now, number=number, epoch=epoch), '~/state')
 
     def accept(self, given: Input, time: float) -> None:
         """Report an accepted input, and what follows from it."""
-        number = self._recording.number
-        made = input_message(given, time, self._frame_id)
+        number, epoch = self._recording.number, self._base.epoch
+        made = input_message(given, time, self._frame_id, epoch)
         if made is not None:
             key, message = made
             self._device.emit(
-                lambda: self._outlet.send_message(key, message, time, number=number), key)
+                lambda: self._outlet.send_message(
+                    key, message, time, number=number, epoch=epoch), key)
         if isinstance(given, Release) and given.by_force:
             self._device.emit(lambda: self._warn(
                 f'grasp {given.name} has lost the cloth, which pulled harder than its max_force: '
                 'grasp again, and move it more slowly or give it a higher max_force'))
         if isinstance(given, Reset):
             self._frames.forget()
-            self._device.emit(lambda: self._recording.rewind(time, number))
+            self._time.restart(time)
         if isinstance(given, (TakeGrasp, Release, Reset)):
             names = [grasp.name for grasp in self._simulation.grasps]
             self._device.emit(lambda: self._follow(names))
@@ -139,17 +147,30 @@ class Reports(InputListener):
             if parameter.name != 'mode'}
         if not values:
             return
-        number, now = self._recording.number, self._simulation.time
-        message = parameters_message(values, FIELDS, now, self._node_name, is_change=True)
+        number, now, epoch = self._recording.number, self._simulation.time, self._base.epoch
+        message = parameters_message(
+            values, FIELDS, now, self._node_name, is_change=True, epoch=epoch)
         self._device.emit(lambda: self._outlet.send(
-            'inputs/parameters', lambda: serialise_parameter_event(message), now, number=number))
+            'inputs/parameters', lambda: serialise_parameter_event(message), now, number=number,
+            epoch=epoch))
+
+    def time_base(self, before: int) -> None:
+        """Report that the present moment had the stamp ``before`` [ns], and has another now."""
+        number, now, epoch = self._recording.number, self._simulation.time, self._base.epoch
+        after = self._base.at(now)
+        self._device.emit(lambda: self._recording.rewind(before, number, after))
+        if epoch != self._told_epoch:
+            self._told_epoch = epoch
+            message = self._base.message(now)
+            self._device.emit(lambda: self._outlet.send_message(
+                'inputs/time_base', message, now, number=number, epoch=epoch))
 
     def _send_frame(self, frame: FrameContent, number: int, is_published: bool) -> None:
         if not is_published:
             frame = replace(frame, keys=frozenset(filter(self._recording.takes, frame.keys)))
         for key, data in self._messages.of(frame):
             self._outlet.send_bytes(
-                key, data, frame.time, number=number, to_topic=is_published)
+                key, data, frame.time, number=number, to_topic=is_published, epoch=frame.epoch)
 
     def _check_pins(self) -> None:
         """Warn once when there are too many pins to report what each of them feels."""

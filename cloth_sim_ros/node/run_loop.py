@@ -12,7 +12,12 @@ from cloth_sim_interfaces.msg import ClothState
 from cloth_sim_ros.gl.errors import DeviceError
 from cloth_sim_ros.messages.frame_messages import Pace
 from cloth_sim_ros.messages.state import slow_pace
+from cloth_sim_ros.node.node_time import NodeTime
+from cloth_sim_ros.node.result_codes import CanceledError
+from cloth_sim_ros.node.result_codes import InterruptedRequestError
+from cloth_sim_ros.node.result_codes import RunFailedError
 from cloth_sim_ros.sim.errors import ClothSimError
+from cloth_sim_ros.sim.errors import WrongStateError
 from cloth_sim_ros.sim.simulation import Simulation
 from cloth_sim_ros.sim.stop import StepAbandoned
 
@@ -24,6 +29,7 @@ _WINDOW = 1.0
 # is said.
 QUIET = 60.0
 STEADY = 5.0
+_ROUNDING = 1e-6  # of a whole number of steps [1], as Stepping has it
 
 
 class Pacing:
@@ -144,6 +150,9 @@ class RunLoop:
     :param is_due: returns whether a job waits for the end of the step
     :param stop: returns whether to abandon the step
     :param is_held_back: returns whether frames wait that have to be served first
+    :param before_part: called before the steps of a frame, and within longer work as often, with
+        the length of a frame [s]; returns whether it is needed at all
+    :param node_time: may hold the steps back, and hears when they go on
     """
 
     def __init__(
@@ -151,7 +160,8 @@ class RunLoop:
             report: PaceReport, paused: bool,
             on_frame: Callable[[Callable[[], Pace]], None], on_stop: Callable[[], None],
             note: Callable[[Exception, str], str], is_due: Callable[[], bool],
-            stop: Callable[[], bool], is_held_back: Callable[[], bool]) -> None:
+            stop: Callable[[], bool], is_held_back: Callable[[], bool],
+            before_part: Callable[[float], bool], node_time: NodeTime) -> None:
         """Prepare; nothing moves before there is a mode."""
         self._simulation = simulation
         self._frame_seconds = frame_seconds
@@ -161,15 +171,21 @@ class RunLoop:
         self._on_stop = on_stop
         self._note = note
         self._is_due = is_due
-        self._stop = stop
+        self._is_stopped = stop
         self._is_held_back = is_held_back
+        self._before_part = before_part
+        self._time = node_time
         self._paused = paused
         self._problem = ''
+        # Steps at the end of the frame, and at that of the part of it that is worked on.
+        self._frame_goal = 0
+        self._part_end = 0
         # Wall time at which the next frame is due [s].
         self._due = 0.0
         # Who is answered when steps are made, and how many were asked for.
         self._answer: Answer | None = None
         self._asked = 0
+        self._is_canceled = False
         self._begin_frame()
 
     @property
@@ -198,6 +214,7 @@ class RunLoop:
 
     def start(self) -> None:
         """Pace frames from now on."""
+        self._time.catch_up()
         now = time.monotonic()
         self._pacing.restart(now)
         self._due = now
@@ -223,11 +240,15 @@ class RunLoop:
             self._problem = ''
             self.start()
 
+    def stop(self, error: ClothSimError) -> None:
+        """Stop with ``error``, which is not of a step."""
+        self._end_run(error)
+
     def restart(self) -> None:
         """Forget a stop, and begin with a whole frame."""
         self._problem = ''
         self._begin_frame()
-        self._end_steps(ClothSimError(
+        self._end_steps(InterruptedRequestError(
             'the cloth was reset before all steps were done: request them again'))
         self.start()
 
@@ -240,21 +261,30 @@ class RunLoop:
         :raises ClothSimError: while running
         """
         if not self._paused and not self._problem:
-            raise ClothSimError(
+            raise WrongStateError(
                 'the simulation is running, and single steps need it paused: pause it first, with '
                 '~/pause with data: true or `cloth_sim pause`')
         if not 1 <= steps <= MOST_STEPS:
             raise ClothSimError(
                 f'steps {steps} is outside its range: give a value from 1 to {MOST_STEPS}')
         if self._answer is not None:
-            raise ClothSimError(
+            raise WrongStateError(
                 'another caller is stepping: wait until ~/step has responded')
-        self._simulation.stepping.aim_steps(steps)
+        stepping = self._simulation.stepping
+        stepping.aim_steps(steps)
         self._begin_frame()
         self._is_frame_open = True
-        self._answer, self._asked = answer, steps
+        self._frame_goal = stepping.goal
+        self._answer, self._asked, self._is_canceled = answer, steps, False
         self._paused, self._problem = True, ''
         self.start()
+
+    def cancel_steps(self, answer: Answer) -> None:
+        """End the steps that ``answer`` waits for; does nothing where they have ended."""
+        if self._answer is answer:
+            self._is_canceled = True
+            self._simulation.stepping.drop_aim()
+            self._end_frame()
 
     def turn(self) -> float | None:
         """Work on the frame that is due; return the time to wait before the next turn [s]."""
@@ -265,8 +295,15 @@ class RunLoop:
         left = self._due - time.monotonic()
         if left > 0.0 and self._answer is None:
             return left
+        if self._is_waiting_for_time():
+            return None
         self._work()
         return 0.0
+
+    def _is_waiting_for_time(self) -> bool:
+        """Return whether the next step is one that the time that is followed has not reached."""
+        goal = self._time.goal
+        return goal is not None and self._answer is None and self._simulation.steps >= goal
 
     def _work(self) -> None:
         """Make steps until the frame, or all steps, are made, or a job waits."""
@@ -278,25 +315,40 @@ class RunLoop:
                 self._begin_frame()
                 self._is_frame_open = True
                 stepping.aim(self._frame_seconds)
-            self._simulation.work(self._is_due, self._stop)
+                self._frame_goal = stepping.goal
+            stepping.goal = self._part_goal()
+            self._simulation.work(self._is_due, self._is_stopped)
         except StepAbandoned:
             return
         except (ClothSimError, DeviceError) as error:
             problem = error
         except Exception as error:
             # A fault in a step comes again with the next: it ends the run, and not the node.
-            problem = ClothSimError(
+            problem = RunFailedError(
                 f'the run failed unexpectedly, {self._note(error, "a step")}: report it with the '
                 'trace from the log')
         self._worked += time.monotonic() - begin
         if problem is not None:
             self._end_run(problem)
-        elif not stepping.is_behind:
+        elif not stepping.is_behind and self._simulation.steps >= self._frame_goal:
             self._end_frame()
+
+    def _part_goal(self) -> int:
+        """Return up to which step to work now: the end of the frame, or of a part of it."""
+        goal, steps = self._frame_goal, self._simulation.steps
+        if steps >= self._part_end and self._before_part(self._frame_seconds):
+            length = math.ceil(self._frame_seconds / self._simulation.dt - _ROUNDING)
+            self._part_end = steps + max(length, 1)
+        if steps < self._part_end:
+            goal = min(goal, self._part_end)
+        # Within a frame, the time that is followed may have come less far.
+        reached = self._time.goal if self._answer is None else None
+        return goal if reached is None else min(goal, reached)
 
     def _begin_frame(self) -> None:
         """Let what comes next be a whole frame."""
         self._is_frame_open = False
+        self._frame_goal = self._part_end = 0
         self._worked = 0.0
         self._first = self._simulation.steps
 
@@ -336,7 +388,10 @@ class RunLoop:
     def _cut_short(self, made: int) -> ClothSimError | None:
         if made == self._asked:
             return None
-        return ClothSimError(
+        if self._is_canceled:
+            return CanceledError(
+                f'canceled at {self._simulation.time:.6g} s, after {made} of {self._asked} steps')
+        return InterruptedRequestError(
             f'~/pause ended the steps at {self._simulation.time:.6g} s, after {made} of '
             f'{self._asked}: request the other {self._asked - made} with ~/step')
 

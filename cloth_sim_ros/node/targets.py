@@ -8,12 +8,16 @@ from collections.abc import Iterable
 from functools import partial
 
 from cloth_sim_interfaces.msg import PinTarget
+from cloth_sim_interfaces.srv import FollowFrame
 from cloth_sim_interfaces.srv import Grasp
 from cloth_sim_interfaces.srv import MoveFrame
 from cloth_sim_interfaces.srv import MovePin
 from cloth_sim_interfaces.srv import Release
 from cloth_sim_interfaces.srv import SetPin
 from cloth_sim_ros.node.device_thread import DeviceThread
+from cloth_sim_ros.node.followers import COLLIDER
+from cloth_sim_ros.node.followers import Followers
+from cloth_sim_ros.node.followers import GRASP
 from cloth_sim_ros.node.input_frames import InputFrames
 from cloth_sim_ros.node.on_device import listen_on_device
 from cloth_sim_ros.node.on_device import serve_on_device
@@ -89,25 +93,34 @@ class GraspRequests:
     Serve ~/grasp and ~/release.
 
     :param frames: says what headers mean
+    :param followers: has what follows a frame
     """
 
     def __init__(
             self, node: Node, device: DeviceThread, simulation: Simulation,
-            frames: InputFrames) -> None:
+            frames: InputFrames, followers: Followers) -> None:
         """Make the services."""
         self._simulation = simulation
         self._frames = frames
+        self._followers = followers
         serve_on_device(node, device, Grasp, '~/grasp', self._grasp)
         serve_on_device(node, device, Release, '~/release', self._release)
 
     def _grasp(self, request: Grasp.Request, response: Grasp.Response) -> str:
         given = self._frames.given(request.header)
+        if request.follow_frame:
+            # Before anything has changed.
+            self._followers.look_up(request.follow_frame)
         grasp = self._simulation.grasp(
             request.name, given.point(request.pose.position),
             given.orientation(request.pose.orientation), radius=request.radius,
             count=request.count, max_force=request.max_force)
         response.nodes = len(grasp.nodes)
-        return f'grasp {grasp.name} holds {response.nodes} nodes'
+        text = f'grasp {grasp.name} holds {response.nodes} nodes'
+        if request.follow_frame:
+            self._followers.attach(GRASP, grasp.name, request.follow_frame)
+            text += f' and follows {request.follow_frame}'
+        return text
 
     def _release(self, request: Release.Request, response: Release.Response) -> str:
         names = [request.name] if request.name else [
@@ -128,18 +141,22 @@ Move = Callable[..., FramePath]
 
 class MoveRequests:
     """
-    Serve ~/move_grasp and ~/move_collider, listen to ~/colliders/NAME/pose of each collider.
+    Serve ~/move_grasp, ~/move_collider, ~/follow_grasp and ~/follow_collider.
+
+    Listen to ~/colliders/NAME/pose of each collider.
 
     ``follow`` listens to ~/grasps/NAME/target of grasps.
 
     :param frames: says what headers mean
     :param ignored: is given the messages that make no sense
+    :param followers: has what follows a frame
     """
 
     def __init__(
             self, node: Node, device: DeviceThread, simulation: Simulation, frames: InputFrames,
-            ignored: IgnoredMessages) -> None:
+            ignored: IgnoredMessages, followers: Followers) -> None:
         """Make the services, and the subscriptions of the scene's colliders and grasps."""
+        self._followers = followers
         self._node = node
         self._device = device
         self._simulation = simulation
@@ -147,13 +164,13 @@ class MoveRequests:
         self._ignored = ignored
         self._of_scene = {grasp.name for grasp in simulation.scene.timed_grasps()}
         self._subscriptions: dict[str, Subscription] = {}
-        for kind, move in (
-                ('grasp', simulation.move_grasp), ('collider', simulation.move_collider)):
+        for kind, move in ((GRASP, simulation.move_grasp), (COLLIDER, simulation.move_collider)):
             serve_on_device(
                 node, device, MoveFrame, f'~/move_{kind}', partial(self._on_request, kind, move))
+            serve_on_device(
+                node, device, FollowFrame, f'~/follow_{kind}', partial(self._on_follow, kind))
         for collider in simulation.scene.colliders:
-            self._listen(f'~/colliders/{collider.name}/pose', simulation.move_collider,
-                         collider.name)
+            self._listen(f'~/colliders/{collider.name}/pose', COLLIDER, collider.name)
         self.follow(())
 
     def follow(self, grasps: Iterable[str]) -> None:
@@ -162,13 +179,13 @@ class MoveRequests:
         for name in self._subscriptions.keys() - wanted:
             self._node.destroy_subscription(self._subscriptions.pop(name))
         for name in sorted(wanted - self._subscriptions.keys()):
-            self._subscriptions[name] = self._listen(
-                f'~/grasps/{name}/target', self._simulation.move_grasp, name)
+            self._subscriptions[name] = self._listen(f'~/grasps/{name}/target', GRASP, name)
 
     # Fields that are not set are 0 in ROS: that speed means the usual one.
     def _on_request(
             self, kind: str, move: Move, request: MoveFrame.Request,
             response: MoveFrame.Response) -> str:
+        self._followers.check_free(kind, request.name)
         given = self._frames.given(request.header)
         x, y, z = target = given.point(request.pose.position)
         path = move(
@@ -180,11 +197,23 @@ class MoveRequests:
             f'{kind} {request.name} moves to ({x:g}, {y:g}, {z:g}) and arrives at '
             f'{path.arrival:g} s')
 
-    def _listen(self, topic: str, move: Move, name: str) -> Subscription:
+    def _on_follow(
+            self, kind: str, request: FollowFrame.Request, _: FollowFrame.Response) -> str:
+        if not request.frame:
+            follower = self._followers.detach(kind, request.name)
+            return f'{kind} {request.name} no longer follows {follower.frame}'
+        self._followers.attach(
+            kind, request.name, request.frame, request.max_speed, request.max_angular_speed)
+        return f'{kind} {request.name} follows {request.frame}'
+
+    def _listen(self, topic: str, kind: str, name: str) -> Subscription:
         intervals = Intervals()
+        simulation = self._simulation
+        move: Move = simulation.move_grasp if kind == GRASP else simulation.move_collider
 
         def on_pose(message: PoseStamped) -> None:
-            duration = intervals.before(self._simulation.time)
+            self._followers.check_free(kind, name)
+            duration = intervals.before(simulation.time)
             given = self._frames.given(message.header)
             move(
                 name, given.point(message.pose.position),

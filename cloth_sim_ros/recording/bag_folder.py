@@ -18,6 +18,7 @@ from cloth_sim_ros.recording.bag_metadata import FRESH_METADATA_NAME
 from cloth_sim_ros.recording.bag_metadata import METADATA_NAME
 from cloth_sim_ros.recording.recording_faults import refusal
 from cloth_sim_ros.sim.errors import ClothSimError
+from cloth_sim_ros.sim.errors import NameTakenError
 
 MAX_SIZE_SETTING = 'recording.max_size'
 
@@ -142,7 +143,7 @@ def _make_named(folder: Path) -> Path:
     try:
         folder.mkdir()
     except FileExistsError as error:
-        raise ClothSimError(
+        raise NameTakenError(
             f'{folder} already exists, and no recording is overwritten: give another name, or '
             'none') from error
     return folder

@@ -134,12 +134,13 @@ class Recorder:
         """Return whether messages of the topic ``key`` are recorded."""
         return TOPICS[key].key in self._channels
 
-    def write(self, key: str, data: bytes, sim_time: float) -> None:
+    def write(self, key: str, data: bytes, sim_time: float, epoch: int = 0) -> None:
         """
         Record ``data``, a serialised message of the topic ``key``, at ``sim_time`` [s].
 
         What is not recorded is left out, as is what comes after closing.
 
+        :param epoch: time of the recording at simulated time 0 [ns]
         :raises RecordingError: once, when the recording could not go on; after that, nothing is
             recorded
         """
@@ -148,7 +149,7 @@ class Recorder:
             return
         while self._taken_bytes - self._written_bytes > MOST_WAITING and not self._ended:
             time.sleep(POLL)
-        self._queue.put((self._channels[key], data, nanoseconds(sim_time)))
+        self._queue.put((self._channels[key], data, epoch + nanoseconds(sim_time)))
         self._taken_bytes += len(data)
 
     def check(self) -> None:

@@ -119,7 +119,7 @@ def refusal(folder: Path, error: Exception, setting: str) -> ClothSimError:
     :param folder: that it should have gone into
     :param setting: what ``folder`` was given by
     """
-    return ClothSimError(
+    return RecordingError(
         f'cannot record into {folder} ({_reason(error)}): {_way_out(error, setting)}')
 
 

@@ -4,6 +4,12 @@
 """Errors that a user can correct: each says rule, value and way out in one sentence."""
 
 from cloth_sim_ros.files.errors import ClothSimError
+from cloth_sim_ros.files.errors import NameTakenError
+from cloth_sim_ros.files.errors import NotFoundError
+from cloth_sim_ros.files.errors import WrongStateError
+
+__all__ = (
+    'ClothSimError', 'NameTakenError', 'NonFiniteStateError', 'NotFoundError', 'WrongStateError')
 
 
 class NonFiniteStateError(ClothSimError):

@@ -23,6 +23,9 @@ from cloth_sim_ros.sim.arguments import flag
 from cloth_sim_ros.sim.arguments import instance
 from cloth_sim_ros.sim.engine import Engines
 from cloth_sim_ros.sim.errors import ClothSimError
+from cloth_sim_ros.sim.errors import NameTakenError
+from cloth_sim_ros.sim.errors import NotFoundError
+from cloth_sim_ros.sim.errors import WrongStateError
 from cloth_sim_ros.sim.held.grasps import given_nodes
 from cloth_sim_ros.sim.held.grasps import Grasp
 from cloth_sim_ros.sim.held.grasps import Grasps
@@ -212,7 +215,7 @@ class TakeGrasp:
             radius=self.radius, count=self.count, max_force=self.max_force)
         held = next((grasp for grasp in cloth.grasps if grasp.name == request.name), None)
         if held is not None:
-            raise ClothSimError(
+            raise NameTakenError(
                 f'grasp {request.name} holds {len(held.nodes)} nodes: release it first, or give '
                 'another name')
         scene, pinned = cloth.scene, cloth.pinned_nodes()
@@ -305,7 +308,7 @@ class MoveCollider(MoveFrame):
             collider.name: Pose(collider.position, collider.orientation)
             for collider in cloth.colliders}
         if contacts is None or not isinstance(self.name, str) or self.name not in poses:
-            raise ClothSimError(
+            raise NotFoundError(
                 f'there is no collider {shown(self.name)}: give one of those of the scene, '
                 f'{", ".join(poses) or "none"}')
         path = contacts.move(self.move(cloth).slowed(self.duration, poses[self.name]))
@@ -390,7 +393,7 @@ def _free_of_grasps(cloth: Cloth, row: int, col: int) -> tuple[int, int]:
     row, col = cloth.scene.checked_node(row, col)
     for grasp in cloth.grasps:
         if np.any(np.all(grasp.nodes == (row, col), axis=-1)):
-            raise ClothSimError(
+            raise WrongStateError(
                 f'grasp {grasp.name} holds node ({row}, {col}): move or release the grasp')
     return row, col
 
@@ -400,7 +403,7 @@ def _holding(cloth: Cloth, name: str) -> Grasp:
     present = {grasp.name: grasp for grasp in cloth.grasps}
     if not isinstance(name, str) or name not in present:
         names = ', '.join(present) or 'none'
-        raise ClothSimError(
+        raise NotFoundError(
             f'there is no grasp {shown(name)}: grasp first, or give one of those that hold '
             f'nodes, {names}')
     return present[name]

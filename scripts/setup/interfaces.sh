@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 
 # The messages, built with cmake into the venv, which is a ROS prefix of its own:
-# cloth_sim_interfaces, and what this project needs of tf2_msgs where ROS lacks that.
+# cloth_sim_interfaces, and what this project needs of tf2_msgs and simulation_interfaces where ROS
+# lacks those.
 
 cmake_build() {
   local source=$1 package build
@@ -42,5 +43,6 @@ build_package() {
 
 build_interfaces() {
   ros_has tf2_msgs || build_package scripts/setup/tf2_msgs
+  ros_has simulation_interfaces || build_package scripts/setup/simulation_interfaces
   build_package cloth_sim_interfaces
 }

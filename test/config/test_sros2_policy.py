@@ -24,6 +24,13 @@ PATTERNS = {
     '/cloth_sim/colliders/*/pose': '/cloth_sim/colliders/ball/pose',
     '/cloth_sim/grasps/*/target': '/cloth_sim/grasps/hand/target'}
 # ROS opens these two for every node, and they change nothing.
+# What sros2 makes of an action: services of its server, and topics that this publishes.
+ACTION = {
+    ('services', 'send_goal'), ('services', 'cancel_goal'), ('services', 'get_result'),
+    ('topics', 'feedback'), ('topics', 'status')}
+OF_ACTIONS = {
+    ('execute', 'services'): 'reply', ('execute', 'topics'): 'publish',
+    ('call', 'services'): 'request', ('call', 'topics'): 'subscribe'}
 OF_EVERY_NODE = {'/parameter_events', '/rosout'}
 
 
@@ -37,6 +44,11 @@ def rights(enclave: str) -> dict[tuple[str, str], set[str]]:
         assert answer == 'ALLOW'
         names = [entry.text.replace('~', own, 1) for entry in group]
         assert len(set(names)) == len(names)
+        if group.tag == 'actions':
+            for part, name in ACTION:
+                found[part, OF_ACTIONS[kind, part]] |= {
+                    f'{action}/_action/{name}' for action in names}
+            continue
         found[group.tag, kind] |= {PATTERNS.get(name, name) for name in names}
     return found
 
@@ -77,7 +89,7 @@ def test_it_has_the_form_of_a_policy():
     assert (root.tag, root.get('version')) == ('policy', '0.2.0')
     assert [enclave.get('path') for enclave in root.find('enclaves')] == [
         '/cloth_sim', '/cloth_sim/viewer', '/cloth_sim/operator']
-    entries = {'topics': 'topic', 'services': 'service'}
+    entries = {'topics': 'topic', 'services': 'service', 'actions': 'action'}
     for group in root.iterfind('.//profile/*'):
         assert {entry.tag for entry in group} == {entries[group.tag]}
 
@@ -93,7 +105,9 @@ def test_the_node_may_do_what_it_does_and_no_more(endpoints):
 def test_a_viewer_reads_and_changes_nothing(endpoints):
     """A viewer could push the cloth, or would not see all of it."""
     allowed = rights('/cloth_sim/viewer')
-    assert allowed['topics', 'subscribe'] == endpoints['topics', 'publish'] - OF_EVERY_NODE
+    of_actions = {name for name in endpoints['topics', 'publish'] if '/_action/' in name}
+    assert allowed['topics', 'subscribe'] == (
+        endpoints['topics', 'publish'] - OF_EVERY_NODE - of_actions)
     assert allowed['topics', 'subscribe'] >= {
         f'/cloth_sim/{key}' for key, topic in TOPICS.items() if not topic.is_global}
     assert allowed['topics', 'publish'] == OF_EVERY_NODE
@@ -113,6 +127,7 @@ def test_an_operator_acts_by_services_and_targets(endpoints):
         endpoints['services', 'reply'] - of_parameters | reading)
     assert allowed['topics', 'publish'] - OF_EVERY_NODE == (
         endpoints['topics', 'subscribe'] - {'/clicked_point', '/tf', '/tf_static'})
-    assert allowed['topics', 'subscribe'] == {
+    of_actions = {name for name in endpoints['topics', 'publish'] if '/_action/' in name}
+    assert allowed['topics', 'subscribe'] == of_actions | {
         '/cloth_sim/inputs/wind', '/cloth_sim/state', '/cloth_sim/stats'}
     assert not allowed['services', 'reply']

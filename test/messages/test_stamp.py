@@ -41,3 +41,10 @@ def test_rounds_to_the_nearest_and_carries(seconds, sec, nanosec):
 def test_a_clock_is_a_message_of_ros(seconds):
     """Nodes with use_sim_time would live at another time."""
     assert deserialize_message(serialise_clock(seconds), Clock).clock == stamp(seconds)
+
+
+def test_an_epoch_is_added_to_the_nanosecond():
+    """Stamps of the wall clock would be off by what a float loses of so many seconds."""
+    time = stamp(0.1 + 0.2, 1_795_762_816_790_533_851)
+    assert (time.sec, time.nanosec) == (1_795_762_817, 90_533_851)
+    assert deserialize_message(serialise_clock(0.5, 10**18), Clock).clock == stamp(0.5, 10**18)

@@ -76,7 +76,7 @@ def test_a_healthy_run_is_ok_in_all_parts():
     found = diagnose(make_snapshot(2, 2))
     assert set(found) == {
         'GL device', 'real-time factor', 'solver', 'stability', 'pins', 'recorder',
-        'program'}
+        'program', 'time'}
     assert {status.level for status in found.values()} == {OK}
     assert {status.hardware_id for status in found.values()} == {'llvmpipe'}
     assert found['GL device'].message == 'llvmpipe'

@@ -54,7 +54,7 @@ def test_all_inputs_are_recorded():
     assert inputs == {
         'inputs/push', 'inputs/pin', 'inputs/pin_target', 'inputs/grasp', 'inputs/grasp_target',
         'inputs/collider_target', 'inputs/wind', 'inputs/mode', 'inputs/command',
-        'inputs/parameters'}
+        'inputs/parameters', 'inputs/time_base'}
     assert all(TOPICS[key].recorded for key in inputs)
     assert TOPICS['topology'].recorded and TOPICS['clock'].recorded
     assert TOPICS['pins/wrenches'].recorded and TOPICS['tf'].recorded

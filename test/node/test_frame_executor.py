@@ -6,8 +6,12 @@
 from threading import Timer
 import time
 
+from cloth_sim_interfaces.action import Step
 from cloth_sim_ros.node.frame_executor import FrameExecutor
 import rclpy
+from rclpy.action import ActionClient
+from rclpy.action import ActionServer
+from rclpy.executors import SingleThreadedExecutor
 from std_msgs.msg import String
 from std_srvs.srv import Trigger
 
@@ -41,6 +45,36 @@ def test_every_kind_of_entity_is_served(lone_node):
     future = client.call_async(Trigger.Request())
     publisher.publish(String())
     assert spin_until(executor, lambda: future.done() and heard and ticks and answered)
+
+
+def test_an_action_is_served(lone_node):
+    """A goal would wait until something else wakes the node."""
+    def execute(handle):
+        handle.publish_feedback(Step.Feedback(steps=1))
+        handle.succeed()
+        return Step.Result(steps=2)
+
+    executor = FrameExecutor(lone_node)
+    ActionServer(lone_node, Step, 'steps', execute)
+    asker = rclpy.create_node('asker', context=lone_node.context)
+    answers = SingleThreadedExecutor(context=lone_node.context)
+    answers.add_node(asker)
+    client = ActionClient(asker, Step, 'steps')
+
+    def wait(future):
+        def is_done():
+            answers.spin_once(0.01)
+            return future.done()
+
+        assert spin_until(executor, is_done)
+        return future.result()
+
+    assert spin_until(executor, client.server_is_ready)
+    goal = wait(client.send_goal_async(Step.Goal()))
+    assert wait(goal.get_result_async()).result.steps == 2
+    client.destroy()
+    answers.shutdown()
+    asker.destroy_node()
 
 
 def test_entities_that_come_late_are_waited_for(lone_node):

@@ -6,6 +6,7 @@
 import warnings
 
 from cloth_sim_interfaces.msg import Push
+from cloth_sim_interfaces.msg import ResultCode
 from cloth_sim_interfaces.srv import ApplyPush
 from cloth_sim_interfaces.srv import Step
 from cloth_sim_ros.node.guarded_node import Faults
@@ -194,6 +195,7 @@ def test_a_request_that_fails_is_answered(client, tmp_path, service, kind, metho
         for _ in range(2):
             answer = cloth.call(kind, service)
             assert not answer.success and 'ZeroDivisionError' in answer.message
+            assert getattr(answer, 'code', ResultCode.UNEXPECTED) == ResultCode.UNEXPECTED
         assert service in status_of(cloth, faults=2).message
         assert cloth.call(Step, 'step', steps=1).success
         assert node.output.count('Traceback') == 1, 'a fault that comes again is not logged again'

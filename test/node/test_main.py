@@ -27,6 +27,16 @@ BAD_PARAMETERS = {
     'two weights': ({'total_mass': 0.3, 'areal_density': 0.2}, 'total_mass 0.3 and areal_density '
                     '0.2 each set the mass of the cloth: give one of them'),
     'pin off the cloth': ({'pin_points.positions': [0.0, 0.0, 1.4]}, 'no node is within'),
+    'two sources of time': ({'time.source': 'ros', 'time.epoch': 'wall'}, 'time.source: ros takes '
+                            'stamps from /clock and time.epoch: wall sets them: leave'),
+    'its own clock to follow': ({'time.source': 'ros', 'publish.clock': True}, 'time.source: ros '
+                                'follows /clock and publish.clock: true publishes it: set'),
+    'a clock not to be used': ({'time.source': 'ros', 'use_sim_time': False}, 'time.source: ros '
+                               'follows /clock and use_sim_time is false: leave'),
+    'no body to follow': ({'tf.follow': ['hand=tool0']}, "tf.follow has 'hand=tool0', and needs "
+                          'NAME=FRAME with one grasp or collider of the scene: give one of none'),
+    'nothing to follow with': ({'tf.follow': ['a=b'], 'tf.listen': False}, 'tf.follow needs the '
+                               'frames on /tf and tf.listen is false: leave'),
     'mixed list': ({'gravity': [0, 0, -9.81]}, 'write lists of numbers alike'),
 }
 
@@ -137,7 +147,7 @@ def test_says_that_there_is_no_device(tmp_path):
 
 
 @pytest.mark.parametrize('module, reason', [
-    ('cloth_sim_interfaces', 'colcon build --base-paths'),
+    ('cloth_sim_interfaces', 'src/cloth_sim_interfaces && colcon build'),
     ('rclpy', 'source /opt/ros/jazzy/setup.bash'),
 ])
 def test_says_how_to_get_what_is_missing(module, reason, tmp_path):

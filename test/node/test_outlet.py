@@ -39,6 +39,7 @@ NAMES_AND_TYPES = {
     '~/inputs/mode': 'cloth_sim_interfaces/msg/ModeChange',
     '~/inputs/command': 'cloth_sim_interfaces/msg/Command',
     '~/inputs/parameters': 'rcl_interfaces/msg/ParameterEvent',
+    '~/inputs/time_base': 'cloth_sim_interfaces/msg/TimeBase',
 }
 SERVICES = {
     'set_mode': 'cloth_sim_interfaces/srv/SetMode',
@@ -50,13 +51,15 @@ SERVICES = {
     'release': 'cloth_sim_interfaces/srv/Release',
     'move_grasp': 'cloth_sim_interfaces/srv/MoveFrame',
     'move_collider': 'cloth_sim_interfaces/srv/MoveFrame',
+    'follow_grasp': 'cloth_sim_interfaces/srv/FollowFrame',
+    'follow_collider': 'cloth_sim_interfaces/srv/FollowFrame',
     'reset': 'std_srvs/srv/Trigger',
     'pause': 'std_srvs/srv/SetBool',
     'step': 'cloth_sim_interfaces/srv/Step',
     'start_recording': 'cloth_sim_interfaces/srv/StartRecording',
     'stop_recording': 'std_srvs/srv/Trigger',
 }
-KEPT = ('topology', 'state')
+KEPT = {'topology', 'state', 'time_base'}
 
 
 @pytest.mark.parametrize('name', NAMES_AND_TYPES)

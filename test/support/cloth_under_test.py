@@ -8,6 +8,7 @@ import time
 from typing import Any
 
 from cloth_sim_interfaces.srv import ApplyPush
+from cloth_sim_interfaces.srv import FollowFrame
 from cloth_sim_interfaces.srv import Grasp
 from cloth_sim_interfaces.srv import MoveFrame
 from cloth_sim_interfaces.srv import MovePin
@@ -49,6 +50,8 @@ SERVICES = {
     'release': Release,
     'move_grasp': MoveFrame,
     'move_collider': MoveFrame,
+    'follow_grasp': FollowFrame,
+    'follow_collider': FollowFrame,
     'reset': Trigger,
     'pause': SetBool,
     'step': Step,

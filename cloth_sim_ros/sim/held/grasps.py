@@ -9,6 +9,7 @@ from dataclasses import replace
 
 from cloth_sim_ros.sim.arguments import integers
 from cloth_sim_ros.sim.errors import ClothSimError
+from cloth_sim_ros.sim.errors import WrongStateError
 from cloth_sim_ros.sim.held.pin_motion import PinMotion
 from cloth_sim_ros.sim.model.frame_paths import FrameMove
 from cloth_sim_ros.sim.model.frame_paths import FramePath
@@ -136,7 +137,7 @@ def given_nodes(
     for row, col in chosen.tolist():
         scene.checked_node(row, col)
         if pinned[row, col]:
-            raise ClothSimError(
+            raise WrongStateError(
                 f'grasp {name} cannot have node ({row}, {col}), which is pinned: release it '
                 'first')
     return np.unique(chosen, axis=0)

@@ -7,7 +7,7 @@ from collections.abc import Collection
 from collections.abc import Sequence
 import math
 
-from cloth_sim_ros.sim.errors import ClothSimError
+from cloth_sim_ros.sim.errors import NotFoundError
 from cloth_sim_ros.sim.model.pins import PinMove
 from cloth_sim_ros.sim.model.pins import PinPath
 from cloth_sim_ros.sim.model.pins import Way
@@ -177,7 +177,7 @@ class PinMotion:
             self, row: int, col: int, target: Sequence[float], speed: float | None,
             start: float, is_pinned: bool) -> PinMove:
         if not is_pinned:
-            raise ClothSimError(
+            raise NotFoundError(
                 f'node ({row}, {col}) is free and only a pin can be moved: pin it first')
         return PinMove.checked(
             row=row, col=col, target=target, start=start,

@@ -11,6 +11,7 @@ from cloth_sim_ros.files.errors import shown
 from cloth_sim_ros.sim.arguments import integer
 from cloth_sim_ros.sim.arguments import real_number
 from cloth_sim_ros.sim.errors import ClothSimError
+from cloth_sim_ros.sim.errors import NotFoundError
 from cloth_sim_ros.sim.model.colliders import NAME_PATTERN
 from cloth_sim_ros.sim.model.pose import checked_position
 from cloth_sim_ros.sim.model.pose import NO_ROTATION
@@ -103,7 +104,7 @@ class GraspRequest:
         if len(nodes):
             return nodes
         x, y, z = self.pose.position
-        raise ClothSimError(
+        raise NotFoundError(
             f'grasp {self.name} at ({x:g}, {y:g}, {z:g}) has no free node within '
             f'{self.radius or reach:.3g} m: the nearest is {float(distance.min()):.3g} m away; '
             'give a point nearer to the cloth, or a larger radius')

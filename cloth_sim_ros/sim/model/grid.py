@@ -9,6 +9,7 @@ import math
 
 from cloth_sim_ros.sim.arguments import real_number
 from cloth_sim_ros.sim.errors import ClothSimError
+from cloth_sim_ros.sim.errors import NotFoundError
 from cloth_sim_ros.sim.model.pose import checked_position
 import numpy as np
 
@@ -75,13 +76,13 @@ def near_node(
     squares = np.where(np.isnan(squares), np.inf, squares)
     if pinned is not None:
         if not pinned.any():
-            raise ClothSimError('the cloth has no pin that is near to the point: pin a node first')
+            raise NotFoundError('the cloth has no pin that is near to the point: pin a node first')
         squares = np.where(pinned, squares, np.inf)
     row, col = np.unravel_index(int(np.argmin(squares)), squares.shape)
     found = NearNode(int(row), int(col), math.dist(positions[row, col], point))
     if found.distance > max_distance:
         x, y, z = point
-        raise ClothSimError(
+        raise NotFoundError(
             f'no {"node" if pinned is None else "pin"} is within {max_distance:g} m of the point '
             f'({x:g}, {y:g}, {z:g}): the nearest, ({row}, {col}), is {found.distance:.3g} m away; '
             f'give a point nearer to it, or a larger {parameter}')

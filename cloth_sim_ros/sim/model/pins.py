@@ -15,6 +15,7 @@ from cloth_sim_ros.sim.arguments import integer
 from cloth_sim_ros.sim.arguments import real_number
 from cloth_sim_ros.sim.arguments import vector
 from cloth_sim_ros.sim.errors import ClothSimError
+from cloth_sim_ros.sim.errors import NotFoundError
 import numpy as np
 
 _REGIONS = {
@@ -94,11 +95,11 @@ def checked_node(
     row = integer(row, 'the row of a node')
     col = integer(col, 'the col of a node')
     if not (0 <= row < rows and 0 <= col < cols):
-        raise ClothSimError(
+        raise NotFoundError(
             f'there is no node ({shown(row)}, {shown(col)}) in a cloth of {rows} x {cols} nodes: '
             f'give a row from 0 to {rows - 1} and a col from 0 to {cols - 1}')
     if present is not None and not present[row, col]:
-        raise ClothSimError(
+        raise NotFoundError(
             f'there is no node ({row}, {col}) in the shape of the cloth: give one of a cell that '
             'is there')
     return row, col

@@ -11,7 +11,9 @@ from threading import Event
 from threading import Thread
 from typing import Any
 
+from builtin_interfaces.msg import Time
 from cloth_sim_interfaces.msg import ClothState
+from cloth_sim_interfaces.msg import TimeBase
 from cloth_sim_interfaces.srv import ApplyPush
 from cloth_sim_interfaces.srv import MovePin
 from cloth_sim_interfaces.srv import SetMode
@@ -147,6 +149,7 @@ class NodeSource(Source):
         self._state: ClothState = ClothState()  # until one has come
         self._moment: Moment | None = None
         self._shown_cloud = self._shown_state = None
+        self._epoch = Time()
         self._told = Event()
         check_interfaces()
         # In a context of its own, rclpy leaves the signals alone: Ctrl-C works as in any command.
@@ -183,9 +186,8 @@ class NodeSource(Source):
         if known is None or cloud is not self._shown_cloud or (
                 state is not self._shown_state or colliders != known.frame.colliders):
             self._shown_cloud, self._shown_state = cloud, state
-            stamp = cloud.header.stamp
             frame = Frame.from_points(
-                stamp.sec + 1e-9 * stamp.nanosec, cloud, colliders=colliders)
+                self._simulated(cloud.header.stamp), cloud, colliders=colliders)
             note = f'compiling mode {state.preparing}' if state.preparing else ''
             self._moment = Moment(frame, state.mode, state.run_state, note)
         return self._moment
@@ -241,6 +243,18 @@ class NodeSource(Source):
         self._node.create_subscription(
             ClothState, f'{self.name}/state', self._take_state,
             QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL))
+
+        self._node.create_subscription(
+            TimeBase, f'{self.name}/inputs/time_base', self._take_time_base,
+            QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL))
+
+    def _simulated(self, stamp: Time) -> float:
+        """Return the simulated time of ``stamp`` [s]."""
+        epoch = self._epoch
+        return stamp.sec - epoch.sec + 1e-9 * (stamp.nanosec - epoch.nanosec)
+
+    def _take_time_base(self, base: TimeBase) -> None:
+        self._epoch = base.epoch
 
     def _take_cloud(self, cloud: PointCloud2) -> None:
         self._colliders.ask()

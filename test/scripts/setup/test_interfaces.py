@@ -13,14 +13,15 @@ import pytest
 PARTS = Path(__file__).resolve().parents[3] / 'scripts' / 'setup'
 
 
-@pytest.mark.parametrize('has_tf2, prefixes, built', [
+@pytest.mark.parametrize('has_them, prefixes, built', [
     (True, ['venv', 'ros'], False), (False, ['venv', 'ros'], True), (True, ['venv'], True),
     (True, [], True)])
-def test_tf2_msgs_is_built_where_ros_lacks_it(tmp_path, has_tf2, prefixes, built):
-    """A sourced ROS would get a second tf2_msgs over its own, or ROS from wheels none."""
-    for name, has in (('venv', True), ('ros', has_tf2)):
-        share = tmp_path / name / 'share' / ('tf2_msgs' if has else 'std_msgs')
-        share.mkdir(parents=True)
+def test_messages_are_built_where_ros_lacks_them(tmp_path, has_them, prefixes, built):
+    """A sourced ROS would get a second one over its own, or ROS from wheels none."""
+    for name, has in (('venv', True), ('ros', has_them)):
+        for package in ('tf2_msgs', 'simulation_interfaces'):
+            share = tmp_path / name / 'share' / (package if has else 'std_msgs')
+            share.mkdir(parents=True, exist_ok=True)
     searched = ':'.join(str(tmp_path / name) for name in prefixes)
     done = subprocess.run(
         ['bash', '-euc', f'. {shlex.quote(str(PARTS))}/interfaces.sh; '
@@ -28,5 +29,6 @@ def test_tf2_msgs_is_built_where_ros_lacks_it(tmp_path, has_tf2, prefixes, built
         env={'PATH': '/usr/bin:/bin', 'venv': str(tmp_path / 'venv'),
              'AMENT_PREFIX_PATH': searched},
         capture_output=True, text=True, check=True)
-    assert done.stdout.split() == (
-        ['scripts/setup/tf2_msgs'] if built else []) + ['cloth_sim_interfaces']
+    assert done.stdout.split() == ([
+        'scripts/setup/tf2_msgs', 'scripts/setup/simulation_interfaces'] if built else []) + [
+        'cloth_sim_interfaces']
