@@ -37,6 +37,8 @@ layout(std430, binding = LIMIT_CHANGES) buffer Changes { vec4 changes[]; };
 #define WAY_ROUNDS 12
 // Change of an impulse in a round, over the largest impulse [1], at which rounds end.
 #define STILL 1e-6
+// The same [1] above which the last round has not settled: between bodies that leave no room, say.
+#define UNSETTLED 0.02
 
 uniform float substep;     // [s]
 uniform int block_count;   // in all
@@ -426,6 +428,10 @@ void let_rows_act() {
     for (int round = 0; !is_done && round < IMPULSE_ROUNDS; ++round) {
         is_done = rows_act();
         move_held_nodes();
+    }
+    bool is_far = uintBitsToFloat(largest_change) > UNSETTLED * uintBitsToFloat(largest);
+    if (!is_done && is_far && acting_rows > 0u && gl_LocalInvocationID.x == 0u) {
+        ++surface_unsettled;
     }
 }
 

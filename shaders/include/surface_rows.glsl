@@ -23,6 +23,7 @@ layout(std430, binding = SURFACE_ROWS) coherent buffer SurfaceRows {
     uint acting_rows;
     uint held_nodes;
     uint listed_rows;       // of nodes
-    uvec2 surface_spare;
+    uint surface_unsettled;  // substeps whose rounds did not settle
+    uint surface_spare;
     SurfacePlace surface_rows[];
 };

@@ -136,6 +136,7 @@ def test_all_stamps_are_of_one_base(start):
     wait_for_steps_of = (clock.now - BEGIN) // DT
     clock.tell_until(lambda: any(
         stats.steps == wait_for_steps_of for stats in cloth['stats']), 'the last step')
+    clock.tell_until(lambda: cloth['inputs/parameters'], 'the parameter that was set')
     for key, stamps in stamps_of(cloth).items():
         assert all(BEGIN <= stamp <= clock.now for stamp in stamps), key
         assert stamps or key in ('state', 'inputs/time_base'), key

@@ -54,12 +54,21 @@ def tool():
 def pose_after(cloth, steps, frame):
     """Make ``steps`` steps; return where ``frame`` of the node is then, x y z."""
     cloth.clear()
-    assert cloth.call(Step, 'step', steps=steps).success
+    answer = cloth.call(Step, 'step', steps=steps)
+    assert answer.success
+    # Frames come on the way, too.
     found = cloth.client.spin_until(lambda: [
         each.transform for message in cloth['tf'] for each in message.transforms
-        if each.child_frame_id == frame], f'the transform of {frame}')[-1]
+        if each.child_frame_id == frame
+        and seconds_of(each.header.stamp) > answer.sim_time - 1e-6],
+        f'the transform of {frame}')[-1]
     place, turn = found.translation, found.rotation
     return (place.x, place.y, place.z), (turn.x, turn.y, turn.z, turn.w)
+
+
+def seconds_of(stamp):
+    """Return a stamp [s]."""
+    return stamp.sec + 1e-9 * stamp.nanosec
 
 
 def grasp(cloth, frame):

@@ -56,6 +56,8 @@ class SurfaceContact:
             'near_nodes.comp', scene, layout, {**defines, 'HAS_SURFACE': 1})
         self._layout = layout
         self._has_warned = False
+        # Substeps whose rounds had not settled, when that was asked last.
+        self._unsettled = 0
         self._most_entries = scene.node_count * len(numbers)
         rows = max(rows_of(scene.colliders[number]) for number in numbers)
         self._has_layers: bool = scene['self_contact.enabled']
@@ -146,7 +148,11 @@ class SurfaceContact:
         shader_writes_visible()
 
     def warn_of_losses(self) -> int:
-        """Wait; return how many contacts were found that could not be held, and warn once."""
+        """
+        Wait; return how many contacts could not be held, and warn once.
+
+        Substeps since the last call whose rounds did not settle count as one each.
+        """
         head = np.empty(_HEAD_BYTES // 4, dtype=np.uint32)
         self._rows.read_into(head)
         lost = int(head[1]) + int(head[2])
@@ -155,7 +161,9 @@ class SurfaceContact:
             warnings.warn(
                 f'{lost} contacts of edges or faces were not held, as they are longer than 1.5 '
                 'diagonals of a cell: use a stiffer cloth, or smaller steps', stacklevel=4)
-        return lost
+        unsettled = int(head[6]) - self._unsettled
+        self._unsettled = int(head[6])
+        return lost + unsettled
 
     def delete(self) -> None:
         """Release everything."""

@@ -164,7 +164,7 @@ def test_a_plain_set_up_brings_all_that_the_package_imports():
     """A command of the README would fail after scripts/setup.sh, for want of a package."""
     brought = {pin[0] for pin in pins('run')} | {'cloth-sim-ros'}
     where = packages_distributions()
-    built_here = {'cloth_sim_interfaces', 'tf2_msgs'}
+    built_here = {'cloth_sim_interfaces', 'simulation_interfaces', 'tf2_msgs'}
     missing = {
         module for module in imported_modules() - built_here - OPTIONAL
         if not {name.lower().replace('_', '-') for name in where.get(module, [])} & brought}
