@@ -394,6 +394,10 @@ def _check(scene: Scene) -> None:
         if scene[name]:
             raise ClothSimError(
                 f'a batch has nothing timed, and {name} is not empty: move pins with move_pins')
+    if scene['self_contact.enabled']:
+        raise ClothSimError(
+            'a batch lets layers of a cloth pass, and self_contact.enabled is true: set it to '
+            'false')
     if scene.has_contact:
         raise ClothSimError(
             'a batch has no contact, and colliders.names is not empty: remove the colliders')

@@ -106,6 +106,7 @@ def test_reset_begins_one_cloth_anew(batch: Batch):
 @pytest.mark.parametrize('change, rule', [
     ({'mode': 'constraint'}, 'mass_spring'), ({'layout': 'paper'}, 'fused'),
     ({'colliders.names': ['a'], 'colliders.a.shape': 'plane'}, 'no contact'),
+    ({'self_contact.enabled': True}, 'set it to false'),
     ({'pushes.start': [0.0], 'pushes.duration': [1.0], 'pushes.force': [0.0, 0.0, 1.0]}, 'timed')])
 def test_what_no_batch_can_do_is_refused(change, rule):
     """A user would get cloths that lack what their scene asks for."""
