@@ -18,9 +18,8 @@ layout(binding = SELF_CONTACTS) uniform samplerBuffer contact_texels;
 // Velocity that a node has after the round before [m/s], and its inverse mass times its weights.
 layout(binding = SELF_VELOCITIES) uniform samplerBuffer velocities;
 
-uniform float substep;    // [s]
-uniform float friction;   // [1]
-uniform float thickness;  // [m] from middle to middle
+uniform float substep;   // [s]
+uniform float friction;  // [1]
 uniform int part;        // FIRST and LAST of the rounds of a substep, as bits
 
 #define FIRST 1
@@ -37,9 +36,6 @@ SelfContact load_contact(int place) {
         texelFetch(contact_texels, 4 * place + 1), texelFetch(contact_texels, 4 * place + 2),
         last.xyz, last.w);
 }
-
-// Approach in a substep over the thickness [1] that rounds leave at most where they converge.
-#define MOST_LACKING 0.01
 
 void add_to(int node, float weight, vec3 before, vec3 now, float unit) {
     ivec3 change = in_units(weight, now, unit) - in_units(weight, before, unit);
@@ -98,11 +94,7 @@ void main() {
     }
     contacts_found[i].impulse.xyz = impulse;
     if ((part & LAST) != 0) {
-        // Where there is no room, as between two colliders, impulses grow in each round and find no
-        // end: such a one is not kept.
-        float lacks = -substep * (along_normal + max(gap, 0.0) / substep);
-        kept[floatBitsToUint(found.impulse.w)] =
-            vec4(lacks < MOST_LACKING * thickness ? impulse : vec3(0.0), 0.0);
+        kept[floatBitsToUint(found.impulse.w)] = vec4(impulse, 0.0);
         atomicMax(largest_impulse, floatBitsToUint(length(impulse)));
         atomicMax(largest_change, floatBitsToUint(share * length(impulse - found.impulse.xyz)));
     }
