@@ -59,7 +59,7 @@ bool are_listed(ivec3 nodes) {
 
 #if HAS_SELF
 // Parts of the pass, so that layers of the cloth act between them: list rows, let them act, and give
-// nodes what they have then. Nodes that layers act on get it in self_contact/nodes.comp.
+// nodes the resulting velocity. self_contact/nodes.comp does that for nodes which layers act on.
 #define LISTS 1
 #define ACTS 2
 #define GIVES 4

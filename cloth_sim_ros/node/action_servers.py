@@ -122,7 +122,7 @@ class Steps:
         self._simulation = simulation
         self._run_loop = run_loop
         self._changed = changed
-        # Of the goal at work: tells its progress.
+        # Reports the progress of the present goal.
         self._look: Callable[[], None] | None = None
 
     def look(self) -> bool:

@@ -409,7 +409,7 @@ class ClothSimNode(GuardedNode):
             self._device.emit(self._start_first_recording)
 
     def _on_clock_back(self, text: str) -> None:
-        # Of two clocks, each goes back behind the other again and again.
+        # Two publishers of /clock make it go back again and again.
         is_one = self.count_publishers('/clock') < 2
         if is_one and self._values['time.jump_back'] == 'reset':
             self._device.emit(lambda: self.get_logger().warning(

@@ -17,9 +17,8 @@ from rclpy.clock import TimeJump
 from rclpy.duration import Duration
 from rclpy.node import Node
 
-# A /clock that goes forward by more than this at once has left time out, which the cloth does not
-# make up for [ns]: as long as tf2 keeps transforms by default. Chosen: any time from a step of a
-# simulator to that will do.
+# Max. jump forward of /clock [ns] that the cloth makes up for: as long as tf2 keeps transforms by
+# default. Chosen: any time from a step of a simulator to that will do.
 LONGEST_LEAP = 10 * NANOSECONDS
 _SMALLEST_JUMP = Duration(nanoseconds=1)
 
@@ -35,7 +34,7 @@ class FollowedTime(NodeTime):
     :param post: has a function called on the device thread
     :param begun: called there when the first message has come
     :param went_back: called there with a sentence when /clock is before the cloth
-    :param leapt: called there with a sentence when /clock has left time out
+    :param leapt: called there with a sentence when /clock has skipped time
     :param changed: called there with the stamp that the present moment had [ns]
     """
 
@@ -124,14 +123,14 @@ class FollowedTime(NodeTime):
             self._look_ahead(before)
 
     def _look_ahead(self, before: int) -> None:
-        """See whether /clock has left out time since ``before`` [ns]."""
+        """Report a jump of /clock since ``before`` [ns]."""
         stamp = self._stamp()
         leap = self._now - max(before, stamp)
         if leap > LONGEST_LEAP:
             self._begin_at(stamp + leap, stamp)
             self._leapt(
                 f'/clock went from {_seconds(before)} to {_seconds(self._now)} s at once, more '
-                f'than {LONGEST_LEAP // NANOSECONDS} s: the cloth goes on from there as it was, '
+                f'than {LONGEST_LEAP // NANOSECONDS} s: the cloth continues from there as it was, '
                 'without the time between')
 
     def _look_back(self, before: int) -> None:

@@ -46,7 +46,7 @@ class HeldEntries(Protocol):
         """Let the next dispatches leave their entries."""
 
     def drop_last(self) -> None:
-        """Leave out what the last substep has left, which is made again."""
+        """Drop the entries of the last substep, which is made again."""
 
     def expect_steps(self, substeps: int) -> None:
         """Tell that so many ``substeps`` come before those of the last step of dt."""
@@ -95,6 +95,8 @@ class State:
         self._low = LowParts(layout.stored) if has_low_parts else None
         # Where passes leave what pinned nodes are driven with; None where nobody asks.
         self.impulses: HeldEntries | None = None
+        # Whether pins were stopped in the step where the cloth would have passed through itself.
+        self.were_pins_stopped = False
         self.write(positions, np.zeros_like(positions))
 
     @property

@@ -14,6 +14,7 @@
 layout(local_size_x = LOCAL_X, local_size_y = LOCAL_Y) in;
 
 layout(std430, binding = POSITION_OUT) buffer PositionOut { vec4 position_out[]; };
+layout(binding = VELOCITY_OUT) uniform samplerBuffer velocity_out;
 layout(binding = SELF_BUILT) uniform samplerBuffer built;
 
 uniform float room;         // [m] that nodes may move since lists were made
@@ -26,7 +27,7 @@ void main() {
         return;
     }
     float longest = 0.0, most_cut = 0.0;
-    uint cuts = 0u;
+    uint cuts = 0u, pins = 0u;
     for (int i = 0; i < STRIP && first.y + i < ROWS; ++i) {
         int index = node_index(first.y + i, first.x);
         vec4 x = load_position(index);
@@ -44,11 +45,13 @@ void main() {
             position_out[index].xyz = x.xyz + common_way + part * way;
             most_cut = max(most_cut, (1.0 - part) * l);
             ++cuts;
+            pins += texelFetch(velocity_out, index).w == 0.0 ? 1u : 0u;
         }
     }
     atomicMax(longest_way, floatBitsToUint(longest));
     if (cuts > 0u) {
         atomicMax(largest_cut, floatBitsToUint(most_cut));
         atomicAdd(cut_nodes, cuts);
+        atomicAdd(cut_pins, pins);
     }
 }

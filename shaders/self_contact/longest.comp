@@ -2,9 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 
 #version 430 core
-// The longest way of a node in the substep, whether nodes have moved farther since lists were made than
-// these allow for, and how far the corners of each cell have gone: STRIP nodes of a column an
-// invocation.
+// Reduce over the nodes, STRIP of a column an invocation: the largest displacement in the substep, and
+// whether any exceeds what the lists allow for. Add up the displacement of each cell.
 
 #define POSITIONS_ALONE 1
 #include "lattice.glsl"
@@ -21,7 +20,7 @@ uniform float room;          // [m] that nodes may move since lists were made
 uniform vec3 common_way;     // [m] of all nodes in the substep
 uniform vec3 common_moved;   // [m] of all nodes since lists were made
 
-// Of a node: its way in the substep, and how far it had moved since lists were made [m].
+// Displacement of a node in the substep, and since lists were made until its begin [m].
 vec2 way_of(int index) {
     vec4 x = load_position(index);
     vec3 way = texelFetch(position_out, index).xyz - x.xyz - common_way;

@@ -105,7 +105,8 @@ _COUNTING = {
         'atomicMin(self_nodes[nodes[k]].cut, floatBitsToUint(max(-past, 0.0) / towards))'],
     'self_contact/cut.comp': [
         'atomicMax(longest_way, floatBitsToUint(longest))',
-        'atomicMax(largest_cut, floatBitsToUint(most_cut))', 'atomicAdd(cut_nodes, cuts)'],
+        'atomicMax(largest_cut, floatBitsToUint(most_cut))', 'atomicAdd(cut_nodes, cuts)',
+        'atomicAdd(cut_pins, pins)'],
     'near_nodes.comp': [
         'atomicAdd(near_node_count, 1u)',
         'atomicAdd(node_groups_x, entry % NEAR_LOCAL == 0u ? 1u : 0u)'],

@@ -226,7 +226,7 @@ class HeldImpulses:
         return at, count, slots
 
     def drop_last(self) -> None:
-        """Leave out what the last substep has left, which is made again."""
+        """Drop the entries of the last substep, which is made again."""
         self._entries -= 1
 
     def bind(self, place: int = bindings.HELD) -> None:

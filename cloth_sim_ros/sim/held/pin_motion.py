@@ -18,12 +18,15 @@ import numpy as np
 # Rounding of the end of a path, in steps of dt [1].
 _NOTHING = 1e-9
 _REST = np.zeros(3)
+# Distance of a pin from its place [m] that is no rounding.
+_OFF = 1e-6
 
 Node = tuple[int, int]
-# The moves to come, the ways under way, the velocities on the device, and those of nodes that were
-# pinned since the last step.
+# The moves to come, the ways under way, the velocities on the device, those of nodes that were
+# pinned since the last step, and how far pins are off their ways.
 KeptMotion = tuple[
-    list[PinMove], dict[Node, Way], dict[Node, np.ndarray], dict[Node, np.ndarray]]
+    list[PinMove], dict[Node, Way], dict[Node, np.ndarray], dict[Node, np.ndarray],
+    dict[Node, np.ndarray]]
 
 
 class PinMotion:
@@ -46,6 +49,8 @@ class PinMotion:
         self._on_device: dict[Node, np.ndarray] = {}
         # What nodes had that were free when they were pinned, since the last step.
         self.caught: dict[Node, np.ndarray] = {}
+        # From their ways [m], of pins that stopped where the cloth would pass through itself.
+        self._off: dict[Node, np.ndarray] = {}
         self._stalled = 0
 
     @property
@@ -79,7 +84,7 @@ class PinMotion:
     def release(self, row: int, col: int) -> None:
         """Let the node (row, col) go, with the velocity its pin has."""
         self.check_node(row, col)
-        for entries in (self._paths, self._on_device, self.caught):
+        for entries in (self._paths, self._on_device, self.caught, self._off):
             entries.pop((row, col), None)
         self._state.set_pinned(row, col, False)
 
@@ -104,11 +109,13 @@ class PinMotion:
     def position(self, row: int, col: int, now: float) -> np.ndarray:
         """Return where the pin (row, col) is ``now`` [s], (3,) [m]."""
         path = self._paths.get((row, col))
-        return self._state.read_position(row, col) if path is None else path.position(now)
+        if path is None:
+            return self._state.read_position(row, col)
+        return path.position(now) + self._off.get((row, col), _REST)
 
     def drop(self) -> None:
         """Forget the moves under way: the state was replaced, and its pins are at rest."""
-        for entries in (self._paths, self._on_device, self.caught):
+        for entries in (self._paths, self._on_device, self.caught, self._off):
             entries.clear()
 
     def leave_out_before(self, now: float) -> None:
@@ -148,27 +155,39 @@ class PinMotion:
             self._set_velocity(node, path.velocity(begin, end, at_begin))
 
     def end_step(self, begin: float, end: float) -> None:
-        """Put the pins where they are at ``end`` [s]; those at their target come to rest."""
+        """
+        Put the pins where they are at ``end`` [s]; those at their target come to rest.
+
+        One that was stopped short stays off its way by that, until its next move of its own.
+        """
         nothing = _NOTHING * (end - begin)
+        were_stopped, self._state.were_pins_stopped = self._state.were_pins_stopped, False
         for node, path in list(self._paths.items()):
             arrives = path.arrival <= end + nothing
+            on_way = path.position(path.arrival if arrives else end)
+            place = on_way + self._off.get(node, _REST)
+            if were_stopped:
+                present = self._state.read_position(*node)
+                if np.abs(present - place).max() > _OFF:
+                    self._off[node], place = present - on_way, present
             # Each substep has rounded its position to float32.
-            self._state.place_pin(*node, path.position(path.arrival if arrives else end))
+            self._state.place_pin(*node, place)
             if arrives:
                 self._stop(node)
 
     def keep(self) -> KeptMotion:
         """Return what ``restore`` needs to come back to this moment."""
         return (
-            list(self._waiting), dict(self._paths), dict(self._on_device), dict(self.caught))
+            list(self._waiting), dict(self._paths), dict(self._on_device), dict(self.caught),
+            dict(self._off))
 
     def restore(self, kept: KeptMotion) -> None:
         """Go back to the moment of ``keep``, to which the state has gone back already."""
         given_since = self._on_device
-        waiting, paths, on_device, caught = kept
+        waiting, paths, on_device, caught, off = kept
         self._waiting = list(waiting)
         self._paths, self._on_device = dict(paths), dict(on_device)
-        self.caught = dict(caught)
+        self.caught, self._off = dict(caught), dict(off)
         # The first step after that moment gave its velocities to the state as it was then.
         for node in given_since:
             self._state.set_pin_velocity(*node, self._on_device.get(node, _REST))
@@ -189,6 +208,7 @@ class PinMotion:
 
     def _start(self, move: PinMove) -> PinPath:
         path = PinPath(move, self.position(*move.node, move.start))
+        self._off.pop(move.node, None)
         self._paths[move.node] = path
         return path
 

@@ -3,8 +3,6 @@
 
 """Mode mass_spring for a cloth whose layers touch each other."""
 
-from dataclasses import dataclass
-import math
 from typing import Any
 
 from cloth_sim_ros.sim.contact.self_contact import SelfContact
@@ -20,8 +18,8 @@ from cloth_sim_ros.sim.stop import leave_if
 from cloth_sim_ros.sim.stop import never
 from cloth_sim_ros.sim.stop import Stop
 
-# Max. cut of the way of a node in a substep over a cell [1], above which the substep is made again
-# in halves: the guard keeps layers from passing, not their energy.
+# Max. cut of a node's displacement in a substep over a cell [1], above which the substep is made
+# again in halves: the guard keeps layers from passing, not their energy.
 _MOST_CUT = 0.02
 # Overlap of layers over their thickness [1], above which contact does not count as held.
 _MOST_OVERLAP = 0.5
@@ -29,46 +27,11 @@ _MOST_OVERLAP = 0.5
 _MOST_HALVINGS = 4
 
 
-@dataclass
-class LayersTally:
-    """
-    What the contact of the cloth with itself did in a step of dt.
-
-    :param halvings: substeps that were made again in halves
-    :param contacts: most of a substep
-    :param least_distance: of layers, from middle to middle [m]
-    :param cut_nodes: nodes whose way was cut short, in all
-    :param largest_cut: of a way [m]
-    :param most_left: change of an impulse in a last round over the largest impulse [1]
-    :param rounds: of impulses, in all
-    :param undivided: pairs of a substep that had passed through each other before
-    """
-
-    halvings: int = 0
-    contacts: int = 0
-    least_distance: float = math.inf
-    cut_nodes: int = 0
-    largest_cut: float = 0.0
-    most_left: float = 0.0
-    undivided: int = 0
-    rounds: int = 0
-
-    def add(self, figures: SelfContactFigures) -> None:
-        """Add those of a substep."""
-        self.contacts = max(self.contacts, figures.contacts)
-        self.least_distance = min(self.least_distance, figures.least_distance)
-        self.cut_nodes += figures.cut_nodes
-        self.largest_cut = max(self.largest_cut, figures.largest_cut)
-        self.most_left = max(self.most_left, figures.left)
-        self.rounds += figures.rounds
-        self.undivided = max(self.undivided, figures.undivided)
-
-
 class LayeredSprings(MassSpring):
     """
     Substeps of springs, each with the contact of the cloth with itself.
 
-    A substep in which ways would be cut short is made again in halves.
+    A substep in which displacements would be cut short by much is made again in halves.
     """
 
     has_memory = True
@@ -76,17 +39,19 @@ class LayeredSprings(MassSpring):
     def __init__(self, scene: Scene, layout: Layout, *, check_stability: bool = True) -> None:
         """Choose the substeps and compile the passes."""
         super().__init__(scene, layout, check_stability=check_stability)
-        self._springs = OnePass(scene, layout, acts_on_surface=True)
+        assert isinstance(self._passes, OnePass)  # make_passes has made it
+        self._springs = self._passes
         self._layers = SelfContact(scene, layout)
         self._most_cut = _MOST_CUT * min(scene.spacing)
         self.forget()
 
     def step(self, state: State, begin: float, loads: Loads, stop: Stop = never) -> None:
         """Step ``state`` on by one dt."""
-        self._tally = LayersTally()
+        self._figures, self._halvings = SelfContactFigures(), 0
         for number in range(self.substeps):
             leave_if(stop)
             self._advance(state, begin + number * self._length, self._length, loads, 0)
+        state.were_pins_stopped = self._figures.cut_pins > 0
 
     def step_ahead(self, state: State, gravity: Forcing, most: int) -> int:
         """Return 0: each substep goes by what the one before has found."""
@@ -103,24 +68,23 @@ class LayeredSprings(MassSpring):
         """Drop impulses and lists of pairs: the next state is another."""
         self._layers.forget()
         self.last_length = self._length
-        self._tally = LayersTally()
+        self._figures, self._halvings = SelfContactFigures(), 0
 
     def report(self) -> dict[str, Any]:
         """Return what the contact of the cloth with itself did in the last step."""
-        tally = self._tally
-        overlap = max(0.0, 1.0 - tally.least_distance / self._scene['self_contact.thickness'])
+        figures = self._figures
+        overlap = max(0.0, 1.0 - figures.least_distance / self._scene['self_contact.thickness'])
         return {
-            'self_contacts': tally.contacts, 'layer_overlap': overlap,
-            'cut_nodes': tally.cut_nodes, 'largest_cut': tally.largest_cut,
-            'halved_substeps': tally.halvings,
+            'self_contacts': figures.contacts, 'layer_overlap': overlap,
+            'cut_nodes': figures.cut_nodes, 'largest_cut': figures.largest_cut,
+            'halved_substeps': self._halvings,
             'surface_contact_held': (
-                self._layers.crossings == 0 and tally.undivided == 0
-                and overlap < _MOST_OVERLAP and tally.largest_cut <= self._most_cut)}
+                self._layers.crossings == 0 and figures.undivided == 0
+                and overlap < _MOST_OVERLAP and figures.largest_cut <= self._most_cut)}
 
     def delete(self) -> None:
         """Release the passes, with what they allocated."""
         super().delete()
-        self._springs.delete()
         self._layers.delete()
 
     def _advance(
@@ -149,7 +113,7 @@ class LayeredSprings(MassSpring):
                 self._layers.give(held_at)
             figures = self._layers.guard(state)
             if may_halve and figures.largest_cut > self._most_cut:
-                self._tally.halvings += 1
+                self._halvings += 1
                 if touch is not None:
                     touch.undo_try()
                 if state.impulses is not None and state.impulses.is_recording:
@@ -158,7 +122,7 @@ class LayeredSprings(MassSpring):
                     self._advance(
                         state, begin + 0.5 * half * length, 0.5 * length, loads, halvings + 1)
                 return
-            self._tally.add(figures)
+            self._figures.add(figures)
         self.last_length = length
         state.swap()
 

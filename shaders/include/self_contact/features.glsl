@@ -5,7 +5,6 @@
 // to the right, down and across its cell, and the two triangles of the cell. Edges without a triangle
 // have no surface.
 
-#define VERTEX 0
 #define RIGHT 1
 #define DOWN 2
 #define ACROSS 3
@@ -20,14 +19,14 @@ layout(std430, binding = SELF_FEATURES) readonly buffer SelfFeatures { uint owne
 
 bool has_cell(int index) { return (owned[index] & OWNS_CELL) != 0u; }
 
-// Of an edge, 4 times the place of the node that owns it and which one it is.
+// The ends of an edge, which is 4 times the index of its owner plus its kind.
 ivec2 edge_nodes(int feature) {
     int kind = feature & 3;
     return (feature >> 2) + (kind == RIGHT ? ivec2(0, 1)
         : kind == DOWN ? ivec2(0, PITCH) : ivec2(1, PITCH));
 }
 
-// Of a triangle, twice the place of the node that owns it and which of the two it is.
+// The corners of a triangle, which is 2 times the index of its owner plus 0 or 1.
 ivec3 face_nodes(int face) {
     return (face >> 1) + ((face & 1) == 0 ? ivec3(0, PITCH, 1) : ivec3(1, PITCH, PITCH + 1));
 }

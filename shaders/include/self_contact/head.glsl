@@ -26,6 +26,7 @@ layout(std430, binding = SELF_HEAD) buffer SelfHead {
     uint largest;           // [m] coordinate
     uint crossing_edges;    // that pierce triangles
     uint first_crossing;    // least node of such an edge
+    uint cut_pins;          // among the nodes whose way was cut
 };
 
 uint in_order(float value) {

@@ -173,26 +173,24 @@ def test_random_scenes_with_layers(simulate, within, seed):
 @pytest.mark.long
 def test_200_random_scenes_with_layers(simulate, within, request):
     """Layers would pass through each other in a rarer place, or the bits not be the same."""
-    seed = request.config.getoption('--seed') or int(np.random.default_rng().integers(2**31))
-    print(f'seed {seed}')
-    for number in range(200):
-        print(f'{number}:')
-        given = layers((seed, number))
-        first = check(simulate, within, 'mass_spring', (seed, number), 1.2, given)
-        if number % 20 == 0:
-            np.testing.assert_array_equal(
-                first, check(simulate, within, 'mass_spring', (seed, number), 1.2, given))
+    check_200(request, lambda seed, _: check(
+        simulate, within, 'mass_spring', seed, 1.2, layers(seed)))
 
 
 @pytest.mark.long
 def test_200_random_scenes(simulate, within, request):
     """A body of a rarer kind would let cloth in, or throw it."""
+    modes = ('mass_spring', 'constraint', 'adaptive')
+    check_200(request, lambda seed, number: check(
+        simulate, within, modes[number % 3], seed, 2.0))
+
+
+def check_200(request, run):
+    """Run 200 scenes of the seed that was given, every twentieth of them twice."""
     seed = request.config.getoption('--seed') or int(np.random.default_rng().integers(2**31))
     print(f'seed {seed}')
     for number in range(200):
         print(f'{number}:')
-        mode = ('mass_spring', 'constraint', 'adaptive')[number % 3]
-        first = check(simulate, within, mode, (seed, number), 2.0)
+        end = run((seed, number), number)
         if number % 20 == 0:
-            np.testing.assert_array_equal(
-                first, check(simulate, within, mode, (seed, number), 2.0))
+            np.testing.assert_array_equal(end, run((seed, number), number))

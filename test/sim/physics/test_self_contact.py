@@ -231,6 +231,40 @@ def test_twisted_cloth_keeps_apart(turns: int) -> None:
         assert overlap < 0.2
 
 
+@pytest.mark.parametrize('by', ['pins', 'a grasp'])
+def test_pins_do_not_push_layers_through(by: str) -> None:
+    """A hand that presses one layer into another stops there, says so, and comes back."""
+    held = [(SHEET + row, col) for row in (3, 4) for col in (3, 4)]
+    pins = nodes_of(0) + [f'{row},{col}' for row, col in held if by == 'pins']
+    scene = layered_scene(2, SHEET, **{**SOFT, 'pins': pins})
+    positions = stacked(scene, 2, apart=2.0 * THICKNESS)
+
+    def press(cloth: Simulation, height: float) -> None:
+        if by == 'a grasp':
+            centre = np.mean([positions[node] for node in held], axis=0)
+            cloth.move_grasp('hand', centre + (0.0, 0.0, height), speed=0.2)
+        else:
+            for node in held:
+                cloth.move_pin(*node, positions[node] + (0.0, 0.0, height), speed=0.2)
+
+    with Simulation(scene) as cloth:
+        cloth.set_state(positions, np.zeros_like(positions))
+        if by == 'a grasp':
+            centre = np.mean([positions[node] for node in held], axis=0)
+            cloth.grasp('hand', centre, nodes=held)
+        cut, lowest = 0, np.inf
+        for height in (-0.02, 0.01):
+            press(cloth, height)
+            for _ in range(100):
+                cloth.step(1)
+                assert len(crossings(cloth.positions(), scene.cut_cells)) == 0
+                cut += cloth.snapshot().cut_nodes
+                places = cloth.positions()
+                lowest = min(lowest, *(places[node][2] for node in held))
+    print(f'{by}: {cut} displacements cut, lowest pin {lowest:.1e} m above the other layer')
+    assert cut > 0 and lowest > 0.0
+
+
 def test_same_bits_where_nothing_touches() -> None:
     """A cloth that never touches itself moves to the bit as one that could not."""
     ends = []
