@@ -184,7 +184,9 @@ def test_fingers_in_tf_fold_a_towel(tmp_path, seconds):
     assert max(map(abs, forces[6.99])) < 0.1, 'it is let go'
     clouds, times = held_cloth(tmp_path / 'bags' / 'fold')
     carried = clouds[(times > 2.1) & (times < 5.18)]
-    assert np.linalg.norm(carried - carried[0], axis=-1).max() <= 1e-5, 'it does not slip'
+    slip = np.linalg.norm(carried - carried[0], axis=-1).max()
+    print(f'slip {slip:.1e} m, forces {front:.2f} and {back:.2f} N')
+    assert slip <= 1e-5, 'it does not slip'
     last = Recording(tmp_path / 'bags' / 'fold').arrays('points')['positions'][-1]
     assert last[-1, :, 1].min() > 0.05 and last[..., 2].max() < 0.05, 'its end lies on the other'
 
