@@ -51,6 +51,9 @@ vec3 load_end(int index) { return position_out[index].xyz; }
 vec3 load_speed(int index) { return velocity_out[index].xyz; }
 
 #include "surface_find.glsl"
+#if COLLIDERS > 1
+#include "surface_facing.glsl"
+#endif
 
 bool are_listed(ivec3 nodes) {
     return surface_nodes[nodes.x].is_listed == 1 && surface_nodes[nodes.y].is_listed == 1
@@ -109,6 +112,17 @@ void find_row(int entry, int row) {
         found = no_row();
     }
     int slot = entry * SURFACE_ROWS_OF_BODY + row;
+#if COLLIDERS > 1
+    if (found.impulse.w != 0.0) {
+        vec3 x = vec3(0.0);
+        for (int i = 0; i < surface_row_count(row); ++i) {
+            x += found.weights[i] * place_of(nodes[i]);
+        }
+        float room = find_facing(found, collider, x);
+        surface_rows[slot].facing = facing_of(found) >= 0
+            ? vec4(vec3(0.0), part_of_row(facing_of(found)) * pressing_with(room)) : vec4(0.0);
+    }
+#endif
     surface_rows[slot].row.impulse.w = found.impulse.w;
     if (found.impulse.w != 0.0) {
         surface_rows[slot].row = found;
@@ -184,6 +198,15 @@ void note_round(vec3 impulse, vec3 before) {
 float inverse_mass(int index) { return velocity_out[index].w; }
 
 #if !WAYS_OUT
+vec3 across(vec3 v, vec3 normal) { return v - dot(v, normal) * normal; }
+
+// What friction of a collider can be of a pull, where it is pressed on so [m/s].
+vec3 within_friction(vec3 pull, int collider, float pressed) {
+    float most = collider_friction[collider] * pressed;
+    float size = length(pull);
+    return size > most ? most / max(size, 1e-30) * pull : pull;
+}
+
 // Lets a row act on the velocities that its nodes have now.
 void act(int owner, int row, int slot) {
     SurfaceRow found = surface_rows[slot].row;
@@ -203,17 +226,31 @@ void act(int owner, int row, int slot) {
     if (share <= 0.0) {
         return;
     }
-    u -= surface_velocity(collider, x);
     vec3 normal = found.normal.xyz;
+#if COLLIDERS > 1
+    vec3 carried = carried_by(found, x);
+    vec4 facing = surface_rows[slot].facing;
+#else
+    vec3 carried = surface_velocity(collider, x);
+    const vec4 facing = vec4(0.0);
+#endif
     float pressed = dot(found.impulse.xyz, normal);
-    float along_normal = dot(u, normal);
+    float along_normal = dot(u - carried, normal);
     float now = max(
         pressed - (along_normal + max(found.normal.w, 0.0) / substep) / share, 0.0);
-    vec3 friction = found.impulse.xyz - pressed * normal - (u - along_normal * normal) / share;
-    float most = collider_friction[collider] * now;
-    float speed = length(friction);
-    friction *= speed > most ? most / max(speed, 1e-30) : 1.0;
+    vec3 before = found.impulse.xyz - pressed * normal - facing.xyz;
+    vec3 friction = within_friction(
+        before - across(u - carried, normal) / share, collider, now + facing.w);
     vec3 impulse = now * normal + friction;
+#if COLLIDERS > 1
+    for (uint asks = facing_of(found) >= 0 ? 1u : 0u; asks != 0u; asks &= asks - 1u) {
+        int other = facing_of(found);
+        vec3 slid = u - surface_velocity(other, x) + share * (friction - before);
+        facing.xyz = within_friction(facing.xyz - across(slid, normal) / share, other, facing.w);
+        surface_rows[slot].facing.xyz = facing.xyz;
+        impulse += facing.xyz;
+    }
+#endif
     note_round(impulse, found.impulse.xyz);
     surface_rows[slot].row.impulse.xyz = impulse;
 }
@@ -296,6 +333,23 @@ void find_all_rows() {
     synchronise();
 }
 
+// The impulse of a row by one collider, and of that what is along its normal [m/s].
+vec4 given_by(uint slot, int collider) {
+    SurfaceRow found = surface_rows[slot].row;
+    vec3 normal = found.normal.xyz;
+    bool is_own = int(found.weights.w) == collider;
+#if COLLIDERS > 1
+    vec4 facing = surface_rows[slot].facing;
+    if (facing_of(found) == collider) {
+        return vec4(facing.xyz - facing.w * normal, -facing.w);
+    }
+    vec3 impulse = found.impulse.xyz - facing.xyz + facing.w * normal;
+#else
+    vec3 impulse = found.impulse.xyz;
+#endif
+    return is_own ? vec4(impulse, dot(impulse, normal)) : vec4(0.0);
+}
+
 // Impulses of the rows of a node on one collider [m/s], and FREE, STICKS or SLIDES.
 vec4 gathered_of(int index, int collider) {
     vec4 sum = vec4(0.0);
@@ -303,25 +357,37 @@ vec4 gathered_of(int index, int collider) {
     int end = first + surface_nodes[index].row_count;
     for (int i = first; i < end; ++i) {
         uvec2 row = surface_rows[i / 3].of_node[i % 3];
-        SurfaceRow found = surface_rows[row.x].row;
-        if (int(found.weights.w) != collider || found.impulse.xyz == vec3(0.0)) {
+        vec4 given = given_by(row.x, collider);
+        if (given.xyz == vec3(0.0)) {
             continue;
         }
-        float pressed = dot(found.impulse.xyz, found.normal.xyz);
-        float friction = length(found.impulse.xyz - pressed * found.normal.xyz);
-        bool slides = friction >= 0.99999 * collider_friction[collider] * pressed;
-        sum = vec4(sum.xyz + uintBitsToFloat(row.y) * found.impulse.xyz,
+        float friction = length(given.xyz - given.w * surface_rows[row.x].row.normal.xyz);
+        bool slides = friction >= 0.99999 * collider_friction[collider] * abs(given.w);
+        sum = vec4(sum.xyz + uintBitsToFloat(row.y) * given.xyz,
             max(sum.w, float(slides ? SLIDES : STICKS)));
     }
     return sum;
 }
 
 #if WAYS_OUT || !FINDS_IMPULSES
+// Part of a collider in the room that it and another one lack at x [m].
+float lacking_room(int collider, vec4 near, vec3 x) {
+    float lacking = 0.0;
+    for (int other = 0; other < COLLIDERS; ++other) {
+        vec4 facing = gap_at_end(other, x, substep);
+        if (other != collider && dot(near.xyz, facing.xyz) <= -FACING) {
+            lacking = max(lacking, -0.5 * (near.w + facing.w));
+        }
+    }
+    return lacking;
+}
+
 // Where a node at x is when the colliders have moved it out, as the substep ends.
 vec3 out_of(uint bodies, vec3 x) {
     for (; bodies != 0u; bodies &= bodies - 1u) {
         int collider = findLSB(bodies);
         vec4 near = gap_at_end(collider, x, substep);
+        near.w += lacking_room(collider, near, x);
         x += max(-near.w - rounding(x, collider), 0.0) * near.xyz;
     }
     return x;
@@ -465,8 +531,7 @@ void give() {
                 record_contacts(index, contact.kind);
             }
         }
-        for (uint bodies = SURFACE_COLLIDERS; bodies != 0u; bodies &= bodies - 1u) {
-            int collider = findLSB(bodies);
+        for (int collider = 0; collider < COLLIDERS; ++collider) {
             vec4 by_rows = gathered_of(index, collider);
             if (by_rows.w > 0.0) {
                 int entry = collider * record_stride + index;

@@ -10,7 +10,9 @@
 // What acts on up to three nodes, with weights that add up to 1.
 struct SurfaceRow {
     vec4 normal;    // away from the collider, and the gap [m] less the clearance
-    vec4 impulse;   // on the cloth [m/s of a node amid it], and whether there is a contact, 1 or 0
+    // On the cloth [m/s of a node amid it], and whether there is a contact: 0, or 1, or 2 and the
+    // number of a collider that faces its own.
+    vec4 impulse;
     vec4 weights;   // of the three nodes, and the collider
 };
 

@@ -14,6 +14,10 @@ struct SurfacePlace {
     uvec2 entry;    // at the first row of an entry: its owner and its collider
     uvec2 of_node[3];  // rows of nodes, one node after another: place, and bits of the weight
     uvec2 spare;
+#if COLLIDERS > 1
+    // Of the collider that the row faces: friction of its surface, and what both press with [m/s].
+    vec4 facing;
+#endif
 };
 
 layout(std430, binding = SURFACE_ROWS) coherent buffer SurfaceRows {

@@ -22,6 +22,8 @@ import numpy as np
 _LOCAL = 16
 # Size of an entry of each kind in surface_rows.glsl and surface_nodes.glsl [bytes].
 _ROW_BYTES, _NODE_BYTES, _HEAD_BYTES = 96, 48, 32
+# Size of what a row has of another collider, where there is one [bytes].
+_FACING_BYTES = 16
 # Size of a node where layers of the cloth touch as well [bytes]: with the sum of its impulses.
 _LAYERED_NODE_BYTES = 64
 # Turns of thin colliders and layers in a substep [1].
@@ -59,12 +61,13 @@ class SurfaceContact:
         # Substeps whose rounds had not settled, when that was asked last.
         self._unsettled = 0
         self._most_entries = scene.node_count * len(numbers)
+        row_bytes = _ROW_BYTES + (_FACING_BYTES if len(scene.colliders) > 1 else 0)
         rows = max(rows_of(scene.colliders[number]) for number in numbers)
         self._has_layers: bool = scene['self_contact.enabled']
         node_bytes = _LAYERED_NODE_BYTES if self._has_layers else _NODE_BYTES
         self._nodes = Buffer(np.zeros(layout.stored * node_bytes // 4, dtype=np.float32))
         self._rows = Buffer(np.zeros(
-            (_HEAD_BYTES + self._most_entries * rows * _ROW_BYTES) // 4, dtype=np.float32))
+            (_HEAD_BYTES + self._most_entries * rows * row_bytes) // 4, dtype=np.float32))
 
     def programs(self, *, notes_changes: bool) -> Iterator[Program]:
         """Yield each pass, in use, to be set to a substep."""

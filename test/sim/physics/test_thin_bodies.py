@@ -376,3 +376,43 @@ def test_edges_too_long_to_be_held_are_reported(context):
         simulation.step(1)
         with pytest.warns(UserWarning, match='edges or faces were not held'):
             simulation.snapshot()
+
+
+@pytest.mark.parametrize('second', ['finger', 'table'])
+@pytest.mark.parametrize('mode', [
+    'mass_spring', pytest.param('adaptive', marks=pytest.mark.long)])
+def test_fingers_that_close_compress_the_cloth(context, within, mode, second):
+    """They would press without bounds, and throw the cloth, or feel other forces than each other."""
+    thickness, radius, compressed, cells = 0.004, 0.01, 0.5, 16
+    room = (1.0 - compressed) * thickness
+    height = -0.6 / cells
+    across = (0.0, 0.5**0.5, 0.0, 0.5**0.5)
+    finger = {'shape': 'capsule', 'size': (radius, 0.3), 'orientation': across, 'friction': 0.5}
+    behind = {
+        'finger': {**finger, 'position': (0.0, -0.5 * room - radius, height)},
+        'table': {'shape': 'box', 'size': (1.0, 0.2, 1.0), 'friction': 0.5,
+                  'position': (0.0, -0.5 * room - 0.1, height)}}[second]
+    bodies = {'front': {**finger, 'position': (0.0, 0.03, height)}, 'behind': behind}
+    scene = Scene({
+        **{name: value for name, value in CLOTH.items() if not name.startswith('colliders.')},
+        'mode': mode, 'rows': cells + 1, 'cols': cells + 1, 'width': 1.0, 'height': 1.0,
+        'pins': ('top_edge',), 'start.pose': 'hanging', 'start.z': 0.0,
+        'contact.thickness': thickness, 'contact.compression': 1e4,
+        'colliders.names': tuple(bodies), **{
+            f'colliders.{name}.{key}': value
+            for name, body in bodies.items() for key, value in body.items()}})
+    with Simulation(scene, context=context) as simulation:
+        simulation.move_collider('front', (0.0, 0.5 * room + radius, height), speed=0.1)
+        simulation.step(160)
+        assert np.abs(simulation.snapshot().velocities).max() < 0.5, 'it is not thrown'
+        pressed = []
+        for _ in range(20):
+            simulation.step()
+            front, back = simulation.contact_forces()
+            pressed.append((front.force[1], back.force[1]))
+    own, other = np.mean(pressed, axis=0)
+    # The finger crosses six columns, and has a line of nodes on both sides.
+    force = 1e4 * compressed * 12 / cells**2
+    # Where the cloth waves between round fingers, they leave it more room than at their nearest.
+    within('force on the finger', abs(own / force - 1.0), 0.01)
+    within('force on what is behind', abs(other / force + 1.0), 0.01)

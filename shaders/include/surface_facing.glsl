@@ -1,0 +1,67 @@
+// SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Compression of an edge or a face between a thin collider and another one, as of a node between
+// two (find_compression in contact.glsl): where both leave less room than the thickness of the
+// cloth, its point stays between them, and both press on it. Includer: surface_find.glsl.
+
+// The collider that faces the one of a row, or -1.
+int facing_of(SurfaceRow row) { return int(row.impulse.w) - 2; }
+
+// Part of the missing room that a row leaves to the collider that it faces: a thin one has rows of
+// its own, others hold nodes exactly.
+float part_of_row(int facing) {
+    return (SURFACE_COLLIDERS >> uint(facing) & 1u) != 0u ? 0.5 : 1.0;
+}
+
+vec4 gap_of(int collider, vec3 x) {
+    return is_at_end ? gap_at_end(collider, x, substep) : gap_at(collider, x);
+}
+
+// Room that is left at x between two surfaces, n being the normal of the first [m], as the substep
+// ends if it is not, and now.
+vec2 room_between(int collider, int facing, float gaps, vec3 normal, vec3 x) {
+    float closing = is_at_end ? 0.0 : substep * dot(
+        normal, surface_velocity(collider, x) - surface_velocity(facing, x));
+    return vec2(gaps - closing, gaps);
+}
+
+// Let a row at the point x know which collider leaves it the least room, and share that with it;
+// return the room as the substep ends [m], 0 if there is no such collider.
+float find_facing(inout SurfaceRow row, int collider, vec3 x) {
+    vec3 normal = row.normal.xyz;
+    float gap = row.normal.w;
+    float least = 0.0, at_end = 0.0;
+    for (int other = 0; other < COLLIDERS; ++other) {
+        vec4 near = gap_of(other, x);
+        if (other == collider || dot(near.xyz, normal) > -FACING) {
+            continue;
+        }
+        vec3 n = normalize(normal - near.xyz);
+        vec2 room = room_between(collider, other, gap + near.w, n, x);
+        if (min(room.x, room.y) < least) {
+            least = min(room.x, room.y);
+            at_end = room.x;
+            row.normal = vec4(n, gap - part_of_row(other) * min(room.y, 0.0));
+            row.impulse.w = float(other + 2);
+        }
+    }
+    return at_end;
+}
+
+// Velocity at x of what a row must not enter: of its collider, or of the middle between two.
+vec3 carried_by(SurfaceRow row, vec3 x) {
+    vec3 velocity = surface_velocity(int(row.weights.w), x);
+    int facing = facing_of(row);
+    if (facing >= 0) {
+        float closing = dot(row.normal.xyz, velocity - surface_velocity(facing, x));
+        velocity -= part_of_row(facing) * closing * row.normal.xyz;
+    }
+    return velocity;
+}
+
+// What both colliders press on the point with, of the room as the substep ends [m/s].
+float pressing_with(float room) {
+    float share = clamp(-room / max(2.0 * clearance, 1e-30), 0.0, 1.0);
+    return substep * compression * share;
+}
