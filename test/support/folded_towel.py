@@ -41,3 +41,15 @@ def folded() -> np.ndarray:
     return np.stack([
         -CELL * np.abs(row - FOLD), CELL * (col - FOLD),
         THICKNESS * (1.0 + 0.5 * np.sign(FOLD - row))], axis=-1)
+
+
+def folded_twice() -> np.ndarray:
+    """Return the towel on the floor in four layers, (rows, cols, 3) [m]."""
+    row, col = np.indices((SIDE, SIDE))
+    # Below the middle of the stack the layers are those of folded(), above it in reverse.
+    layer, half = np.sign(FOLD - row), np.sign(FOLD - col)
+    off_middle = THICKNESS * (1.0 - 0.5 * layer)
+    return np.stack([
+        -CELL * np.abs(row - FOLD),
+        np.where(half == 0, off_middle, -CELL * np.abs(col - FOLD)),
+        2.0 * THICKNESS + half * off_middle], axis=-1)
