@@ -15,12 +15,15 @@ from cloth_sim_interfaces.msg import ResultCode
 from cloth_sim_ros import Recording
 from cloth_sim_ros.sim.model.given_values import load_parameters
 from cloth_sim_ros.sim.model.pose import Pose
+from cloth_sim_ros.verb.main import main
 from matplotlib.image import imread
 from node_process import NodeProcess
 import numpy as np
 import pytest
 
 ROOT = Path(__file__).resolve().parents[1]
+# Max. time of an example [s]: 48 x 48 nodes fold in 210 s, and other processes slow them down.
+_LONGEST = 1200.0
 EXAMPLES = sorted((ROOT / 'examples').glob('*.py'))
 
 
@@ -28,7 +31,7 @@ def ended(name, folder, *arguments):
     """Return how examples/NAME.py ended, run in ``folder``."""
     return subprocess.run(
         [sys.executable, str(ROOT / 'examples' / f'{name}.py'), *map(str, arguments)],
-        cwd=folder, capture_output=True, text=True, timeout=300)
+        cwd=folder, capture_output=True, text=True, timeout=_LONGEST)
 
 
 def run_example(name, folder, *arguments):
@@ -40,7 +43,7 @@ def run_example(name, folder, *arguments):
 
 def test_each_is_short_says_how_to_run_it_and_is_run_here():
     """An example would be too long to read, or rot."""
-    assert len(EXAMPLES) == 10
+    assert len(EXAMPLES) == 11
     tests = Path(__file__).read_text(encoding='utf-8')
     for path in EXAMPLES:
         text = path.read_text(encoding='utf-8')
@@ -189,6 +192,51 @@ def test_fingers_in_tf_fold_a_towel(tmp_path, seconds):
     assert slip <= 1e-5, 'it does not slip'
     last = Recording(tmp_path / 'bags' / 'fold').arrays('points')['positions'][-1]
     assert last[-1, :, 1].min() > 0.05 and last[..., 2].max() < 0.05, 'its end lies on the other'
+
+
+@pytest.mark.parametrize('nodes', [20, pytest.param(48, marks=pytest.mark.long)])
+def test_services_fold_a_towel(tmp_path, nodes, capsys):
+    """A robot could not fold by services, or a recording of it not be made again to the bit."""
+    values = {
+        **load_parameters(ROOT / 'config' / 'towel_to_fold.yaml'), 'rows': nodes, 'cols': nodes,
+        'real_time_factor': 0.0, 'recording.enabled': True, 'recording.name': 'by_services'}
+    with NodeProcess(tmp_path, values):
+        shown = run_example('fold_by_services', tmp_path)
+    area, apart, speed = map(float, re.findall(r'([\d.e-]+) (?:of the area|mm)', shown))
+    path = tmp_path / 'bags' / 'by_services'
+    recording = Recording(path)
+    clouds, stats = recording.arrays('points'), recording.arrays('stats')
+    middle = clouds['positions'][-1, [0, -1], nodes // 2, 2] / values['self_contact.thickness']
+    slip = max(
+        off_the_frame(clouds, [entry.message for entry in recording.entries('inputs/grasp')]))
+    print(f'{shown}, middles of the hems at {middle} thicknesses, held nodes off by {slip:.1e} m, '
+          f'{np.median(stats["real_time_factor"]):.2g} x real time')
+    cell = 1e3 * values['width'] / (nodes - 1)
+    assert area == pytest.approx(0.5, abs=0.03) and apart < cell and speed < 1.0, shown
+    assert stats['surface_contact_held'].all()
+    np.testing.assert_allclose(middle, [1.5, 0.5], atol=0.2)
+    assert slip < 1e-6
+    if nodes < 48:
+        return
+    measured = capsys.readouterr().out
+    assert main(['resimulate', str(path)]) == 0
+    again = capsys.readouterr().out
+    print(measured, again)
+    assert re.search(r'(\d+) of \1 frames bitwise identical', again)
+
+
+def off_the_frame(clouds, changes):
+    """Yield how far the nodes of each grasp have moved against each other [m]."""
+    times, places = clouds['time'], clouds['positions'].astype(float)
+    for taken in changes:
+        if not taken.grasped:
+            continue
+        begin, end = (
+            each.header.stamp.sec + 1e-9 * each.header.stamp.nanosec for each in changes
+            if each.name == taken.name)
+        held = places[(times >= begin) & (times < end)][:, list(taken.rows), list(taken.cols)]
+        lengths = np.linalg.norm(held - held[:, :1], axis=-1)
+        yield float(np.abs(lengths - lengths[0]).max())
 
 
 def held_cloth(folder):

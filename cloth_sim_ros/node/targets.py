@@ -114,7 +114,8 @@ class GraspRequests:
         grasp = self._simulation.grasp(
             request.name, given.point(request.pose.position),
             given.orientation(request.pose.orientation), radius=request.radius,
-            count=request.count, max_force=request.max_force)
+            count=request.count, layers=request.layers or Grasp.Request.ALL,
+            max_force=request.max_force)
         response.nodes = len(grasp.nodes)
         text = f'grasp {grasp.name} holds {response.nodes} nodes'
         if request.follow_frame:

@@ -41,6 +41,7 @@ from cloth_sim_ros.sim.model.pins import PinMove
 from cloth_sim_ros.sim.model.pins import PinPath
 from cloth_sim_ros.sim.model.pose import Pose
 from cloth_sim_ros.sim.model.push import Push
+from cloth_sim_ros.sim.model.scene_fields import ALL_LAYERS
 from cloth_sim_ros.sim.scene import Scene
 import numpy as np
 
@@ -184,6 +185,7 @@ class TakeGrasp:
     :param count: hold that many nodes, the nearest ones; 1 where there is no radius either
     :param max_force: pull of the cloth at which it is lost [N]; 0 for never
     :param nodes: rows and columns of the nodes to hold instead of the nearest ones
+    :param layers: 'all' for nodes of every layer within reach, 'top' for the highest one
     """
 
     name: str
@@ -193,6 +195,7 @@ class TakeGrasp:
     count: int = 0
     max_force: float = 0.0
     nodes: Sequence[Sequence[int]] | None = None
+    layers: str = ALL_LAYERS
 
     @classmethod
     def of(cls, grasp: Grasp) -> TakeGrasp:
@@ -206,13 +209,13 @@ class TakeGrasp:
         """Return the input that does what a timed grasp of the scene asks for."""
         return cls(
             request.name, request.pose.position, request.pose.orientation, request.radius,
-            0 if request.radius else request.count, request.max_force)
+            0 if request.radius else request.count, request.max_force, layers=request.layers)
 
     def apply(self, cloth: Cloth) -> tuple[TakeGrasp, Grasp]:
         """Return the grasp, with the nodes that it holds."""
         request = GraspRequest.checked(
             name=self.name, position=self.position, orientation=self.orientation,
-            radius=self.radius, count=self.count, max_force=self.max_force)
+            radius=self.radius, count=self.count, layers=self.layers, max_force=self.max_force)
         held = next((grasp for grasp in cloth.grasps if grasp.name == request.name), None)
         if held is not None:
             raise NameTakenError(
@@ -221,7 +224,7 @@ class TakeGrasp:
         scene, pinned = cloth.scene, cloth.pinned_nodes()
         reach = usual_reach(scene.rows, scene.cols, scene.spacing)
         nodes = (
-            request.chosen(cloth.positions(), pinned, reach) if self.nodes is None
+            request.chosen(cloth.positions(), pinned, reach, scene.cut_cells) if self.nodes is None
             else given_nodes(request.name, self.nodes, pinned, cloth.scene))
         grasp = Grasp(request.name, request.pose, nodes, request.max_force)
         cloth.held.begin(grasp)

@@ -34,6 +34,7 @@ from cloth_sim_ros.sim.model.pins import only_node
 from cloth_sim_ros.sim.model.pins import PinMove
 from cloth_sim_ros.sim.model.pins import pinned_nodes
 from cloth_sim_ros.sim.model.push import Push
+from cloth_sim_ros.sim.model.scene_fields import ALL_LAYERS
 from cloth_sim_ros.sim.model.scene_fields import FAMILIES
 from cloth_sim_ros.sim.model.scene_fields import Field
 from cloth_sim_ros.sim.model.shape import cells_of
@@ -324,14 +325,17 @@ class Scene:
         columns = zip(
             self['grasps.start'], self._timed('grasps.name'), self._timed('grasps.position', 3),
             self._orientations('grasps.orientation'), self._timed('grasps.radius', default=0.0),
-            self._timed('grasps.count', default=0), self._timed('grasps.max_force', default=0.0),
+            self._timed('grasps.count', default=0),
+            self._timed('grasps.layers', default=ALL_LAYERS),
+            self._timed('grasps.max_force', default=0.0),
             self._timed('grasps.release', default=0.0))
         return tuple(
             GraspRequest.checked(
                 name=name, position=position, orientation=orientation, radius=radius,
-                count=0 if radius else count, max_force=max_force, start=start, release=release)
-            for start, (name,), position, orientation, (radius,), (count,), (max_force,),
-            (release,) in columns)
+                count=0 if radius else count, layers=layers, max_force=max_force, start=start,
+                release=release)
+            for start, (name,), position, orientation, (radius,), (count,), (layers,),
+            (max_force,), (release,) in columns)
 
     def _frame_moves(self, group: str, names: str) -> tuple[FrameMove, ...]:
         moved = self._timed(f'{group}.name')
@@ -444,7 +448,7 @@ class Scene:
 
     def _timed(
             self, name: str, width: int = 1,
-            default: float | None = None) -> list[tuple[Any, ...]]:
+            default: float | str | None = None) -> list[tuple[Any, ...]]:
         """Return the ``width`` entries that each one has in the parameter ``name``."""
         group = name.partition('.')[0]
         entry = {'pushes': 'push', 'gusts': 'gust', 'grasps': 'grasp'}.get(group, 'move')

@@ -63,6 +63,7 @@ from cloth_sim_ros.sim.model.pins import PinMove
 from cloth_sim_ros.sim.model.pins import PinPath
 from cloth_sim_ros.sim.model.pose import Pose
 from cloth_sim_ros.sim.model.push import Push
+from cloth_sim_ros.sim.model.scene_fields import ALL_LAYERS
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.simulation_arguments import check_callable
 from cloth_sim_ros.sim.simulation_arguments import check_creation
@@ -420,7 +421,8 @@ class Simulation(AbstractContextManager['Simulation']):
     def grasp(
             self, name: str, position: Sequence[float],
             orientation: Sequence[float] | None = None, *, radius: float = 0.0, count: int = 0,
-            max_force: float = 0.0, nodes: Sequence[Sequence[int]] | None = None) -> Grasp:
+            layers: str = ALL_LAYERS, max_force: float = 0.0,
+            nodes: Sequence[Sequence[int]] | None = None) -> Grasp:
         """
         Hold free nodes rigidly to a frame at ``position`` [m], where they are.
 
@@ -428,12 +430,13 @@ class Simulation(AbstractContextManager['Simulation']):
         :param orientation: of its frame, quaternion x y z w; that of the world by default
         :param radius: hold the nodes within it [m]
         :param count: hold that many nodes, the nearest ones; 1 where there is no radius either
+        :param layers: 'all' for nodes of every layer within reach, 'top' for the highest one
         :param max_force: pull of the cloth at which it is lost [N]; 0 for never
         :param nodes: rows and columns of the nodes to hold instead of the nearest ones
         :raises ClothSimError: when the name holds nodes, a value is wrong or no node is there
         """
         return self.apply(
-            TakeGrasp(name, position, orientation, radius, count, max_force, nodes))
+            TakeGrasp(name, position, orientation, radius, count, max_force, nodes, layers))
 
     def release_grasp(self, name: str) -> Grasp:
         """Let the nodes of a grasp go, with the velocity that they have; return what it held."""

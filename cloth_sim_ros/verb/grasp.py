@@ -11,6 +11,7 @@ lets the nodes go.
 For example:
   cloth_sim grasp hand --at 0.5 0.5 1 --radius 0.1
   cloth_sim grasp hand --at 0.5 0.5 1 --count 3 --max-force 2
+  cloth_sim grasp hand --at 0.5 0.5 1 --radius 0.1 --layers top
   cloth_sim grasp hand --to 0.5 0.5 1.4 --speed 0.3
 """
 
@@ -20,6 +21,8 @@ from argparse import Namespace
 from cloth_sim_interfaces.srv import Grasp
 from cloth_sim_interfaces.srv import MoveFrame
 from cloth_sim_ros.sim.errors import ClothSimError
+from cloth_sim_ros.sim.model.scene_fields import ALL_LAYERS
+from cloth_sim_ros.sim.model.scene_fields import LAYERS
 from cloth_sim_ros.verb.node_arguments import add_node_arguments
 from cloth_sim_ros.verb.node_arguments import open_node
 from geometry_msgs.msg import Point
@@ -27,7 +30,7 @@ from geometry_msgs.msg import Pose
 
 _AXES = ('X', 'Y', 'Z')
 _MOST_NODES = 2**32 - 1
-_OF_A_GRASP = ('radius', 'count', 'max_force')
+_OF_A_GRASP = ('radius', 'count', 'layers', 'max_force')
 
 
 def add_arguments(parser: ArgumentParser) -> None:
@@ -44,6 +47,9 @@ def add_arguments(parser: ArgumentParser) -> None:
         '--radius', type=float, metavar='M', help='grasp all free nodes within it [m]')
     nodes.add_argument(
         '--count', type=int, metavar='N', help='grasp the N nearest free nodes (default: 1)')
+    parser.add_argument(
+        '--layers', choices=LAYERS,
+        help='grasp nodes of all layers of cloth there, or of the top one (default: all)')
     parser.add_argument(
         '--max-force', type=float, metavar='N',
         help='pull of the cloth at which the grasp is lost [N] (default: never)')
@@ -76,7 +82,7 @@ def _grasp(args: Namespace) -> Grasp.Request:
                 f'--{name.replace("_", "-")} must be above 0, got 0: give more, or leave it out')
     return Grasp.Request(
         name=args.name, pose=_pose(args.at), radius=args.radius or 0.0, count=args.count or 0,
-        max_force=args.max_force or 0.0)
+        layers=args.layers or ALL_LAYERS, max_force=args.max_force or 0.0)
 
 
 def _move(args: Namespace) -> MoveFrame.Request:

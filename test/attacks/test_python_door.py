@@ -71,7 +71,8 @@ OF_SIMULATION: dict[str, dict[str, Any]] = {
     'nearest_node': {'point': CENTER, 'max_distance': 9.0},
     'nearest_pin': {'point': CENTER, 'max_distance': 9.0}, 'grasped_nodes': {},
     'grasp': {'name': 'other', 'position': CENTER, 'orientation': (0.0, 0.0, 0.0, 1.0),
-              'radius': 0.0, 'count': 1, 'max_force': 1.0, 'nodes': [(3, 3), (3, 2)]},
+              'radius': 0.0, 'count': 1, 'layers': 'all', 'max_force': 1.0,
+              'nodes': [(3, 3), (3, 2)]},
     'release_grasp': {'name': 'hand'},
     'move_grasp': {
         'name': 'hand', 'target': CENTER, 'orientation': (0.0, 0.0, 0.0, 1.0), 'speed': 1.0,

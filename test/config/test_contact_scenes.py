@@ -9,6 +9,7 @@ from cloth_sim_ros.sim.model.colliders import fields_with_colliders
 from cloth_sim_ros.sim.model.given_values import load_parameters
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.simulation import Simulation
+from crossings import crossings
 import numpy as np
 import pytest
 
@@ -110,3 +111,62 @@ def test_the_ball_carries_the_curtain_along_and_lets_it_go(opened):
     assert depth(simulation) < 1e-3
     simulation.advance(4.5)
     assert np.abs(simulation.positions()[..., 1]).max() < 0.25
+
+
+@pytest.mark.parametrize(('friction', 'is_lifted'), [(0.9, True), (0.0, False)])
+def test_two_layers_are_lifted_by_friction(opened, friction, is_lifted):
+    """The outer layers alone would be held, and the towel fall out of the fingers."""
+    simulation = opened('pinch_with_fingers', **{
+        f'colliders.{finger}.friction': friction for finger in ('front', 'back')})
+    simulation.advance(3.3)
+    closed = simulation.positions()
+    between = (np.abs(closed - (0.0, -0.135, 0.185)) < (0.035, 0.006, 0.008)).all(axis=-1)
+    rows = np.nonzero(between)[0]
+    # The rows before the fold are the outer layer.
+    fold = len(closed) // 2
+    assert (rows < fold).sum() > 3 and (rows > fold).sum() > 3
+    held = True
+    for _ in range(27):
+        simulation.advance(0.1)
+        assert len(crossings(simulation.positions())) == 0
+        held &= simulation.snapshot().surface_contact_held
+    ends = simulation.positions()
+    slip = np.linalg.norm((ends - closed - (0.0, -0.1, 0.35))[between], axis=-1).max()
+    print(f'friction {friction:g}: nodes between the fingers have moved against them by '
+          f'{1e3 * slip:.2g} mm')
+    if is_lifted:
+        assert held and ends[..., 2].min() > 0.3 and slip < 2e-3
+    else:
+        assert ends[..., 2].max() < 0.0
+
+
+def test_ribbon_falls_into_a_heap(opened):
+    """Layers of a heap would lie in each other, or tremble for ever."""
+    simulation = opened('heap')
+    for _ in range(80):
+        simulation.advance(0.05)
+        assert len(crossings(simulation.positions())) == 0
+        assert simulation.snapshot().surface_contact_held
+    speeds = np.linalg.norm(simulation.velocities(), axis=-1)
+    height = simulation.positions()[..., 2].max()
+    print(f'{1e3 * height:.0f} mm high, {simulation.snapshot().self_contacts} contacts, '
+          f'{1e3 * np.sqrt(np.mean(speeds**2)):.2g} mm/s (rms)')
+    assert speeds.max() < 1e-3 and 0.02 < height < 0.08
+
+
+def test_sheets_lie_a_thickness_apart(opened):
+    """Sheets of a stack would lie in each other, slide off or tremble."""
+    simulation = opened('stack')
+    held = True
+    for _ in range(65):
+        simulation.advance(0.1)
+        held &= simulation.snapshot().surface_contact_held
+    places = simulation.positions().astype(float)
+    assert held and len(crossings(places, simulation.scene.cut_cells)) == 0
+    sheets = places.reshape(4, 13, 13, 3)
+    # The second one lies on the table, the others on it in their order.
+    heights = sheets[[1, 0, 2, 3], 6, 6, 2] / simulation.scene['self_contact.thickness']
+    speed = np.abs(simulation.velocities()).max()
+    print(f'middles at {heights.round(3).tolist()} thicknesses, {1e3 * speed:.2g} mm/s at most')
+    np.testing.assert_allclose(heights, [0.5, 1.5, 2.5, 3.5], atol=0.01)
+    assert speed < 1e-3

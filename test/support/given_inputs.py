@@ -54,6 +54,7 @@ def _grasps(cloth: Simulation) -> list[Input]:
     return [
         TakeGrasp('one', tuple(middle)),
         TakeGrasp('many', tuple(corner), _TURN, radius=0.3, max_force=50.0),
+        TakeGrasp('top', tuple(middle - (0.1, 0.0, 0.0)), count=2, layers='top'),
         TakeGrasp('given', (0.0, 0.0, 1.0), nodes=[(2, 2), (2, 1)])]
 
 

@@ -10,7 +10,9 @@ CORNER = ('-0.45', '-0.35', '1')
 
 def test_grasps_moves_and_releases(verb, cloth):
     """A cloth could not be picked up and let go from the command line."""
-    result = verb('grasp', 'hand', '--at', *CORNER, '--radius', '0.12', '--max-force', '5')
+    result = verb(
+        'grasp', 'hand', '--at', *CORNER, '--radius', '0.12', '--layers', 'top',
+        '--max-force', '5')
     assert (result.returncode, result.stdout) == (0, 'grasp hand holds 3 nodes\n')
     assert cloth.wait_for('inputs/grasp').max_force == 5.0
     result = verb('grasp', 'hand', '--to', '-0.45', '-0.35', '1.5', '--speed', '0.25')
@@ -37,7 +39,8 @@ def test_takes_the_nearest_and_releases_all(verb):
     ('grasp', 'hand', '--at', *CORNER, '--count', str(2**32)),
     ('grasp', 'hand', '--at', *CORNER, '--speed', '1'),
     ('grasp', 'hand', '--to', *CORNER), ('grasp', 'hand', '--to', *CORNER, '--speed', '0'),
-    ('grasp', 'hand', '--to', *CORNER, '--radius', '1'), ('release', 'hand')])
+    ('grasp', 'hand', '--to', *CORNER, '--radius', '1'),
+    ('grasp', 'hand', '--to', *CORNER, '--layers', 'top'), ('release', 'hand')])
 def test_tells_why_not(verb, cloth, arguments):
     """A mistyped request would grasp or move something else, or end in a traceback."""
     result = verb(*arguments)

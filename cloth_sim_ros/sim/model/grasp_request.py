@@ -17,6 +17,10 @@ from cloth_sim_ros.sim.model.pose import checked_position
 from cloth_sim_ros.sim.model.pose import NO_ROTATION
 from cloth_sim_ros.sim.model.pose import Pose
 from cloth_sim_ros.sim.model.pose import unit_quaternion
+from cloth_sim_ros.sim.model.scene_fields import ALL_LAYERS
+from cloth_sim_ros.sim.model.scene_fields import LAYERS
+from cloth_sim_ros.sim.model.scene_fields import TOP_LAYER
+from cloth_sim_ros.sim.model.top_layer import top_layer
 import numpy as np
 
 # Max. number of a request, over the unit of its field [1].
@@ -32,6 +36,7 @@ class GraspRequest:
     :param pose: of its frame
     :param radius: the free nodes within it are held [m]; 0 for the nearest ones
     :param count: how many of these
+    :param layers: ALL_LAYERS within reach, or TOP_LAYER for the highest of them
     :param max_force: pull of the cloth at which it is lost [N]; 0 for never
     :param start: simulated time at which it begins [s]
     :param release: at which it ends; 0 for not by itself
@@ -41,6 +46,7 @@ class GraspRequest:
     pose: Pose
     radius: float = 0.0
     count: int = 1
+    layers: str = ALL_LAYERS
     max_force: float = 0.0
     start: float = 0.0
     release: float = 0.0
@@ -49,7 +55,8 @@ class GraspRequest:
     def checked(
             cls, *, name: str, position: Sequence[float],
             orientation: Sequence[float] | None = None, radius: float = 0.0, count: int = 0,
-            max_force: float = 0.0, start: float = 0.0, release: float = 0.0) -> 'GraspRequest':
+            layers: str = ALL_LAYERS, max_force: float = 0.0, start: float = 0.0,
+            release: float = 0.0) -> 'GraspRequest':
         """Return a GraspRequest, or raise ClothSimError saying which value is wrong."""
         if not isinstance(name, str) or not NAME_PATTERN.fullmatch(name):
             raise ClothSimError(
@@ -71,6 +78,10 @@ class GraspRequest:
             raise ClothSimError(
                 f'grasp {name} has a radius and a count, {radius:g} m and {count}: give one of '
                 'them')
+        if not isinstance(layers, str) or layers not in LAYERS:
+            raise ClothSimError(
+                f'the layers of grasp {name} must be one of {", ".join(LAYERS)}, got '
+                f'{shown(layers)}: give {TOP_LAYER} for the highest layer alone')
         if release and release <= start:
             raise ClothSimError(
                 f'grasp {name} is released at {release:g} s and begins at {start:g} s: release '
@@ -80,18 +91,24 @@ class GraspRequest:
                 checked_position(position, f'the position of grasp {name}'),
                 NO_ROTATION if orientation is None
                 else unit_quaternion(orientation, f'the orientation of grasp {name}')),
-            radius, max(count, 1), max_force, float(start), float(release))
+            radius, max(count, 1), layers, max_force, float(start), float(release))
 
-    def chosen(self, positions: np.ndarray, pinned: np.ndarray, reach: float) -> np.ndarray:
+    def chosen(
+            self, positions: np.ndarray, pinned: np.ndarray, reach: float,
+            present: np.ndarray | None = None) -> np.ndarray:
         """
         Return rows and columns of the nodes that it takes, (n, 2).
 
         :param positions: (rows, cols, 3) [m]
         :param pinned: which nodes are held by something else, (rows, cols) bool
         :param reach: how far the nearest node may be where there is no radius [m]
+        :param present: which cells there are, (rows - 1, cols - 1) bool; None for all
         :raises ClothSimError: when there is none
         """
         distance = np.linalg.norm(positions.astype(float) - np.array(self.pose.position), axis=-1)
+        within = self.radius or reach
+        if self.layers == TOP_LAYER:
+            distance[~top_layer(positions, self.pose.position, within, present)] = math.inf
         # There is no node where positions are NaN.
         distance[pinned | np.isnan(distance)] = math.inf
         if self.radius > 0.0:
@@ -104,7 +121,11 @@ class GraspRequest:
         if len(nodes):
             return nodes
         x, y, z = self.pose.position
+        where = f'grasp {self.name} at ({x:g}, {y:g}, {z:g}) has no free node'
+        if self.layers == TOP_LAYER:
+            raise NotFoundError(
+                f'{where} of the top layer within {within:.3g} m: give a point nearer to that '
+                f'layer, a larger radius, or layers {ALL_LAYERS}')
         raise NotFoundError(
-            f'grasp {self.name} at ({x:g}, {y:g}, {z:g}) has no free node within '
-            f'{self.radius or reach:.3g} m: the nearest is {float(distance.min()):.3g} m away; '
+            f'{where} within {within:.3g} m: the nearest is {float(distance.min()):.3g} m away; '
             'give a point nearer to the cloth, or a larger radius')

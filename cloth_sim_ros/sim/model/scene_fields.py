@@ -26,6 +26,10 @@ PRESETS = ('fast', 'balanced', 'accurate', 'stiff')
 MATERIALS = (
     't_shirt', 'underwear', 'denim', 'tablecloth', 'trousers', 'blanket', 'ponte_roma',
     'polyester_jacket', 'sweater', 'swimsuit')
+# Which layers of cloth a grasp takes.
+ALL_LAYERS = 'all'
+TOP_LAYER = 'top'
+LAYERS = (ALL_LAYERS, TOP_LAYER)
 _NAMES = {
     bool: 'true or false', int: 'a whole number', float: 'a number', str: 'a word',
 }
@@ -296,6 +300,8 @@ SCENE_FIELDS = (
           'nodes; 0 to take grasps.count of them', 'm', low=0.0, high=1e5, is_array=True),
     Field('grasps.count', int, (), 'number of nodes that each timed grasp without a radius takes, '
           'the nearest ones; empty for 1', low=1, high=100000, is_array=True),
+    Field('grasps.layers', str, (), 'which layers of cloth each timed grasp takes: all within '
+          'reach, or the top one of them; empty for all', choices=LAYERS, is_array=True),
     Field('grasps.max_force', float, (), 'pull of the cloth at which each timed grasp loses it; '
           '0 or empty for never', 'N', low=0.0, high=1e9, is_array=True),
     Field('grasps.release', float, (), 'time at which each timed grasp is released; 0 or empty '
