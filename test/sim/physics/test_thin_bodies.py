@@ -382,7 +382,7 @@ def test_edges_too_long_to_be_held_are_reported(context):
 @pytest.mark.parametrize('mode', [
     'mass_spring', pytest.param('adaptive', marks=pytest.mark.long)])
 def test_fingers_that_close_compress_the_cloth(context, within, mode, second):
-    """They would press without bounds, and throw the cloth, or feel other forces than each other."""
+    """Without bounds they would throw the cloth, or feel other forces than each other."""
     thickness, radius, compressed, cells = 0.004, 0.01, 0.5, 16
     room = (1.0 - compressed) * thickness
     height = -0.6 / cells
