@@ -38,7 +38,7 @@ setup(
     extras_require={'gym': ['gymnasium']},
     zip_safe=True,
     maintainer='cloth_sim_ros maintainers',
-    maintainer_email='cloth_sim_ros@example.org',
+    maintainer_email='maintainers@users.noreply.h-seed-ecbf5628.example',
     description='Cloth simulation on GLSL compute shaders as a ROS 2 node.',
     license='Apache-2.0',
     entry_points={
