@@ -35,7 +35,8 @@ setup(
     ],
     python_requires='>=3.10',
     install_requires=['setuptools'],
-    extras_require={'gym': ['gymnasium']},
+    # By the second, colcon test knows that the tests are pytest's.
+    extras_require={'gym': ['gymnasium'], 'test': ['pytest']},
     zip_safe=True,
     maintainer='cloth_sim_ros maintainers',
     maintainer_email='maintainers@users.noreply.h-seed-ecbf5628.example',
