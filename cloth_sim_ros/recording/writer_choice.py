@@ -44,7 +44,7 @@ def chosen_library(is_there: Callable[[str], bool] = is_importable) -> str:
     """
     Return which of LIBRARIES writes recordings; empty where none of them is there.
 
-    :param is_there: tells whether a module can be imported
+    :param is_there: returns whether a module can be imported
     """
     return next((library for library in LIBRARIES if is_there(library)), '')
 
