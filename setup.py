@@ -35,10 +35,11 @@ setup(
     ],
     python_requires='>=3.10',
     install_requires=['setuptools'],
-    extras_require={'gym': ['gymnasium']},
+    # By the second, colcon test knows that the tests are pytest's.
+    extras_require={'gym': ['gymnasium'], 'test': ['pytest']},
     zip_safe=True,
     maintainer='cloth_sim_ros maintainers',
-    maintainer_email='cloth_sim_ros@example.org',
+    maintainer_email='maintainers@users.noreply.h-seed-ecbf5628.example',
     description='Cloth simulation on GLSL compute shaders as a ROS 2 node.',
     license='Apache-2.0',
     entry_points={

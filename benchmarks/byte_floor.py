@@ -60,7 +60,7 @@ class Traffic:
     coarse: frozenset[str] = frozenset()
     sums: int = 0
 
-    def bytes(self, nodes: int, coarse_nodes: int, blocks: int) -> int:
+    def moved_bytes(self, nodes: int, coarse_nodes: int, blocks: int) -> int:
         """Return the least that it moves on a cloth of ``nodes`` in ``blocks``."""
         of_each = len(self.loads) + len(self.stores)
         return _ENTRY_BYTES * (
@@ -190,7 +190,7 @@ def _mass_spring(size: int, context: Context) -> Iterator[tuple[str, int, Callab
     step = OnePass(scene, layout)
     forcing = Forcing(scene['gravity'])
     name = 'substep of mass_spring'
-    yield name, TRAFFIC[name].bytes(size * size, 0, 0), lambda: step.substep(
+    yield name, TRAFFIC[name].moved_bytes(size * size, 0, 0), lambda: step.substep(
         state, forcing, scene['dt'])
     step.delete()
     state.delete()
@@ -201,7 +201,7 @@ def _solver(size: int, context: Context) -> Iterator[tuple[str, int, Callable[[]
     coarse = passes.levels.layouts[1]
     passes.bind()
     for name, run in passes.passes.items():
-        yield name, TRAFFIC[name].bytes(
+        yield name, TRAFFIC[name].moved_bytes(
             size * size, coarse.rows * coarse.cols, passes.buffers.sum_count), run
     passes.delete()
 

@@ -34,6 +34,15 @@ def build(base: Path, *arguments: str) -> Path:
     return base / 'install'
 
 
+def colcon_test(base: Path, *arguments: str) -> str:
+    """Run tests with what ``build`` has built into ``base``; return what was printed."""
+    return bash(
+        f'. {base}/install/setup.bash; colcon --log-base {base}/log test --packages-ignore '
+        f'cloth_sim_interfaces --build-base {base}/build --install-base {base}/install '
+        f'--return-code-on-test-failure --pytest-args {" ".join(arguments)} 1>&2; '
+        f'colcon test-result --test-result-base {base}/build --verbose', ROOT)
+
+
 @pytest.fixture(scope='module')
 def installed(tmp_path_factory) -> Path:
     """Build the package over the messages that the set-up has built with the same cmake files."""
@@ -57,6 +66,12 @@ def test_both_packages_are_built(tmp_path):
         f'. {installed}/setup.bash; python3 -c "'
         'import cloth_sim_interfaces.srv; print(cloth_sim_interfaces.__file__)"', tmp_path)
     assert Path(printed.strip()).is_relative_to(installed)
+
+
+def test_colcon_test_finds_the_tests(installed):
+    """`colcon test` would be green without having run a test."""
+    printed = colcon_test(installed.parent, 'test/test_lint.py', '-k', 'versions_agree')
+    assert 'Summary: 1 test, 0 errors, 0 failures, 0 skipped' in printed
 
 
 @pytest.mark.parametrize('name', ['cloth_sim', 'cloth_sim_node'])

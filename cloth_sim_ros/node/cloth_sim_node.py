@@ -54,6 +54,7 @@ from cloth_sim_ros.recording.bag_folder import fresh_name
 from cloth_sim_ros.recording.bag_folder import RecordingOptions
 from cloth_sim_ros.recording.recording_faults import RecordingError
 from cloth_sim_ros.recording.recording_faults import RecordingFull
+from cloth_sim_ros.recording.writer_choice import library_report
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.errors import WrongStateError
 from cloth_sim_ros.sim.model.colliders import fields_with_colliders
@@ -115,6 +116,9 @@ class ClothSimNode(GuardedNode):
             values['recording.directory'], name,
             lambda error: self._device.emit(lambda: self._on_recording_lost(error)),
             options=RecordingOptions.from_values(values), wake=self._on_recording_ended)
+        said = library_report(self._recording.library)
+        if said:
+            self.get_logger().info(said)
         # The thread that writes triggers it; the check runs on the ROS thread.
         self._recording_ended = self.create_guard_condition(self._recording.check)
         self._simulated_steps: Callable[[], bool] = lambda: False

@@ -26,7 +26,9 @@ def way_out(error: ImportError) -> str:
     if package in ('rosbags', 'mcap'):
         return (
             f'{package}, which reads and writes recordings, is missing: run `pip install mcap '
-            'rosbags`, with --break-system-packages if pip asks for it')
+            'rosbags`, with --break-system-packages if pip asks for it'
+            + (', or source a ROS that has rosbag2_py, which writes them too'
+               if package == 'mcap' else ''))
     if package == 'viser':
         return (
             'viser, which shows the cloth in a browser, is missing: run `./scripts/setup.sh '

@@ -24,6 +24,7 @@ from cloth_sim_ros.recording.bag_folder import DIRECTORY_SETTING
 from cloth_sim_ros.recording.bag_folder import RecordingOptions
 from cloth_sim_ros.recording.recording_faults import RecordingError
 from cloth_sim_ros.recording.recording_faults import refusal
+from cloth_sim_ros.recording.writer_choice import chosen_library
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.errors import WrongStateError
 from cloth_sim_ros.sim.inputs import Input
@@ -108,6 +109,8 @@ class RecordingSession:
     :param setting: what ``directory`` was given by, for errors
     :param options: files, limit and fsync of each recording
     :param wake: called on another thread when ``check`` has an end to report
+
+    ``library`` is which of LIBRARIES writes them, empty for none.
     """
 
     def __init__(
@@ -122,6 +125,8 @@ class RecordingSession:
         self._setting = setting
         self._options = options
         self._wake = wake
+        # Chosen once: a library that is installed meanwhile would be half of another choice.
+        self.library = chosen_library()
         # Recordings begin on the device thread, and are written and end on that of ROS.
         self._lock = threading.RLock()
         self._number = 0
@@ -247,12 +252,12 @@ class RecordingSession:
 
     def _open(self, name: str) -> Recorder:
         try:
-            # What writes recordings comes from pip, not from ROS: a node runs without it.
+            # What writes recordings need not be there: a node runs without it.
             from cloth_sim_ros.recording.recorder import Recorder
+            return Recorder(
+                self._directory, name, self._node_name, setting=self._setting,
+                options=self._options, on_end=self._wake, library=self.library)
         except ImportError as error:
             raise ClothSimError(way_out(error)) from error
         except OSError as error:
             raise refusal(Path(self._directory), error, self._setting) from error
-        return Recorder(
-            self._directory, name, self._node_name, setting=self._setting,
-            options=self._options, on_end=self._wake)

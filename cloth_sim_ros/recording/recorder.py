@@ -21,13 +21,15 @@ from cloth_sim_ros.recording.bag_folder import RecordingOptions
 from cloth_sim_ros.recording.bag_folder import remove_bag_folder
 from cloth_sim_ros.recording.bag_metadata import BagChannel
 from cloth_sim_ros.recording.bag_metadata import yaml_text
-from cloth_sim_ros.recording.bag_writer import BagWriter
 from cloth_sim_ros.recording.message_definition import message_definition
 from cloth_sim_ros.recording.message_definition import type_hash
 from cloth_sim_ros.recording.recording_faults import ending
 from cloth_sim_ros.recording.recording_faults import RecordingError
 from cloth_sim_ros.recording.recording_faults import RecordingFull
 from cloth_sim_ros.recording.recording_faults import refusal
+from cloth_sim_ros.recording.writer_choice import chosen_library
+from cloth_sim_ros.recording.writer_choice import open_writer
+from cloth_sim_ros.sim.errors import ClothSimError
 
 _FOR_EVER = (9223372036, 854775807)  # RMW_DURATION_INFINITE
 
@@ -93,6 +95,8 @@ class Recorder:
     :param setting: what ``directory`` was given by, for errors
     :param options: files, limit and fsync
     :param on_end: called on another thread when the recording has ended before it was closed
+    :param library: one of LIBRARIES that writes it; None for the one that would be chosen now
+    :raises ModuleNotFoundError: when there is no library that writes it
     :raises ClothSimError: when the name leaves ``directory`` or is taken, or it can't be written
     """
 
@@ -100,7 +104,7 @@ class Recorder:
             self, directory: str | os.PathLike[str], name: str = '',
             node_name: str = 'cloth_sim', *, setting: str = DIRECTORY_SETTING,
             options: RecordingOptions = RecordingOptions(),
-            on_end: Callable[[], None] | None = None) -> None:
+            on_end: Callable[[], None] | None = None, library: str | None = None) -> None:
         """Open the recording."""
         try:
             # Definitions are read now, so that a missing one is reported before a run.
@@ -120,12 +124,16 @@ class Recorder:
         self._error: RecordingError | None = None
         self._ended = False
         try:
-            self._bag = BagWriter(self.path, options)
+            self._bag = open_writer(
+                chosen_library() if library is None else library, self.path, options)
             try:
                 threading.Thread(target=self._work, name='recorder').start()
             except RuntimeError:
                 self._bag.abandon()
                 raise
+        except (ClothSimError, ModuleNotFoundError):
+            remove_bag_folder(self.path)
+            raise
         except (OSError, RuntimeError) as error:
             remove_bag_folder(self.path)
             raise refusal(self.path, error, setting) from error

@@ -21,6 +21,7 @@ import sys
 
 from cloth_sim_ros.analysis.recording import find_node
 from cloth_sim_ros.node.shared_memory import use_profile
+from cloth_sim_ros.playback.played_topics import CLOCK
 from cloth_sim_ros.playback.player import Player
 from cloth_sim_ros.playback.player import PlayerNode
 from cloth_sim_ros.playback.schedule import PlayClock
@@ -93,7 +94,9 @@ def _largest_message(bag: BagReader) -> int:
 def _options(args: Namespace, bag: BagReader) -> PlayOptions:
     node = args.node
     if node is None:
-        is_needed = args.played_node or args.clock
+        # A bag of a robot has a clock of its own, and no cloth.
+        has_clock = CLOCK in (args.topics or [topic.name for topic in bag.topics])
+        is_needed = args.played_node or (args.clock and not has_clock)
         node = find_node(bag.topics, bag.path) if is_needed else ''
     return PlayOptions(
         rate=args.rate, loop=args.loop, start=args.start, duration=args.duration,

@@ -123,8 +123,8 @@ def test_fields_are_those_that_the_shader_loads_and_stores(passes, name):
 def test_bytes_are_counted_once_each():
     """A field would count for each of the nodes that look at it, or the next level as a cloth."""
     traffic = Traffic(frozenset({'a', 'b'}), frozenset({'a'}), frozenset({'c'}), sums=2)
-    assert traffic.bytes(100, 25, 7) == 16 * (300 + 25 + 14)
-    assert TRAFFIC['substep of mass_spring'].bytes(1, 0, 0) == 64
+    assert traffic.moved_bytes(100, 25, 7) == 16 * (300 + 25 + 14)
+    assert TRAFFIC['substep of mass_spring'].moved_bytes(1, 0, 0) == 64
 
 
 def test_each_pass_has_a_ratio():

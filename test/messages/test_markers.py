@@ -209,7 +209,7 @@ def test_a_large_cloth_stays_a_small_message():
 
 
 def test_markers_of_a_cut_cloth_are_finite():
-    """RViz drops a marker with NaN, or its scale would be NaN."""
+    """A marker would be dropped by RViz for a NaN, or have NaN as its scale."""
     scene = Scene(CUT)
     snapshot = cut_snapshot(scene)
     message = MarkersMessage(scene.rows, scene.cols, 'world', present=scene.cut_cells)

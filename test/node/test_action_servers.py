@@ -4,6 +4,7 @@
 """Moves and steps as actions: feedback on the way, an end on request, and one where it stalls."""
 
 from action_msgs.msg import GoalStatus
+from action_msgs.srv import CancelGoal
 from cloth_sim_interfaces.action import MoveFrame
 from cloth_sim_interfaces.action import Step as StepAction
 from cloth_sim_interfaces.msg import ResultCode
@@ -54,10 +55,11 @@ class Goal:
         return self.feedback[-1]
 
     def cancel(self):
-        """Ask for its end; return how many goals end."""
+        """Ask for its end; return the code of the answer, and how many goals end."""
         future = self._handle.cancel_goal_async()
         self._client.spin_until(future.done, 'an answer')
-        return len(future.result().goals_canceling)
+        answer = future.result()
+        return answer.return_code, len(answer.goals_canceling)
 
     def end(self):
         """Return its state and its result."""
@@ -123,7 +125,7 @@ def test_a_canceled_move_stops_there(moving, name):
     """A body would go on although nobody wants that any more."""
     goal = Goal(moving, MoveFrame, name, speed=0.2, **FAR[name])
     goal.hear()
-    assert goal.cancel() == 1
+    assert goal.cancel() == (CancelGoal.Response.ERROR_NONE, 1)
     status, result = goal.end()
     assert status == GoalStatus.STATUS_CANCELED, result.message
     assert (result.success, result.code) == (False, ResultCode.CANCELED)
@@ -133,8 +135,10 @@ def test_a_canceled_move_stops_there(moving, name):
     stop = moving.wait_for(key, lambda message: moving[key][0] is not message)
     assert stop.header.stamp.sec + 1e-9 * stop.header.stamp.nanosec == pytest.approx(
         result.sim_time, abs=HANDLED['dt'] + 1e-6)
-    # What has ended can not be canceled.
-    assert goal.cancel() == 0
+    # What has ended can not be canceled, and nothing changes.
+    count = len(moving[key])
+    assert goal.cancel() == (CancelGoal.Response.ERROR_GOAL_TERMINATED, 0)
+    assert len(moving[key]) == count
 
 
 @pytest.mark.parametrize('name', ['move_pin', 'move_grasp'])
@@ -209,7 +213,7 @@ def test_steps_can_be_canceled(handled):
     assert (refused.success, refused.code) == (False, ResultCode.WRONG_STATE)
     status, result = Goal(handled, StepAction, 'step', steps=1).end()
     assert (status, result.code) == (GoalStatus.STATUS_ABORTED, ResultCode.WRONG_STATE)
-    assert goal.cancel() == 1
+    assert goal.cancel() == (CancelGoal.Response.ERROR_NONE, 1)
     status, result = goal.end()
     assert status == GoalStatus.STATUS_CANCELED, result.message
     assert (result.success, result.code) == (False, ResultCode.CANCELED)

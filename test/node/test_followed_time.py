@@ -20,12 +20,15 @@ from cloth_sim_ros.messages.stamp import NANOSECONDS
 from cloth_sim_ros.sim.model.pose import Pose
 from cloth_under_test import ClothUnderTest
 from cloth_under_test import SCENE
+from foreign_bag import write_bag
 from geometry_msgs.msg import Point
 from geometry_msgs.msg import Pose as PoseMessage
 from made_again import assert_same
 from node_process import NodeProcess
+from player_process import PlayerProcess
 import pytest
 from recorded import Recorded
+from rosgraph_msgs.msg import Clock
 from std_msgs.msg import Header
 from std_srvs.srv import SetBool
 from std_srvs.srv import Trigger
@@ -289,6 +292,44 @@ def test_frames_are_found_at_both_times(start, client):
     assert at_past.position == pytest.approx(
         [a - b for a, b in zip((0.1, 0.0, 1.0), pin.position)])
     client.node.destroy_publisher(tf)
+
+
+def test_frames_are_found_beside_a_robot_from_a_bag(start, client, tmp_path):
+    """Beside a bag that is played, cloth and robot would be of different times."""
+    cloth, clock = start(start_paused=True)
+    # The player has the clock.
+    clock.__exit__()
+    assert cloth.call(
+        Grasp, 'grasp', name='hand', pose=PoseMessage(position=Point(x=0.2, z=1.0))).success
+    assert cloth.call(SetBool, 'pause', data=False).success
+    moments, interval, messages = 400, 5_000_000, []
+    for number in range(moments):
+        moved = transform('tool0', 'world', Pose((0.001 * number, 0.0, 1.0)))
+        moved.header.stamp = ros_time(BEGIN + number * interval)
+        messages += [('/clock', Clock(clock=moved.header.stamp)),
+                     ('/tf', TFMessage(transforms=[moved]))]
+    bag = write_bag(tmp_path / 'robot', messages, begin=BEGIN, interval=interval // 2)
+    tf = client.watch(TFMessage, '/tf')
+    with PlayerProcess(tmp_path, bag, '--clock', '--paused', '--delay', 0) as player:
+        player.resume(client)
+        assert player.wait(client) == 0
+    # The time between the first two messages may pass before the node runs.
+    end = BEGIN + (moments - 1) * interval
+    client.spin_until(lambda: any(
+        0 <= end - in_nanoseconds(cloud.header.stamp) < 0.05 * NANOSECONDS
+        for cloud in cloth['points']), 'the cloth at the end of the bag')
+    client.spin_until_quiet()
+    assert {in_nanoseconds(base.epoch) for base in cloth['inputs/time_base']} <= {
+        0, *range(BEGIN, end, interval)}
+    tree = frame_tree(tf.messages)
+    past = BEGIN + moments // 2 * interval
+    for frame in (PIN, 'followed_cloth_sim_grasp_hand'):
+        for time, place in ((None, None), (past, 0.001 * (moments // 2))):
+            seen = tree.pose('tool0', frame, time)
+            if place is not None:
+                own = tree.pose(frame, 'world', time)
+                assert seen.position == pytest.approx(
+                    [a - b for a, b in zip((place, 0.0, 1.0), own.position)])
 
 
 def _moved(cloth, header):

@@ -305,6 +305,6 @@ def test_limits_of_opengl_43_are_kept(form: str):
 
 @pytest.mark.parametrize('name', shader_names())
 def test_no_index_of_an_edge_leaves_its_vector(name: str):
-    """NVIDIA's compiler refuses such a constant, even in a branch that is never taken."""
+    """Such a constant is refused by NVIDIA's compiler, even in a branch that is never taken."""
     text = ShaderSource(name, {}).text
     assert not re.search(r'\[\s*edge\b', text)

@@ -13,12 +13,14 @@ from rosbags.typesys import get_typestore
 from rosbags.typesys import Stores
 
 
-def write_bag(folder, messages, storage=StoragePlugin.MCAP):
+def write_bag(folder, messages, storage=StoragePlugin.MCAP, begin=10**18, interval=1):
     """
     Write a bag and return its folder.
 
     :param messages: each a topic and a message of rclpy, or a topic and a `made` one; a message
         of None makes the topic alone
+    :param begin: log time of the first message [ns]
+    :param interval: between the log times of two messages [ns]
     """
     with Writer(folder, version=9, storage_plugin=storage) as writer:
         connections = {}
@@ -29,7 +31,7 @@ def write_bag(folder, messages, storage=StoragePlugin.MCAP):
                 store.register(get_types_from_msg(text, type_name))
                 connections[topic] = writer.add_connection(topic, type_name, typestore=store)
             if data is not None:
-                writer.write(connections[topic], 10**18 + number, data)
+                writer.write(connections[topic], begin + number * interval, data)
     return folder
 
 

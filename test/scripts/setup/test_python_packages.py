@@ -22,9 +22,10 @@ LOCKS = ('run', 'view', 'test', 'sourced_ros')
 PIN = re.compile(r'([A-Za-z0-9._-]+)(?:\[[a-z,]+\])?==(\S+)(?: ; (.*?))?(?: \\)?$')
 HASH = re.compile(r'    --hash=sha256:[0-9a-f]{64}(?: \\)?$')
 PARTS_OF_VENV = 'progress stamps find_python python_packages'
-# Studies on several machines, the environment for training, tables, the live view; each says so.
-# The last two come with viser.
-OPTIONAL = {'distributed', 'gymnasium', 'pandas', 'viser', 'msgspec', 'websockets'}
+# Studies on several machines, the environment for training, tables, the live view, recording by a
+# sourced ROS; each says so. The two behind viser come with it.
+OPTIONAL = {
+    'distributed', 'gymnasium', 'pandas', 'viser', 'msgspec', 'websockets', 'rosbag2_py'}
 
 
 def pins(name):
