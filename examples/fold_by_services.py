@@ -9,6 +9,7 @@ Fold a towel in half by services, and measure the fold.
 """
 
 import sys
+from typing import Any
 
 from cloth_sim_interfaces import srv
 from geometry_msgs.msg import Pose
@@ -20,7 +21,7 @@ from sensor_msgs.msg import PointCloud2
 WAIT, HANDS = 60.0, {'left': 0, 'right': -1}  # [s], columns of the first row
 
 
-def call(kind: type, service: str, /, **fields: object) -> object:
+def call(kind: Any, service: str, /, **fields: object) -> Any:
     """Return the answer of a service of the node; end where it refuses."""
     client = node.create_client(kind, f'/cloth_sim/{service}')
     client.wait_for_service(WAIT) or sys.exit('no /cloth_sim: start cloth_sim_node')

@@ -86,7 +86,8 @@ class RunRecording:
             simulation.pinned_nodes() & ~simulation.grasped_nodes())))
         if reason and (node_values['publish.wrenches'] or node_values['publish.tf']):
             self._say(reason)
-        self._recorded = 0.0
+        # How many frames have been begun, and the times of the last but one and the last [s].
+        self._begun = (0, 0.0, 0.0)
         self.write(0.0, 0.0)
 
     def write(self, step_wall_time: float, real_time_factor: float) -> None:
@@ -96,11 +97,11 @@ class RunRecording:
         frame = self._taker.take(
             self._session.takes,
             lambda: Pace(step_wall_time, steps=1, achieved=real_time_factor))
+        count, _, before = self._begun
+        # At once, as an interrupt may come between any two statements.
+        self._begun = (count + 1, before, frame.time)
         for key, data in self._messages.of(frame):
             self._session.write(key, data, frame.time)
-            # An interrupt may come between any two: a frame is there once its statistics are.
-            if key == 'stats':
-                self._recorded = frame.time
 
     def write_input(self, given: Input, time: float) -> None:
         """Write an accepted input, which acts from ``time`` [s] on."""
@@ -130,9 +131,11 @@ class RunRecording:
             self.close()
         finally:
             if is_whole and not self.problem:
+                # A frame is there once its statistics are.
+                count, before, last = self._begun
+                end = last if self._session.written('stats') == count else before
                 self._say(
-                    f'interrupted; the recording {self.path} is complete up to '
-                    f'{self._recorded:.6g} s')
+                    f'interrupted; the recording {self.path} is complete up to {end:.6g} s')
 
     def _write_state(self, run_state: str) -> None:
         state = state_of(

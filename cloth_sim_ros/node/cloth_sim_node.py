@@ -117,7 +117,8 @@ class ClothSimNode(GuardedNode):
             lambda error: self._device.emit(lambda: self._on_recording_lost(error)),
             options=RecordingOptions.from_values(values), wake=self._on_recording_ended)
         said = library_report(self._recording.library)
-        if said:
+        # A node that is told to record refuses to start without one, and says why.
+        if said and (self._recording.library or not values['recording.enabled']):
             self.get_logger().info(said)
         # The thread that writes triggers it; the check runs on the ROS thread.
         self._recording_ended = self.create_guard_condition(self._recording.check)

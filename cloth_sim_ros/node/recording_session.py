@@ -131,6 +131,7 @@ class RecordingSession:
         self._lock = threading.RLock()
         self._number = 0
         self._recorder: Recorder | None = None
+        self._latest: Recorder | None = None
         self._ending: RecordingError | None = None
         self._offset = 0  # [ns]
 
@@ -172,7 +173,7 @@ class RecordingSession:
                 raise WrongStateError(
                     f'a recording is being written to {self.path}: stop it first, with '
                     '~/stop_recording or `cloth_sim record stop`')
-            self._recorder = self._open(name)
+            self._recorder = self._latest = self._open(name)
             self._number += 1
             self._ending = None
             self._offset = 0
@@ -197,6 +198,10 @@ class RecordingSession:
                 self._recorder.write(key, data, sim_time, self._offset + epoch)
             except RecordingError as error:
                 self._end(error)
+
+    def written(self, key: str) -> int:
+        """Return how many messages of the topic ``key`` the latest recording has."""
+        return self._latest.written(key) if self._latest is not None else 0
 
     def check(self) -> None:
         """Report an end of the recording that nobody has asked for."""

@@ -3,6 +3,7 @@
 
 """A recording under way, and the topics of this project as they stand in it."""
 
+from collections import Counter
 from collections.abc import Callable
 import os
 from pathlib import Path
@@ -120,6 +121,7 @@ class Recorder:
         # Each is changed by one thread only, so that neither needs a lock.
         self._taken_bytes = 0
         self._written_bytes = 0
+        self._written: Counter[str] = Counter()  # messages by the name of their topic
         self._closed = False
         self._error: RecordingError | None = None
         self._ended = False
@@ -159,6 +161,10 @@ class Recorder:
             time.sleep(POLL)
         self._queue.put((self._channels[key], data, epoch + nanoseconds(sim_time)))
         self._taken_bytes += len(data)
+
+    def written(self, key: str) -> int:
+        """Return how many messages of the topic ``key`` have been written so far."""
+        return self._written[self._channels[key].name]
 
     def check(self) -> None:
         """
@@ -229,6 +235,7 @@ class Recorder:
                 return False
             self._bag.write(*entry)
             self._written_bytes += len(entry[1])
+            self._written[entry[0].name] += 1
         return True
 
     def _give_up(self, error: Exception) -> None:
