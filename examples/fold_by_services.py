@@ -52,9 +52,8 @@ for part, hand.position.z in ((0.04, 0.05), (0.5, 0.17), (0.96, 0.05), (1.0, 0.0
         hand.position.x, hand.position.y = (flat[0] + part * (now[-1] - flat[0]))[col, :2].tolist()
         there = call(srv.MoveFrame, 'move_grasp', name=name, pose=hand, speed=0.2).arrival
     now = see(there)
-print(call(srv.Release, 'release').message)
-now = see(there + 3.0)
+released, now = call(srv.Release, 'release').message, see(there + 3.0)
 areas = [np.ptp(each[..., :2], axis=(0, 1)).prod() for each in (now, flat)]
 apart = np.linalg.norm((now[0] - now[-1])[[0, -1], :2], axis=-1).max()
-print(f'{areas[0] / areas[1]:.3f} of the area, corners {1e3 * apart:.1f} mm apart,',
+print(f'{released}\n{areas[0] / areas[1]:.3f} of the area, corners {1e3 * apart:.1f} mm apart,',
       f'{1e3 * np.sqrt((now[..., 3:]**2).sum(axis=-1).mean()):.2g} mm/s left')
