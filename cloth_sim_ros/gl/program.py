@@ -163,7 +163,7 @@ def _text(log: bytes | str) -> str:
 
 # A compute program: compile, set uniforms, dispatch.
 
-_MOST_GROUPS = 65535
+MOST_GROUPS = 65535
 
 
 class Program(LinkedProgram):
@@ -219,9 +219,9 @@ class Program(LinkedProgram):
               for name, value in uniforms.items())]
 
     def _check_groups(self, groups_x: int, groups_y: int) -> None:
-        if groups_x > _MOST_GROUPS or groups_y > _MOST_GROUPS:
+        if groups_x > MOST_GROUPS or groups_y > MOST_GROUPS:
             raise ShaderError(
-                f'{self.name} needs {groups_x} x {groups_y} workgroups, at most {_MOST_GROUPS} '
+                f'{self.name} needs {groups_x} x {groups_y} workgroups, at most {MOST_GROUPS} '
                 'are allowed per side: use fewer nodes')
 
 

@@ -4,6 +4,7 @@
 """The moving state on the device: pairs of buffers, read from one and written to another."""
 
 from collections.abc import Sequence
+from itertools import product
 from typing import Protocol
 
 from cloth_sim_ros.gl.buffer import Buffer
@@ -24,12 +25,14 @@ import numpy as np
 # stiffest springs, energies and normals of what is below it do not leave float32.
 MOST_MAGNITUDE = 1e12
 
-# Pairs of buffers [1]: two that substeps write in turn, and one with the last state checked.
-_PAIRS = 3
-# A pair of buffers that neither holds the present state nor the one that was kept.
+# Pairs of buffers [1]: two that substeps write in turn, and one with the last state checked; and
+# one more for substeps that go back to where they begin.
+_PAIRS, _MOST_PAIRS = 3, 4
+# The first pair of buffers that holds none of three states: the present one, the one that was
+# kept, and the one that a substep has begun with.
 _SPARE = {
-    (now, kept): next(pair for pair in range(_PAIRS) if pair not in (now, kept))
-    for now in range(_PAIRS) for kept in range(_PAIRS)}
+    states: next(pair for pair in range(_MOST_PAIRS) if pair not in states)
+    for states in product(range(_MOST_PAIRS), repeat=3)}
 
 
 class HeldEntries(Protocol):
@@ -50,6 +53,23 @@ class HeldEntries(Protocol):
 
     def expect_steps(self, substeps: int) -> None:
         """Tell that so many ``substeps`` come before those of the last step of dt."""
+
+
+class SubstepEnds(Protocol):
+    """The states that a substep begins and ends with."""
+
+    @property
+    def pinned(self) -> np.ndarray:
+        """Get which nodes are pinned, (rows, cols) bool."""
+
+    def bind_in_textures(self) -> None:
+        """Let the next dispatches read the first through textures."""
+
+    def bind_out_textures(self) -> None:
+        """Let the next dispatches read the last through textures."""
+
+    def bind_out(self) -> None:
+        """Let the next dispatches change the last."""
 
 
 class State:
@@ -90,6 +110,8 @@ class State:
         self._pairs = [BufferRow(pair) for pair in zip(self._positions, self._velocities)]
         self._now = 0
         self._kept = 0
+        # That a substep of several solves has begun with; None where none is under way.
+        self._begun: int | None = None
         self._next = 1
         self.edits = 0
         self._low = LowParts(layout.stored) if has_low_parts else None
@@ -264,12 +286,12 @@ class State:
     def swap(self) -> None:
         """Make what was written the present state."""
         self._now = self._next
-        self._next = _SPARE[self._now, self._kept]
+        self._choose_next()
 
     def keep(self) -> None:
         """Keep the present state, instead of the one kept before, for ``restore``."""
         self._kept = self._now
-        self._next = _SPARE[self._now, self._kept]
+        self._choose_next()
         if self._low is not None:
             self._low.keep()
 
@@ -277,9 +299,39 @@ class State:
         """Go back to the state that was kept; pins set since then are not undone."""
         self.edits += 1
         self._now = self._kept
-        self._next = _SPARE[self._now, self._kept]
+        self._begun = None
+        self._choose_next()
         if self._low is not None:
             self._low.restore()
+
+    def begin_substep(self) -> None:
+        """Keep the present state besides, while a substep of several solves changes it."""
+        if len(self._pairs) < _MOST_PAIRS:
+            for buffers in (self._positions, self._velocities):
+                buffers.append(Buffer(buffers[0].bytes))
+                buffers[self._now].copy_to(buffers[-1], 0, buffers[0].bytes)
+            self._pairs.append(BufferRow((self._positions[-1], self._velocities[-1])))
+        self._begun = self._now
+        self._choose_next()
+
+    def end_substep(self) -> None:
+        """Forget what ``begin_substep`` has kept."""
+        self._begun = None
+        self._choose_next()
+
+    def undo_substep(self) -> None:
+        """Go back to the state of ``begin_substep``, with low parts of zero."""
+        assert self._begun is not None
+        self._now, self._begun = self._begun, None
+        self._choose_next()
+        if self._low is not None:
+            self._low.clear(0, self._layout.stored)
+
+    @property
+    def ends_of_substep(self) -> SubstepEnds:
+        """Return the state of ``begin_substep`` and the present one."""
+        assert self._begun is not None
+        return _BegunSubstep(self, self._pairs[self._begun], self._pairs[self._now])
 
     def delete(self) -> None:
         """Release the buffers."""
@@ -293,6 +345,10 @@ class State:
             buffer.bind_texture(binding)
         else:
             buffer.bind_storage(binding)
+
+    def _choose_next(self) -> None:
+        begun = self._kept if self._begun is None else self._begun
+        self._next = _SPARE[self._now, self._kept, begun]
 
     def _read(self, buffers: Sequence[Buffer]) -> np.ndarray:
         stored = np.empty((self._layout.stored, 4), dtype=np.float32)
@@ -337,6 +393,27 @@ def checked_vectors(
             f'{of} must be {shape} numbers below {MOST_MAGNITUDE:g}, got up to {largest:g}: give '
             'finite ones near the origin')
     return found
+
+
+class _BegunSubstep:
+    """A substep of several solves, the last of which has made the present state."""
+
+    def __init__(self, state: State, begin: BufferRow, end: BufferRow) -> None:
+        self._state, self._begin, self._end = state, begin, end
+
+    @property
+    def pinned(self) -> np.ndarray:
+        return self._state.pinned
+
+    def bind_in_textures(self) -> None:
+        self._begin.bind_textures(bindings.POSITION_IN)
+
+    def bind_out_textures(self) -> None:
+        self._end.bind_textures(bindings.POSITION_OUT)
+
+    def bind_out(self) -> None:
+        self._end.bind_storage(bindings.POSITION_OUT)
+        self._state.bind_low_parts()
 
 
 def _with_fourth(vectors: np.ndarray, fourth: np.ndarray | float) -> np.ndarray:

@@ -33,6 +33,7 @@ layout(binding = VELOCITY_OUT) uniform samplerBuffer velocity_out;
 uniform float substep;      // [s]
 uniform float thickness;    // [m] from middle to middle
 uniform float friction;     // [1]
+uniform float kept_share;   // of the impulses of the last substep, by its length [1]
 
 vec3 place_of(int index) { return load_position(index).xyz; }
 
@@ -117,7 +118,7 @@ void add_contact(uint pair, ivec4 nodes, vec3 weights, vec3 d, float distance, f
     vec3 normal = d / max(distance, 1e-30);
     float gap = gap_of(distance - least, place_of(nodes.x));
     // What it had in the last substep, along the normal of this one.
-    vec3 before = kept[pair].xyz;
+    vec3 before = kept_share * kept[pair].xyz;
     float speed = speed_unit();
     float pressed = clamp(dot(before, normal), 0.0, IMPULSE_RANGE * speed);
     vec3 along = before - dot(before, normal) * normal;

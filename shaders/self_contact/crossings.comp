@@ -14,8 +14,14 @@
 
 layout(local_size_x = SELF_LOCAL) in;
 
+// Volume over the third power of the longest distance of four points [1], up to which it may be that of
+// rounding: of flat layers, all volumes are. Ten times the rounding of its products.
+#define ROUNDED 1e-6
+
 // Six times the signed volume of a tetrahedron with a corner at the origin [m3].
 float volume(vec3 a, vec3 b, vec3 c) { return dot(cross(a, b), c); }
+
+float square(vec3 v) { return dot(v, v); }
 
 bool pierces(vec3 p, vec3 q, vec3 a, vec3 b, vec3 c) {
     vec3 d = q - p;
@@ -24,8 +30,11 @@ bool pierces(vec3 p, vec3 q, vec3 a, vec3 b, vec3 c) {
     c -= p;
     vec3 across = cross(b - a, c - a);
     vec3 around = vec3(volume(a, b, d), volume(b, c, d), volume(c, a, d));
-    return dot(across, a) * dot(across, a - d) < 0.0
-        && (all(greaterThan(around, vec3(0.0))) || all(lessThan(around, vec3(0.0))));
+    float longest = sqrt(max(max(square(a), square(b)), max(square(c), square(d))));
+    float least = ROUNDED * longest * longest * longest;
+    float begin = dot(across, a), end = dot(across, a - d);
+    return min(begin, end) < -least && max(begin, end) > least
+        && (all(greaterThan(around, vec3(least))) || all(lessThan(around, vec3(-least))));
 }
 
 void count_crossings(Owned one, Owned other) {

@@ -20,7 +20,7 @@ layout(std430, binding = SELF_KEPT_BEFORE) readonly buffer SelfKeptBefore { vec4
 uniform ivec4 before;  // pairs of nodes and of edges, and room, as there were
 
 void main() {
-    int i = int(gl_GlobalInvocationID.x);
+    int i = int(pair_number());
     if (i >= before.x + before.y) {
         return;
     }

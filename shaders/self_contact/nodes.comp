@@ -3,7 +3,8 @@
 
 #version 430 core
 // The velocity of each node that touches the cloth after a round, with what colliders do to it. The last
-// round writes the state to come.
+// round writes the state to come. IS_IMPLICIT 1: solves give nodes their velocities, and include impulses
+// of layers; the last round moves layers that are too near apart.
 
 #define POSITIONS_ALONE 1
 #include "lattice.glsl"
@@ -20,11 +21,17 @@ layout(local_size_x = SELF_LOCAL) in;
 layout(std430, binding = POSITION_OUT) buffer PositionOut { vec4 position_out[]; };
 layout(std430, binding = VELOCITY_OUT) buffer VelocityOut { vec4 velocity_out[]; };
 layout(std430, binding = SELF_VELOCITIES) writeonly buffer SelfVelocities { vec4 velocities[]; };
-#if HAS_CONTACT
+#if HAS_CONTACT && !IS_IMPLICIT
 #include "contact_record.glsl"
+#endif
+#if IS_IMPLICIT
+layout(binding = SELF_APPLIED) uniform samplerBuffer applied;
 #endif
 #if HAS_HELD
 #include "held.glsl"
+#endif
+#if NOTES_CHANGES
+layout(std430, binding = LIMIT_CHANGES) buffer Changes { vec4 changes[]; };
 #endif
 
 #if HAS_SURFACE
@@ -50,6 +57,9 @@ void main() {
     vec4 free = velocity_out[index];
     vec3 x = load_position(index).xyz;
     vec3 impulse = of_numbers(node.impulse, impulse_unit(speed_unit()));
+#if IS_IMPLICIT
+    free.xyz -= free.w * texelFetch(applied, index).xyz;
+#endif
 #if HAS_SURFACE
     // Thin colliders have changed the velocity already.
     vec4 without = texelFetch(surface_texels, 4 * index);
@@ -62,6 +72,10 @@ void main() {
     vec3 v = free.xyz + free.w * impulse;
 #endif
 #if HAS_CONTACT
+#if IS_IMPLICIT
+    // Layers that are moved apart may be moved into a body.
+    v += float(is_last) * free.w / substep * of_numbers(node.way, way_unit);
+#endif
     uint bodies = free.w > 0.0 ? near_bodies(x, 0.0, substep * length(v)) : 0u;
     touched_count = 0;
     int kind = FREE;
@@ -85,16 +99,25 @@ void main() {
     self_nodes[index].way = int[3](0, 0, 0);
     self_nodes[index].shares = 0u;
     if (free.w > 0.0) {
-        vec3 to = changed_position(
-            index, position_out[index].xyz,
-            substep * (v - free.xyz) + free.w * of_numbers(node.way, way_unit));
+        vec3 way = free.w * of_numbers(node.way, way_unit);
+#if !IS_IMPLICIT
+        way += substep * (v - free.xyz);
+#endif
+        vec3 to = changed_position(index, position_out[index].xyz, way);
 #if HAS_CONTACT
         if (touched_count > 0) {
             to = moved_out(to, substep);
+#if !IS_IMPLICIT
             record_contacts(index, kind);
+#endif
         }
 #endif
+#if NOTES_CHANGES
+        changes[index].xyz += v - velocity_out[index].xyz;
+#endif
+#if !IS_IMPLICIT
         velocity_out[index].xyz = v;
+#endif
         position_out[index].xyz = to;
     }
 }

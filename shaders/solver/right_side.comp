@@ -36,6 +36,11 @@ uniform float kick;          // [s] that what is applied acts for
 uniform int start_field;     // a change of velocity, of which
 uniform float guess;         // this share is expected now
 uniform float geometric;     // beta of the geometric mass term
+#if HAS_LAYERS
+// Impulses of layers of the cloth that the solve is to include [m/s of a node amid the cloth].
+layout(binding = SELF_DRIVEN) uniform samplerBuffer driven;
+uniform float driven_share;  // 1, or 0 for none
+#endif
 uniform float to_come;       // of what is applied, and velocities move nodes by: 0 in a further solve
 
 vec3 velocity[TILE][TILE];
@@ -176,6 +181,9 @@ void main() {
             applied -= resisted[row][col] / mass_share(node[row][col]);
 #endif
             total = change[row][col] + to_come * kick * mass_share(node[row][col]) * applied;
+#if HAS_LAYERS
+            total += driven_share * texelFetch(driven, state_index(at.y, at.x)).xyz;
+#endif
         }
         store_vector(cloth_entry(RESIDUAL, entry), total);
         system_data[cloth_entry(NODE, entry)] = node[row][col];

@@ -107,6 +107,7 @@ _COUNTING = {
         'atomicMax(longest_way, floatBitsToUint(longest))',
         'atomicMax(largest_cut, floatBitsToUint(most_cut))', 'atomicAdd(cut_nodes, cuts)',
         'atomicAdd(cut_pins, pins)'],
+    'self_contact/drive.comp': ['atomicMax(largest_drive, floatBitsToUint(largest))'],
     'near_nodes.comp': [
         'atomicAdd(near_node_count, 1u)',
         'atomicAdd(node_groups_x, entry % NEAR_LOCAL == 0u ? 1u : 0u)'],
@@ -138,15 +139,20 @@ _FORMS = {
     'self_contact/nodes.comp, beside the surface': {
         'LOADS_TEXTURE': 1, 'SELF_LOCAL': 32, 'HAS_HELD': 1, 'HAS_SELF': 1, 'HAS_SURFACE': 1},
     'contact.comp, beside layers': {'NOTES_CHANGES': 0, 'HAS_SELF': 1},
-    **{f'self_contact/{name}.comp': {'LOADS_TEXTURE': 1, 'SELF_LOCAL': 32} for name in (
-        'boxes', 'crossings', 'keep', 'nodes', 'pairs', 'round')},
+    **{f'self_contact/{name}.comp': {
+        'LOADS_TEXTURE': 1, 'SELF_LOCAL': 32, 'MOST_GROUPS': 65535}
+       for name in ('boxes', 'crossings', 'keep', 'nodes', 'pairs', 'round')},
+    'self_contact/nodes.comp, after limits': {
+        'LOADS_TEXTURE': 1, 'SELF_LOCAL': 32, 'HAS_HELD': 1, 'NOTES_CHANGES': 1},
+    'self_contact/nodes.comp, of solves': {
+        'LOADS_TEXTURE': 1, 'SELF_LOCAL': 32, 'HAS_HELD': 1, 'IS_IMPLICIT': 1},
     'self_contact/nodes.comp, recording': {
         'LOADS_TEXTURE': 1, 'SELF_LOCAL': 32, 'HAS_HELD': 1, 'HAS_LOW_PARTS': 1},
     **{f'self_contact/{name}.comp{words}': {
-        'LOADS_TEXTURE': 1, 'SELF_LOCAL': 32, 'OF_EDGES': of_edges}
+        'LOADS_TEXTURE': 1, 'SELF_LOCAL': 32, 'OF_EDGES': of_edges, 'MOST_GROUPS': 65535}
        for name in ('contacts', 'guard') for words, of_edges in (('', 0), (', of edges', 1))},
     **{f'self_contact/{name}.comp': {'LOADS_TEXTURE': 1, 'STRIP': 16} for name in (
-        'cut', 'longest', 'ways')},
+        'cut', 'drive', 'longest', 'ways')},
     'limit/look.comp': {'STRIP': 16, 'LIST_LOCAL': '8u'},
     'limit/list.comp': {'LIST_LOCAL': 8},
     'limit/solve.comp': {'LOCAL': 256, 'LISTS': 0},
@@ -176,6 +182,7 @@ _FORMS = {
     'solver/reduce.comp': {'MOST_GROUPS_COUNTS': 48},
     'solver/right_side.comp': {'FORESEES_TURN': 1},
     'solver/right_side.comp, turn not foreseen': {'FORESEES_TURN': 0},
+    'solver/right_side.comp, with layers': {'FORESEES_TURN': 1, 'HAS_LAYERS': 1},
     'strain_watch.comp': {'STRIP': 16},
     'turn_watch.comp': {'STRIP': 16},
 }

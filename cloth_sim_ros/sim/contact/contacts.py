@@ -222,12 +222,13 @@ class Contacts:
 
     def act_after_limits(
             self, touch: '_Touch', state: State, length: float, changes: Buffer,
-            held_at: int) -> None:
+            held_at: int, layers: Layers | None) -> None:
         """
         Act on an explicit substep whose velocities have been changed since it was made.
 
         :param changes: of limit_give.glsl, where what is done to nodes is added
         :param held_at: where its entries of held.glsl are, bound by now; below 0: nowhere
+        :param layers: of the cloth that touch, as in act_beside; None where none do
         """
         self._list_blocks(touch, state, length)
         noting = self._noting_program.use()
@@ -236,7 +237,10 @@ class Contacts:
         self.set_in(noting, touch, length)
         changes.bind_storage(bindings.LIMIT_CHANGES)
         self._begin_surface(touch, length, notes_changes=True)
-        self._act(self._noting_program, self._surface, held_at, notes_changes=True)
+        if layers is None:
+            self._act(self._noting_program, self._surface, held_at, notes_changes=True)
+        else:
+            self._act_beside(layers, self._noting_program, held_at, notes_changes=True)
 
     def move_out(self, touch: '_Touch', state: State, length: float) -> None:
         """
@@ -275,19 +279,25 @@ class Contacts:
 
     def act_beside(self, layers: Layers, held_at: int) -> None:
         """Act on an explicit substep in which ``layers`` of the cloth touch, and let them act."""
+        self._act_beside(layers, self._program, held_at)
+
+    def _act_beside(
+            self, layers: Layers, act: SceneProgram, held_at: int, *,
+            notes_changes: bool = False) -> None:
         self._near.bind_dispatches()
         shader_dispatches_visible()
         if self._surface is None:
             self._near_nodes.use().dispatch_indirect(0)
             shader_dispatches_visible()
-            self._program.use().dispatch_indirect(_NODE_GROUPS)
+            act.use().dispatch_indirect(_NODE_GROUPS)
             shader_writes_visible()
             layers.let_act()
-            layers.give(held_at)
+            layers.give(held_at, notes_changes=notes_changes)
         else:
             self._surface.list_nodes(0)
             shader_dispatches_visible()
-            self._surface.act_beside(layers, _NODE_GROUPS, held_at)
+            self._surface.act_beside(
+                layers, _NODE_GROUPS, held_at, notes_changes=notes_changes)
             shader_writes_visible()
             self._surface.move_out()
 
@@ -533,8 +543,9 @@ class _Touch:
         self._contacts.list_none()
 
     def act_after_limits(
-            self, state: State, length: float, changes: Buffer, held_at: int) -> None:
-        self._contacts.act_after_limits(self, state, length, changes, held_at)
+            self, state: State, length: float, changes: Buffer, held_at: int,
+            layers: Layers | None = None) -> None:
+        self._contacts.act_after_limits(self, state, length, changes, held_at, layers)
 
     def act(self, held_at: int, *, on_surface: bool) -> None:
         self._contacts.act(held_at, on_surface=on_surface)

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-"""Contact of the cloth with itself in an explicit substep, docs/explanation/self_contact.md."""
+"""Contact of the cloth with itself in a substep, docs/explanation/self_contact.md."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -12,6 +12,7 @@ from cloth_sim_ros.gl.buffer import Buffer
 from cloth_sim_ros.gl.buffer import shader_dispatches_visible
 from cloth_sim_ros.gl.buffer import shader_writes_visible
 from cloth_sim_ros.gl.errors import DeviceError
+from cloth_sim_ros.gl.program import MOST_GROUPS
 from cloth_sim_ros.gl.program import Program
 from cloth_sim_ros.gl.quick_calls import make
 from cloth_sim_ros.sim.device import bindings
@@ -20,7 +21,7 @@ from cloth_sim_ros.sim.device.layout import Layout
 from cloth_sim_ros.sim.device.scene_program import SceneProgram
 from cloth_sim_ros.sim.device.scene_program import Strips
 from cloth_sim_ros.sim.scene import Scene
-from cloth_sim_ros.sim.state import State
+from cloth_sim_ros.sim.state import SubstepEnds
 import numpy as np
 
 # Invocations of a workgroup of the passes over pairs, contacts and nodes [1].
@@ -31,6 +32,8 @@ _READS = {'LOADS_TEXTURE': 1}
 # with 32 layers of a cloth twisted twice keep 0.97 of their thickness instead of 0.86, and the
 # other figures of test_self_contact.py stay as they are.
 _ROUNDS, _MOST_ROUNDS = 4, 8
+# Both between two solves of an implicit step [1], where a solve costs more than rounds.
+_ROUNDS_OF_SOLVE, _MOST_ROUNDS_OF_SOLVE = 8, 24
 # Change of a velocity in a round over the largest impulse [1], at which they end; chosen: at rest
 # it is 0.01 to 0.05 after four rounds.
 _STILL = 0.1
@@ -38,6 +41,11 @@ _STILL = 0.1
 # and displacements of a substep [1]; chosen: with 0.25 thicknesses lists cost what looks at pairs
 # save (benchmarks/layers.py).
 _SKIN, _SKIN_OF_CELL, _SKIN_OF_WAY = 1.0, 0.1, 4.0
+# Such displacements in long substeps, so that lists last for several [1].
+_SKIN_OF_LONG_WAY = 8.0
+# Max. of it, in parts of a cell [1]: nodes that would go farther are stopped, as more pairs are
+# near then than memory has room for.
+_MOST_SKIN_OF_CELL = 2.0
 # Displacement, as a fraction of half of that, after which lists are made anew [1]; the rest is
 # what contact may add in a substep.
 _USED = 0.9
@@ -77,7 +85,7 @@ _HEAD = np.dtype([
     ('largest_cut', 'f4'), ('longest_way', 'f4'), ('least_distance', 'f4'),
     ('largest_impulse', 'f4'), ('largest_change', 'f4'), ('undivided', 'u4'),
     ('unfinished', 'u4'), ('largest', 'f4'), ('crossing_edges', 'u4'),
-    ('first_crossing', 'u4'), ('cut_pins', 'u4')])
+    ('first_crossing', 'u4'), ('cut_pins', 'u4'), ('largest_drive', 'f4')])
 _FIRST_ROUND, _LAST_ROUND = 1, 2
 
 
@@ -123,15 +131,26 @@ class SelfContactFigures:
 
 
 class SelfContact:
-    """The passes of shaders/self_contact, and what they keep from substep to substep."""
+    """
+    The passes of shaders/self_contact, and what they keep from substep to substep.
 
-    def __init__(self, scene: Scene, layout: Layout) -> None:
+    In an implicit substep, solves include the impulses that rounds have found, and rounds go on
+    from the velocities that solves have led to.
+
+    :param is_implicit: whether substeps are implicit
+    """
+
+    def __init__(self, scene: Scene, layout: Layout, *, is_implicit: bool = False) -> None:
         """Allocate; passes are compiled when they are first used."""
         self._scene, self._layout = scene, layout
         self._gravity = float(np.linalg.norm(scene['gravity']))
         self._thickness: float = scene['self_contact.thickness']
         self._levels = _levels(layout.rows, layout.cols)
-        self._programs = _programs(scene, layout)
+        self._programs = _programs(scene, layout, is_implicit=is_implicit)
+        self._rounds = (
+            (_ROUNDS_OF_SOLVE, _MOST_ROUNDS_OF_SOLVE) if is_implicit else (_ROUNDS, _MOST_ROUNDS))
+        self._is_implicit = is_implicit
+        self._skin_of_way = _SKIN_OF_LONG_WAY if is_implicit else _SKIN_OF_WAY
         self._strips = Strips.groups(layout)
         self._head = Buffer(_HEAD.itemsize, is_polled=True)
         self._fresh = _fresh_head()
@@ -150,6 +169,9 @@ class SelfContact:
         self._pairs = [Buffer(self._most_pairs * _PAIR_BYTES) for _ in range(2)]
         self._contacts = Buffer(self._most_pairs * _CONTACT_BYTES)
         self._kept = [Buffer(self._most_pairs * _PAIR_BYTES) for _ in range(2)]
+        # Impulses on nodes: all that solves have included, and what the next one is to.
+        self._applied, self._driven = (
+            Buffer(nothing if is_implicit else nothing[:1]) for _ in range(2))
         self._length = 0.0
         self._told_room = 0
         self._read = np.zeros(1, dtype=_HEAD)
@@ -168,6 +190,11 @@ class SelfContact:
         self._common_way = self._common_moved = np.zeros(3)
         # Whether no round has been made in the substep.
         self._is_first = True
+        # Length of the last substep whose impulses solves have included [s]; 0: none has.
+        self._applied_for = 0.0
+        self._share_to_keep = 1.0
+        # Whether the next solve has impulses to include.
+        self.drives = False
 
     @property
     def crossings(self) -> int:
@@ -184,23 +211,59 @@ class SelfContact:
         """Return the unit of the impulses of nodes [m/s], as contacts.glsl has it."""
         return self._impulse_unit
 
-    def run_all_passes(self, state: State) -> None:
-        """Run each pass on a ``state`` that nobody needs, the next state of which is written."""
+    def run_all_passes(self, state: SubstepEnds) -> None:
+        """Run each pass on a substep that nobody needs."""
         self.find(state, self._scene['dt'])
         self._build(state, self._thickness)
         self._find_contacts(state)
         self.begin(state)
         self.let_act()
+        if self._is_implicit:
+            self.drive(state)
         self.give(-1)
         self.guard(state)
         self.forget()
 
     def programs_with_colliders(self) -> Iterator[Program]:
         """Yield the passes in which colliders act, each in use."""
-        for name in ('nodes', 'nodes held'):
-            yield self._programs[name].use()
+        for name, program in self._programs.items():
+            if name.startswith('nodes'):
+                yield program.use()
 
-    def find(self, state: State, length: float) -> None:
+    def begin_substep(self, length: float) -> None:
+        """Have the first solve of a substep of ``length`` [s] include the impulses of the last."""
+        self.drives = self.has_pairs and self._applied_for > 0.0
+        if self.drives:
+            self._share_to_keep = length / self._applied_for
+            self._run_drive(begins=True)
+        elif self._applied_for > 0.0:
+            self._applied.clear()
+        self._applied_for = 0.0
+
+    def bind_driven(self) -> None:
+        """Let a solve read what it is to include."""
+        self._driven.bind_texture(bindings.SELF_DRIVEN)
+
+    def drive(self, ends: SubstepEnds) -> float:
+        """Have the next solve include what rounds have changed; return the largest [m/s]."""
+        ends.bind_out_textures()
+        self._head.write(np.zeros(1, dtype=np.uint32), _place('largest_drive'))
+        self._run_drive(begins=False)
+        self._applied_for, self.drives = self._length, True
+        return float(self._read_head()['largest_drive'])
+
+    def _run_drive(self, *, begins: bool) -> None:
+        for buffer, place in (
+                (self._head, bindings.SELF_HEAD), (self._nodes, bindings.SELF_NODES),
+                (self._applied, bindings.SELF_APPLIED), (self._driven, bindings.SELF_DRIVEN)):
+            buffer.bind_storage(place)
+        program = self._programs['drive'].use()
+        program.set_int('begins', int(begins))
+        program.set_float('share', self._share_to_keep)
+        program.dispatch(*self._strips)
+        shader_writes_visible()
+
+    def find(self, state: SubstepEnds, length: float) -> None:
         """
         Find the contacts of a substep of ``length`` [s] that was made.
 
@@ -232,8 +295,8 @@ class SelfContact:
         # NaN asks for new lists, which are empty then.
         if not moved <= room:
             cell = min(self._scene.spacing)
-            skin = max(_SKIN * self._thickness, _SKIN_OF_CELL * cell, _SKIN_OF_WAY * way)
-            self._build(state, self._thickness + skin)
+            skin = max(_SKIN * self._thickness, _SKIN_OF_CELL * cell, self._skin_of_way * way)
+            self._build(state, self._thickness + min(skin, _MOST_SKIN_OF_CELL * cell))
             self._common_moved = np.zeros(3)
         else:
             self._common_moved = 0.5 * (least + most) - 0.5 * length * (slowest + fastest)
@@ -248,49 +311,59 @@ class SelfContact:
             left = 0.5 * _USED * (self._reach - self._thickness) - min(moved, room)
             self._unlooked = int(min(_MOST_UNLOOKED, left / (_FASTER * way)))
 
-    def begin(self, state: State) -> None:
+    def begin(self, state: SubstepEnds) -> None:
         """Begin to act: the impulses of the last substep."""
+        self.go_on(state)
+        self._is_first = True
+
+    def go_on(self, state: SubstepEnds) -> None:
+        """Go on to act, after others have bound their buffers."""
         state.bind_in_textures()
         state.bind_out()
         self._velocities.bind_storage(bindings.SELF_VELOCITIES)
         self._velocities.bind_texture(bindings.SELF_VELOCITIES)
         self._nodes.bind_texture(bindings.SELF_NODES)
-        self._is_first = True
+        if self._is_implicit:
+            self._bind()
+            self._applied.bind_texture(bindings.SELF_APPLIED)
 
     def let_act(self) -> None:
         """Let contacts act on each other, in rounds, and colliders on the nodes that they hold."""
         self._head.bind_dispatches()
         shader_dispatches_visible()
         self._let_nodes_move(is_last=False)
-        rounds = 0
+        rounds, (some, most) = 0, self._rounds
         while True:
-            for number in range(_ROUNDS):
+            for number in range(some):
                 program = self._programs['round'].use()
                 program.set_int('part', (
-                    _FIRST_ROUND * self._is_first + _LAST_ROUND * (number == _ROUNDS - 1)))
+                    _FIRST_ROUND * self._is_first + _LAST_ROUND * (number == some - 1)))
                 program.dispatch_indirect(_CONTACT_GROUPS)
                 shader_writes_visible()
                 self._is_first = False
-                if number < _ROUNDS - 1:
+                if number < some - 1:
                     self._let_nodes_move(is_last=False)
-            rounds += _ROUNDS
+            rounds += some
             head = self._read_head()
-            if rounds >= _MOST_ROUNDS or (
+            _refuse_too_many(head)
+            if rounds >= most or (
                     head['largest_change'] <= _STILL * head['largest_impulse']):
                 break
             self._let_nodes_move(is_last=False)
             self._head.write(np.zeros(2, dtype=np.uint32), _place('largest_impulse'))
 
-    def give(self, held_at: int) -> None:
+    def give(self, held_at: int, *, notes_changes: bool = False) -> None:
         """
         Write the state to come of the nodes that touch.
 
         :param held_at: first entry of the substep in held.glsl; below 0: none
+        :param notes_changes: whether changes of velocity are noted for the limits of edges, which
+            are bound
         """
         self._head.bind_dispatches()
-        self._let_nodes_move(is_last=True, held_at=held_at)
+        self._let_nodes_move(is_last=True, held_at=held_at, notes_changes=notes_changes)
 
-    def guard(self, state: State) -> SelfContactFigures:
+    def guard(self, state: SubstepEnds) -> SelfContactFigures:
         """Shorten the ways of nodes so that nothing passes; wait, and return what was done."""
         state.bind_in_textures()
         state.bind_out_textures()
@@ -324,7 +397,7 @@ class SelfContact:
         for buffer in (
                 self._head, self._features, self._built, self._velocities, self._cell_ways,
                 self._boxes, self._first, *self._pairs, *self._kept, self._nodes,
-                self._contacts):
+                self._contacts, self._applied, self._driven):
             buffer.delete()
 
     def _run_over_nodes(self, name: str) -> None:
@@ -335,19 +408,21 @@ class SelfContact:
         program.dispatch(*self._strips)
         shader_writes_visible()
 
-    def _let_nodes_move(self, *, is_last: bool, held_at: int = -1) -> None:
-        program = self._programs['nodes' if held_at < 0 else 'nodes held'].use()
+    def _let_nodes_move(
+            self, *, is_last: bool, held_at: int = -1, notes_changes: bool = False) -> None:
+        name = f'nodes{" held" * (held_at >= 0)}{" noting" * notes_changes}'
+        program = self._programs[name].use()
         if held_at >= 0:
             program.set_int('held_at', held_at)
         program.set_int('is_last', int(is_last))
         program.dispatch_indirect(_NODE_GROUPS)
         shader_writes_visible()
 
-    def _find_contacts(self, state: State) -> None:
+    def _find_contacts(self, state: SubstepEnds) -> None:
         state.bind_in_textures()
         state.bind_out_textures()
-        for _ in self._each_kind_of('contacts'):
-            pass
+        for program in self._each_kind_of('contacts'):
+            program.set_float('kept_share', self._share_to_keep)
 
     def _each_kind_of(self, name: str) -> Iterator[Program]:
         """Yield the pass over each kind of pairs to be set, and run it."""
@@ -355,10 +430,10 @@ class SelfContact:
             if count:
                 program = self._programs[f'{name} {of_edges}'].use()
                 yield program
-                program.dispatch(-(-count // _LOCAL))
+                _dispatch_pairs(program, count)
         shader_writes_visible()
 
-    def _build(self, state: State, reach: float) -> None:
+    def _build(self, state: SubstepEnds, reach: float) -> None:
         """List the pairs within ``reach`` [m]; room grows until it suffices."""
         self._reach = reach
         boxes = self._programs['boxes'].use()
@@ -392,7 +467,7 @@ class SelfContact:
         if self.has_pairs and before[0] + before[1]:
             keep = self._programs['keep'].use()
             keep.set_int_vectors('before', np.array([before]))
-            keep.dispatch(-(-(before[0] + before[1]) // _LOCAL))
+            _dispatch_pairs(keep, before[0] + before[1])
             shader_writes_visible()
 
     def _count_crossings(self) -> None:
@@ -466,23 +541,40 @@ class SelfContact:
         return self._read[0]
 
 
-def _programs(scene: Scene, layout: Layout) -> dict[str, SceneProgram]:
+def _programs(
+        scene: Scene, layout: Layout, *, is_implicit: bool) -> dict[str, SceneProgram]:
     """Return the passes by name; of those over pairs, one for each kind: 0 and 1, of edges."""
     strips = Strips.defines()
-    of_items: dict[str, object] = {'SELF_LOCAL': _LOCAL}
-    has_surface = int(bool(scene.thin_colliders))
+    of_items: dict[str, object] = {'SELF_LOCAL': _LOCAL, 'MOST_GROUPS': MOST_GROUPS}
+    # Solves let thin colliders act.
+    has_surface = int(bool(scene.thin_colliders) and not is_implicit)
     forms: dict[str, dict[str, object]] = {
         **dict.fromkeys(('boxes', 'crossings', 'pairs', 'keep', 'round'), of_items),
-        'nodes': {**of_items, 'HAS_SURFACE': has_surface},
-        # Adds what layers do to pinned nodes to the entries of held.glsl.
-        'nodes held': {**of_items, 'HAS_SURFACE': has_surface, 'HAS_HELD': 1},
+        # With what layers do to pinned nodes added to the entries of held.glsl, and with changes
+        # of velocity noted for the limits of edges.
+        **{f'nodes{" held" * held}{" noting" * notes}': {
+            **of_items, 'HAS_SURFACE': has_surface, 'HAS_HELD': held, 'NOTES_CHANGES': notes,
+            'IS_IMPLICIT': int(is_implicit)}
+           for held in (0, 1) for notes in ((0,) if is_implicit else (0, 1))},
         **{f'{name} {of_edges}': {**of_items, 'OF_EDGES': of_edges}
            for name in ('contacts', 'guard') for of_edges in (0, 1)},
-        **dict.fromkeys(('ways', 'longest', 'cut'), strips)}
+        **dict.fromkeys(('ways', 'longest', 'cut', *(('drive',) * is_implicit)), strips)}
     return {
         name: SceneProgram(
             f'self_contact/{name.split()[0]}.comp', scene, layout, {**_READS, **defines})
         for name, defines in forms.items()}
+
+
+def _dispatch_pairs(program: Program, count: int) -> None:
+    groups = -(-count // _LOCAL)
+    program.dispatch(min(groups, MOST_GROUPS), -(-groups // MOST_GROUPS))
+
+
+def _refuse_too_many(head: np.void) -> None:
+    if head['contact_groups'][0] > MOST_GROUPS:
+        raise DeviceError(
+            f'{head["contact_count"]} contacts of the cloth with itself are more than the '
+            f'{MOST_GROUPS * _LOCAL} of one dispatch: use fewer nodes')
 
 
 def _refuse_unfinished(head: np.void) -> None:

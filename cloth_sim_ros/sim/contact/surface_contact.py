@@ -107,29 +107,31 @@ class SurfaceContact:
         self._act_on_pins(held_at)
         self._others[notes_changes].use().dispatch_indirect(groups)
 
-    def act_beside(self, layers: Layers, groups: int, held_at: int) -> None:
+    def act_beside(
+            self, layers: Layers, groups: int, held_at: int, *, notes_changes: bool) -> None:
         """
         Do the same in turns with ``layers``, whose contacts have been found.
 
         :param groups: offset of the workgroups in the buffer of dispatches [bytes]
         :param held_at: where the entries of held.glsl are, bound by now; below 0: nowhere
         """
-        program = self._impulses[False].use()
+        program = self._impulses[notes_changes].use()
         program.set_float('layer_unit', layers.impulse_unit)
         self._nodes.bind_texture(bindings.SURFACE_NODES)
-        self._run_part(_LISTS)
+        self._run_part(_LISTS, program)
         # Nodes that neither rows nor layers act on.
-        self._others[False].use().dispatch_indirect(groups)
+        self._others[notes_changes].use().dispatch_indirect(groups)
         shader_writes_visible()
         for _ in range(_TURNS):
-            self._run_part(_ACTS)
+            self._run_part(_ACTS, program)
             layers.let_act()
-        self._run_part(_GIVES)
+        self._run_part(_GIVES, program)
         self._act_on_pins(held_at)
-        layers.give(held_at)
+        layers.give(held_at, notes_changes=notes_changes)
 
-    def _run_part(self, part: int) -> None:
-        program = self._impulses[False].use()
+    @staticmethod
+    def _run_part(part: int, program: Program) -> None:
+        program.use()
         program.set_int('parts', part)
         program.dispatch(1)
         shader_writes_visible()

@@ -54,5 +54,7 @@ SELF_VELOCITIES = 31
 SELF_KEPT = 32
 SELF_KEPT_BEFORE = 33
 SELF_WAYS = 34
+SELF_APPLIED = 35
+SELF_DRIVEN = 36
 
 DEFINES = {name: value for name, value in list(globals().items()) if name.isupper()}

@@ -100,10 +100,12 @@ class ActiveLimits:
         """Prepare."""
         self._scene = scene
         self._layout = layout
-        # Whether limit/solve.comp lists the edges, too: not where colliders' changes of velocity
+        # Whether others change velocities as well, and note it.
+        self._has_others = scene.has_contact or scene['self_contact.enabled']
+        # Whether limit/solve.comp lists the edges, too: not where changes of velocity by others
         # are to be dropped between the two.
         self._is_one_pass = not (
-            layout.is_asynchronous or scene.has_contact or scene.node_count > _FEW_NODES)
+            layout.is_asynchronous or self._has_others or scene.node_count > _FEW_NODES)
         defines = {
             'LOCAL': _GPU_LOCAL if layout.is_asynchronous else _SOFTWARE_LOCAL,
             'LISTS': int(self._is_one_pass)}
@@ -343,8 +345,8 @@ class ActiveLimits:
             shader_writes_visible()
 
     def _forget_contacts(self) -> None:
-        """Forget what colliders did to nodes in the substep before: edges are listed by now."""
-        if self._scene.has_contact:
+        """Forget what others did to nodes in the substep before: edges are listed by now."""
+        if self._has_others:
             self._lists.clear_changes()
 
     def _add_edges(self, limits: Limits) -> None:

@@ -25,8 +25,12 @@ class Layers(Protocol):
     def let_act(self) -> None:
         """Let the contacts act on the velocities that nodes have now."""
 
-    def give(self, held_at: int) -> None:
-        """Write the state to come of the nodes that touch."""
+    def give(self, held_at: int, *, notes_changes: bool = False) -> None:
+        """
+        Write the state to come of the nodes that touch.
+
+        :param notes_changes: whether changes of velocity are noted for the limits of edges
+        """
 
 
 class Touch(Protocol):
@@ -46,8 +50,13 @@ class Touch(Protocol):
         """Empty that list: an explicit substep is about to be made."""
 
     def act_after_limits(
-            self, state: 'State', length: float, changes: Buffer, held_at: int) -> None:
-        """Act on such a substep after its velocities were changed, and add up what is done."""
+            self, state: 'State', length: float, changes: Buffer, held_at: int,
+            layers: Layers | None = None) -> None:
+        """
+        Act on such a substep after its velocities were changed, and add up what is done.
+
+        :param layers: of the cloth that touch, as in act_beside
+        """
 
     def act(self, held_at: int, *, on_surface: bool) -> None:
         """

@@ -331,7 +331,7 @@ SCENE_FIELDS = (
           'would be compressed to nothing; it grows in proportion to the compression', 'Pa',
           low=0.0, high=1e9),
     Field('self_contact.enabled', bool, False, 'let layers of the cloth touch each other instead '
-          'of passing through; in mode mass_spring'),
+          'of passing through'),
     Field('self_contact.thickness', float, 0.001, 'least distance of two layers, from middle to '
           'middle; at most half a cell', 'm', low=1e-6, high=1.0),
     Field('self_contact.friction', float, 0.3, 'coefficient of friction of the cloth on itself',

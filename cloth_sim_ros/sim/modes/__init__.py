@@ -3,9 +3,10 @@
 
 """The simulation modes: small objects that know the passes of one substep."""
 
-from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.modes.adaptive import Adaptive
 from cloth_sim_ros.sim.modes.constraint import Constraint
+from cloth_sim_ros.sim.modes.layered_adaptive import LayeredAdaptive
+from cloth_sim_ros.sim.modes.layered_constraint import LayeredConstraint
 from cloth_sim_ros.sim.modes.layered_springs import LayeredSprings
 from cloth_sim_ros.sim.modes.mass_spring import MassSpring
 from cloth_sim_ros.sim.modes.mode import Mode
@@ -16,18 +17,13 @@ __all__ = ('AVAILABLE', 'Mode', 'mode_for')
 
 AVAILABLE: dict[str, type[Mode]] = {
     mode.name: mode for mode in (MassSpring, Constraint, Adaptive)}
+# Those for a cloth whose layers touch each other.
+_LAYERED: dict[str, type[Mode]] = {
+    mode.name: mode for mode in (LayeredSprings, LayeredConstraint, LayeredAdaptive)}
 
 
 def mode_for(name: str, scene: Scene) -> type[Mode]:
-    """
-    Return the class of the mode ``name``, in the form that ``scene`` asks for.
-
-    :raises ClothSimError: when layers of the cloth would pass through each other in it
-    """
+    """Return the class of the mode ``name``, in the form that ``scene`` asks for."""
     if scene['self_contact.enabled']:
-        if name != LayeredSprings.name:
-            raise ClothSimError(
-                f'self_contact.enabled is true, and mode {name} lets layers pass: use mode '
-                f'{LayeredSprings.name}, or set self_contact.enabled: false')
-        return LayeredSprings
+        return _LAYERED[name]
     return paper_mode(name, scene) or AVAILABLE[name]

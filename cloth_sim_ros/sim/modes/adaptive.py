@@ -9,6 +9,7 @@ import math
 from typing import Any
 
 from cloth_sim_ros.gl.buffer import Buffer
+from cloth_sim_ros.sim.device import bindings
 from cloth_sim_ros.sim.device.layout import Layout
 from cloth_sim_ros.sim.held.pin_forces import filled
 from cloth_sim_ros.sim.held.pin_forces import spring_tension
@@ -17,6 +18,7 @@ from cloth_sim_ros.sim.limits.limit_marks import LimitMarks
 from cloth_sim_ros.sim.limits.limit_program import Limits
 from cloth_sim_ros.sim.limits.limit_program import NEAR
 from cloth_sim_ros.sim.loads.forcing import Forcing
+from cloth_sim_ros.sim.loads.forcing import Layers
 from cloth_sim_ros.sim.loads.loads import Loads
 from cloth_sim_ros.sim.model.stability import spring_substeps
 from cloth_sim_ros.sim.model.stability import stability_limit
@@ -114,6 +116,8 @@ class Adaptive:
     is_implicit = False
     has_memory = True
     checked_substeps = CHECKED_SUBSTEPS
+    # Whether the whole cloth is solved for where that is faster than the edges at their limit.
+    may_solve_whole = True
 
     def __init__(self, scene: Scene, layout: Layout, *, check_stability: bool = True) -> None:
         """Choose the substeps and compile the passes."""
@@ -223,7 +227,8 @@ class Adaptive:
         self._free_motion.restore(state, still, self._length)
         leave_if(stop)
         self._marks.update(state, self.strain_bound, self._limits.changes)
-        self._compiled_whole().run_all_passes(state, loads, stop)
+        if self.may_solve_whole:
+            self._compiled_whole().run_all_passes(state, loads, stop)
         self.forget()
 
     def forget(self) -> None:
@@ -334,7 +339,9 @@ class Adaptive:
             self._parts = 1
         count = math.ceil(left * self._parts / self._length - _NOTHING)
         length = left / count
-        calm = min(count, self._watch.calm_substeps(state, now, length, loads))
+        calm = 0
+        if self._can_be_calm():
+            calm = min(count, self._watch.calm_substeps(state, now, length, loads))
         if calm == 0:
             self._free_motion.forget()
             self._is_listed, self._unreviewed, self._until_look = True, 0, 0
@@ -345,10 +352,7 @@ class Adaptive:
             return 0.0
         for index in range(calm):
             leave_if(stop)
-            start = now + index * length
-            self._springs.substep(
-                state, self._forcing(state, start, length, loads), length, self._kick(length))
-            self.last_length = length
+            self._make_calm(state, now + index * length, length, loads)
         self._watch.advance(calm)
         self._look_edits = state.edits
         self._settling.is_new = False
@@ -358,6 +362,16 @@ class Adaptive:
         self._made.calm += calm
         self._longest = max(self._longest, length)
         return calm * length
+
+    def _can_be_calm(self) -> bool:
+        """Return whether edges can be foreseen: what acts on them is known."""
+        return True
+
+    def _make_calm(self, state: State, start: float, length: float, loads: Loads) -> None:
+        """Make a substep of springs alone."""
+        self._springs.substep(
+            state, self._forcing(state, start, length, loads), length, self._kick(length))
+        self.last_length = length
 
     # Springs, and the edges that come near their limit.
 
@@ -412,17 +426,26 @@ class Adaptive:
 
     def _make_listed(self, state: State, start: float, length: float, loads: Loads) -> None:
         """Make a substep in which edges are held."""
-        is_free = not state.pinned.any()
         forcing = self._forcing(state, start, length, loads)
-        if is_free:
-            self._free_motion.aim_at(state, forcing, loads.still, self._kick(length))
-        self._springs.run(state, forcing, length, self._kick(length), acts=False)
-        self._set_limits(length, forcing)
-        self._limits.act(state, self._limits_now, forcing.touch, self._springs.held_at)
+        self._write_listed(state, forcing, loads, length)
         self._act_on_touch(state, forcing, length)
         state.swap()
+        self._end_listed(state, forcing, loads, length)
+
+    def _write_listed(
+            self, state: State, forcing: Forcing, loads: Loads, length: float) -> None:
+        """Write a substep in which edges are held, before anything touches the cloth."""
+        kick = self._kick(length)
+        if not state.pinned.any():
+            self._free_motion.aim_at(state, forcing, loads.still, kick)
+        self._springs.run(state, forcing, length, kick, acts=False)
+        self._set_limits(length, forcing)
+        self._limits.act(state, self._limits_now, forcing.touch, self._springs.held_at)
+
+    def _end_listed(self, state: State, forcing: Forcing, loads: Loads, length: float) -> None:
+        """Go on from a substep in which edges were held."""
         self.last_length = length
-        if is_free:
+        if not state.pinned.any():
             self._keep_momentum(state, forcing, loads.still, length)
         self._advance_settling(length)
 
@@ -490,7 +513,7 @@ class Adaptive:
             return
         rounds = tally.edge_rounds / (substeps * self._scene.node_count)
         whole_length = min(self._dt, max(self._turn_length, length))
-        if self._scheme != 'constraint':
+        if self._scheme != 'constraint' or not self.may_solve_whole:
             return
         listed_cost = _LISTED_COST + _ROUND_COST * rounds
         whole_cost = _WHOLE_COST * length / whole_length
@@ -564,8 +587,15 @@ class Adaptive:
         else:
             self._free_motion.restore(state, still, length)
 
-    def _act_on_touch(self, state: State, forcing: Forcing, length: float) -> None:
-        """Let colliders have the last word on a substep in which edges were held."""
-        changes = self._limits.changes
-        if forcing.touch is not None and changes is not None:
-            forcing.touch.act_after_limits(state, length, changes, self._springs.held_at)
+    def _act_on_touch(
+            self, state: State, forcing: Forcing, length: float,
+            layers: Layers | None = None) -> None:
+        """Let colliders, and layers that touch, end a substep in which edges were held."""
+        changes, held_at = self._limits.changes, self._springs.held_at
+        assert changes is not None  # limits have acted
+        if forcing.touch is not None:
+            forcing.touch.act_after_limits(state, length, changes, held_at, layers)
+        elif layers is not None:
+            changes.bind_storage(bindings.LIMIT_CHANGES)
+            layers.let_act()
+            layers.give(held_at, notes_changes=True)

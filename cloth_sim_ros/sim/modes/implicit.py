@@ -154,8 +154,12 @@ class ImplicitStep(ABC):
         self._energies = Observer(scene, layout, set(families))
         # The law of the last substep, with its arguments.
         self._law: tuple[tuple[float, float], EdgeLaw] | None = None
-        # Where the substep under way leaves its entries of held.glsl; below 0: nowhere.
+        # Of the substep under way: where it leaves its entries of held.glsl, below 0 nowhere; what
+        # acts on nodes one by one; whether nothing holds the cloth, or touches it as it begins;
+        # and whether colliders ask for another solve.
         self._held_at = -1
+        self._forcing = _NO_FORCING
+        self._is_free = self._is_due = False
         self.forget()
 
     @staticmethod
@@ -200,33 +204,8 @@ class ImplicitStep(ABC):
             state, loads.forcing(state, begin, begin + seconds), seconds,
             loads.air_margin(state, begin, begin + seconds, seconds))
         length = seconds / self.substeps
-        is_held = bool(state.pinned.any())
         for substep in range(self.substeps):
-            self._account_for_settling(state)
-            self._solver.set_law(self._present_law(length))
-            start = begin + substep * length
-            self._held_at = state.next_held_entry()
-            # A velocity belongs to the middle of its substep, so forces act from there to the
-            # next.
-            kick = 0.5 * ((self.last_length or length) + length)
-            forcing = loads.forcing(state, start, start + length, kick)
-            touch = forcing.touch
-            if touch is not None:
-                touch.begin_substep()
-                self._solver.meet_colliders(state, forcing, kick)
-            # What a collider holds has no momentum of its own.
-            if is_held or (touch is not None and touch.is_touched()):
-                self._free_motion.forget()
-                self._substep(state, forcing, kick, stop)
-            else:
-                self._free_motion.aim_at(state, forcing, loads.still, kick)
-                self._substep(state, _uneven(forcing), kick, stop, _common(forcing, kick))
-                if touch is not None and touch.is_touched():
-                    self._free_motion.forget()
-                else:
-                    self._free_motion.restore(state, loads.still, length)
-            self.last_length = length
-            self.settling.advance(length)
+            self._make_substep(state, begin + substep * length, length, loads, stop)
 
     @staticmethod
     def step_ahead(state: State, gravity: Forcing, most: int) -> int:
@@ -245,7 +224,9 @@ class ImplicitStep(ABC):
         self._free_motion.aim_at(state, still, still, self._dt)
         leave_if(stop)
         self._held_at = state.next_held_entry()
-        self._substep(state, still, self._dt, stop)
+        self._forcing = still
+        self._solve_first(state, self._dt, stop)
+        self._solve_further(state, self._dt, stop)
         # Hard edges of a cloth that comes stretched have limits for a while, too.
         self._solver.run_search(state)
         leave_if(stop)
@@ -352,22 +333,78 @@ class ImplicitStep(ABC):
         self.substep_margin = min(
             seconds / self.substeps / max(longest, 1e-30), _LARGEST_MARGIN)
 
-    def _substep(
-            self, state: State, forcing: Forcing, kick: float, stop: Stop,
+    def _make_substep(
+            self, state: State, start: float, length: float, loads: Loads, stop: Stop) -> None:
+        """Step ``state`` on by a substep of ``length`` [s]."""
+        kick = self._kick(length)
+        forcing = loads.forcing(state, start, start + length, kick)
+        self._begin_substep(state, forcing, loads, length, kick, stop)
+        self._solve_further(state, kick, stop)
+        self._end_substep(state, loads, length)
+
+    def _kick(self, length: float) -> float:
+        """Return for how long [s] forces act in a substep of ``length`` [s]."""
+        # A velocity belongs to the middle of its substep, so forces act from there to the next.
+        return 0.5 * ((self.last_length or length) + length)
+
+    def _begin_substep(
+            self, state: State, forcing: Forcing, loads: Loads, length: float, kick: float,
+            stop: Stop) -> None:
+        """Find what edges and colliders do in a substep, in a first solve."""
+        self._account_for_settling(state)
+        self._solver.set_law(self._present_law(length))
+        self._held_at = state.next_held_entry()
+        touch = forcing.touch
+        if touch is not None:
+            touch.begin_substep()
+            self._solver.meet_colliders(state, forcing, kick)
+        # What a collider holds has no momentum of its own.
+        self._is_free = not (
+            state.pinned.any() or (touch is not None and touch.is_touched()))
+        self._forcing = _uneven(forcing) if self._is_free else forcing
+        if self._is_free:
+            self._free_motion.aim_at(state, forcing, loads.still, kick)
+            self._solve_first(state, kick, stop, _common(forcing, kick))
+        else:
+            self._free_motion.forget()
+            self._solve_first(state, kick, stop)
+
+    def _end_substep(self, state: State, loads: Loads, length: float) -> None:
+        """Go on from a substep that was solved for."""
+        touch = self._forcing.touch
+        if self._is_free:
+            if touch is not None and touch.is_touched():
+                self._free_motion.forget()
+            else:
+                self._free_motion.restore(state, loads.still, length)
+        self.last_length = length
+        self.settling.advance(length)
+
+    def _solve_first(
+            self, state: State, kick: float, stop: Stop,
             common_change: tuple[float, float, float] = (0.0, 0.0, 0.0)) -> None:
-        self._solve(state, forcing, stop, kick=kick)
+        """Move the nodes by a first solve of the substep, and let colliders act."""
+        self._solve(state, self._forcing, stop, kick=kick)
         self._solver.apply(state, common_change=common_change)
-        is_due = self._resolve_contacts(state, forcing, 1)
+        self._is_due = self._resolve_contacts(state, self._forcing, 1)
+
+    def _solve_further(self, state: State, kick: float, stop: Stop) -> None:
+        """Correct what the first solve has led to, until no further one is due."""
         solves = 1
-        while solves < self._newton.solves or (is_due and solves < _MOST_CONTACT_SOLVES):
-            if not self._solve(state, forcing, stop, kick=kick, is_further=True):
+        while self._is_solve_due(state, solves):
+            if not self._solve(state, self._forcing, stop, kick=kick, is_further=True):
                 break
             self._solver.apply(state, further=True)
             solves += 1
-            is_due = self._resolve_contacts(state, forcing, solves)
-        if forcing.touch is not None:
+            self._is_due = self._resolve_contacts(state, self._forcing, solves)
+        if self._forcing.touch is not None:
             self._solver.resolve_contacts(
-                state, forcing, is_last=True, held_at=self._held_at)
+                state, self._forcing, is_last=True, held_at=self._held_at)
+
+    def _is_solve_due(self, state: State, solves: int) -> bool:
+        """Return whether another solve is to follow on so many."""
+        return solves < self._newton.solves or (
+            self._is_due and solves < _MOST_CONTACT_SOLVES)
 
     def _resolve_contacts(self, state: State, forcing: Forcing, solves: int) -> bool:
         """Let colliders act on what was solved; return whether another solve is due for it."""

@@ -17,6 +17,7 @@ from cloth_sim_ros.sim.device.layout import Layout
 from cloth_sim_ros.sim.device.scene_program import SceneProgram
 from cloth_sim_ros.sim.held.pin_forces import spring_tension
 from cloth_sim_ros.sim.loads.forcing import Forcing
+from cloth_sim_ros.sim.loads.forcing import Layers
 from cloth_sim_ros.sim.loads.loads import Loads
 from cloth_sim_ros.sim.model.stability import spring_substeps
 from cloth_sim_ros.sim.model.stability import stability_limit
@@ -99,6 +100,22 @@ class OnePass:
         step = self._begin(
             forcing, length, length if kick is None else kick, records=self.held_at >= 0)
         self._make(state, step, forcing, self.held_at, acts=acts and is_kept)
+
+    def act(self, forcing: Forcing, layers: Layers | None) -> None:
+        """
+        Let colliders, and layers of the cloth, act on what ``run`` wrote without them.
+
+        :param layers: of the cloth that touch; None where none do
+        """
+        touch = forcing.touch
+        if layers is None:
+            if touch is not None:
+                touch.act(self.held_at, on_surface=self._acts_on_surface)
+        elif touch is not None:
+            touch.act_beside(layers, self.held_at)
+        else:
+            layers.let_act()
+            layers.give(self.held_at)
 
     def begin(self, forcing: Forcing, length: float, *, records: bool) -> Program:
         """Return the pass of substeps of ``length`` [s] in which no collider acts, set to them."""

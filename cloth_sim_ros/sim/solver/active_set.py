@@ -49,21 +49,24 @@ class RightSide:
             self, scene: Scene, state: Layout, programs: SolverPrograms, levels: Levels, *,
             foresees_turn: bool) -> None:
         """Prepare; nothing is compiled yet."""
+        self._has_layers: bool = scene['self_contact.enabled']
         self._program = SceneProgram('solver/right_side.comp', scene, state, {
-            **programs.defines, 'FORESEES_TURN': int(foresees_turn)})
+            **programs.defines, 'FORESEES_TURN': int(foresees_turn),
+            'HAS_LAYERS': int(self._has_layers)})
         self._programs = programs
         self._groups = levels.cloth.groups
         self._law_in: EdgeLaw | None = None
 
     def run(
             self, law: EdgeLaw, forcing: Forcing, kick: float, start: Start, *,
-            is_further: bool) -> None:
+            is_further: bool, is_driven: bool = False) -> None:
         """
         Make the right side of the state that is bound.
 
         :param kick: that what is applied acts for [s]
         :param start: change of velocity to expect
         :param is_further: True where the nodes have moved, and tensions have been found
+        :param is_driven: whether it includes impulses of layers, which are bound
         """
         program = self._program.use_for_step(forcing, law.length, kick)
         if self._law_in != law:
@@ -73,6 +76,8 @@ class RightSide:
             self._law_in = law
         start.set_in(program)
         program.set_float('to_come', float(not is_further))
+        if self._has_layers:
+            program.set_float('driven_share', float(is_driven))
         program.dispatch(*self._groups)
         shader_writes_visible()
 

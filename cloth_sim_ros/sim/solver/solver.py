@@ -183,7 +183,7 @@ class Solver:
     def prepare(
             self, state: State, forcing: Forcing, *, kick: float | None = None,
             is_further: bool = False, is_again: bool = False,
-            may_stop_early: bool = False) -> bool:
+            may_stop_early: bool = False, is_driven: bool = False) -> bool:
         """
         Make system and right side, and prepare the preconditioner.
 
@@ -195,6 +195,7 @@ class Solver:
             nodes have come to
         :param is_again: True after ``move_start``: the same solve, with the limits in force that
             it has led to
+        :param is_driven: whether it includes impulses of layers of the cloth, which are bound
         :param may_stop_early: True where ``move_start`` is asked for another solve after this one
         """
         length = self._law.length
@@ -213,12 +214,13 @@ class Solver:
             judges_by_tension=self._law.has_limits and self._last_rate > 0.0)
         if self._last_rate == 0.0 and not (is_further or is_again):
             self._find_first_tensions(forcing, kick)
-        self._right_side.run(self._law, forcing, kick, self._start, is_further=is_further)
+        self._right_side.run(
+            self._law, forcing, kick, self._start, is_further=is_further, is_driven=is_driven)
         if self._contacts is not None:
             self._contacts.hold()
             if self._surface is not None:
                 self._surface.weigh(state, forcing, self._law, self._start)
-        elif is_further and not is_again and not self._buffers.is_off():
+        elif is_further and not (is_again or is_driven or self._buffers.is_off()):
             self._left_in = LEFT if self._left_share else None
             return False
         if self._damps_bending and not is_further:

@@ -27,6 +27,7 @@ layout(std430, binding = SELF_HEAD) buffer SelfHead {
     uint crossing_edges;    // that pierce triangles
     uint first_crossing;    // least node of such an edge
     uint cut_pins;          // among the nodes whose way was cut
+    uint largest_drive;     // [m/s] that a solve of the implicit step is to include
 };
 
 uint in_order(float value) {

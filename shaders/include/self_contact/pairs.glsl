@@ -15,6 +15,11 @@ struct Pair {
 // from the last one back.
 uniform int most_pairs;
 
+// Number of the pair of an invocation, in rows of at most MOST_GROUPS workgroups.
+uint pair_number() {
+    return gl_GlobalInvocationID.x + gl_GlobalInvocationID.y * uint(MOST_GROUPS * SELF_LOCAL);
+}
+
 #ifdef OF_EDGES
 layout(binding = SELF_PAIRS) uniform samplerBuffer pair_texels;
 
@@ -27,12 +32,12 @@ Pair load_pair(uint place) {
 
 // The pair of an invocation; all are of one kind, as software evaluates all branches that some take.
 uint pair_place() {
-    uint i = gl_GlobalInvocationID.x;
+    uint i = pair_number();
     return OF_EDGES == 1 ? uint(most_pairs) - 1u - i : i;
 }
 
 bool has_pair() {
-    return gl_GlobalInvocationID.x < (OF_EDGES == 1 ? edge_pairs : vertex_pairs);
+    return pair_number() < (OF_EDGES == 1 ? edge_pairs : vertex_pairs);
 }
 
 layout(binding = SELF_WAYS) uniform samplerBuffer way_texels;

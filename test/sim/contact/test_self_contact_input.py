@@ -6,6 +6,9 @@
 from cloth_sim_ros import Scene
 from cloth_sim_ros import Simulation
 from cloth_sim_ros.sim.errors import ClothSimError
+from layers import layered_scene
+from layers import stacked
+from layers import THICKNESS
 import numpy as np
 import pytest
 
@@ -30,17 +33,32 @@ def test_wrong_values_are_refused(values, words):
     assert str(refusal.value).count('\n') == 0
 
 
-@pytest.mark.parametrize('mode', ['adaptive', 'constraint'])
-def test_other_modes_are_refused(mode):
+def test_steps_of_the_whole_cloth_are_refused():
     """Layers would pass each other in silence."""
-    with pytest.raises(ClothSimError, match='use mode mass_spring'):
-        Simulation(Scene({**TOUCHING, 'mode': mode}))
-    with Simulation(Scene(TOUCHING)) as cloth:
+    whole = {**TOUCHING, 'adaptive.scheme': 'whole'}
+    with pytest.raises(ClothSimError, match='adaptive.scheme whole has substeps in which layers'):
+        Simulation(Scene({**whole, 'mode': 'adaptive'}))
+    with Simulation(Scene(whole)) as cloth:
         cloth.step(1)
-        with pytest.raises(ClothSimError, match='use mode mass_spring'):
-            cloth.set_mode(mode)
+        with pytest.raises(ClothSimError, match='set adaptive.scheme: constraint'):
+            cloth.set_mode('adaptive')
         cloth.step(1)
-        assert cloth.mode == 'mass_spring'
+        assert cloth.mode == Scene(whole)['mode']
+
+
+@pytest.mark.parametrize('mode', ['mass_spring', 'adaptive', 'constraint'])
+def test_layers_stay_apart_when_the_mode_changes(mode):
+    """A switch would drop the layers that lie on each other through each other."""
+    scene = layered_scene(2, 8, pins=[f'{row},{col}' for row in range(8) for col in range(8)])
+    with Simulation(scene) as cloth:
+        positions = stacked(scene, 2)
+        cloth.set_state(positions, np.zeros_like(positions))
+        for each in ('mass_spring', mode, 'mass_spring'):
+            cloth.set_mode(each)
+            cloth.advance(0.1)
+            assert cloth.snapshot().surface_contact_held
+            apart = cloth.positions()[10:14, 2:6, 2] / THICKNESS
+            np.testing.assert_allclose(apart, 1.0, atol=0.01)
 
 
 def test_crossings_at_the_start_are_said():

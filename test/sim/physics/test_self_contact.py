@@ -22,6 +22,19 @@ FLOOR = {
     'colliders.floor.friction': 0.3, 'contact.thickness': THICKNESS}
 
 
+# By mode; a limit of 2 % holds edges in most of these scenes.
+LAYERED = {
+    'mass_spring': {'mode': 'mass_spring'},
+    'adaptive': {'mode': 'adaptive', 'adaptive.threshold': 0.02},
+    'constraint': {'mode': 'constraint'}}
+
+
+@pytest.fixture(params=LAYERED.values(), ids=LAYERED)
+def layered(request: pytest.FixtureRequest) -> dict:
+    """Return the values of each mode in which layers touch."""
+    return request.param
+
+
 def nodes_of(layer: int) -> list[str]:
     """Return the nodes of a sheet, as pins have them."""
     return [f'{layer * SHEET + row},{col}' for row in range(SHEET) for col in range(SHEET)]
@@ -65,16 +78,16 @@ def frames_with_crossings(scene: Scene, positions: np.ndarray, steps: int, every
     return found
 
 
-def test_no_crossings_in_a_heap() -> None:
+def test_no_crossings_in_a_heap(layered: dict) -> None:
     """A ribbon that falls into a heap passes through itself nowhere; without contact it does."""
-    assert frames_with_crossings(*falling_ribbon(), steps=350, every=5) == 0
-    alone = falling_ribbon(**{'self_contact.enabled': False})
+    assert frames_with_crossings(*falling_ribbon(**layered), steps=350, every=5) == 0
+    alone = falling_ribbon(**layered, **{'self_contact.enabled': False})
     assert frames_with_crossings(*alone, steps=350, every=5) > 10
 
 
-def test_heap_gains_no_energy() -> None:
+def test_heap_gains_no_energy(layered: dict) -> None:
     """Without damping and air, no step of a falling heap has more energy than the start."""
-    scene, positions = falling_ribbon(1e-7, **{
+    scene, positions = falling_ribbon(1e-7, **layered, **{
         'damping.structural': 0.0, 'damping.shear': 0.0, 'air.density': 0.0, 'dt': 0.001})
     with Simulation(scene) as cloth:
         cloth.set_state(positions, np.zeros_like(positions))
@@ -88,9 +101,9 @@ def test_heap_gains_no_energy() -> None:
     assert highest - start <= 1e-3 * fall
 
 
-def test_four_layers_carry_each_other() -> None:
+def test_four_layers_carry_each_other(layered: dict) -> None:
     """Sheets on a floor lie a thickness apart, at rest, and press with all of their weight."""
-    scene = layered_scene(4, SHEET, **SOFT, **FLOOR)
+    scene = layered_scene(4, SHEET, **SOFT, **FLOOR, **layered)
     positions = stacked(scene, 4, (0.05, 0.03), first=THICKNESS / 2.0)
     with Simulation(scene) as cloth:
         cloth.set_state(positions, np.zeros_like(positions))
@@ -99,20 +112,22 @@ def test_four_layers_carry_each_other() -> None:
         speed = np.abs(cloth.velocities()[3 * SHEET + 2:-2, 2:-2]).max()
         weight = -cloth.contact_forces()[0].force[2] / (scene.mass * GRAVITY)
     print(f'top {top.min():.5f} to {top.max():.5f}, {speed:.1e} m/s, weight - 1 {weight - 1:.1e}')
-    assert top == pytest.approx(3.5, abs=1e-3)
-    assert speed < 1e-6
+    is_implicit = layered['mode'] == 'constraint'
+    # Between edges, which carry in long substeps, layers are 0.2 % thinner.
+    assert 3.5 - 0.006 * is_implicit - 1e-3 < top.min() <= top.max() < 3.501
+    assert speed < (1e-4 if is_implicit else 1e-6)
     assert weight == pytest.approx(1.0, abs=1e-3)
 
 
 @pytest.mark.parametrize('friction', [0.1, 0.3, 1.0])
-def test_incline_of_two_layers(friction: float) -> None:
+def test_incline_of_two_layers(friction: float, layered: dict) -> None:
     """A sheet on a sheet sticks at 0.99 of the friction limit, and slides by the formula above."""
     seconds = 0.25
     ways = {}
     for share in (0.99, 1.01):
         angle = np.arctan(friction * share)
         scene = layered_scene(2, SHEET, **{
-            **SOFT, 'pins': nodes_of(0), 'self_contact.friction': friction,
+            **SOFT, **layered, 'pins': nodes_of(0), 'self_contact.friction': friction,
             'gravity': [GRAVITY * np.sin(angle), 0.0, -GRAVITY * np.cos(angle)]})
         positions = stacked(scene, 2)
         with Simulation(scene) as cloth:
@@ -132,13 +147,14 @@ def test_incline_of_two_layers(friction: float) -> None:
     assert ways[1.01] == pytest.approx(expected, rel=0.02)
 
 
-def test_sheet_pulled_from_between_two() -> None:
+def test_sheet_pulled_from_between_two(layered: dict) -> None:
     """A sheet between two others takes friction times the load of both to be pulled out."""
     friction = 0.3
     pulled = [f'{SHEET + row},{SHEET - 1}' for row in range(SHEET)]
     kept = [f'{2 * SHEET + row},0' for row in range(SHEET)]
     scene = layered_scene(3, SHEET, **{
-        **SOFT, 'pins': nodes_of(0) + pulled + kept, 'self_contact.friction': friction})
+        **SOFT, **layered, 'pins': nodes_of(0) + pulled + kept,
+        'self_contact.friction': friction})
     positions = stacked(scene, 3, (0.11, 0.05))
     with Simulation(scene) as cloth:
         cloth.set_state(positions, np.zeros_like(positions))
@@ -163,14 +179,14 @@ def test_sheet_pulled_from_between_two() -> None:
 
 
 @pytest.mark.parametrize(('speed', 'thickness'), [(5.0, 2e-3), (20.0, 5e-4)])
-def test_clap_keeps_momentum(speed: float, thickness: float) -> None:
+def test_clap_keeps_momentum(speed: float, thickness: float, layered: dict) -> None:
     """Halves that are clapped together do not pass, and neither momentum nor energy is gained."""
     side = 20
     scene = Scene({
         'rows': side, 'cols': side, 'width': CELL * (side - 1), 'height': CELL * (side - 1),
         'pins': ['none'], 'start.z': 0.0, 'areal_density': 0.2, 'stiffness.structural': 300.0,
         'stiffness.shear': 90.0, 'dt': 1e-3, 'gravity': [0.0, 0.0, 0.0], 'air.density': 0.0,
-        'self_contact.enabled': True, 'self_contact.thickness': thickness})
+        'self_contact.enabled': True, 'self_contact.thickness': thickness, **layered})
     positions = folded(side, CELL, 0.03)
     velocities = np.zeros_like(positions)
     velocities[..., 2] = speed * np.clip((9.5 - np.arange(side)) / 6.0, -1.0, 1.0)[:, None]
@@ -194,8 +210,10 @@ def test_clap_keeps_momentum(speed: float, thickness: float) -> None:
     assert highest <= start * (1.0 + 1e-4)
 
 
-@pytest.mark.parametrize('turns', [2, pytest.param(4, marks=pytest.mark.long)])
-def test_twisted_cloth_keeps_apart(turns: int) -> None:
+@pytest.mark.parametrize(('turns', 'mode'), [
+    (2, 'mass_spring'), pytest.param(2, 'adaptive', marks=pytest.mark.long),
+    *(pytest.param(4, mode, marks=pytest.mark.long) for mode in LAYERED)])
+def test_twisted_cloth_keeps_apart(turns: int, mode: str) -> None:
     """Two turns leave layers 0.8 of the thickness apart; four squeeze them, and nothing passes."""
     rows, cols = 32, 16
     cell = 0.6 / rows
@@ -204,11 +222,11 @@ def test_twisted_cloth_keeps_apart(turns: int) -> None:
         'rows': rows, 'cols': cols, 'width': cell * (cols - 1), 'height': cell * (rows - 1),
         'pins': ['none'], 'start.z': 0.0, 'areal_density': 0.2, 'stiffness.structural': 500.0,
         'stiffness.shear': 150.0, 'dt': 2e-3, 'gravity': [0.0, 0.0, 0.0], 'air.drag': 5.0,
-        'self_contact.enabled': True, 'self_contact.thickness': thickness})
+        'self_contact.enabled': True, 'self_contact.thickness': thickness, 'mode': mode})
     positions = scene.start_positions().astype(float)
     positions += 1e-3 * cell * np.random.default_rng(3).standard_normal(positions.shape)
     half = 0.5 * cell * (rows - 1)
-    overlap = 0.0
+    overlap, is_held = 0.0, True
     with Simulation(scene) as cloth:
         cloth.set_state(positions, np.zeros_like(positions))
         ends = (('top', 0, 1.0), ('bottom', rows - 1, -1.0))
@@ -225,18 +243,22 @@ def test_twisted_cloth_keeps_apart(turns: int) -> None:
             for _ in range(round(seconds / parts / scene['dt'] / 5)):
                 cloth.step(5)
                 assert len(crossings(cloth.positions())) == 0
-                overlap = max(overlap, cloth.snapshot().layer_overlap)
-    print(f'{turns} turns: layers {1.0 - overlap:.3f} of the thickness apart')
+                snapshot = cloth.snapshot()
+                overlap = max(overlap, snapshot.layer_overlap)
+                is_held &= snapshot.surface_contact_held
+    print(f'{mode}, {turns} turns: layers {1.0 - overlap:.3f} of the thickness apart, '
+          f'held {is_held}')
+    assert not is_held or overlap < 0.5
     if turns == 2:
         assert overlap < 0.2
 
 
 @pytest.mark.parametrize('by', ['pins', 'a grasp'])
-def test_pins_do_not_push_layers_through(by: str) -> None:
+def test_pins_do_not_push_layers_through(by: str, layered: dict) -> None:
     """A hand that presses one layer into another stops there, says so, and comes back."""
     held = [(SHEET + row, col) for row in (3, 4) for col in (3, 4)]
     pins = nodes_of(0) + [f'{row},{col}' for row, col in held if by == 'pins']
-    scene = layered_scene(2, SHEET, **{**SOFT, 'pins': pins})
+    scene = layered_scene(2, SHEET, **{**SOFT, **layered, 'pins': pins})
     positions = stacked(scene, 2, apart=2.0 * THICKNESS)
 
     def press(cloth: Simulation, height: float) -> None:
@@ -265,12 +287,12 @@ def test_pins_do_not_push_layers_through(by: str) -> None:
     assert cut > 0 and lowest > 0.0
 
 
-def test_same_bits_where_nothing_touches() -> None:
+def test_same_bits_where_nothing_touches(layered: dict) -> None:
     """A cloth that never touches itself moves to the bit as one that could not."""
     ends = []
     for enabled in (False, True):
         scene = Scene({
-            'rows': 12, 'cols': 12, 'dt': 0.005, 'self_contact.enabled': enabled,
+            **layered, 'rows': 12, 'cols': 12, 'dt': 0.005, 'self_contact.enabled': enabled,
             'colliders.names': ['ball'], 'colliders.ball.shape': 'sphere',
             'colliders.ball.size': [0.2], 'colliders.ball.position': [0.0, 0.1, -0.3]})
         with Simulation(scene) as cloth:
@@ -280,11 +302,11 @@ def test_same_bits_where_nothing_touches() -> None:
     assert np.array_equal(ends[0][1], ends[1][1])
 
 
-def test_same_bits_in_two_runs() -> None:
+def test_same_bits_in_two_runs(layered: dict) -> None:
     """Impulses are sums of whole numbers, so that a heap has the same bits in each run."""
     ends = []
     for _ in range(2):
-        scene, positions = falling_ribbon()
+        scene, positions = falling_ribbon(**layered)
         with Simulation(scene) as cloth:
             cloth.set_state(positions, np.zeros_like(positions))
             cloth.step(250)
