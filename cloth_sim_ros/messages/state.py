@@ -137,7 +137,8 @@ def diagnostics_message(
     if snapshot is not None:
         findings.update({
             'real-time factor': _pace(
-                snapshot, paused, real_time_factor, wanted_factor, automatic_substeps),
+                snapshot, paused, real_time_factor, wanted_factor, automatic_substeps,
+                is_followed=source == TimeBase.ROS),
             'solver': _solver(snapshot),
             'stability': _stability(snapshot, problem, automatic_substeps),
             'pins': _pins(snapshot)})
@@ -165,11 +166,13 @@ def _device(snapshot: Snapshot | None, device: str) -> _Verdict:
 
 
 def _pace(
-        snapshot: Snapshot, paused: bool, achieved: float, wanted: float,
-        automatic: bool) -> _Verdict:
+        snapshot: Snapshot, paused: bool, achieved: float, wanted: float, automatic: bool, *,
+        is_followed: bool) -> _Verdict:
     values = {'achieved': float(achieved), 'wanted': float(wanted), 'paused': paused}
     if paused:
         return OK, 'paused', values
+    if is_followed:
+        return OK, f'{achieved:.3g} x real time, at the pace of /clock', values
     if wanted == 0.0:
         return OK, f'{achieved:.3g} x real time, as fast as possible', values
     if achieved < SLOW * wanted:

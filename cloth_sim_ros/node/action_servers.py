@@ -190,6 +190,7 @@ class MoveActions(Actions):
             self, kind: str, handle: ServerGoalHandle, result: MoveFrame.Result,
             answer: Answer) -> None:
         goal: MoveFrame.Goal = handle.request
+        result.sim_time = self._simulation.time
         if not 0.0 <= goal.max_force < float('inf'):
             raise ClothSimError(
                 f'max_force must be finite and 0 N or more, got {goal.max_force:g} N: give 0 for '

@@ -293,8 +293,8 @@ class FrameTree:
             self, frame: str, to: str, here: _Seen, there: _Seen) -> ClothSimError:
         if len(here) == 1 and not self._is_parent(frame):
             return UnknownFrameError(
-                f'its frame {shown(frame)} is not known: {self._way_out}, or give the message in '
-                f'{shown(to)}, the frame of the cloth')
+                f'its frame {shown(frame)} is not known: {self._way_out}, or give another one, '
+                f'such as {shown(to)}, the frame of the cloth')
         ends = [next(reversed(chain)) for chain in (here, there)]
         return UnknownFrameError(
             f'its frame {shown(frame)} is not connected to {shown(to)}, the frame of the cloth: '

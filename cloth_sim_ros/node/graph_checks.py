@@ -86,7 +86,11 @@ class ClockSource:
         if not self._is_known() and self._watches > PATIENCE:
             return (
                 'no message has come on /clock, which time.source: ros waits for: start what '
-                'publishes it, or set time.source: own')
+                'publishes it, or restart the node with time.source: own')
+        if self._is_known() and not others:
+            return (
+                '/clock has no publisher any more, and the cloth stands still until it comes '
+                'again: start what publishes it, or restart the node with time.source: own')
         return ''
 
     def watch(self) -> None:

@@ -194,11 +194,17 @@ def _is_as_installed(type_name: str, definition: MessageDefinition) -> bool:
         return True  # an installed package without its files can't tell
 
 
+# Each node has a publisher of these, this one too, and nobody takes them for a cloth's.
+_OF_EVERY_NODE = frozenset({'/parameter_events', '/rosout'})
+
+
 def other_publishers(node: Node, topics: Iterable[str]) -> dict[str, list[str]]:
     """Return the topics that other nodes publish, by the full names of those nodes."""
     own = _full_name(node.get_namespace(), node.get_name())
     found: dict[str, list[str]] = {}
     for topic in topics:
+        if topic in _OF_EVERY_NODE:
+            continue
         names = [
             _full_name(publisher.node_namespace, publisher.node_name)
             for publisher in node.get_publishers_info_by_topic(topic)]

@@ -21,6 +21,8 @@ from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.errors import NameTakenError
 
 MAX_SIZE_SETTING = 'recording.max_size'
+# The first bytes of an mcap file, and the last ones of a complete one.
+MAGIC = b'\x89MCAP0\r\n'
 
 
 @dataclass(frozen=True)

@@ -15,12 +15,12 @@ from typing import IO
 
 from cloth_sim_ros.files.errors import cut
 from cloth_sim_ros.files.regular_file import open_regular
+from cloth_sim_ros.recording.bag_folder import MAGIC
 from cloth_sim_ros.recording.bag_messages import BagTopic
 from cloth_sim_ros.recording.bag_messages import RawMessage
 from cloth_sim_ros.recording.mcap_records import chunk_records
 from cloth_sim_ros.recording.mcap_records import HEAD
 from cloth_sim_ros.recording.mcap_records import is_read
-from cloth_sim_ros.recording.mcap_records import MAGIC
 from cloth_sim_ros.recording.mcap_records import McapChannels
 from cloth_sim_ros.recording.mcap_records import read_record
 from cloth_sim_ros.recording.mcap_records import read_records

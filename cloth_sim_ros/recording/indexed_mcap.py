@@ -12,11 +12,11 @@ from pathlib import Path
 from typing import BinaryIO
 
 from cloth_sim_ros.files.regular_file import open_regular
+from cloth_sim_ros.recording.bag_folder import MAGIC
 from cloth_sim_ros.recording.bag_messages import RawMessage
 from cloth_sim_ros.recording.decompression import most_bytes
 from cloth_sim_ros.recording.mcap_records import chunk_content
 from cloth_sim_ros.recording.mcap_records import HEAD
-from cloth_sim_ros.recording.mcap_records import MAGIC
 from cloth_sim_ros.recording.mcap_records import McapChannels
 from cloth_sim_ros.recording.mcap_records import MESSAGE_HEAD
 from cloth_sim_ros.recording.mcap_records import read_records

@@ -28,7 +28,6 @@ from mcap.records import Statistics
 from rosbags.interfaces import MessageDefinition
 from rosbags.interfaces import MessageDefinitionFormat
 
-MAGIC = b'\x89MCAP0\r\n'
 HEAD = struct.Struct('<BQ')  # of each record: its kind, and its length behind that [bytes]
 MESSAGE_HEAD = struct.Struct('<HIQQ')  # channel, sequence, times logged and published [ns]
 

@@ -3,13 +3,19 @@
 
 """A bag that rosbag2_py writes, where a sourced ROS has that and mcap is not installed."""
 
+import errno
 from math import ceil
+import os
 from pathlib import Path
+import shutil
 
+from cloth_sim_ros.recording.bag_folder import MAGIC
 from cloth_sim_ros.recording.bag_folder import RecordingOptions
 from cloth_sim_ros.recording.bag_folder import sync_file
 from cloth_sim_ros.recording.bag_folder import sync_folder
 from cloth_sim_ros.recording.bag_metadata import BagChannel
+from cloth_sim_ros.recording.bag_metadata import folder_metadata
+from cloth_sim_ros.recording.bag_metadata import METADATA_NAME
 from cloth_sim_ros.recording.bag_metadata import PACKAGE
 from cloth_sim_ros.recording.bag_metadata import project_version
 from cloth_sim_ros.recording.bag_metadata import yaml_text
@@ -18,6 +24,9 @@ import rosbag2_py
 
 # In whose format a channel holds its profiles.
 _METADATA_VERSION = 9
+# Below this much free disk a recording ends [bytes]: room for a chunk of rosbag2, 768 KiB, the
+# index and metadata.yaml.
+_LEAST_FREE = 2**21
 
 
 class Rosbag2Writer:
@@ -25,7 +34,8 @@ class Rosbag2Writer:
     Writes messages into ``folder`` by the SequentialWriter of rosbag2; used from one thread.
 
     A file is split as rosbag2 does: durations are whole seconds, and latched messages are not
-    repeated. Chunks and metadata.yaml are written when rosbag2 writes them.
+    repeated. Chunks and metadata.yaml are written when rosbag2 writes them. It does not report a
+    write that fails, so free disk space is checked meanwhile, and the files at the end.
 
     :param folder: empty, the bag takes its name
     :raises ClothSimError: when ``options`` ask for what rosbag2 can't do
@@ -67,11 +77,22 @@ class Rosbag2Writer:
             raise OSError(str(error)) from error
 
     def flush(self) -> None:
-        """Do nothing: rosbag2 writes each chunk when it is full, and can't be asked to."""
+        """
+        Check the disk: rosbag2 writes each chunk when it is full, and can't be asked to.
+
+        :raises OSError: when the disk is nearly full
+        """
+        if shutil.disk_usage(self._folder).free < _LEAST_FREE:
+            raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
 
     def finish(self) -> None:
-        """Complete the bag, and wait until the disk has it."""
+        """
+        Complete the bag, and wait until the disk has it.
+
+        :raises OSError: when rosbag2 has not written all of it
+        """
         self.abandon()
+        self._check_files()
         for path in self._folder.iterdir():
             sync_file(path)
         sync_folder(self._folder)
@@ -83,6 +104,16 @@ class Rosbag2Writer:
             self._writer.close()
         except RuntimeError as error:
             raise OSError(str(error)) from error
+
+    def _check_files(self) -> None:
+        names = folder_metadata(self._folder).get('relative_file_paths')
+        if not names:
+            raise OSError(f'rosbag2 has not written {METADATA_NAME}')
+        for name in names:
+            with open(self._folder / name, 'rb') as file:
+                file.seek(-len(MAGIC), os.SEEK_END)
+                if file.read() != MAGIC:
+                    raise OSError(f'rosbag2 has not written all of {name}')
 
 
 def _topic(channel: BagChannel, number: int) -> rosbag2_py.TopicMetadata:

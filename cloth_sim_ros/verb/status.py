@@ -18,6 +18,7 @@ from typing import Any
 
 from cloth_sim_interfaces.msg import ClothState
 from cloth_sim_interfaces.msg import ClothStats
+from cloth_sim_interfaces.msg import TimeBase
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.verb.node_arguments import add_node_arguments
 from cloth_sim_ros.verb.node_arguments import open_node
@@ -26,6 +27,7 @@ from rclpy.qos import DurabilityPolicy
 from rclpy.qos import QoSProfile
 
 _FRAMES = QoSProfile(depth=10)
+_KEPT = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 
 
 def add_arguments(parser: ArgumentParser) -> None:
@@ -42,7 +44,7 @@ def main(args: Namespace) -> int:
     with open_node(args) as node:
         if args.until is not None:
             _wait_until(node, args.until)
-        state = _plain(_state(node))
+        state = _plain(_state(node)) | _time(node)
         stats: dict[str, Any] = {}
         try:
             stats = _plain(node.read(ClothStats, 'stats', _FRAMES))
@@ -50,7 +52,7 @@ def main(args: Namespace) -> int:
             # A node may have publish.stats off; its state is known without them.
             print(f'cloth_sim status: {error}', file=sys.stderr)
     print(json.dumps({'state': state, 'stats': stats or None}) if args.json else
-          _text({**state, **stats}))
+          _text({**state, 'epoch': f'{state["epoch"]:.3f}', **stats}))
     return 0
 
 
@@ -77,8 +79,13 @@ def _stands_still(stats: ClothStats, seen: set[float]) -> bool:
 
 
 def _state(node: NodeClient) -> ClothState:
-    kept = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
-    return node.read(ClothState, 'state', kept)
+    return node.read(ClothState, 'state', _KEPT)
+
+
+def _time(node: NodeClient) -> dict[str, Any]:
+    """Return what the stamps are of, and the stamp of simulated time 0 [s]."""
+    base = node.read(TimeBase, 'inputs/time_base', _KEPT)
+    return {'time_source': base.source, 'epoch': base.epoch.sec + 1e-9 * base.epoch.nanosec}
 
 
 def _plain(message: Any) -> dict[str, Any]:

@@ -89,6 +89,8 @@ def test_a_healthy_run_is_ok_in_all_parts():
     ('real-time factor', WARN, 'lower real_time_factor', {}, {'real_time_factor': 0.5}),
     ('real-time factor', OK, 'paused', {}, {'real_time_factor': 0.0, 'paused': True}),
     ('real-time factor', OK, 'as fast as possible', {}, {'wanted_factor': 0.0}),
+    ('real-time factor', OK, 'at the pace of /clock', {}, {
+        'wanted_factor': 0.0, 'source': 'ros'}),
     ('solver', OK, 'in 7 iterations', {'solver_iterations': 7, 'solver_residual': 1e-4}, {}),
     ('solver', OK, 'in 2 iterations', {
         'solver_iterations': 2, 'solver_residual': Scene()['solver.tolerance']}, {}),

@@ -187,11 +187,12 @@ def test_what_else_ends_a_move(moving):
      ResultCode.UNKNOWN_FRAME),
     ('move_collider', {'name': 'ball', 'max_force': -1.0}, ResultCode.INVALID_VALUE)])
 def test_a_goal_that_makes_no_sense_ends_at_once(handled, name, fields, code):
-    """A program would get no reason."""
+    """A program would get no reason, or a time that is not that of its end."""
+    assert handled.call(Step, 'step', steps=2).success
     status, result = Goal(handled, MoveFrame, name, **fields).end()
     assert status == GoalStatus.STATUS_ABORTED
     assert (result.success, result.code) == (False, code), result.message
-    assert result.message
+    assert result.message and result.sim_time == pytest.approx(2 * HANDLED['dt'])
 
 
 def test_steps_tell_how_far_they_are(handled):

@@ -7,9 +7,9 @@ from pathlib import Path
 
 from builtin_interfaces.msg import Time
 from clock_teller import ClockTeller
-from clock_teller import frame_tree
 from clock_teller import in_nanoseconds
 from clock_teller import ros_time
+from clock_teller import SeenFrames
 from cloth_sim_interfaces.msg import ClothState
 from cloth_sim_interfaces.srv import Grasp
 from cloth_sim_interfaces.srv import MoveFrame
@@ -255,6 +255,16 @@ def test_a_second_clock_is_said(start, client):
         assert not cloth['inputs/command'], 'and no reset'
 
 
+def test_a_clock_that_has_gone_is_said(start):
+    """A cloth whose simulator has ended would stand still, with all well."""
+    cloth, clock = start()
+    follow(cloth, clock)
+    clock.__exit__()
+    cloth.client.spin_until(lambda: any(
+        '/clock has no publisher any more' in status.message for array in cloth['diagnostics']
+        for status in array.status), 'a word of it')
+
+
 def test_it_stays_with_the_clock(start):
     """Half of the stamps would be of another time from then on."""
     cloth, _ = start()
@@ -280,19 +290,19 @@ def test_frames_are_found_at_both_times(start, client):
         client.spin_for(0.02)
     wait_for_steps(cloth, clock, 40)
     frames = ('tool0', PIN, 'followed_cloth_sim_grasp_hand')
-    tree = frame_tree(told + cloth['tf'])
+    places = SeenFrames(told + cloth['tf'])
     past = BEGIN + 20 * DT
     for one in frames:
         for other in frames:
-            tree.pose(one, other, None)
-            tree.pose(one, other, past)
-    at_past = tree.pose('tool0', PIN, past)
+            places.pose(one, other, None)
+            places.pose(one, other, past)
+    at_past = places.pose('tool0', PIN, past)
     # The node finds the same at the same times.
     for time, place in ((past, 0.1), (0, 0.2)):
         header = Header(frame_id='tool0', stamp=ros_time(time) if time else Time())
         answer = cloth.client.spin_until(lambda: _moved(cloth, header), 'tool0 is known')
         assert f'moves to ({place:g}, 0, 1)' in answer.message
-    pin = tree.pose(PIN, 'world', past)
+    pin = places.pose(PIN, 'world', past)
     assert at_past.position == pytest.approx(
         [a - b for a, b in zip((0.1, 0.0, 1.0), pin.position)])
     client.node.destroy_publisher(tf)
@@ -325,13 +335,13 @@ def test_frames_are_found_beside_a_robot_from_a_bag(start, client, tmp_path):
     client.spin_until_quiet()
     assert {in_nanoseconds(base.epoch) for base in cloth['inputs/time_base']} <= {
         0, *range(BEGIN, end, interval)}
-    tree = frame_tree(tf.messages)
+    places = SeenFrames(tf.messages)
     past = BEGIN + moments // 2 * interval
     for frame in (PIN, 'followed_cloth_sim_grasp_hand'):
         for time, place in ((None, None), (past, 0.001 * (moments // 2))):
-            seen = tree.pose('tool0', frame, time)
+            seen = places.pose('tool0', frame, time)
             if place is not None:
-                own = tree.pose(frame, 'world', time)
+                own = places.pose(frame, 'world', time)
                 assert seen.position == pytest.approx(
                     [a - b for a, b in zip((place, 0.0, 1.0), own.position)])
 

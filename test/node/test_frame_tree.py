@@ -278,8 +278,8 @@ def test_an_unknown_frame_is_refused_by_its_name():
     """A user would not know which frame is missing, or what to do."""
     tree = tree_of(('arm', 'world'))
     assert reason(tree, 'tool0') == (
-        "its frame 'tool0' is not known: publish it, or give the message in 'world', the frame "
-        'of the cloth')
+        "its frame 'tool0' is not known: publish it, or give another one, such as 'world', the "
+        'frame of the cloth')
     # Not even the frame of the cloth is known to tf.
     assert reason(empty_tree(), 'tool0', SECOND).startswith("its frame 'tool0' is not known")
 

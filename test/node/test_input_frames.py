@@ -310,8 +310,8 @@ def test_a_node_that_does_not_listen_says_so(client, tmp_path):
             ApplyPush, '/deaf/cloth_sim/apply_push', header=IN_CAMERA, force=Vector3(z=1.0),
             duration=0.1)
         assert response.message == (
-            "its frame 'camera' is not known: start the node with tf.listen: true, or give the "
-            "message in 'world', the frame of the cloth")
+            "its frame 'camera' is not known: start the node with tf.listen: true, or give "
+            "another one, such as 'world', the frame of the cloth")
         assert not {'/tf', '/tf_static'} & {
             name for name, _ in client.node.get_subscriber_names_and_types_by_node(
                 'cloth_sim', '/deaf')}

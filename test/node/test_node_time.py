@@ -7,9 +7,9 @@ from pathlib import Path
 import time
 
 from clock_teller import ClockTeller
-from clock_teller import frame_tree
 from clock_teller import in_nanoseconds
 from clock_teller import ros_time
+from clock_teller import SeenFrames
 from cloth_sim_interfaces.msg import TimeBase
 from cloth_sim_interfaces.srv import StartRecording
 from cloth_sim_interfaces.srv import Step
@@ -104,11 +104,11 @@ def test_tools_and_pins_are_found_together(walled, client):
 
     client.spin_until(is_far, 'the cloth moves in that time')
     assert walled.call(SetBool, 'pause', data=True).success
-    tree = frame_tree([TFMessage(transforms=told), *walled['tf']])
+    places = SeenFrames([TFMessage(transforms=told), *walled['tf']])
     pin = 'walled_cloth_sim_pin_0_0'
     for moment in (None, begin + NANOSECONDS // 2):
-        assert tree.pose('tool0', pin, moment).position == pytest.approx(
-            [a - b for a, b in zip((0.0, 0.0, 1.0), tree.pose(pin, 'world', moment).position)])
+        assert places.pose('tool0', pin, moment).position == pytest.approx(
+            [a - b for a, b in zip((0.0, 0.0, 1.0), places.pose(pin, 'world', moment).position)])
     client.node.destroy_publisher(tf)
 
 

@@ -23,8 +23,10 @@ from cloth_sim_ros.recording.recorder import Recorder
 from command import cloth_sim
 from copied_bag import copy_bag
 from copied_bag import WALL
+from foreign_bag import write_bag
 from player_process import PlayerProcess
 import pytest
+from rcl_interfaces.msg import ParameterEvent
 from rclpy.serialization import deserialize_message
 from rclpy.serialization import serialize_message
 from rosgraph_msgs.msg import Clock
@@ -390,3 +392,12 @@ def test_another_publisher_is_named(bag, client, tmp_path):
     assert '/test_client publishes /cloth_sim/stats as well' in process.problems
     assert 'cloth_sim_player publishes' not in process.problems
     client.node.destroy_publisher(publisher)
+
+
+def test_what_every_node_publishes_is_no_other_cloth(client, tmp_path):
+    """A user with a bag of `ros2 bag record --all` would be told to stop the player itself."""
+    bag = write_bag(
+        tmp_path / 'all', [('/parameter_events', ParameterEvent())] * 5, interval=10**8)
+    with PlayerProcess(tmp_path, bag, '--delay', 0.5) as process:
+        assert process.wait(client) == 0, process.problems
+    assert 'as well' not in process.problems

@@ -4,6 +4,8 @@
 """A foreign /clock, and where the frames are by the stamps of a node."""
 
 from collections.abc import Iterable
+from importlib import import_module
+from importlib.util import find_spec
 from typing import Any
 
 from builtin_interfaces.msg import Time
@@ -11,7 +13,9 @@ from cloth_sim_ros.messages.stamp import NANOSECONDS
 from cloth_sim_ros.node.frame_tree import checked_pose
 from cloth_sim_ros.node.frame_tree import FrameTree
 from cloth_sim_ros.node.frame_tree import Sample
+from cloth_sim_ros.sim.model.pose import Pose
 from graph_client import GraphClient
+import pytest
 from rclpy.qos import QoSProfile
 from rosgraph_msgs.msg import Clock
 
@@ -76,14 +80,32 @@ class ClockTeller:
             self._client.spin_for(interval / factor)
 
 
-def frame_tree(messages: Iterable[Any]) -> FrameTree:
-    """Return the frames of TFMessages, as a listener of tf2 keeps them."""
-    tree = FrameTree(lambda name: None, 'publish it')
-    for message in messages:
-        for each in message.transforms:
+class SeenFrames:
+    """
+    Where frames are by the rules of the node and, where ROS has it, by compiled tf2 as well.
+
+    :param messages: TFMessages, as a listener of tf2 keeps them
+    """
+
+    def __init__(self, messages: Iterable[Any]) -> None:
+        """Take the messages."""
+        self._tree = FrameTree(lambda name: None, 'publish it')
+        # Wheels of ROS have no tf2; a sourced ROS has.
+        self._buffer = import_module('tf2_py').BufferCore() if find_spec('tf2_py') else None
+        for each in (each for message in messages for each in message.transforms):
             place, turn = each.transform.translation, each.transform.rotation
             pose = checked_pose(each.child_frame_id, (
                 place.x, place.y, place.z, turn.x, turn.y, turn.z, turn.w))
-            tree.add(each.child_frame_id, Sample(
+            self._tree.add(each.child_frame_id, Sample(
                 in_nanoseconds(each.header.stamp), each.header.frame_id, pose), is_fixed=False)
-    return tree
+            if self._buffer is not None:
+                self._buffer.set_transform(each, 'a test')
+
+    def pose(self, frame: str, to: str, time: int | None) -> Pose:
+        """Return where ``frame`` is at ``time`` [ns], None for the latest, seen from ``to``."""
+        pose = self._tree.pose(frame, to, time)
+        if self._buffer is not None:
+            place = self._buffer.lookup_transform_core(
+                to, frame, ros_time(time or 0)).transform.translation
+            assert pose.position == pytest.approx((place.x, place.y, place.z), abs=1e-9)
+        return pose

@@ -21,6 +21,7 @@ def test_prints_state_and_stats(verb, cloth):
     assert lines['run_state'] == 'paused'
     assert lines['sim_time'] == '0.2'
     assert lines['rows'] == '8'
+    assert (lines['time_source'], lines['epoch']) == ('own', '0.000')
 
 
 def test_waits_for_a_simulated_time(verb, cloth):
