@@ -416,3 +416,55 @@ def test_fingers_that_close_compress_the_cloth(context, within, mode, second):
     # Where the cloth waves between round fingers, they leave it more room than at their nearest.
     within('force on the finger', abs(own / force - 1.0), 0.01)
     within('force on what is behind', abs(other / force + 1.0), 0.01)
+
+
+def pinched_strip(mode, friction):
+    """Return a strip that hangs from pins, and two fingers between its second and third row."""
+    thickness, radius, cell = 0.004, 0.01, 0.03
+    across = (0.0, 0.5**0.5, 0.0, 0.5**0.5)
+    values = {
+        **{name: value for name, value in CLOTH.items() if not name.startswith('colliders.')},
+        'mode': mode, 'rows': 13, 'cols': 5, 'width': 4 * cell, 'height': 12 * cell,
+        'pins': ('top_edge',), 'start.pose': 'hanging', 'start.z': 0.0, 'air.drag': 2.0,
+        'contact.thickness': thickness, 'contact.compression': 100.0,
+        'colliders.names': ('front', 'behind')}
+    for name, y in (('front', radius + 0.002), ('behind', -radius - 0.25 * thickness)):
+        values |= {
+            f'colliders.{name}.shape': 'capsule', f'colliders.{name}.size': (radius, 0.3),
+            f'colliders.{name}.orientation': across, f'colliders.{name}.friction': friction,
+            f'colliders.{name}.position': (0.0, y, 4.5 * cell)}
+    return Scene(values)
+
+
+@pytest.mark.parametrize('mode', [
+    'mass_spring', pytest.param('adaptive', marks=pytest.mark.long)])
+def test_fingers_hold_up_to_the_friction_limit(context, within, mode):
+    """A gripper would hold what is too heavy for it, or lose what is not."""
+    def pressed(scene):
+        """Return a cloth between closed fingers, and the force that they press with [N]."""
+        simulation = Simulation(scene, context=context)
+        x, y, z = scene.colliders[0].position
+        simulation.move_collider('front', (x, 0.011, z), speed=0.1)
+        simulation.step(80)
+        return simulation, simulation.contact_forces()[0].force[1]
+
+    simulation, normal = pressed(pinched_strip(mode, 0.5))
+    weight = simulation.scene.mass * 9.81
+    simulation.close()
+    for share in (1.05, 0.95):
+        simulation, _ = pressed(pinched_strip(mode, share * weight / (2.0 * normal)))
+        with simulation:
+            for col in range(simulation.scene.cols):
+                simulation.release(0, col)
+            begin = simulation.positions()[1:3, :, 2]
+            simulation.step(60)
+            slip = np.abs(simulation.positions()[1:3, :, 2] - begin).max()
+            carried = -sum(body.force[2] for body in simulation.contact_forces())
+        print(f'at {share} of the limit the strip slips by {slip:.1e} m; {carried / weight:.4f} '
+              'of its weight')
+        if share > 1.0:
+            within('slip [m]', slip, 1e-4)
+            within('weight that both carry, less 1', abs(carried / weight - 1.0), 0.01)
+        else:
+            # Until the next line of nodes comes between the fingers, and is pressed as well.
+            assert slip > 5e-3
