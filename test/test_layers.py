@@ -17,17 +17,18 @@ ROOMS = {
     'gl': set(),
     'sim': {'gl', 'files'},
     'reference': {'sim'},
-    'messages': {'sim'},
+    'camera': {'sim', 'gl', 'files'},
+    'messages': {'camera', 'sim'},
     'recording': {'messages', 'sim', 'files'},
     'playback': {'recording', 'messages', 'sim', 'files'},
     'node': {'recording', 'messages', 'sim', 'gl', 'files'},
     'study': {'recording', 'messages', 'sim', 'gl', 'reference', 'files'},
     'analysis': {'recording', 'messages', 'sim', 'files'},
-    'rendering': {'analysis', 'recording', 'messages', 'sim', 'gl', 'files'},
+    'rendering': {'analysis', 'recording', 'messages', 'camera', 'sim', 'gl', 'files'},
     'view': {'analysis', 'messages', 'sim', 'files'},
     'view/ros': {'view', 'node', 'analysis', 'messages', 'sim', 'files'},
     'resimulation': {'analysis', 'recording', 'sim', 'files'},
-    'gym': {'rendering', 'sim', 'files'},
+    'gym': {'rendering', 'camera', 'sim', 'files'},
     'api': {'node', 'resimulation', 'analysis', 'recording', 'messages', 'sim'},
     'verb': {
         'view', 'view/ros', 'api', 'node', 'study', 'resimulation', 'rendering', 'analysis',
@@ -35,7 +36,7 @@ ROOMS = {
 }
 
 # These rooms must run where there is no ROS; they may import no more than this beside Python.
-WITHOUT_ROS = ('files', 'gl', 'sim', 'reference', 'gym', 'view')
+WITHOUT_ROS = ('files', 'gl', 'sim', 'camera', 'reference', 'gym', 'view')
 NUMERIC_MODULES = {'numpy', 'scipy', 'OpenGL', 'yaml'}
 # What one room alone may import besides.
 # viser brings msgspec and websockets. The shape of a cloth is an image or a polygon.

@@ -33,6 +33,7 @@ class RecordingOptions:
     :param max_size: of all files of the recording, which is completed there [bytes]; 0 for none
     :param fsync: True to wait for the disk at each flush, not only at the end
     :param markers: True to record the markers too, for viewers that draw what is in a bag
+    :param cameras: names of the cameras whose pictures are recorded
     """
 
     max_bagfile_size: int = 0
@@ -40,6 +41,7 @@ class RecordingOptions:
     max_size: int = 0
     fsync: bool = False
     markers: bool = False
+    cameras: tuple[str, ...] = ()
 
     @classmethod
     def from_values(cls, values: Mapping[str, Any]) -> 'RecordingOptions':
@@ -49,7 +51,8 @@ class RecordingOptions:
             max_bagfile_duration=values['recording.max_bagfile_duration'],
             max_size=values[MAX_SIZE_SETTING],
             fsync=values['recording.fsync'],
-            markers=values['recording.markers'])
+            markers=values['recording.markers'],
+            cameras=tuple(values.get('cameras.names', ())) if values['recording.cameras'] else ())
 
     @property
     def splits(self) -> bool:

@@ -336,6 +336,9 @@ SCENE_FIELDS = (
           'middle; at most half a cell', 'm', low=1e-6, high=1.0),
     Field('self_contact.friction', float, 0.3, 'coefficient of friction of the cloth on itself',
           low=0.0, high=10.0),
+    Field('cameras.names', str, (), 'names of the cameras that look at the cloth, each described '
+          'by its parameters cameras.NAME.*',
+          words='lower-case letters, digits and underscores', is_array=True),
     Field('layout', str, 'fused', 'fused: forces and update in one shader pass; paper: the two '
           'passes of the paper, a baseline for benchmarks', choices=('fused', 'paper')),
     Field('loads', str, 'auto', 'how shaders read the state; auto chooses for the device: what '

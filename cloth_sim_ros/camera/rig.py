@@ -1,0 +1,72 @@
+# SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
+# SPDX-License-Identifier: Apache-2.0
+
+"""The cameras of a running scene, each with its rate."""
+
+from collections.abc import Callable
+from collections.abc import Collection
+import math
+
+from cloth_sim_ros.camera.camera import Camera
+from cloth_sim_ros.camera.camera import WORLD
+from cloth_sim_ros.camera.picture import CameraPicture
+from cloth_sim_ros.sim.model.cameras import CameraModel
+from cloth_sim_ros.sim.model.pose import Pose
+from cloth_sim_ros.sim.simulation import Simulation
+
+# What can be taken of a picture, and what is drawn for it.
+COLOR, DEPTH, LABELS, INFO = 'color', 'depth', 'labels', 'info'
+# Rounding of a time over the time between two pictures [1].
+_ROUNDING = 1e-6
+
+
+class CameraRig:
+    """
+    Takes pictures of a simulation, on its thread.
+
+    :param place: returns where a frame of tf is in the world; None where it is not known
+    """
+
+    def __init__(
+            self, simulation: Simulation, place: Callable[[CameraModel], Pose | None]) -> None:
+        """Make nothing on the device: a camera that nobody reads costs nothing."""
+        self._simulation = simulation
+        self._place = place
+        self._cameras: dict[str, Camera] = {}
+        # Time of the last picture of each, and the number of the period that it was in.
+        self._last: dict[str, tuple[float, int]] = {}
+
+    def is_due(self, model: CameraModel) -> bool:
+        """Return whether a picture of ``model`` is to be taken now: the first of its period."""
+        now = self._simulation.time
+        last, period = self._last.get(model.name, (math.inf, 0))
+        # Of a moment that is shown once more there is a picture again, and after a reset.
+        return now <= last or _period(now, model.rate) > period
+
+    def take(self, model: CameraModel, parts: Collection[str]) -> CameraPicture | None:
+        """
+        Return a picture with ``parts``; None where the place of the camera is not known.
+
+        :param parts: among COLOR, DEPTH, LABELS and INFO
+        """
+        simulation = self._simulation
+        frame = self._place(model) if model.frame else WORLD
+        if frame is None:
+            return None
+        self._last[model.name] = simulation.time, _period(simulation.time, model.rate)
+        if not set(parts) - {INFO}:
+            return CameraPicture.without_pixels(model, model.placed(frame), simulation.time)
+        camera = self._cameras.setdefault(model.name, Camera(model))
+        return camera.capture(
+            simulation, frame=frame, color=COLOR in parts, depth=DEPTH in parts,
+            labels=LABELS in parts, normals=False, visible=False)
+
+    def close(self) -> None:
+        """Release the device."""
+        for camera in self._cameras.values():
+            camera.close()
+        self._cameras.clear()
+
+
+def _period(time: float, rate: float) -> int:
+    return math.floor(time * rate + _ROUNDING)
