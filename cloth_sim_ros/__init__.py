@@ -28,7 +28,7 @@ _MODULES = {
     'FramePath': 'sim.model.frame_paths',
     'Grasp': 'sim.held.grasps',
     'GraspForce': 'sim.held.grasps',
-    'Look': 'camera.look',
+    'Look': 'sim.model.look',
     'Measures': 'sim.snapshot',
     'Mesh': 'sim.mesh',
     'NearNode': 'sim.model.grid',

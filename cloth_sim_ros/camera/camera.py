@@ -8,9 +8,9 @@ from contextlib import AbstractContextManager
 from typing import Any
 
 from cloth_sim_ros.camera.color_drawing import ColorDrawing
+from cloth_sim_ros.camera.depth_noise import measured_depth
 from cloth_sim_ros.camera.drawn_cloth import DrawnCloth
 from cloth_sim_ros.camera.lens import Lens
-from cloth_sim_ros.camera.look import Look
 from cloth_sim_ros.camera.picture import CameraPicture
 from cloth_sim_ros.camera.subject import Subject
 from cloth_sim_ros.camera.value_drawing import ValueDrawing
@@ -21,13 +21,13 @@ from cloth_sim_ros.gl.errors import DeviceError
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.model.cameras import CameraModel
 from cloth_sim_ros.sim.model.colliders import Collider
+from cloth_sim_ros.sim.model.look import Look
 from cloth_sim_ros.sim.model.pose import Pose
 from cloth_sim_ros.sim.simulation import Simulation
 from cloth_sim_ros.sim.snapshot import Snapshot
 
 _LABELS = ('background', 'cloth')
 WORLD = Pose((0.0, 0.0, 0.0))
-DAYLIGHT = Look()
 
 
 class Camera(AbstractContextManager['Camera']):
@@ -62,7 +62,7 @@ class Camera(AbstractContextManager['Camera']):
             self, cloth: Simulation | Snapshot, *, colliders: Sequence[Collider] | None = None,
             frame: Pose = WORLD, color: bool = True, depth: bool = True, labels: bool = True,
             normals: bool = True, visible: bool = True,
-            look: Look = DAYLIGHT) -> CameraPicture:
+            look: Look | None = None) -> CameraPicture:
         """
         Return a picture of ``cloth`` as it is now.
 
@@ -76,14 +76,14 @@ class Camera(AbstractContextManager['Camera']):
         :param labels: False leaves out the labels
         :param normals: False leaves out the normals
         :param visible: False leaves out which nodes are seen
-        :param look: colours, fabric and sun
+        :param look: colours, fabric and sun; by default those of the scene of a Simulation
         :raises ClothSimError: when ``cloth`` is none, or a chain
         :raises DeviceError: when there is no GL device for it
         """
         subject = Subject.of(cloth, colliders)
         lens = Lens(self.model, self.model.placed(frame))
         return self._studio_for(subject).take(
-            subject, lens, look if color else None, depth=depth, labels=labels,
+            subject, lens, (look or subject.look) if color else None, depth=depth, labels=labels,
             normals=normals, visible=visible)
 
     def close(self) -> None:
@@ -155,7 +155,8 @@ class _Studio:
                 image = self._colors.draw(subject, self._cloth, lens, look, nodes)
         return CameraPicture(
             lens.model, lens.pose, subject.time, image,
-            values.depth if values is not None and depth else None,
+            measured_depth(values.depth, lens.model, subject.time)
+            if values is not None and depth else None,
             values.labels if values is not None and labels else None,
             values.normals if values is not None and normals else None, seen,
             (*_LABELS, *(collider.name for collider in subject.colliders)))

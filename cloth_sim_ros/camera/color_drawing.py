@@ -11,7 +11,6 @@ from cloth_sim_ros.camera.lens import Lens
 from cloth_sim_ros.camera.light import DAYLIGHT_DEFINES
 from cloth_sim_ros.camera.light import DEPTH_SIDE
 from cloth_sim_ros.camera.light import DEPTH_UNIT
-from cloth_sim_ros.camera.look import Look
 from cloth_sim_ros.camera.subject import Subject
 from cloth_sim_ros.camera.value_drawing import behind_of
 from cloth_sim_ros.gl.buffer import Buffer
@@ -22,8 +21,15 @@ from cloth_sim_ros.gl.framebuffer import Framebuffer
 from cloth_sim_ros.gl.program import RenderProgram
 from cloth_sim_ros.sim.model.collider_surface import local_surface
 from cloth_sim_ros.sim.model.colliders import Collider
+from cloth_sim_ros.sim.model.look import Look
+from cloth_sim_ros.sim.model.scene_fields import CHECKED
+from cloth_sim_ros.sim.model.scene_fields import PLAIN
+from cloth_sim_ros.sim.model.scene_fields import WOVEN
 import numpy as np
 
+# What shaders compile in for each pattern.
+FABRIC_DEFINES: Mapping[str, Mapping[str, int]] = {
+    PLAIN: {}, CHECKED: {'HAS_PATTERN': 1, 'CHECKED': 1}, WOVEN: {'HAS_PATTERN': 1, 'WOVEN': 1}}
 _SURFACE_UNIT = 0   # camera/solid.glsl
 _MARGIN = 1.05      # what the sun sees over what casts shadows
 _SMALLEST = 1e-3    # a scene of one point still has a size [m]
@@ -81,12 +87,12 @@ class ColorDrawing:
             sun: '_Sun') -> None:
         program = self._program(
             'camera/cloth.vert', 'camera/cloth_color.frag',
-            {**DAYLIGHT_DEFINES, **look.defines, **cloth.defines})
+            {**DAYLIGHT_DEFINES, **FABRIC_DEFINES[look.fabric], **cloth.defines})
         program.use()
         self._light(program, look, sun)
-        program.set_vectors('front_color', look.front)
-        program.set_vectors('back_color', look.back)
-        program.set_vectors('second_color', look.second)
+        program.set_vectors('front_color', look.color)
+        program.set_vectors('back_color', look.back_color)
+        program.set_vectors('second_color', look.second_color)
         program.set_float('pitch', look.pitch)
         program.set_pair('cell', subject.cell)
         cloth.bind()
@@ -110,8 +116,8 @@ class ColorDrawing:
         self._depths.bind(DEPTH_UNIT)
         program.set_matrix('lamp_matrix', sun.matrix)
         program.set_vectors('lamp', sun.axes[2])
-        program.set_float('lamp_blur', look.softness / (2.0 * sun.reach))
-        program.set_float('lamp_lift', look.softness)
+        program.set_float('lamp_blur', look.shadow / (2.0 * sun.reach))
+        program.set_float('lamp_lift', look.shadow)
 
     def _draw_surface(self, program: RenderProgram, collider: Collider, lens: Lens) -> None:
         """Draw a body with ``program``, of camera/solid.glsl and in use."""

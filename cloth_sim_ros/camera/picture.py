@@ -20,7 +20,8 @@ class CameraPicture:
     :param time: simulated [s]
     :param color: (height, width, 3) uint8, red green blue, the uppermost line first
     :param depth: along the optical axis, (height, width) float32 [m]; inf where nothing is nearer
-        than far, -inf where something is nearer than near (REP 117)
+        than far, -inf where something is nearer than near (REP 117), and NaN where a camera with
+        noise measures nothing
     :param labels: (height, width) uint8, places in ``label_names``
     :param normals: unit normals in the optical frame that point towards the camera, (height,
         width, 3) float32; NaN where nothing is

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from cloth_sim_ros.files.errors import shown
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.model.colliders import Collider
+from cloth_sim_ros.sim.model.look import Look
 from cloth_sim_ros.sim.simulation import Simulation
 from cloth_sim_ros.sim.snapshot import present_cells
 from cloth_sim_ros.sim.snapshot import Snapshot
@@ -71,6 +72,11 @@ class Subject:
         return cls(
             cloth, (rows, cols), None if cells.all() else cells, (along, down), _THICKNESS,
             tuple(colliders or ()), cloth.time)
+
+    @property
+    def look(self) -> Look:
+        """Return how it looks: as its scene says, where that is known."""
+        return self.cloth.scene.look if isinstance(self.cloth, Simulation) else Look()
 
     def nodes(self) -> np.ndarray:
         """Return where its nodes are, (rows, cols, 3) float64 [m]; NaN where there is none."""

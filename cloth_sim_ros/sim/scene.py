@@ -25,6 +25,7 @@ from cloth_sim_ros.sim.model.frame_paths import FrameMove
 from cloth_sim_ros.sim.model.given_values import completed
 from cloth_sim_ros.sim.model.grasp_request import GraspRequest
 from cloth_sim_ros.sim.model.grid import near_node
+from cloth_sim_ros.sim.model.look import look_of
 from cloth_sim_ros.sim.model.materials import of_direction
 from cloth_sim_ros.sim.model.materials import spring_stiffness
 from cloth_sim_ros.sim.model.materials import WARP
@@ -93,6 +94,7 @@ class Scene:
         self.cells = self._make_cells()
         self.colliders = colliders_of(self.values)
         self.cameras = cameras_of(self.values)
+        self.look = look_of(self.values)
         self._check_contact()
         self._check_self_contact()
         self.pinned_nodes()

@@ -6,9 +6,8 @@
 from pathlib import Path
 import subprocess
 
+from cloth_sim_ros.camera.color_drawing import FABRIC_DEFINES
 from cloth_sim_ros.camera.light import DAYLIGHT_DEFINES
-from cloth_sim_ros.camera.look import FABRICS
-from cloth_sim_ros.camera.look import Look
 from cloth_sim_ros.gl.shader_source import ShaderSource
 from cloth_sim_ros.gl.shared_directory import shader_directory
 from cloth_sim_ros.sim.model.colliders import SHAPES
@@ -23,7 +22,7 @@ _FORMS = {
     'body_values.frag': [
         {**normals, 'MEETS': f'meets_{shape}'} for normals in _NORMALS for shape in SHAPES],
     'cloth.vert': _GAPS,
-    'cloth_color.frag': [{**DAYLIGHT_DEFINES, **Look(fabric=name).defines} for name in FABRICS],
+    'cloth_color.frag': [{**DAYLIGHT_DEFINES, **fabric} for fabric in FABRIC_DEFINES.values()],
     'cloth_depth.vert': _GAPS,
     'cloth_values.frag': _NORMALS,
     'nothing.frag': [{}],

@@ -56,12 +56,40 @@ CAMERA_FIELDS = (
           low=1e-3, high=1e4),
     Field('cameras.NAME.far', float, 10.0, 'depth above which nothing is seen', 'm', low=1e-2,
           high=1e5),
+    Field('cameras.NAME.noise_baseline', float, 0.0, 'distance of the two eyes of a depth sensor '
+          'that triangulates, whose noise the depth has; 0 for no noise', 'm', low=0.0, high=1e3),
+    Field('cameras.NAME.noise_disparity', float, 0.5, 'standard deviation of the disparity that '
+          'it measures', 'pixel', low=0.0, high=1e3),
+    Field('cameras.NAME.noise_step', float, 0.125, 'step of that disparity; 0 for none', 'pixel',
+          low=0.0, high=1e3),
+    Field('cameras.NAME.noise_edge', float, 0.02, 'jump of the depth beside which it measures '
+          'nothing; 0 to measure everywhere', 'm', low=0.0, high=1e5),
+    Field('cameras.NAME.noise_seed', int, 0, 'random seed of the noise', low=0, high=2**31 - 1),
     Field('cameras.NAME.rate', float, 30.0, 'pictures per second of simulated time, taken with '
           'the frames of publish.rate, of which no more than one each', 'Hz', low=1e-3,
           high=1e3),
 )
 # As arguments of a function, without the prefix.
 _FIELD_OF = {field.name.rpartition('.')[2]: field for field in CAMERA_FIELDS}
+
+
+@dataclass(frozen=True)
+class DepthNoise:
+    """
+    The noise of a depth sensor that triangulates (camera/depth_noise.py).
+
+    :param baseline: distance of its two eyes [m]
+    :param disparity: standard deviation of the disparity that it measures [pixel]
+    :param step: of that disparity [pixel]; 0 for none
+    :param edge: jump of the depth beside which it measures nothing [m]; 0 to measure everywhere
+    :param seed: of the random numbers
+    """
+
+    baseline: float
+    disparity: float
+    step: float
+    edge: float
+    seed: int
 
 
 @dataclass(frozen=True)
@@ -84,6 +112,7 @@ class CameraModel:
     :param near: depth below which nothing is measured [m]
     :param far: depth above which nothing is seen [m]
     :param rate: pictures per simulated time [Hz]
+    :param noise: of the depth; None for none
     """
 
     name: str
@@ -98,6 +127,7 @@ class CameraModel:
     near: float
     far: float
     rate: float
+    noise: DepthNoise | None = None
 
     @classmethod
     def of(cls, name: str = 'camera', **values: Any) -> CameraModel:
@@ -176,7 +206,14 @@ def camera_of(values: Mapping[str, Any], name: str) -> CameraModel:
     fx, fy, cx, cy = _intrinsics(values, group, width, height)
     return CameraModel(
         name, width, height, fx, fy, cx, cy, _pose(values, group), values[f'{group}.frame'],
-        near, far, values[f'{group}.rate'])
+        near, far, values[f'{group}.rate'], _noise(values, group))
+
+
+def _noise(values: Mapping[str, Any], group: str) -> DepthNoise | None:
+    numbers = {
+        name: values[f'{group}.noise_{name}'] for name in (
+            'baseline', 'disparity', 'step', 'edge', 'seed')}
+    return DepthNoise(**numbers) if numbers['baseline'] > 0.0 else None
 
 
 def _intrinsics(

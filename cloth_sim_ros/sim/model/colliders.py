@@ -45,6 +45,8 @@ COLLIDER_FIELDS = (
           'x y z w of any length but 0', low=-1e3, high=1e3, is_array=True),
     Field('colliders.NAME.friction', float, 0.3, 'coefficient of Coulomb friction, static and '
           'sliding', low=0.0, high=1e3),
+    Field('colliders.NAME.color', float, (), 'red green blue in pictures of cameras; empty for '
+          'that of wood, or light grey of a plane', low=0.0, high=1.0, is_array=True),
 )
 
 

@@ -1,0 +1,104 @@
+# SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
+# SPDX-License-Identifier: Apache-2.0
+
+"""Pictures have the colours, the fabric and the shadows that the scene asks for."""
+
+from cloth_sim_ros.sim.errors import ClothSimError
+from cloth_sim_ros.sim.model.colliders import Collider
+from cloth_sim_ros.sim.model.look import Look
+from cloth_sim_ros.sim.scene import Scene
+import numpy as np
+import pytest
+from seen_cloths import FALLING
+from seen_cloths import plane_cloth
+from seen_cloths import snapshot_of
+
+ABOVE = {'position': [0.0, 0.0, 2.0], 'target': [0.0, 0.0, 0.0], 'width': 160, 'height': 120}
+CLOTH = plane_cloth((-0.3, 0.3, 0.3), (0.6, 0.0, 0.0), (0.0, -0.6, 0.0), 9, 9)
+GROUND = Collider('ground', 'plane', (), (0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 1.0), 0.3)
+RED, GREEN = (0.9, 0.1, 0.1), (0.1, 0.8, 0.1)
+
+
+def mean_color(picture, label):
+    """Return the mean colour of what has a label, (3,) from 0 to 1."""
+    return picture.color[picture.labels == label].mean(axis=0) / 255.0
+
+
+def test_each_side_has_its_color(camera):
+    """A detector could not tell a folded corner from the rest."""
+    eye = camera(**ABOVE)
+    look = Look(color=RED, back_color=GREEN, sun=(0.0, 0.0, 1.0))
+    front = mean_color(eye.capture(snapshot_of(CLOTH), look=look), 1)
+    back = mean_color(eye.capture(snapshot_of(CLOTH[:, ::-1]), look=look), 1)
+    assert front[0] > 3.0 * front[1] and back[1] > 3.0 * back[0]
+
+
+def test_bodies_and_background_have_their_colors(camera):
+    """A data set would show the same table in each picture."""
+    eye = camera(**ABOVE)
+    ball = Collider('ball', 'sphere', (0.2,), (0.0, 0.0, 0.6), (0.0, 0.0, 0.0, 1.0), 0.3)
+    look = Look(background=(0.2, 0.4, 0.6), bodies={'ball': GREEN})
+    picture = eye.capture(snapshot_of(CLOTH), colliders=[ball], look=look)
+    np.testing.assert_allclose(mean_color(picture, 0), (0.2, 0.4, 0.6), atol=0.02)
+    assert mean_color(picture, 2)[1] > 3.0 * mean_color(picture, 2)[0]
+
+
+def test_the_sun_casts_the_shadow_where_it_falls(camera):
+    """A shadow would say that the cloth is somewhere else."""
+    eye = camera(**ABOVE)
+    # By half a metre to the side for each metre of height.
+    look = Look(sun=(0.5, 0.0, 1.0), shadow=0.002)
+    picture = eye.capture(snapshot_of(CLOTH), colliders=[GROUND], look=look)
+    world = picture.pose.in_world(picture.points().astype(float))
+    light = picture.color.astype(float).mean(axis=-1)
+    on_ground = picture.labels == 2
+    x, y = world[..., 0] + 0.15, world[..., 1]
+    inside = on_ground & (np.abs(x) < 0.27) & (np.abs(y) < 0.27)
+    outside = on_ground & ((np.abs(x) > 0.33) | (np.abs(y) > 0.33))
+    assert inside.sum() > 50
+    assert light[inside].max() < 0.85 * light[outside].min()
+
+
+@pytest.mark.parametrize('fabric', ['checked', 'woven'])
+def test_a_pattern_has_its_pitch_on_the_cloth(camera, fabric):
+    """Checks would be of another size than the fabric has them."""
+    eye = camera(**{**ABOVE, 'width': 480, 'height': 360, 'field_of_view': 40.0})
+    look = Look(
+        fabric=fabric, color=(0.1, 0.1, 0.1), second_color=(0.9, 0.9, 0.9), pitch=0.06,
+        sun=(0.0, 0.0, 1.0))
+    picture = eye.capture(snapshot_of(CLOTH), look=look)
+    line = picture.color.astype(float).mean(axis=-1)[175:185].mean(axis=0)
+    on_cloth = (picture.labels[175:185] == 1).all(axis=0)
+    line = line[on_cloth] - line[on_cloth].mean()
+    # Two checks, or two threads, are a period: five in 0.6 m.
+    spectrum = np.abs(np.fft.rfft(line))[1:]
+    assert np.argmax(spectrum) + 1 in ((5,) if fabric == 'checked' else (5, 10))
+
+
+def test_colors_are_those_of_the_labels(camera, fallen):
+    """Labels would be off the picture by some pixels."""
+    eye = camera(position=[1.5, 0.3, 1.2], target=[0.0, 0.0, 0.2], width=320, height=240)
+    look = Look(color=(1.0, 0.0, 0.0), back_color=(1.0, 0.0, 0.0), bodies={
+        'ball': (0.0, 1.0, 0.0), 'ground': (0.0, 0.0, 1.0)})
+    picture = eye.capture(fallen, look=look)
+    labels = np.array([3, 1, 2, 3])[picture.labels]
+    # What is seen next to an outline is a mean of both.
+    inner = np.ones(labels.shape, bool)
+    for shift in ((0, 1), (1, 0), (0, -1), (-1, 0)):
+        inner &= np.roll(labels, shift, (0, 1)) == labels
+    seen = picture.color.argmax(axis=-1) + 1
+    assert inner.mean() > 0.9 and (seen[inner] == labels[inner]).mean() > 0.9999
+
+
+@pytest.mark.parametrize('wrong, rule', [
+    ({'look.color': [0.5, 0.5]}, 'look.color needs red, green and blue'),
+    ({'look.color': [0.5, 0.5, 2.0]}, 'look.color 2.0 is outside its range'),
+    ({'look.sun': [0.0, 0.0, 0.0]}, 'look.sun needs a direction'),
+    ({'look.fabric': 'silk'}, 'must be one of plain, checked, woven'),
+    ({'look.pitch': 0.0}, 'outside its range'),
+    ({'colliders.ball.color': [1.0]}, 'colliders.ball.color needs red'),
+])
+def test_wrong_looks_are_refused(wrong, rule):
+    """The picture would be black, and nobody told why."""
+    with pytest.raises(ClothSimError, match=rule):
+        Scene({**FALLING, **wrong})
