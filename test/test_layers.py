@@ -23,6 +23,7 @@ ROOMS = {
     'playback': {'recording', 'messages', 'sim', 'files'},
     'node': {'recording', 'messages', 'sim', 'gl', 'files'},
     'study': {'recording', 'messages', 'sim', 'gl', 'reference', 'files'},
+    'dataset': {'study', 'camera', 'sim', 'gl', 'files'},
     'analysis': {'recording', 'messages', 'sim', 'files'},
     'rendering': {'analysis', 'recording', 'messages', 'camera', 'sim', 'gl', 'files'},
     'view': {'analysis', 'messages', 'sim', 'files'},
@@ -31,8 +32,8 @@ ROOMS = {
     'gym': {'rendering', 'camera', 'sim', 'files'},
     'api': {'node', 'resimulation', 'analysis', 'recording', 'messages', 'sim'},
     'verb': {
-        'view', 'view/ros', 'api', 'node', 'study', 'resimulation', 'rendering', 'analysis',
-        'recording', 'messages', 'reference', 'sim', 'gl', 'playback', 'files'},
+        'view', 'view/ros', 'api', 'node', 'dataset', 'study', 'resimulation', 'rendering',
+        'analysis', 'recording', 'messages', 'reference', 'sim', 'gl', 'playback', 'files'},
 }
 
 # These rooms must run where there is no ROS; they may import no more than this beside Python.
