@@ -36,7 +36,7 @@ def categories(names: Sequence[str]) -> list[dict[str, Any]]:
         for number, name in enumerate(names) if number]
 
 
-def annotations(
+def mask_annotations(
         picture: CameraPicture, corners: Sequence[Sequence[float]]) -> list[dict[str, Any]]:
     """
     Return the annotations of a picture with labels, without ids.

@@ -13,8 +13,8 @@ from typing import Any
 
 from cloth_sim_ros.camera.camera import Camera
 from cloth_sim_ros.camera.picture import CameraPicture
-from cloth_sim_ros.dataset.coco import annotations
 from cloth_sim_ros.dataset.coco import keypoints
+from cloth_sim_ros.dataset.coco import mask_annotations
 from cloth_sim_ros.dataset.variation import Bounds
 from cloth_sim_ros.dataset.variation import random_fabric
 from cloth_sim_ros.dataset.variation import random_look
@@ -137,7 +137,7 @@ def _write(
         'camera_position': list(picture.pose.position),
         'camera_orientation': list(picture.pose.orientation), 'depth_unit': 1.0 / _MILLIMETRES,
         'time': picture.time, 'label_names': list(picture.label_names), **chosen,
-        'annotations': annotations(picture, corners)}
+        'annotations': mask_annotations(picture, corners)}
     target = path_of(folder, 'samples', number)
     # What is there is whole: a run that was killed goes on behind it.
     passing = target.with_suffix('.part')

@@ -4,9 +4,9 @@
 """Annotations say what the labels say, in the format of COCO."""
 
 from cloth_sim_ros.camera.picture import CameraPicture
-from cloth_sim_ros.dataset.coco import annotations
 from cloth_sim_ros.dataset.coco import categories
 from cloth_sim_ros.dataset.coco import keypoints
+from cloth_sim_ros.dataset.coco import mask_annotations
 from cloth_sim_ros.dataset.coco import run_lengths
 from cloth_sim_ros.sim.model.cameras import CameraModel
 import numpy as np
@@ -37,7 +37,7 @@ def test_annotations_add_up_to_the_labels():
     """Some pixels would be annotated twice, or a body that is not in the picture be there."""
     labels = np.random.default_rng(2).integers(0, 3, (7, 9)).astype(np.uint8)
     picture = CameraPicture(CAMERA, CAMERA.pose, 1.0, None, None, labels, None, None, NAMES)
-    found = annotations(picture, [(0.0, 0.0, 0), (1.5, 2.5, 2), (0.0, 0.0, 0), (3.5, 2.5, 1)])
+    found = mask_annotations(picture, [(0.0, 0.0, 0), (1.5, 2.5, 2), (0.0, 0.0, 0), (3.5, 2.5, 1)])
     assert [entry['category_id'] for entry in found] == [1, 2]
     for entry in found:
         mask = mask_of(entry['segmentation']['counts'], entry['segmentation']['size'])
