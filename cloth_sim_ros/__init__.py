@@ -14,6 +14,9 @@ from importlib import import_module
 _MODULES = {
     'AppliedPush': 'sim.loads.push_field',
     'Batch': 'sim.batch',
+    'Camera': 'camera.camera',
+    'CameraModel': 'sim.model.cameras',
+    'CameraPicture': 'camera.picture',
     'ClothSimError': 'sim.errors',
     'Collider': 'sim.model.colliders',
     'ContactForce': 'sim.contact.contacts',
@@ -25,6 +28,7 @@ _MODULES = {
     'FramePath': 'sim.model.frame_paths',
     'Grasp': 'sim.held.grasps',
     'GraspForce': 'sim.held.grasps',
+    'Look': 'sim.model.look',
     'Measures': 'sim.snapshot',
     'Mesh': 'sim.mesh',
     'NearNode': 'sim.model.grid',

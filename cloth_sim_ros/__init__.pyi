@@ -7,6 +7,8 @@ from cloth_sim_ros.analysis.recording import Recording as Recording
 from cloth_sim_ros.api.resimulate import resimulate as resimulate
 from cloth_sim_ros.api.scene_file import load_scene as load_scene
 from cloth_sim_ros.api.simulation_recorder import SimulationRecorder as SimulationRecorder
+from cloth_sim_ros.camera.camera import Camera as Camera
+from cloth_sim_ros.camera.picture import CameraPicture as CameraPicture
 from cloth_sim_ros.gl.errors import DeviceError as DeviceError
 from cloth_sim_ros.recording.recording_faults import RecordingError as RecordingError
 from cloth_sim_ros.resimulation.frame_check import Difference as Difference
@@ -21,10 +23,12 @@ from cloth_sim_ros.sim.held.grasps import GraspForce as GraspForce
 from cloth_sim_ros.sim.held.pin_forces import PinForces as PinForces
 from cloth_sim_ros.sim.loads.push_field import AppliedPush as AppliedPush
 from cloth_sim_ros.sim.mesh import Mesh as Mesh
+from cloth_sim_ros.sim.model.cameras import CameraModel as CameraModel
 from cloth_sim_ros.sim.model.colliders import Collider as Collider
 from cloth_sim_ros.sim.model.frame_paths import FrameMove as FrameMove
 from cloth_sim_ros.sim.model.frame_paths import FramePath as FramePath
 from cloth_sim_ros.sim.model.grid import NearNode as NearNode
+from cloth_sim_ros.sim.model.look import Look as Look
 from cloth_sim_ros.sim.model.pins import PinMove as PinMove
 from cloth_sim_ros.sim.model.pins import PinPath as PinPath
 from cloth_sim_ros.sim.model.pose import Pose as Pose

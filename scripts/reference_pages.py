@@ -24,9 +24,12 @@ from cloth_sim_ros.messages.requests import ACTIONS
 from cloth_sim_ros.messages.requests import Request
 from cloth_sim_ros.messages.requests import SERVICES
 from cloth_sim_ros.messages.requests import SUBSCRIPTIONS
+from cloth_sim_ros.messages.topics import camera_topics
+from cloth_sim_ros.messages.topics import RECORDED_PARTS
 from cloth_sim_ros.messages.topics import Topic
 from cloth_sim_ros.messages.topics import TOPICS
 from cloth_sim_ros.node.node_fields import NODE_FIELDS
+from cloth_sim_ros.sim.model.cameras import CAMERA_FIELDS
 from cloth_sim_ros.sim.model.colliders import COLLIDER_FIELDS
 from cloth_sim_ros.sim.model.scene_fields import Field
 from cloth_sim_ros.sim.model.scene_fields import SCENE_FIELDS
@@ -78,6 +81,12 @@ Each name in `colliders.names` has these, with the name instead of NAME
 ([contact](../how_to/contact.md)):
 
 {table(header, map(parameter_cells, COLLIDER_FIELDS))}
+## Cameras
+
+Each name in `cameras.names` has these, with the name instead of NAME
+([cameras](../how_to/cameras.md)):
+
+{table(header, map(parameter_cells, CAMERA_FIELDS))}
 ## Node
 
 {table(header, map(parameter_cells, NODE_FIELDS))}"""
@@ -130,6 +139,11 @@ explains frames, stamps, the fields of a point, wrenches, and how large messages
 A message is only made while the topic has a subscriber or a recording is running.
 
 {table(header, map(topic_cells, TOPICS.values()))}
+## Published of each camera
+
+With the name of the camera instead of NAME ([cameras](../how_to/cameras.md)):
+
+{table(header, map(topic_cells, camera_topics(['NAME']).values()))}
 ## Subscribed
 
 {table(('topic', 'type', 'description'), map(request_cells, SUBSCRIPTIONS))}
@@ -144,7 +158,16 @@ def topic_cells(topic: Topic) -> list[str]:
     durability = 'transient local' if topic.transient_local else 'volatile'
     return [
         f'`{topic.name}`', f'`{topic.type_name}`', f'{reliability}, {durability}, {topic.depth}',
-        'yes' if topic.recorded else 'with `recording.markers`', topic.text]
+        recorded(topic), topic.text]
+
+
+def recorded(topic: Topic) -> str:
+    """Return when a recording has a topic."""
+    if topic.recorded:
+        return 'yes'
+    if not topic.key.startswith('cameras/'):
+        return 'with `recording.markers`'
+    return 'with `recording.cameras`' if topic.key.rpartition('/')[2] in RECORDED_PARTS else 'no'
 
 
 def request_cells(request: Request) -> list[str]:

@@ -13,6 +13,7 @@ import sysconfig
 
 from cloth_sim_interfaces.msg import ResultCode
 from cloth_sim_ros import Recording
+from cloth_sim_ros import Scene
 from cloth_sim_ros.sim.model.given_values import load_parameters
 from cloth_sim_ros.sim.model.pose import Pose
 from cloth_sim_ros.verb.main import main
@@ -43,7 +44,7 @@ def run_example(name, folder, *arguments):
 
 def test_each_is_short_says_how_to_run_it_and_is_run_here():
     """An example would be too long to read, or rot."""
-    assert len(EXAMPLES) == 11
+    assert len(EXAMPLES) == 12
     tests = Path(__file__).read_text(encoding='utf-8')
     for path in EXAMPLES:
         text = path.read_text(encoding='utf-8')
@@ -139,6 +140,27 @@ def test_a_client_picks_up_a_corner(tmp_path):
     assert len(felt) == 3 and np.all(np.linalg.norm(felt, axis=1) < 2.0), shown
     assert min(felt[1][1], felt[2][1]) < -0.1, shown
     assert 'nodes of grasp hand are free' in shown
+
+
+def test_a_corner_that_a_camera_sees_is_grasped(tmp_path):
+    """A planner could not go from a depth picture to the cloth."""
+    given = load_parameters(ROOT / 'config' / 'towel_under_camera.yaml')
+    # On the table alone, its corners are where they were at the start.
+    flat = {
+        **{name: value for name, value in given.items()
+           if not name.startswith(('colliders.ball', 'colliders.box'))},
+        'rows': 16, 'cols': 16, 'start.z': 0.01, 'colliders.names': ['table'],
+        'colliders.table.color': [0.9, 0.9, 0.9]}
+    with NodeProcess(tmp_path, flat, '-r', '__ns:=/seen_corner') as node:
+        shown = run_example(
+            'depth_to_grasp', tmp_path, '--node', '/seen_corner/cloth_sim')
+        assert node.running
+    place = np.array(ast.literal_eval(re.search(r'corner at (.*) m in', shown)[1]))
+    away = Scene(flat).cameras[0].pose.in_world(place)
+    corners = 0.25 * np.array([(1, 1), (1, -1), (-1, 1), (-1, -1)])
+    # To a finger's width: where the window is filled by three eighths.
+    assert np.linalg.norm(corners - away[:2], axis=1).min() < 0.03 and abs(away[2]) < 0.01
+    assert re.search(r'grasp hand holds \d+ nodes', shown), shown
 
 
 @pytest.mark.parametrize('name', ['pick_up_a_corner', 'carry_towel'])

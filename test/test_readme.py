@@ -17,6 +17,7 @@ import sys
 from cloth_sim_ros.messages.requests import ACTIONS
 from cloth_sim_ros.messages.requests import SERVICES
 from cloth_sim_ros.messages.requests import SUBSCRIPTIONS
+from cloth_sim_ros.messages.topics import camera_topics
 from cloth_sim_ros.messages.topics import TOPICS
 from cloth_sim_ros.node.missing_module import BUILD_COMMAND
 from cloth_sim_ros.verb.main import VERBS
@@ -77,6 +78,9 @@ def test_topics_are_those_of_the_code():
     """The page would lack a topic, or give another type."""
     assert {row[0]: row[1] for row in rows(reference('topics'), '## Published')} == {
         topic.name: topic.type_name for topic in TOPICS.values()}
+    assert {row[0]: row[1] for row in rows(
+        reference('topics'), '## Published of each camera')} == {
+            topic.name: topic.type_name for topic in camera_topics(['NAME']).values()}
 
 
 def test_services_are_those_of_the_code():

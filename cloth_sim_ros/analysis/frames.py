@@ -21,10 +21,10 @@ from cloth_sim_ros.analysis.recording import Recording
 from cloth_sim_ros.files.errors import cut
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.model.colliders import Collider
-from cloth_sim_ros.sim.model.colliders import fields_with_colliders
 from cloth_sim_ros.sim.model.colliders import NAMES
 from cloth_sim_ros.sim.model.frame_paths import FrameMove
 from cloth_sim_ros.sim.model.frame_paths import FramePaths
+from cloth_sim_ros.sim.model.named_fields import all_fields
 from cloth_sim_ros.sim.model.push import Push
 from cloth_sim_ros.sim.scene import Scene
 import numpy as np
@@ -78,7 +78,7 @@ class ColliderHistory:
         self._scene, self.problem = None, ''
         if not given.get(NAMES):
             return
-        known = {field.name for field in fields_with_colliders(given)}
+        known = {field.name for field in all_fields(given)}
         try:
             self._scene = Scene({
                 name: value for name, value in given.items() if name in known})

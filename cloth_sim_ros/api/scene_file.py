@@ -11,8 +11,8 @@ from cloth_sim_ros.node.node_fields import checked_node_values
 from cloth_sim_ros.node.node_fields import NODE_FIELDS
 from cloth_sim_ros.sim.arguments import mapping
 from cloth_sim_ros.sim.arguments import path as checked_path
-from cloth_sim_ros.sim.model.colliders import fields_with_colliders
 from cloth_sim_ros.sim.model.given_values import load_parameters
+from cloth_sim_ros.sim.model.named_fields import all_fields
 from cloth_sim_ros.sim.scene import refuse_unknown
 from cloth_sim_ros.sim.scene import Scene
 
@@ -38,7 +38,7 @@ def scene_from(
     :raises ClothSimError: when the file or a change is not right
     """
     given = {**load_parameters(path), **changes}
-    fields = fields_with_colliders(given)
+    fields = all_fields(given)
     refuse_unknown(given, fields + NODE_FIELDS)
     node_values = checked_node_values(given)
     names = {field.name for field in fields}

@@ -3,6 +3,9 @@
 
 """Framebuffers without a window, for colours and for depth, and which pixels they keep."""
 
+from collections.abc import Iterator
+from contextlib import contextmanager
+
 from cloth_sim_ros.gl.errors import DeviceError
 from cloth_sim_ros.gl.libraries import GL
 import numpy as np
@@ -17,10 +20,13 @@ class Framebuffer:
     Each pixel is the mean of several samples (multisampling), times ``detail`` squared.
 
     :param detail: 2 draws twice as many pixels along each side and averages them
+    :param most_samples: of a pixel; 1 leaves outlines jagged
     :raises DeviceError: when the device has no picture so large
     """
 
-    def __init__(self, width: int, height: int, detail: int = 1) -> None:
+    def __init__(
+            self, width: int, height: int, detail: int = 1,
+            most_samples: int = _MOST_SAMPLES) -> None:
         """Allocate the memory."""
         most = int(GL.glGetIntegerv(GL.GL_MAX_RENDERBUFFER_SIZE))
         if max(width, height) * detail > most:
@@ -28,10 +34,12 @@ class Framebuffer:
                 f'an image of {width} x {height} pixels is too large for this device: use at most '
                 f'{most // detail} per side')
         self.width, self.height, self.detail = width, height, detail
-        self.samples = min(int(GL.glGetIntegerv(GL.GL_MAX_SAMPLES)), _MOST_SAMPLES)
+        wanted = min(int(GL.glGetIntegerv(GL.GL_MAX_SAMPLES)), most_samples)
+        # One sample is none in GL: some devices make two or more of it.
+        self.samples = wanted if wanted > 1 else 0
         self._buffers: list[int] = []
         self._drawn = self._make(detail, self.samples, with_depth=True)
-        self._resolved = self._make(detail, 0)
+        self._resolved = self._make(detail, 0) if self.samples else self._drawn
         self._read = self._make(1, 0) if detail > 1 else self._resolved
 
     def begin(self, color: tuple[float, float, float]) -> None:
@@ -42,9 +50,14 @@ class Framebuffer:
         GL.glClearColor(*color, 1.0)
         GL.glClear(GL.GL_COLOR_BUFFER_BIT | GL.GL_DEPTH_BUFFER_BIT)
 
-    def read(self) -> np.ndarray:
-        """Return what was drawn, (height, width, 3) uint8, the uppermost line first."""
-        self._copy(self._drawn, self._resolved, self.detail, GL.GL_NEAREST)
+    def read(self, *, is_upside_down: bool = False) -> np.ndarray:
+        """
+        Return what was drawn, (height, width, 3) uint8, the uppermost line first.
+
+        :param is_upside_down: True for what was drawn with the uppermost line below
+        """
+        if self._resolved != self._drawn:
+            self._copy(self._drawn, self._resolved, self.detail, GL.GL_NEAREST)
         if self.detail > 1:
             self._copy(self._resolved, self._read, 1, GL.GL_LINEAR)
         GL.glBindFramebuffer(GL.GL_READ_FRAMEBUFFER, self._read)
@@ -52,7 +65,7 @@ class Framebuffer:
         GL.glPixelStorei(GL.GL_PACK_ALIGNMENT, 1)
         GL.glReadPixels(
             0, 0, self.width, self.height, GL.GL_RGBA, GL.GL_UNSIGNED_BYTE, pixels)
-        return np.ascontiguousarray(pixels[::-1, :, :3])
+        return np.ascontiguousarray((pixels if is_upside_down else pixels[::-1])[..., :3])
 
     def delete(self) -> None:
         """Free the memory."""
@@ -88,65 +101,6 @@ class Framebuffer:
                 f'the device cannot render an image of {self.width} x {self.height} pixels '
                 f'({status:#x}): give a smaller size')
         return framebuffer
-
-
-class DepthBuffer:
-    """
-    Depth of ``width`` x ``height`` pixels, to draw into and read back; one sample each.
-
-    A mean of several, as for colours, would be a depth that nothing has at an outline.
-
-    :raises DeviceError: when the device has no picture so large
-    """
-
-    def __init__(self, width: int, height: int) -> None:
-        """Allocate the memory."""
-        most = int(GL.glGetIntegerv(GL.GL_MAX_RENDERBUFFER_SIZE))
-        if max(width, height) > most:
-            raise DeviceError(
-                f'a depth picture of {width} x {height} pixels is too large for this device: use '
-                f'at most {most} per side')
-        self.width, self.height = width, height
-        self._framebuffer = int(GL.glGenFramebuffers(1))
-        self._buffer = int(GL.glGenRenderbuffers(1))
-        GL.glBindFramebuffer(GL.GL_FRAMEBUFFER, self._framebuffer)
-        GL.glBindRenderbuffer(GL.GL_RENDERBUFFER, self._buffer)
-        GL.glRenderbufferStorage(
-            GL.GL_RENDERBUFFER, GL.GL_DEPTH_COMPONENT32F, width, height)
-        GL.glFramebufferRenderbuffer(
-            GL.GL_FRAMEBUFFER, GL.GL_DEPTH_ATTACHMENT, GL.GL_RENDERBUFFER, self._buffer)
-        GL.glDrawBuffer(GL.GL_NONE)
-        GL.glReadBuffer(GL.GL_NONE)
-        status = GL.glCheckFramebufferStatus(GL.GL_FRAMEBUFFER)
-        if status != GL.GL_FRAMEBUFFER_COMPLETE:
-            raise DeviceError(
-                f'the device cannot render a depth picture of {width} x {height} pixels '
-                f'({status:#x}): give a smaller size')
-
-    def begin(self) -> None:
-        """Direct drawing here, with nothing drawn yet."""
-        GL.glBindFramebuffer(GL.GL_FRAMEBUFFER, self._framebuffer)
-        GL.glViewport(0, 0, self.width, self.height)
-        GL.glDepthMask(GL.GL_TRUE)
-        GL.glClear(GL.GL_DEPTH_BUFFER_BIT)
-
-    def read(self) -> np.ndarray:
-        """
-        Return what was drawn, the uppermost line first.
-
-        :return: (height, width) float32, 0 at the near end, 1 at the far one and where nothing is
-        """
-        GL.glBindFramebuffer(GL.GL_READ_FRAMEBUFFER, self._framebuffer)
-        depths = np.empty((self.height, self.width), np.float32)
-        GL.glPixelStorei(GL.GL_PACK_ALIGNMENT, 4)
-        GL.glReadPixels(
-            0, 0, self.width, self.height, GL.GL_DEPTH_COMPONENT, GL.GL_FLOAT, depths)
-        return np.ascontiguousarray(depths[::-1])
-
-    def delete(self) -> None:
-        """Free the memory."""
-        GL.glDeleteFramebuffers(1, [self._framebuffer])
-        GL.glDeleteRenderbuffers(1, [self._buffer])
 
 
 class DepthTexture:
@@ -235,6 +189,25 @@ def draw_hidden() -> None:
     GL.glEnable(GL.GL_DEPTH_TEST)
     GL.glDepthFunc(GL.GL_GREATER)
     GL.glDepthMask(False)
+
+
+def clamp_depths(is_on: bool) -> None:
+    """Draw what is nearer or farther than the depth buffer tells apart, at its ends."""
+    if is_on:
+        GL.glEnable(GL.GL_DEPTH_CLAMP)
+    else:
+        GL.glDisable(GL.GL_DEPTH_CLAMP)
+
+
+@contextmanager
+def draw_within(left: int, bottom: int, width: int, height: int) -> Iterator[None]:
+    """Draw nothing outside of a part of the image [pixel]."""
+    GL.glEnable(GL.GL_SCISSOR_TEST)
+    GL.glScissor(left, bottom, width, height)
+    try:
+        yield
+    finally:
+        GL.glDisable(GL.GL_SCISSOR_TEST)
 
 
 def draw_clockwise_only(is_on: bool) -> None:

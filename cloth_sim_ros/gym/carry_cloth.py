@@ -98,7 +98,7 @@ class CarryCloth(gymnasium.Env[Observation, np.ndarray]):
         self._goal = start + np.array(offset)
         self._observer = Observer(
             observation, start.shape[:2], np.concatenate([start, self._goal]).reshape(-1, 3),
-            camera, picture_size, scene.cut_cells)
+            camera, picture_size)
         self._simulation = Simulation(scene, records_forces=False)
         self._steps = max(round(frame / scene['dt']), 1)
         self._reach = speed * self._steps * scene['dt']

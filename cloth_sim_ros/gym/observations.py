@@ -77,24 +77,26 @@ class Depth(Part):
     :param camera: azimuth, elevation, field_of_view [deg] and zoom, where they differ from the
         defaults of ``cloth_sim render``
     :param size: height and width [pixel]
-    :param cells: which there are, (rows - 1, cols - 1) bool; None for all
     """
 
     def __init__(
-            self, points: np.ndarray, camera: Mapping[str, Any], size: Sequence[int],
-            cells: np.ndarray | None) -> None:
+            self, points: np.ndarray, camera: Mapping[str, Any], size: Sequence[int]) -> None:
         """Place the camera."""
         # Drawing takes longer to import than the rest, and most environments do without.
-        from cloth_sim_ros.rendering.camera import Camera
-        from cloth_sim_ros.rendering.camera import DepthCamera
+        from cloth_sim_ros.camera.camera import Camera
+        from cloth_sim_ros.rendering.camera import Camera as Place
         height, width = _checked_size(size)
-        view = Camera(**_checked_camera(camera)).looking_at(points, width, height)
-        self._camera = DepthCamera(view, cells)
-        self.space = spaces.Box(0.0, self._camera.far, (height, width), np.float32)
+        view = Place(**_checked_camera(camera)).looking_at(points, width, height)
+        self._camera = Camera(view.pinhole())
+        self.space = spaces.Box(0.0, self._camera.model.far, (height, width), np.float32)
 
     def look(self, simulation: Simulation) -> np.ndarray:
         """Return the array at this time."""
-        return self._camera.draw(simulation.positions(), simulation.colliders)
+        depth = self._camera.capture(
+            simulation, color=False, labels=False, normals=False, visible=False).depth
+        assert depth is not None
+        # What is nearer than the camera measures is at it, and where nothing is, there is far.
+        return np.clip(depth, 0.0, np.float32(self._camera.model.far))
 
     def close(self) -> None:
         """Free its memory on the device."""
@@ -112,14 +114,12 @@ class Observer:
     :param asked: one of PARTS for an array, or several for a dictionary of arrays
     :param shape: rows and columns of the cloth
     :param points: what a camera has in view, (n, 3) [m]
-    :param cells: which there are, (rows - 1, cols - 1) bool; None for all
     :raises ClothSimError: when a value is wrong
     """
 
     def __init__(
             self, asked: str | Sequence[str], shape: tuple[int, int], points: np.ndarray,
-            camera: Mapping[str, Any], size: Sequence[int],
-            cells: np.ndarray | None = None) -> None:
+            camera: Mapping[str, Any], size: Sequence[int]) -> None:
         """Make the parts and their space."""
         names = _checked_names(asked)
         if 'depth' in names and min(shape) < 2:
@@ -130,7 +130,7 @@ class Observer:
         self._parts: dict[str, Part] = {}
         for name in names:
             if name == 'depth':
-                self._parts[name] = Depth(points, camera, size, cells)
+                self._parts[name] = Depth(points, camera, size)
             elif name == 'state':
                 self._parts[name] = PositionsAndVelocities(*shape)
             else:

@@ -9,11 +9,19 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
+from cloth_sim_ros.camera.picture import CameraPicture
+from cloth_sim_ros.camera.rig import CameraRig
+from cloth_sim_ros.camera.rig import COLOR
+from cloth_sim_ros.camera.rig import DEPTH
+from cloth_sim_ros.camera.rig import INFO
+from cloth_sim_ros.camera.rig import LABELS
 from cloth_sim_ros.messages.body_frames import body_frames
 from cloth_sim_ros.messages.body_frames import body_poses
 from cloth_sim_ros.messages.body_frames import collider_wrenches
 from cloth_sim_ros.messages.body_frames import grasp_peaks
 from cloth_sim_ros.messages.body_frames import grasp_wrenches
+from cloth_sim_ros.messages.camera_messages import camera_frames
+from cloth_sim_ros.messages.camera_messages import CameraMessages
 from cloth_sim_ros.messages.frame import PointsMessage
 from cloth_sim_ros.messages.frame import StatsMessage
 from cloth_sim_ros.messages.markers import MarkersMessage
@@ -21,10 +29,13 @@ from cloth_sim_ros.messages.pins import MOST_PINS
 from cloth_sim_ros.messages.pins import PinFrames
 from cloth_sim_ros.messages.pins import WrenchMessages
 from cloth_sim_ros.messages.stamp import serialise_clock
+from cloth_sim_ros.messages.topics import camera_key
 from cloth_sim_ros.sim.held.force_window import ForceWindow
 from cloth_sim_ros.sim.held.force_window import FrameForces
 from cloth_sim_ros.sim.held.grasps import Grasp
+from cloth_sim_ros.sim.model.cameras import CameraModel
 from cloth_sim_ros.sim.model.colliders import Collider
+from cloth_sim_ros.sim.model.pose import Pose
 from cloth_sim_ros.sim.model.push import Push
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.simulation import Simulation
@@ -38,6 +49,10 @@ PARAMETERS = {
     'stats': 'publish.stats', 'tf': 'publish.tf', 'pins/wrenches': 'publish.wrenches',
     'pins/peak_wrenches': 'publish.wrenches', 'grasps/wrenches': 'publish.wrenches',
     'grasps/peak_wrenches': 'publish.wrenches', 'colliders/wrenches': 'publish.wrenches'}
+_CAMERAS = 'publish.cameras'
+# What has to be taken of a picture for each part of its topics.
+_TAKEN = {
+    'image': COLOR, 'depth': DEPTH, 'points': DEPTH, 'labels': LABELS, 'camera_info': INFO}
 _ALWAYS = frozenset(('clock', 'points', 'markers', 'stats'))
 _OF_PINS = frozenset(('tf', 'pins/wrenches', 'pins/peak_wrenches'))
 _OF_GRASPS = frozenset(('tf', 'grasps/wrenches', 'grasps/peak_wrenches'))
@@ -80,6 +95,7 @@ class FrameContent:
     :param pinned: which nodes are held by pins alone, (rows, cols) bool
     :param forces: means over the frame; None where they are not wanted, or not known
     :param epoch: stamp of simulated time 0 [ns]
+    :param pictures: of the cameras that have taken one
     """
 
     keys: frozenset[str]
@@ -92,6 +108,7 @@ class FrameContent:
     grasps: tuple[Grasp, ...]
     colliders: tuple[Collider, ...]
     epoch: int = 0
+    pictures: tuple[CameraPicture, ...] = ()
 
 
 class FrameTaker:
@@ -99,10 +116,15 @@ class FrameTaker:
     Takes the frames of a simulation, on its thread.
 
     :param values: the node's parameter values, read at each frame
+    :param place: returns where the tf frame of a camera is in the world; None where that is not
+        known
     """
 
-    def __init__(self, simulation: Simulation, values: Mapping[str, Any]) -> None:
-        """Add up no forces yet."""
+    def __init__(
+            self, simulation: Simulation, values: Mapping[str, Any],
+            place: Callable[[CameraModel], Pose | None] = lambda _: None) -> None:
+        """Add up no forces yet, and take no pictures."""
+        self._rig = CameraRig(simulation, place) if simulation.scene.cameras else None
         self._simulation = simulation
         self._values = values
         self._window: ForceWindow | None = None
@@ -125,6 +147,8 @@ class FrameTaker:
         for exists, keys in (
                 (has_pins, _OF_PINS), (grasps, _OF_GRASPS), (colliders, _OF_COLLIDERS)):
             there |= keys if exists else frozenset()
+        if simulation.scene.cameras:
+            there.add('tf')
         wanted = frozenset(
             key for key in there if self._values[PARAMETERS[key]] and is_read(key))
         snapshot = simulation.snapshot() if wanted - {'clock'} else None
@@ -133,14 +157,36 @@ class FrameTaker:
             forces = self._forces(snapshot)
         else:
             self._leave_out_forces()
+        # What pictures take is not the time of the steps.
+        made = pace()
+        picture_keys, pictures = self._pictures(is_read)
         return FrameContent(
-            wanted, simulation.time, pace(), snapshot, pinned & has_pins,
-            forces,
-            tuple(applied.push for applied in simulation.pushes), grasps, colliders, epoch)
+            wanted | picture_keys, simulation.time, made, snapshot, pinned & has_pins, forces,
+            tuple(applied.push for applied in simulation.pushes), grasps, colliders, epoch,
+            tuple(pictures))
 
     def close(self) -> None:
-        """Add up no forces any more."""
+        """Add up no forces any more, and release the cameras."""
         self._leave_out_forces()
+        if self._rig is not None:
+            self._rig.close()
+
+    def _pictures(
+            self, is_read: Callable[[str], bool]) -> tuple[frozenset[str], list[CameraPicture]]:
+        """Return the keys that are read of the cameras that are due, and their pictures."""
+        keys: set[str] = set()
+        pictures: list[CameraPicture] = []
+        if self._rig is None or not self._values[_CAMERAS]:
+            return frozenset(), []
+        for model in self._simulation.scene.cameras:
+            parts = {part for part in _TAKEN if is_read(camera_key(model.name, part))}
+            if not parts or not self._rig.is_due(model):
+                continue
+            picture = self._rig.take(model, {_TAKEN[part] for part in parts})
+            if picture is not None:
+                pictures.append(picture)
+                keys |= {camera_key(model.name, part) for part in parts}
+        return frozenset(keys), pictures
 
     def _forces(self, snapshot: Snapshot | None) -> FrameForces | None:
         """
@@ -180,12 +226,19 @@ class FrameMessages:
         self._stats = StatsMessage(frame_id)
         self._pin_frames = PinFrames(node_name, frame_id)
         self._wrenches = WrenchMessages(node_name)
+        self._cameras = scene.cameras
+        self._camera_messages: dict[str, CameraMessages] = {}
 
     def of(self, frame: FrameContent) -> Iterator[tuple[str, bytes]]:
         """Yield the key of a topic and each message, frames before what is given in them."""
         keys = frame.keys
         if 'clock' in keys:
             yield 'clock', serialise_clock(frame.time, frame.epoch)
+        if 'tf' in keys:
+            for message in camera_frames(
+                    self._cameras, self._node_name, frame.time, self._frame_id, frame.epoch):
+                yield 'tf', serialize_message(message)
+        yield from self._of_cameras(frame)
         snapshot = frame.snapshot
         if snapshot is None:
             return
@@ -204,6 +257,13 @@ class FrameMessages:
                 snapshot, ~frame.pinned, frame.epoch)
         yield from self._pin_wrenches(frame)
         yield from self._of_bodies(frame)
+
+    def _of_cameras(self, frame: FrameContent) -> Iterator[tuple[str, bytes]]:
+        for picture in frame.pictures:
+            camera = picture.camera
+            if camera.name not in self._camera_messages:
+                self._camera_messages[camera.name] = CameraMessages(camera, self._node_name)
+            yield from self._camera_messages[camera.name].of(picture, frame.keys, frame.epoch)
 
     def _pin_wrenches(self, frame: FrameContent) -> Iterator[tuple[str, bytes]]:
         if frame.forces is None:

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-"""The names of the frames of pins, grasps and colliders."""
+"""The names of the frames of pins, grasps, colliders and cameras."""
 
 import re
 
@@ -14,6 +14,11 @@ def grasp_frame(node_name: str, name: str) -> str:
 def collider_frame(node_name: str, name: str) -> str:
     """Return the name of the frame of the collider ``name``."""
     return f'{frame_prefix(node_name)}_collider_{name}'
+
+
+def camera_frame(node_name: str, name: str) -> str:
+    """Return the name of the optical frame of the camera ``name``."""
+    return f'{frame_prefix(node_name)}_camera_{name}_optical'
 
 
 def name_of_body(frame: str, kind: str) -> str:

@@ -3,7 +3,9 @@
 
 """Every topic that goes out: what the node publishes is what the recorder writes."""
 
+from collections.abc import Iterable
 from dataclasses import dataclass
+from functools import cache
 
 from cloth_sim_interfaces.msg import ClothState
 from cloth_sim_interfaces.msg import ClothStats
@@ -21,6 +23,8 @@ from geometry_msgs.msg import Vector3Stamped
 from geometry_msgs.msg import WrenchStamped
 from rcl_interfaces.msg import ParameterEvent
 from rosgraph_msgs.msg import Clock
+from sensor_msgs.msg import CameraInfo
+from sensor_msgs.msg import Image
 from sensor_msgs.msg import PointCloud2
 from shape_msgs.msg import Mesh
 from tf2_msgs.msg import TFMessage
@@ -116,3 +120,40 @@ TOPICS = {
         Topic('inputs/time_base', TimeBase, depth=1, transient_local=True, text='each change of '
               'the stamp of simulated time 0'),
     )}
+
+# Those of each camera; NAME stands for its name. A recording has them where recording.cameras asks
+# for them, and never the points, which follow from depth and camera_info.
+CAMERA_PARTS = {
+    'image': (Image, 'colours, rgb8'),
+    'depth': (Image, 'depth along the optical axis [m], 32FC1: +inf where nothing is nearer than '
+              'far, -inf where something is nearer than near (REP 118)'),
+    'camera_info': (CameraInfo, 'the pinhole of the camera, without distortion'),
+    'labels': (Image, 'what each pixel sees, mono8: 0 nothing, 1 the cloth, 2 the first of '
+               '`colliders.names`, 3 the next'),
+    'points': (PointCloud2, 'depth as an organised cloud in the optical frame; NaN where it is '
+               'not finite'),
+}
+
+RECORDED_PARTS = tuple(part for part in CAMERA_PARTS if part != 'points')
+
+
+def camera_key(name: str, part: str) -> str:
+    """Return the key of the topic with a part of the pictures of a camera."""
+    return f'cameras/{name}/{part}'
+
+
+def camera_topics(
+        names: Iterable[str], parts: Iterable[str] = tuple(CAMERA_PARTS)) -> dict[str, Topic]:
+    """Return the topics of ``parts`` of the cameras ``names`` by their keys."""
+    return {
+        camera_key(name, part): Topic(
+            camera_key(name, part), CAMERA_PARTS[part][0], depth=10, recorded=False,
+            text=CAMERA_PARTS[part][1])
+        for name in names for part in parts}
+
+
+@cache
+def topic_of(key: str) -> Topic:
+    """Return the topic of a ``key``, one of TOPICS or of a camera; KeyError for another."""
+    name = key.removeprefix('cameras/').partition('/')[0]
+    return TOPICS[key] if key in TOPICS else camera_topics([name])[key]

@@ -16,6 +16,7 @@ from cloth_sim_ros.messages.stamp import stamp
 from cloth_sim_ros.messages.state import diagnostics_message
 from cloth_sim_ros.node.action_servers import MoveActions
 from cloth_sim_ros.node.action_servers import StepAction
+from cloth_sim_ros.node.camera_places import CameraPlaces
 from cloth_sim_ros.node.device_thread import DeviceThread
 from cloth_sim_ros.node.followed_time import FollowedTime
 from cloth_sim_ros.node.followers import Followers
@@ -57,7 +58,7 @@ from cloth_sim_ros.recording.recording_faults import RecordingFull
 from cloth_sim_ros.recording.writer_choice import library_report
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.errors import WrongStateError
-from cloth_sim_ros.sim.model.colliders import fields_with_colliders
+from cloth_sim_ros.sim.model.named_fields import all_fields
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.simulation import Simulation
 from cloth_sim_ros.sim.snapshot import Snapshot
@@ -77,8 +78,10 @@ class ClothSimNode(GuardedNode):
 
     Publishes: ~/points (PointCloud2), ~/markers (MarkerArray), ~/topology (Mesh), ~/stats
     (ClothStats), ~/pins/wrenches, ~/grasps/wrenches and ~/colliders/wrenches (WrenchStamped), /tf
-    (TFMessage, a frame for each pin, grasp and collider), ~/state (ClothState), /diagnostics
-    (DiagnosticArray), /clock (Clock, when publish.clock is true), and what was done to the cloth:
+    (TFMessage, a frame for each pin, grasp, collider and camera), ~/cameras/NAME/image, depth and
+    labels (Image), camera_info (CameraInfo) and points (PointCloud2), ~/state (ClothState),
+    /diagnostics (DiagnosticArray), /clock (Clock, when publish.clock is true), and what was done
+    to the cloth:
     ~/inputs/push (Push), ~/inputs/pin (PinChange), ~/inputs/pin_target (PinTarget),
     ~/inputs/grasp (GraspChange), ~/inputs/grasp_target and ~/inputs/collider_target
     (FrameTarget), ~/inputs/wind (Vector3Stamped), ~/inputs/mode (ModeChange), ~/inputs/command
@@ -110,7 +113,7 @@ class ClothSimNode(GuardedNode):
         values = declare_fields(self, self._parameter_overrides)
         name = self.get_fully_qualified_name()
         self._values = values
-        scene = Scene({field.name: values[field.name] for field in fields_with_colliders(values)})
+        scene = Scene({field.name: values[field.name] for field in all_fields(values)})
         warn = self.get_logger().warning
         self._recording = RecordingSession(
             values['recording.directory'], name,
@@ -126,7 +129,8 @@ class ClothSimNode(GuardedNode):
         self._is_asked_for_health = False
         self._ignored = IgnoredMessages(warn)
         self._outlet = Outlet(
-            self, self._recording, heard_here=('tf',) if values['tf.listen'] else ())
+            self, self._recording, heard_here=('tf',) if values['tf.listen'] else (),
+            cameras=values['cameras.names'])
         if values['time.source'] == 'ros':
             self._use_clock()
         # With /clock, each frame is made as soon as that has come so far.
@@ -172,9 +176,12 @@ class ClothSimNode(GuardedNode):
             frames_of_scene(values['tf.follow'], simulation),
             lambda: (values['tf.follow_speed'], values['tf.follow_angular_speed']),
             lambda text: self._device.emit(lambda: log.warning(text)))
+        self._camera_places = CameraPlaces(
+            simulation, self._input_frames, self._time.base,
+            lambda text: self._device.emit(lambda: log.warning(text)))
         self._reports = simulation.listener = Reports(
             self._device, simulation, self._outlet, self._recording, values, name,
-            self._input_frames, self._time,
+            self._input_frames, self._time, place=self._camera_places.find,
             warn=log.warning, follow=lambda names: self._moves.follow(names))
         pace_report = PaceReport(
             simulation, self._pacing,
@@ -215,6 +222,7 @@ class ClothSimNode(GuardedNode):
         self.set_parameters([Parameter('use_sim_time', Parameter.Type.BOOL, True)])
 
     def _close_simulation(self) -> None:
+        self._reports.close()
         self._simulation.close()
 
     def _wake(self) -> None:
@@ -475,7 +483,7 @@ class ClothSimNode(GuardedNode):
             'followers': [
                 (each.name, each.frame, each.is_late, each.behind)
                 for each in self._followers.present],
-            'waiting': list(self._followers.waiting)}
+            'waiting': [*self._followers.waiting, *self._camera_places.waiting]}
         epoch = base.epoch
         self._device.emit(lambda: self._send_health(snapshot, now, number, epoch, known))
 

@@ -12,6 +12,7 @@ from typing import Any
 from cloth_sim_ros.files.errors import shown
 from cloth_sim_ros.messages.body_frames import body_poses
 from cloth_sim_ros.messages.frame_messages import FrameContent
+from cloth_sim_ros.messages.frame_names import camera_frame
 from cloth_sim_ros.messages.frame_names import collider_frame
 from cloth_sim_ros.messages.frame_names import grasp_frame
 from cloth_sim_ros.messages.frame_names import node_of_pin
@@ -69,13 +70,18 @@ class OwnFrames:
         self._base = base
         self._prefixes = tuple(
             name(node_name, '') for name in (grasp_frame, collider_frame, _pins_frame))
+        # Fixed in their parents: the tree has them.
+        self.cameras = {
+            camera_frame(node_name, camera.name): Sample(
+                0, camera.frame or frame_id, camera.pose)
+            for camera in simulation.scene.cameras}
         self._bodies: dict[str, FrameHistory] = {}
         # Time [ns], the pins as indices of nodes, and their positions (pins, 3).
         self._pins: deque[tuple[int, np.ndarray, np.ndarray]] = deque(maxlen=MOST_SAMPLES)
 
     def owns(self, frame: str) -> bool:
         """Return whether the name ``frame`` is one of those that the node gives."""
-        return frame.startswith(self._prefixes)
+        return frame.startswith(self._prefixes) or frame in self.cameras
 
     def note(self, frame: FrameContent) -> None:
         """Remember where those are that have a transform in ``frame``."""
@@ -106,11 +112,13 @@ class OwnFrames:
 
     def history(self, frame: str) -> FrameHistory | None:
         """
-        Return where ``frame`` was, and is; None for a frame that is none of the node's own.
+        Return where ``frame`` was, and is.
+
+        None for a frame that is none of the node's own, and for one that is fixed in its parent.
 
         :raises ClothSimError: for one that the node could have, and does not have now
         """
-        if not self.owns(frame):
+        if not self.owns(frame) or frame in self.cameras:
             return None
         now, pose = self._base.at(self._simulation.time), self._body_poses().get(frame)
         if pose is not None:
@@ -245,6 +253,8 @@ class InputFrames:
         self._tree = FrameTree(
             own.history, 'publish it on /tf or /tf_static' if listens
             else 'start the node with tf.listen: true')
+        for name, sample in own.cameras.items():
+            self._tree.add(name, sample, is_fixed=True)
         self._subscriptions: list[tuple[Subscription, bool]] = []
         if listens:
             self._listen(node, '/tf_static', is_fixed=True)

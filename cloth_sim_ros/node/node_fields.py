@@ -33,6 +33,8 @@ NODE_FIELDS = (
           'peaks and ~/colliders/wrenches', live=True),
     Field('publish.tf', bool, True, 'publish a transform for each pin, grasp and collider on /tf',
           live=True),
+    Field('publish.cameras', bool, True, 'publish the pictures of the cameras of the scene',
+          live=True),
     Field('publish.clock', bool, False, 'publish simulated time on /clock, unless another '
           'node does'),
     Field('tf.listen', bool, True, 'take inputs in other frames than `frame_id`, by the '
@@ -59,6 +61,8 @@ NODE_FIELDS = (
           'second, not only at its end'),
     Field('recording.markers', bool, False, 'record ~/markers as well, so that viewers show the '
           'surface and the colliders of a recording'),
+    Field('recording.cameras', bool, False, 'record image, depth, camera_info and labels of each '
+          'camera of the scene as well'),
     Field('clicked_point.force', float, (0.0, 0.0, 1.0), 'total force of the push triggered by a '
           'message on /clicked_point, x y z', 'N', low=-1e9, high=1e9, is_array=True, live=True),
     Field('clicked_point.radius', float, 0.1, 'radius of that push around the clicked point', 'm',

@@ -5,8 +5,11 @@
 
 from collections.abc import Callable
 from collections.abc import Collection
+from collections.abc import Iterable
 from typing import Any
 
+from cloth_sim_ros.messages.topics import camera_topics
+from cloth_sim_ros.messages.topics import topic_of
 from cloth_sim_ros.messages.topics import TOPICS
 from cloth_sim_ros.node.quick_publish import publish
 from cloth_sim_ros.node.recording_session import RecordingSession
@@ -25,23 +28,24 @@ class Outlet:
     Publish and record messages, serialised once, and only those that somebody reads.
 
     :param heard_here: the topics to which the node itself subscribes, once
+    :param cameras: names of the cameras, which have topics of their own
     """
 
     def __init__(
             self, node: Node, recording: RecordingSession,
-            heard_here: Collection[str] = ()) -> None:
+            heard_here: Collection[str] = (), cameras: Iterable[str] = ()) -> None:
         """Make the publishers of every topic but /clock, which may belong to somebody else."""
         self._heard_here = heard_here
         self._recording = recording
         self._node = node
         self._publishers: dict[str, Publisher] = {}
-        for key in TOPICS:
+        for key in (*TOPICS, *camera_topics(cameras)):
             if key != 'clock':
                 self.open_topic(key)
 
     def open_topic(self, key: str) -> None:
         """Make the publisher of the topic ``key``."""
-        topic = TOPICS[key]
+        topic = topic_of(key)
         self._publishers[key] = self._node.create_publisher(
             topic.message, topic.name, _quality(topic))
 
@@ -68,7 +72,7 @@ class Outlet:
         :param epoch: stamp of simulated time 0 [ns]
         """
         # What is kept for late subscribers has readers that are not there yet.
-        is_kept = TOPICS[key].transient_local
+        is_kept = topic_of(key).transient_local
         if is_kept or self.wanted(key, by_recording=number > 0):
             self.send_bytes(key, serialise(), sim_time, number=number, epoch=epoch)
 

@@ -12,8 +12,8 @@ from cloth_sim_ros.messages.inputs import parameter_value
 from cloth_sim_ros.node.node_fields import check_together
 from cloth_sim_ros.node.node_fields import NODE_FIELDS
 from cloth_sim_ros.sim.errors import ClothSimError
-from cloth_sim_ros.sim.model.colliders import fields_with_colliders
 from cloth_sim_ros.sim.model.given_values import completed
+from cloth_sim_ros.sim.model.named_fields import all_fields
 from cloth_sim_ros.sim.model.scene_fields import Field
 from cloth_sim_ros.sim.model.scene_fields import SCENE_FIELDS
 from cloth_sim_ros.sim.scene import refuse_unknown
@@ -47,7 +47,7 @@ def declare_fields(node: Node, overrides: Mapping[str, Parameter]) -> dict[str, 
     given = {
         name: plain_value(parameter) for name, parameter in overrides.items()
         if name not in _RCLPY_OWN and not name.startswith(_RCLPY_OWN_PREFIX)}
-    fields = fields_with_colliders(given, FIELDS)
+    fields = all_fields(given, FIELDS)
     refuse_unknown(given, fields)
     given = completed(given)
     values = {}

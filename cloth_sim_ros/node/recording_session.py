@@ -37,7 +37,7 @@ from cloth_sim_ros.sim.inputs import SetMode
 from cloth_sim_ros.sim.inputs import SetWind
 from cloth_sim_ros.sim.inputs import TakeGrasp
 from cloth_sim_ros.sim.inputs import Unpin
-from cloth_sim_ros.sim.model.colliders import fields_with_colliders
+from cloth_sim_ros.sim.model.named_fields import all_fields
 from cloth_sim_ros.sim.simulation import Simulation
 import numpy as np
 from rclpy.serialization import serialize_message
@@ -69,7 +69,7 @@ def write_opening(
         'inputs/time_base', serialize_message(base.message(now)), now, epoch=epoch)
     parameters = parameters_message(
         {**values, **vars(simulation.layout.choice),
-         'shape.mask': simulation.scene['shape.mask']}, fields_with_colliders(values, FIELDS), now,
+         'shape.mask': simulation.scene['shape.mask']}, all_fields(values, FIELDS), now,
         node_name, epoch=epoch)
     recording.write(
         'inputs/parameters', serialise_parameter_event(parameters), now, epoch=epoch)

@@ -32,6 +32,8 @@ from cloth_sim_ros.sim.inputs import InputListener
 from cloth_sim_ros.sim.inputs import Release
 from cloth_sim_ros.sim.inputs import Reset
 from cloth_sim_ros.sim.inputs import TakeGrasp
+from cloth_sim_ros.sim.model.cameras import CameraModel
+from cloth_sim_ros.sim.model.pose import Pose
 from cloth_sim_ros.sim.simulation import Simulation
 import numpy as np
 from rclpy.parameter import Parameter
@@ -52,6 +54,7 @@ class Reports(InputListener):
     :param node_name: with its namespace
     :param frames: keeps the poses of pins, grasps and colliders of each frame
     :param node_time: has the base of all stamps
+    :param place: returns where the tf frame of a camera is; None where that is not known
     :param warn: called on the ROS thread with what a user should know
     :param follow: called on the ROS thread with the names of the grasps when they have changed
     """
@@ -59,7 +62,8 @@ class Reports(InputListener):
     def __init__(
             self, device: DeviceThread, simulation: Simulation, outlet: Outlet,
             recording: RecordingSession, values: Mapping[str, Any], node_name: str,
-            frames: InputFrames, node_time: NodeTime, *, warn: Callable[[str], None],
+            frames: InputFrames, node_time: NodeTime, *,
+            place: Callable[[CameraModel], Pose | None], warn: Callable[[str], None],
             follow: Callable[[Sequence[str]], None]) -> None:
         """Prepare the messages of this cloth."""
         scene = simulation.scene
@@ -76,9 +80,13 @@ class Reports(InputListener):
         self._told_epoch: int | None = None
         self._warn = warn
         self._follow = follow
-        self._taker = FrameTaker(simulation, values)
+        self._taker = FrameTaker(simulation, values, place)
         self._messages = FrameMessages(scene, node_name, self._frame_id)
         self._reason = ''
+
+    def close(self) -> None:
+        """Release the device."""
+        self._taker.close()
 
     def is_held_back(self) -> bool:
         """Return whether frames wait that must not be left out."""

@@ -35,6 +35,7 @@ class RecordingOptions:
     :param max_size: of all files of the recording, which is completed there [bytes]; 0 for none
     :param fsync: True to wait for the disk at each flush, not only at the end
     :param markers: True to record the markers too, for viewers that draw what is in a bag
+    :param cameras: names of the cameras whose pictures are recorded
     """
 
     max_bagfile_size: int = 0
@@ -42,16 +43,18 @@ class RecordingOptions:
     max_size: int = 0
     fsync: bool = False
     markers: bool = False
+    cameras: tuple[str, ...] = ()
 
     @classmethod
     def from_values(cls, values: Mapping[str, Any]) -> 'RecordingOptions':
-        """Return the options that a node's parameters, by name, ask for."""
+        """Return the options that the parameters of a scene and a node, by name, ask for."""
         return cls(
             max_bagfile_size=values['recording.max_bagfile_size'],
             max_bagfile_duration=values['recording.max_bagfile_duration'],
             max_size=values[MAX_SIZE_SETTING],
             fsync=values['recording.fsync'],
-            markers=values['recording.markers'])
+            markers=values['recording.markers'],
+            cameras=tuple(values['cameras.names']) if values['recording.cameras'] else ())
 
     @property
     def splits(self) -> bool:

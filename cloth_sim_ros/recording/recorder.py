@@ -14,7 +14,10 @@ import time
 from typing import Any
 
 from cloth_sim_ros.messages.stamp import nanoseconds
+from cloth_sim_ros.messages.topics import camera_topics
+from cloth_sim_ros.messages.topics import RECORDED_PARTS
 from cloth_sim_ros.messages.topics import Topic
+from cloth_sim_ros.messages.topics import topic_of
 from cloth_sim_ros.messages.topics import TOPICS
 from cloth_sim_ros.recording.bag_folder import DIRECTORY_SETTING
 from cloth_sim_ros.recording.bag_folder import make_bag_folder
@@ -112,6 +115,9 @@ class Recorder:
             self._channels = {
                 key: topic_channel(topic, node_name) for key, topic in TOPICS.items()
                 if topic.recorded or (key == 'markers' and options.markers)}
+            self._channels |= {
+                key: topic_channel(topic, node_name)
+                for key, topic in camera_topics(options.cameras, RECORDED_PARTS).items()}
         except OSError as error:
             raise refusal(Path(directory), error, setting) from error
         self.path = make_bag_folder(directory, name, setting)
@@ -142,7 +148,7 @@ class Recorder:
 
     def takes(self, key: str) -> bool:
         """Return whether messages of the topic ``key`` are recorded."""
-        return TOPICS[key].key in self._channels
+        return topic_of(key).key in self._channels
 
     def write(self, key: str, data: bytes, sim_time: float, epoch: int = 0) -> None:
         """

@@ -1,24 +1,17 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-"""From where the cloth is looked at, how that projects, and what a depth camera sees."""
+"""From where the cloth is looked at, and how that projects."""
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 import math
 
-from cloth_sim_ros.analysis.collider_surface import collider_surface
-from cloth_sim_ros.gl.context import Context
-from cloth_sim_ros.gl.errors import DeviceError
-from cloth_sim_ros.gl.framebuffer import DepthBuffer
-from cloth_sim_ros.gl.framebuffer import draw_nearest
 from cloth_sim_ros.gl.program import RenderProgram
-from cloth_sim_ros.rendering.node_buffer import NodeBuffer
-from cloth_sim_ros.rendering.surface_programs import draw_surface
-from cloth_sim_ros.rendering.surface_programs import GAP_DEFINES
 from cloth_sim_ros.sim.errors import ClothSimError
+from cloth_sim_ros.sim.model.cameras import CameraModel
 from cloth_sim_ros.sim.model.colliders import Collider
-from cloth_sim_ros.sim.snapshot import FLAG_GAP
+from cloth_sim_ros.sim.model.pose import Pose
+from cloth_sim_ros.sim.model.pose import quaternion_of
 import numpy as np
 
 _NEAREST = 0.02  # of the distance: nothing is drawn nearer to the camera
@@ -69,15 +62,24 @@ class View:
             np.append(slope * towards, offset),
             np.append(-shrink * towards, 1.0)])
 
-    def distances(self, depths: np.ndarray) -> np.ndarray:
+    def pinhole(self, name: str = 'view') -> CameraModel:
         """
-        Return how far from the camera, along its axis, something is [m]; with perspective only.
+        Return the camera that sees this view.
 
-        :param depths: of OpenGL, 0 at the near end to 1 at the far one
+        :raises ClothSimError: when it has no perspective, and the camera therefore no place
         """
-        slope, offset = self._depth_line
-        device = 2.0 * depths.astype(float) - 1.0
-        return self.distance - (device - offset) / (slope + device / self.distance)
+        if not math.isfinite(self.distance):
+            raise ClothSimError(
+                'a camera needs a field of view above 0 degrees, got 0: give one')
+        right, up, towards = self.axes
+        x, y, z = self.middle + self.distance * towards
+        focal = self.distance / self.pixel
+        return CameraModel(
+            name, self.width, self.height, focal, focal, (self.width - 1) / 2.0,
+            (self.height - 1) / 2.0,
+            Pose((x, y, z), quaternion_of(np.stack([right, -up, -towards]))), '',
+            near=max(_NEAREST * self.distance, self.distance - self.depth),
+            far=float(np.float32(self.distance + self.depth)), rate=1.0)
 
     def sees(self, collider: Collider) -> bool:
         """Return whether it is no plane, or the camera is on the side of it that cloth is on."""
@@ -201,80 +203,3 @@ def set_view(program: RenderProgram, view: View, detail: int = 1) -> None:
     program.set_matrix('view_matrix', view.matrix)
     program.set_vectors('towards_camera', view.axes[2])
     program.set_pair('half_size', (detail * view.width / 2.0, detail * view.height / 2.0))
-
-
-# See a cloth and its colliders as a depth camera does.
-
-_PLANE = 4.0  # half the side of a plane, over how far from the middle is drawn
-
-
-class DepthCamera:
-    """
-    Draws how far away a cloth and what it can touch are, along the axis of the camera.
-
-    It has a GL context of its own.
-
-    :param cells: which there are, (rows - 1, cols - 1) bool; None for all
-    :raises ClothSimError: when the view has no perspective, and the camera therefore no place
-    :raises DeviceError: when there is no GL device, or it can't draw so large a picture
-    """
-
-    def __init__(self, view: View, cells: np.ndarray | None = None) -> None:
-        """Make the context and the picture."""
-        if not math.isfinite(view.distance):
-            raise ClothSimError(
-                'a depth camera needs a field of view above 0 degrees, got 0: give one')
-        self.view = view
-        self._context = Context()
-        if not self._context.max_texture_texels:
-            raise DeviceError(
-                f'{self._context.device} lacks texture buffers, which rendering needs: render on '
-                'another device')
-        self._depths = DepthBuffer(view.width, view.height)
-        self._nodes = NodeBuffer(self._context.max_texture_texels)
-        self._flags = None if cells is None else FLAG_GAP * np.pad(~cells, ((0, 1), (0, 1)))
-        self._surface = RenderProgram('render/cloth.vert', 'render/plain.frag')
-        self._cut_surface = None if cells is None else RenderProgram(
-            'render/cloth.vert', 'render/plain.frag', GAP_DEFINES)
-
-    @property
-    def far(self) -> float:
-        """Get what pixels have in which nothing is seen [m]; farther off, nothing is."""
-        return float(np.float32(self.view.distance + self.view.depth))
-
-    def draw(
-            self, positions: np.ndarray, colliders: Sequence[Collider] = ()) -> np.ndarray:
-        """
-        Return the depth of each pixel.
-
-        :param positions: (rows, cols, 3) [m], of two rows and two columns or more
-        :param colliders: where they are at the time
-        :return: (height, width) float32 [m], the uppermost line first
-        """
-        self._context.make_current()
-        self._depths.begin()
-        draw_nearest()
-        if self._cut_surface is not None:
-            self._nodes.load_points(positions, self.view.middle, self._flags)
-            self._cut_surface.use()
-            set_view(self._cut_surface, self.view)
-            draw_surface(self._cut_surface, positions.shape[:2], has_gaps=True)
-        self._surface.use()
-        set_view(self._surface, self.view)
-        if self._cut_surface is None:
-            self._draw(positions)
-        for collider in colliders:
-            if self.view.sees(collider):
-                self._draw(collider_surface(
-                    collider, self.view.middle, _PLANE * self.view.depth)[0])
-        drawn = self._depths.read()
-        depths = self.view.distances(drawn).astype(np.float32)
-        return np.where(drawn < 1.0, depths, np.float32(self.far))
-
-    def _draw(self, points: np.ndarray) -> None:
-        self._nodes.load_points(points, self.view.middle)
-        draw_surface(self._surface, points.shape[:2])
-
-    def close(self) -> None:
-        """Release the device."""
-        self._context.close()

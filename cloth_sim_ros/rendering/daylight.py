@@ -8,9 +8,9 @@ from contextlib import contextmanager
 from functools import cached_property
 import math
 
-from cloth_sim_ros.analysis.collider_surface import collider_surface
-from cloth_sim_ros.analysis.collider_surface import is_ground
 from cloth_sim_ros.analysis.frame import Frame
+from cloth_sim_ros.camera.light import DEPTH_UNIT
+from cloth_sim_ros.camera.light import LIGHT_DEFINES
 from cloth_sim_ros.gl.framebuffer import DepthTexture
 from cloth_sim_ros.gl.framebuffer import draw_nearest
 from cloth_sim_ros.gl.program import RenderProgram
@@ -23,6 +23,8 @@ from cloth_sim_ros.rendering.surface_programs import draw_surface
 from cloth_sim_ros.rendering.surface_programs import gap_defines
 from cloth_sim_ros.rendering.surface_programs import SurfacePrograms
 from cloth_sim_ros.rendering.survey import Survey
+from cloth_sim_ros.sim.model.collider_surface import collider_surface
+from cloth_sim_ros.sim.model.collider_surface import is_ground
 import numpy as np
 
 # Looks of a cloth: coloured by its strain, or one of the fabrics.
@@ -41,7 +43,6 @@ FLOOR_COLOR = (0.96, 0.955, 0.945)
 _CHECKS = 20
 # Right, up and towards the camera: from the side, so that folds shade each other.
 _LAMP = np.array([-0.50, 0.76, 0.42]) / np.linalg.norm([-0.50, 0.76, 0.42])
-_DEPTH_UNIT = 2       # render/lamp.glsl
 _DEPTH_SIDE = 2048    # [pixel]
 _BLUR = 0.008         # radius of a shadow's soft edge, over the longest side of all cloths
 _MARGIN = 1.05        # what the lamp sees over what is in view
@@ -50,11 +51,7 @@ _PLANE = 0.9          # half the side of a plane that is not level, over that si
 # Cloth that touches a body is drawn in front of it, over the longest side of all cloths.
 _BEHIND = 3e-3
 
-DAYLIGHT_DEFINES = {
-    'DAYLIGHT': 1, 'HEM_SHADE': 0.25, 'LAMP_TAPS': 24,
-    # Light of a surface of white that faces the lamp, and what comes from above and from below.
-    'LAMP_LIGHT': 0.74, 'SKY_LIGHT': 0.40, 'FLOOR_LIGHT': 0.18,
-    'SHINES_THROUGH': 0.22, 'FUZZ': 0.12, 'FUZZ_POWER': 3.0}
+DAYLIGHT_DEFINES = {**LIGHT_DEFINES, 'DAYLIGHT': 1, 'HEM_SHADE': 0.25, 'LAMP_TAPS': 24}
 CHECKED_DEFINES = {**DAYLIGHT_DEFINES, 'CHECKED': 1}
 
 
@@ -153,7 +150,7 @@ class DaylightDrawing:
         blur = _BLUR * self._survey.size
         program.use()
         set_view(program, view)
-        self._depths.bind(_DEPTH_UNIT)
+        self._depths.bind(DEPTH_UNIT)
         program.set_matrix('lamp_matrix', lamp.matrix)
         program.set_vectors('lamp', lamp.axes[2])
         program.set_float('lamp_blur', blur / (2.0 * lamp.half_height))

@@ -7,7 +7,6 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
-from cloth_sim_ros.analysis.collider_surface import ground
 from cloth_sim_ros.analysis.frame import Frame
 from cloth_sim_ros.gl.context import Context
 from cloth_sim_ros.gl.errors import DeviceError
@@ -39,6 +38,7 @@ from cloth_sim_ros.rendering.solid_drawing import seen_and_hidden
 from cloth_sim_ros.rendering.source import Source
 from cloth_sim_ros.rendering.survey import region_rings
 from cloth_sim_ros.rendering.survey import Survey
+from cloth_sim_ros.sim.model.collider_surface import ground
 from cloth_sim_ros.sim.snapshot import FLAG_AT_LIMIT
 import numpy as np
 

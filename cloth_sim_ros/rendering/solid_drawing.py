@@ -8,8 +8,6 @@ from collections.abc import Iterator
 from functools import cached_property
 import math
 
-from cloth_sim_ros.analysis.collider_surface import collider_surface
-from cloth_sim_ros.analysis.collider_surface import is_ground
 from cloth_sim_ros.gl.buffer import Buffer
 from cloth_sim_ros.gl.framebuffer import draw_clockwise_only
 from cloth_sim_ros.gl.framebuffer import draw_hidden
@@ -34,6 +32,8 @@ from cloth_sim_ros.rendering.look import set_light
 from cloth_sim_ros.rendering.look import UNKNOWN_COLOR
 from cloth_sim_ros.rendering.node_buffer import NodeBuffer
 from cloth_sim_ros.rendering.survey import Survey
+from cloth_sim_ros.sim.model.collider_surface import collider_surface
+from cloth_sim_ros.sim.model.collider_surface import is_ground
 from cloth_sim_ros.sim.model.colliders import Collider
 import numpy as np
 

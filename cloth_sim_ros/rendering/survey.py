@@ -6,10 +6,10 @@
 from collections.abc import Iterable
 from collections.abc import Sequence
 
-from cloth_sim_ros.analysis.collider_surface import collider_surface
 from cloth_sim_ros.analysis.frame import Frame
 from cloth_sim_ros.rendering.look import StrainRange
 from cloth_sim_ros.sim.errors import ClothSimError
+from cloth_sim_ros.sim.model.collider_surface import collider_surface
 from cloth_sim_ros.sim.model.colliders import Collider
 from cloth_sim_ros.sim.model.push import Push
 from cloth_sim_ros.sim.snapshot import FLAG_AT_LIMIT

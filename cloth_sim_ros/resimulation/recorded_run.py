@@ -18,7 +18,7 @@ from cloth_sim_ros.analysis.recording import Recording
 from cloth_sim_ros.recording.bag_metadata import folder_metadata
 from cloth_sim_ros.recording.bag_metadata import PACKAGE
 from cloth_sim_ros.sim.errors import ClothSimError
-from cloth_sim_ros.sim.model.colliders import fields_with_colliders
+from cloth_sim_ros.sim.model.named_fields import all_fields
 from cloth_sim_ros.sim.model.scene_fields import Field
 from cloth_sim_ros.sim.scene import Scene
 
@@ -58,7 +58,7 @@ class RecordedScene:
         given = {parameter.name: plain_value(parameter.value) for parameter in parameters}
         if mode:
             given['mode'] = mode
-        names = {field.name for field in fields_with_colliders(given)}
+        names = {field.name for field in all_fields(given)}
         return cls(
             {name: value for name, value in given.items() if name in names},
             {name: value for name, value in given.items() if name not in names})
@@ -106,7 +106,7 @@ class RecordedScene:
 
     @property
     def _fields(self) -> dict[str, Field]:
-        return {field.name: field for field in fields_with_colliders(self.values)}
+        return {field.name: field for field in all_fields(self.values)}
 
     def _is_valid(self, name: str) -> bool:
         try:

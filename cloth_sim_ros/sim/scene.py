@@ -17,18 +17,20 @@ from cloth_sim_ros.sim.arguments import integer
 from cloth_sim_ros.sim.arguments import mapping
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.model import grid
+from cloth_sim_ros.sim.model.cameras import cameras_of
 from cloth_sim_ros.sim.model.cells import Cells
 from cloth_sim_ros.sim.model.colliders import colliders_of
-from cloth_sim_ros.sim.model.colliders import fields_with_colliders
 from cloth_sim_ros.sim.model.colliders import is_thin
 from cloth_sim_ros.sim.model.frame_paths import FrameMove
 from cloth_sim_ros.sim.model.given_values import completed
 from cloth_sim_ros.sim.model.grasp_request import GraspRequest
 from cloth_sim_ros.sim.model.grid import near_node
+from cloth_sim_ros.sim.model.look import look_of
 from cloth_sim_ros.sim.model.materials import of_direction
 from cloth_sim_ros.sim.model.materials import spring_stiffness
 from cloth_sim_ros.sim.model.materials import WARP
 from cloth_sim_ros.sim.model.materials import WEFT
+from cloth_sim_ros.sim.model.named_fields import all_fields
 from cloth_sim_ros.sim.model.pins import checked_node
 from cloth_sim_ros.sim.model.pins import only_node
 from cloth_sim_ros.sim.model.pins import PinMove
@@ -46,6 +48,8 @@ import numpy as np
 GIVE_SCENE = "write Scene({'rows': 32}), or load_scene(path)"
 # Max. suggestions for a name that several groups have [1], so that the message is read.
 _MOST_MEMBERS = 4
+# Groups of parameters in which each body has a group of its own.
+_WITH_NAMES = ('colliders', 'cameras')
 
 
 class Scene:
@@ -60,7 +64,7 @@ class Scene:
         """Check ``values`` against the field table."""
         values = {} if values is None else mapping(
             values, 'the values of a scene', "give parameters by name, {'rows': 32}")
-        fields = fields_with_colliders(values)
+        fields = all_fields(values)
         refuse_unknown(values, fields)
         by_name = {field.name: field for field in fields}
         given = completed({name: by_name[name].check(value) for name, value in values.items()})
@@ -89,6 +93,12 @@ class Scene:
         self.values['shape.mask'] = embedded_mask(self['shape.mask'])
         self.cells = self._make_cells()
         self.colliders = colliders_of(self.values)
+        self.cameras = cameras_of(self.values)
+        self.look = look_of(self.values)
+        if self.cameras and min(self.rows, self.cols) < 2:
+            raise ClothSimError(
+                f'cameras see surfaces, and a chain of rows {self.rows} x cols {self.cols} has '
+                'none: give 2 or more of both, or leave cameras.names out')
         self._check_contact()
         self._check_self_contact()
         self.pinned_nodes()
@@ -491,10 +501,10 @@ def refuse_unknown(given: Iterable[str], fields: tuple[Field, ...]) -> None:
 
 def _hint(name: str, known: list[str]) -> str:
     group, _, rest = name.partition('.')
-    if group == 'colliders' and '.' in rest:
-        collider = rest.partition('.')[0]
-        if not any(each.startswith(f'colliders.{collider}.') for each in known):
-            return f'list {cut(collider)} in colliders.names'
+    if group in _WITH_NAMES and '.' in rest:
+        body = rest.partition('.')[0]
+        if not any(each.startswith(f'{group}.{body}.') for each in known):
+            return f'list {cut(body)} in {group}.names'
     counts = Counter(each.partition('.')[0] for each in known if '.' in each)
     groups = sorted(group for group, count in counts.items() if count > 1)
     close = close_name(name, known + groups)

@@ -12,6 +12,7 @@ import math
 from typing import Any
 
 from cloth_sim_ros.files.errors import shown
+from cloth_sim_ros.gl.buffer import shader_writes_visible
 from cloth_sim_ros.gl.context import Context
 from cloth_sim_ros.sim import modes
 from cloth_sim_ros.sim.contact.contacts import ContactForce
@@ -73,6 +74,7 @@ from cloth_sim_ros.sim.simulation_arguments import checked_snapshot
 from cloth_sim_ros.sim.snapshot import Measures
 from cloth_sim_ros.sim.snapshot import Snapshot
 from cloth_sim_ros.sim.state import start_state
+from cloth_sim_ros.sim.state import StoredPositions
 from cloth_sim_ros.sim.stepping import Stepping
 from cloth_sim_ros.sim.stop import never
 from cloth_sim_ros.sim.stop import Stop
@@ -590,6 +592,18 @@ class Simulation(AbstractContextManager['Simulation']):
         """Return all positions [m], (rows, cols, 3) float32; NaN where a shape has no node."""
         self.engines.context.make_current()
         return self._state.read_positions()
+
+    def stored_positions(self) -> StoredPositions:
+        """
+        Return where the device has all positions, for a context beside that of the cloth.
+
+        The device is done with them; they are those of now until the next step or input.
+        """
+        context = self.engines.context
+        context.make_current()
+        shader_writes_visible()
+        context.finish()
+        return self._state.stored_positions
 
     def velocities(self) -> np.ndarray:
         """Return all velocities [m/s], (rows, cols, 3) float32; a pinned node has its pin's."""

@@ -5,6 +5,7 @@
 
 from collections.abc import Sequence
 from itertools import product
+from typing import NamedTuple
 from typing import Protocol
 
 from cloth_sim_ros.gl.buffer import Buffer
@@ -70,6 +71,21 @@ class SubstepEnds(Protocol):
 
     def bind_out(self) -> None:
         """Let the next dispatches change the last."""
+
+
+class StoredPositions(NamedTuple):
+    """
+    Where the device has the positions of all nodes, four floats each: x y z [m] and a weight.
+
+    The weight is 0 where there is no node.
+
+    :param first: entry of node (0, 0)
+    :param pitch: entries from a row to the next
+    """
+
+    buffer: Buffer
+    first: int
+    pitch: int
 
 
 class State:
@@ -201,6 +217,12 @@ class State:
     def read_velocities(self) -> np.ndarray:
         """Return all velocities [m/s], (rows, cols, 3) float32; NaN where there is no node."""
         return self._read(self._velocities)
+
+    @property
+    def stored_positions(self) -> StoredPositions:
+        """Return where the present positions are; a substep does not write there."""
+        return StoredPositions(
+            self._positions[self._now], self._layout.index(0, 0), self._layout.pitch)
 
     def read_kept_positions(self) -> np.ndarray:
         """Return the positions that were kept last [m], (rows, cols, 3)."""

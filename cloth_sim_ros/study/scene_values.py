@@ -5,7 +5,7 @@
 
 from typing import Any
 
-from cloth_sim_ros.sim.model.colliders import fields_with_colliders
+from cloth_sim_ros.sim.model.named_fields import all_fields
 from cloth_sim_ros.sim.scene import Scene
 
 
@@ -17,7 +17,7 @@ def given_values(scene: Scene) -> dict[str, Any]:
     material is always written: without it the default fabric would replace default springs.
     """
     values = {
-        field.name: scene[field.name] for field in fields_with_colliders(scene.values)
+        field.name: scene[field.name] for field in all_fields(scene.values)
         if field.name == 'material.preset' or (
             field.name != 'preset' and scene[field.name] != field.check(field.default))}
     return {name: list(value) if isinstance(value, tuple) else value

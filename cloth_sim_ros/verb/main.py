@@ -51,6 +51,7 @@ VERBS = {
     'recover': 'repair a truncated or damaged recording for other tools',
     'analyze': 'analyse and compare recordings: table, CSV, JSON and plots',
     'render': 'render recordings as a sheet of images or as a video',
+    'dataset': 'make a data set of labelled pictures of a scene',
     'export': 'write the cloth of a recording as a mesh: OBJ, PLY, glTF or USD',
     'play': 'replay a recording on its topics',
     'view': 'view a node, a scene or a recording in the browser',

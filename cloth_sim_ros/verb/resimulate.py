@@ -31,7 +31,7 @@ from cloth_sim_ros.resimulation.rerun import Rerun
 from cloth_sim_ros.resimulation.verdict import Verdict
 from cloth_sim_ros.resimulation.verdict import version_lines
 from cloth_sim_ros.sim.errors import ClothSimError
-from cloth_sim_ros.sim.model.colliders import fields_with_colliders
+from cloth_sim_ros.sim.model.named_fields import all_fields
 from cloth_sim_ros.sim.scene import refuse_unknown
 from cloth_sim_ros.verb import analyze
 from cloth_sim_ros.verb.recording_arguments import add_recording_arguments
@@ -61,7 +61,7 @@ def main(args: Namespace) -> int:
     recording = open_recording(args)
     with _folder(args) as folder:
         run = RecordedRun(recording)
-        refuse_unknown(changes, fields_with_colliders({**run.scene.values, **changes}))
+        refuse_unknown(changes, all_fields({**run.scene.values, **changes}))
         rerun = Rerun(run, changes)
         listener = _listener(run, rerun, folder)
         try:

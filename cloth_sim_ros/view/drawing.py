@@ -6,11 +6,11 @@
 from collections.abc import Callable
 from typing import Any
 
-from cloth_sim_ros.analysis.collider_surface import ground
-from cloth_sim_ros.analysis.collider_surface import local_surface
 from cloth_sim_ros.analysis.frame import Frame
 from cloth_sim_ros.analysis.strain_stops import strain_rgb
 from cloth_sim_ros.sim.mesh import triangles
+from cloth_sim_ros.sim.model.collider_surface import ground
+from cloth_sim_ros.sim.model.collider_surface import local_surface
 from cloth_sim_ros.sim.model.colliders import Collider
 from cloth_sim_ros.view.source import Source
 from cloth_sim_ros.view.surface import band_colors

@@ -21,7 +21,7 @@ from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.inputs import ClearPushes
 from cloth_sim_ros.sim.inputs import MoveCollider
 from cloth_sim_ros.sim.inputs import Reset
-from cloth_sim_ros.sim.model.colliders import fields_with_colliders
+from cloth_sim_ros.sim.model.named_fields import all_fields
 from cloth_sim_ros.sim.model.pose import Pose
 from cloth_sim_ros.sim.model.push import Push
 from cloth_sim_ros.sim.scene import Scene
@@ -43,7 +43,7 @@ def opened(values=VALUES):
     """Return the history of a run that has just begun."""
     history = ColliderHistory()
     message = parameters_message(
-        Scene(values).values, fields_with_colliders(values), 0.0, 'cloth_sim')
+        Scene(values).values, all_fields(values), 0.0, 'cloth_sim')
     history.read(Entry('inputs/parameters', 0.0, message))
     return history
 
@@ -97,7 +97,7 @@ def test_a_run_without_colliders_has_none():
 def test_unknown_colliders_are_skipped_with_a_note():
     """A recording of a later version could not be drawn at all."""
     message = parameters_message(
-        Scene(VALUES).values, fields_with_colliders(VALUES), 0.0, 'cloth_sim')
+        Scene(VALUES).values, all_fields(VALUES), 0.0, 'cloth_sim')
     for parameter in message.new_parameters:
         if parameter.name == 'colliders.ball.shape':
             parameter.value.string_value = 'torus'

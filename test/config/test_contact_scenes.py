@@ -5,8 +5,8 @@
 
 from pathlib import Path
 
-from cloth_sim_ros.sim.model.colliders import fields_with_colliders
 from cloth_sim_ros.sim.model.given_values import load_parameters
+from cloth_sim_ros.sim.model.named_fields import all_fields
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.simulation import Simulation
 from crossings import crossings
@@ -24,7 +24,7 @@ def opened():
 
     def make(name, **changes):
         given = {**load_parameters(CONFIG / f'{name}.yaml'), **changes}
-        names = {field.name for field in fields_with_colliders(given)}
+        names = {field.name for field in all_fields(given)}
         made.append(Simulation(Scene({
             name: value for name, value in given.items() if name in names})))
         return made[-1]

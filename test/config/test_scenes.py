@@ -8,8 +8,8 @@ from pathlib import Path
 
 from cloth_sim_ros.node.node_fields import check_together
 from cloth_sim_ros.node.node_fields import NODE_FIELDS
-from cloth_sim_ros.sim.model.colliders import fields_with_colliders
 from cloth_sim_ros.sim.model.given_values import load_parameters
+from cloth_sim_ros.sim.model.named_fields import all_fields
 from cloth_sim_ros.sim.scene import refuse_unknown
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.simulation import Simulation
@@ -27,13 +27,13 @@ def given(request):
 
 def scene_of(given):
     """Return the scene in what a file gives."""
-    names = {field.name for field in fields_with_colliders(given)}
+    names = {field.name for field in all_fields(given)}
     return Scene({name: value for name, value in given.items() if name in names})
 
 
 def test_node_and_simulation_accept_it(given):
     """A user's first start would end with an error."""
-    refuse_unknown(given, fields_with_colliders(given) + NODE_FIELDS)
+    refuse_unknown(given, all_fields(given) + NODE_FIELDS)
     scene_of(given)
     check_together({
         field.name: field.check(given.get(field.name, field.default)) for field in NODE_FIELDS})

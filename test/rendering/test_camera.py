@@ -4,13 +4,7 @@
 """From where the cloth is looked at, how that projects, and what a depth camera sees."""
 
 from cloth_sim_ros.rendering.camera import Camera
-from cloth_sim_ros.rendering.camera import DepthCamera
 from cloth_sim_ros.sim.errors import ClothSimError
-from cloth_sim_ros.sim.model.colliders import Collider
-from cloth_sim_ros.sim.model.pose import unit_quaternion
-from cloth_sim_ros.sim.scene import Scene
-from cut_scene import CUT
-from cut_scene import cut_snapshot
 from hypothesis import given
 from hypothesis import strategies
 import numpy as np
@@ -35,17 +29,6 @@ def test_the_matrix_puts_points_where_project_says(field_of_view):
     assert (np.abs(device[:, 2]) < 1.0).all()
     near = (points - view.middle) @ view.axes[2]
     assert (np.diff(device[np.argsort(-near), 2]) > 0.0).all()
-
-
-@pytest.mark.parametrize('field_of_view', [5.0, 25.0, 90.0])
-def test_depths_of_the_device_are_distances_again(field_of_view):
-    """A depth picture would be in units of the device, not in metres."""
-    points = np.random.default_rng(1).uniform(-1.0, 1.0, (30, 3)) + (5.0, 0.0, -2.0)
-    view = Camera(30.0, 15.0, field_of_view).looking_at(points, 320, 240)
-    clip = np.append(points - view.middle, np.ones((30, 1)), axis=1) @ view.matrix.T
-    depths = (clip[:, 2] / clip[:, 3] + 1.0) / 2.0
-    np.testing.assert_allclose(
-        view.distances(depths), view.distance - (points - view.middle) @ view.axes[2])
 
 
 def some_points(seed, scale=1.0):
@@ -146,159 +129,24 @@ def test_a_camera_that_sees_nothing_is_refused(wrong, rule):
         Camera(**wrong)
 
 
-# A depth picture has the distance of the cloth along the axis of the camera.
+@pytest.mark.parametrize('angles', [
+    {}, {'azimuth': 60.0, 'elevation': 40.0, 'field_of_view': 60.0},
+    {'azimuth': 250.0, 'elevation': -20.0, 'field_of_view': 120.0, 'zoom': 2.0},
+    {'elevation': 90.0}])
+def test_its_pinhole_sees_the_same_view(angles):
+    """Depth observations would be of another place than the pictures beside them."""
+    points = np.random.default_rng(2).uniform(-1.0, 1.0, (50, 3)) + (3.0, -1.0, 2.0)
+    view = Camera(**angles).looking_at(points, 80, 60)
+    pinhole = view.pinhole()
+    inside = points[pinhole.pose.seen_from(points)[:, 2] > pinhole.near]
+    # A view counts from the corner of a pixel, a pinhole from its middle.
+    np.testing.assert_allclose(
+        pinhole.project(pinhole.pose.seen_from(inside)) + 0.5, view.project(inside), atol=1e-6)
+    assert len(inside) > 25
 
 
-@pytest.fixture
-def camera():
-    """Return a function that makes depth cameras, and close them."""
-    made = []
-
-    def make(points, width=80, height=60, cells=None, **angles):
-        view = Camera(**angles).looking_at(points.reshape(-1, 3), width, height)
-        made.append(DepthCamera(view, cells))
-        return made[-1]
-
-    yield make
-    for each in made:
-        each.close()
-
-
-def plane(origin, right, down, rows=5, cols=7):
-    """Return the positions of a flat cloth, (rows, cols, 3) [m]."""
-    across = np.linspace(0.0, 1.0, cols)[None, :, None]
-    along = np.linspace(0.0, 1.0, rows)[:, None, None]
-    return np.asarray(origin) + across * np.asarray(right) + along * np.asarray(down)
-
-
-@pytest.mark.parametrize('middle', [(0.0, 0.0, 0.0), (4096.0, -100.0, 7.0)])
-def test_a_cloth_across_the_axis_has_one_depth(camera, middle):
-    """A policy would see a flat cloth as a bowl, or at a wrong distance."""
-    cloth = plane(np.array(middle) + (-0.5, 0.0, 0.4), (1.0, 0.0, 0.0), (0.0, 0.0, -0.8))
-    eye = camera(cloth, azimuth=-90.0, elevation=0.0, field_of_view=60.0)
-    seen = eye.draw(cloth)
-    assert seen.shape == (60, 80) and seen.dtype == np.float32
-    covered = seen < eye.far
-    assert 0.7 < covered.mean() < 1.0
-    np.testing.assert_allclose(seen[covered], eye.view.distance, rtol=1e-5)
-
-
-@pytest.mark.parametrize('field_of_view', [20.0, 60.0, 120.0])
-@pytest.mark.parametrize('azimuth, elevation', [(-90.0, 0.0), (60.0, 40.0), (250.0, -20.0)])
-def test_a_tilted_cloth_has_the_depth_of_the_ray(camera, azimuth, elevation, field_of_view):
-    """Slopes would be seen too steep or too shallow, or the picture be mirrored."""
-    origin, right, down = map(np.array, ((-0.5, 0.1, 0.4), (1.0, 0.5, 0.1), (0.0, 0.3, -0.8)))
-    cloth = plane(origin, right, down)
-    eye = camera(
-        cloth, azimuth=azimuth, elevation=elevation, field_of_view=field_of_view)
-    seen, view = eye.draw(cloth), eye.view
-    # Where the ray through the middle of each pixel meets the plane, from the pinhole alone.
-    rows, cols = np.indices(seen.shape) + 0.5
-    focus = view.distance / view.pixel
-    rays = np.stack([
-        (cols - view.width / 2) / focus, (view.height / 2 - rows) / focus, -np.ones_like(rows)],
-        axis=-1) @ view.axes
-    place = view.middle + view.distance * view.axes[2]
-    normal = np.cross(right, down)
-    depths = ((origin - place) @ normal) / (rays @ normal)
-    hit = place + depths[..., None] * rays - origin
-    share = hit @ np.linalg.pinv(np.stack([right, down]))
-    inside = ((share > 0.02) & (share < 0.98)).all(axis=-1)
-    outside = ((share < -0.02) | (share > 1.02)).any(axis=-1)
-    assert inside.sum() > 100 and outside.sum() > 100
-    np.testing.assert_allclose(seen[inside], depths[inside], rtol=1e-4)
-    assert (seen[outside] == np.float32(eye.far)).all()
-
-
-def test_the_nearer_of_two_layers_is_seen(camera):
-    """A fold would be seen through."""
-    cloth = plane((-0.5, 0.0, 0.4), (1.0, 0.0, 0.0), (0.0, 0.0, -0.8), rows=4)
-    cloth[2:, :, 1] = 0.3   # folded up behind the upper half
-    cloth[2:, :, 2] = cloth[1::-1, :, 2]
-    eye = camera(cloth, azimuth=-90.0, elevation=0.0)
-    seen = eye.draw(cloth)
-    assert seen[30, 40] == pytest.approx(eye.view.distance - 0.15, abs=1e-4)
-    # Whichever is drawn first.
-    np.testing.assert_allclose(eye.draw(cloth[::-1]), seen, atol=1e-4)
-
-
-def test_a_picture_says_nothing_of_the_one_before(camera):
-    """A cloth that moved out of view would still be drawn."""
-    cloth = plane((-0.5, 0.0, 0.4), (1.0, 0.0, 0.0), (0.0, 0.0, -0.8))
-    eye = camera(cloth)
-    first = eye.draw(cloth)
-    assert (eye.draw(cloth + (1e3, 0.0, 0.0)) == np.float32(eye.far)).all()
-    np.testing.assert_array_equal(eye.draw(cloth), first)
-
-
-def rays_of(view):
-    """Return where the camera is, and the ray of each pixel, 1 m forward, (height, width, 3)."""
-    rows, cols = np.indices((view.height, view.width)) + 0.5
-    focus = view.distance / view.pixel
-    rays = np.stack([
-        (cols - view.width / 2) / focus, (view.height / 2 - rows) / focus, -np.ones_like(rows)],
-        axis=-1) @ view.axes
-    return view.middle + view.distance * view.axes[2], rays
-
-
-def test_bodies_and_planes_have_the_depth_of_the_ray(camera):
-    """A policy would see a cloth in the air, or a table at a wrong distance."""
-    cloth = plane((-0.5, -0.5, 0.5), (1.0, 0.0, 0.0), (0.0, 1.0, 0.0))
-    turn = unit_quaternion((0.1, 0.05, 0.0, 1.0), 'a turn')
-    ball = Collider('ball', 'sphere', (0.3,), (0.1, 0.1, 0.75), (0.0, 0.0, 0.0, 1.0), 0.3)
-    floor = Collider('floor', 'plane', (), (0.0, 0.0, 0.0), turn, 0.3)
-    eye = camera(cloth, azimuth=-70.0, elevation=35.0, field_of_view=60.0)
-    seen = eye.draw(cloth, (ball, floor))
-    place, rays = rays_of(eye.view)
-    to_plane = (place[2] - 0.5) / -rays[..., 2]
-    on_cloth = np.abs((place + to_plane[..., None] * rays)[..., :2]).max(axis=-1)
-    normal = floor.axes[2]
-    to_floor = (normal @ -place) / (rays @ normal)
-    # Where the ray meets the ball: |place + t ray - centre| = radius.
-    square = (rays**2).sum(axis=-1)
-    half = rays @ (place - np.array(ball.position))
-    rest = half**2 - square * (((place - np.array(ball.position))**2).sum() - 0.09)
-    to_ball = (-half - np.sqrt(np.maximum(rest, 0.0))) / square
-    expected = np.where(on_cloth < 0.5, to_plane, to_floor)
-    expected = np.where(rest > 0.0, np.minimum(expected, to_ball), expected)
-    # Not at outlines.
-    far_from_edge = (np.abs(on_cloth - 0.5) > 0.02) & (np.abs(rest) > 0.01)
-    is_finite = (to_floor > 0.0) & (expected < 0.99 * eye.far)
-    assert (rest > 0.0).sum() > 100 and (on_cloth < 0.5).sum() > 100
-    found = far_from_edge & is_finite
-    assert found.sum() > 3000 and (expected[found] == to_floor[found]).sum() > 500
-    np.testing.assert_allclose(seen[found], expected[found], atol=1e-3)
-
-
-def test_a_plane_is_not_seen_from_below(camera):
-    """A camera under a slope would see nothing of the cloth on it."""
-    cloth = plane((-0.5, 0.0, 0.4), (1.0, 0.0, 0.0), (0.0, 0.0, -0.8))
-    slope = Collider('slope', 'plane', (), (0.0, -0.5, 0.0), unit_quaternion(
-        (-1.0, 0.0, 0.0, 1.0), 'a turn'), 0.3)   # its normal is y
-    eye = camera(cloth, azimuth=-90.0, elevation=0.0)
-    assert slope.distance(np.zeros(3)) == pytest.approx(0.5)
-    np.testing.assert_array_equal(eye.draw(cloth, (slope,)), eye.draw(cloth))
-
-
-def test_a_camera_without_perspective_is_refused(camera):
+def test_a_view_without_perspective_has_no_pinhole():
     """It stands nowhere: depths would be infinite."""
+    view = Camera(field_of_view=0.0).looking_at(np.eye(3), 8, 6)
     with pytest.raises(ClothSimError, match='above 0 degrees'):
-        camera(plane((0, 0, 0), (1, 0, 0), (0, 0, -1)), field_of_view=0.0)
-
-
-def test_a_depth_camera_sees_through_holes(camera):
-    """A policy would take a hole for cloth."""
-    scene = Scene(CUT)
-    positions = cut_snapshot(scene).positions.astype(float)
-    present = positions[scene.present_nodes]
-    eye = camera(present, cells=scene.cut_cells, azimuth=-90.0, elevation=90.0, field_of_view=60.0)
-    depths = eye.draw(positions)
-    assert depths[30, 40] == np.float32(eye.far)
-    seen = depths[depths < eye.far]
-    assert np.ptp(seen) < 1e-3
-    # The disc is as high as the picture, about.
-    whole = camera(present, azimuth=-90.0, elevation=90.0, field_of_view=60.0)
-    full = whole.draw(scene.rest_positions().astype(float))
-    share = len(seen) / np.count_nonzero(full < whole.far)
-    area = scene.cells.count / scene.cells.present.size
-    assert share == pytest.approx(area, abs=0.03)
+        view.pinhole()

@@ -14,7 +14,7 @@ from cloth_sim_ros.rendering.source import RecordingSource
 from cloth_sim_ros.rendering.source import StateSource
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.inputs import SetMode
-from cloth_sim_ros.sim.model.colliders import fields_with_colliders
+from cloth_sim_ros.sim.model.named_fields import all_fields
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.snapshot import FLAG_PINNED
 from cut_scene import CUT
@@ -63,7 +63,7 @@ def test_colliders_that_are_not_known_are_named(tmp_path, shape):
         'colliders.names': ['ball'], 'colliders.ball.shape': 'sphere',
         'colliders.ball.size': [0.1]}
     message = parameters_message(
-        Scene(values).values, fields_with_colliders(values), 0.0, 'cloth_sim')
+        Scene(values).values, all_fields(values), 0.0, 'cloth_sim')
     for parameter in message.new_parameters:
         if parameter.name == 'colliders.ball.shape':
             parameter.value.string_value = shape

@@ -8,15 +8,14 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from dataclasses import replace
 import math
-import re
 from typing import Any
 
-from cloth_sim_ros.files.errors import shown
 from cloth_sim_ros.sim.errors import ClothSimError
+from cloth_sim_ros.sim.model.body_names import check_names
+from cloth_sim_ros.sim.model.body_names import is_name
 from cloth_sim_ros.sim.model.pose import Pose
 from cloth_sim_ros.sim.model.pose import unit_quaternion
 from cloth_sim_ros.sim.model.scene_fields import Field
-from cloth_sim_ros.sim.model.scene_fields import SCENE_FIELDS
 import numpy as np
 
 NAMES = 'colliders.names'
@@ -32,7 +31,6 @@ THIN = 1.4
 # Edges that a node owns, and points that a face can touch, of each shape [1].
 _EDGES_OF_A_NODE = 3
 _TIPS = {'plane': 1, 'sphere': 1, 'capsule': 2, 'box': 8, 'cylinder': 4}
-NAME_PATTERN = re.compile(r'[a-z][a-z0-9_]{0,39}')
 
 # NAME stands for each of colliders.names.
 COLLIDER_FIELDS = (
@@ -47,41 +45,20 @@ COLLIDER_FIELDS = (
           'x y z w of any length but 0', low=-1e3, high=1e3, is_array=True),
     Field('colliders.NAME.friction', float, 0.3, 'coefficient of Coulomb friction, static and '
           'sliding', low=0.0, high=1e3),
+    Field('colliders.NAME.color', float, (), 'red green blue in pictures of cameras; empty for '
+          'that of wood, or light grey of a plane', low=0.0, high=1.0, is_array=True),
 )
 
 
-def fields_with_colliders(
-        given: Mapping[str, Any], fields: tuple[Field, ...] = SCENE_FIELDS) -> tuple[Field, ...]:
-    """
-    Return ``fields`` and those of each collider that ``given`` names.
-
-    Names that are wrong have none: ``check_names`` says what is wrong with them.
-    """
+def collider_fields(given: Mapping[str, Any]) -> tuple[Field, ...]:
+    """Return the fields of each collider that ``given`` names; names that are wrong have none."""
     names = given.get(NAMES)
     if isinstance(names, str) or not isinstance(names, Sequence):
-        return fields
-    some = dict.fromkeys(name for name in names[:MOST_COLLIDERS] if _is_name(name))
-    return fields + tuple(
+        return ()
+    some = dict.fromkeys(name for name in names[:MOST_COLLIDERS] if is_name(name))
+    return tuple(
         replace(field, name=field.name.replace('NAME', name))
         for name in some for field in COLLIDER_FIELDS)
-
-
-def check_names(names: Sequence[str]) -> None:
-    """Raise ClothSimError unless each of ``names`` can be that of a collider, and no two agree."""
-    if len(names) > MOST_COLLIDERS:
-        raise ClothSimError(
-            f'{NAMES} has {len(names)} entries: give at most {MOST_COLLIDERS} colliders')
-    for name in names:
-        if not _is_name(name):
-            raise ClothSimError(
-                f'{NAMES} has {shown(name)}: give lower-case letters, digits and underscores, '
-                'beginning with a letter, 40 at most')
-    if len(set(names)) < len(names):
-        raise ClothSimError(f'{NAMES} has a name twice: give each collider its own')
-
-
-def _is_name(name: Any) -> bool:
-    return isinstance(name, str) and name != 'names' and bool(NAME_PATTERN.fullmatch(name))
 
 
 @dataclass(frozen=True)
@@ -161,7 +138,7 @@ def colliders_of(values: Mapping[str, Any]) -> tuple[Collider, ...]:
 
     :raises ClothSimError: when a name, size, position or orientation is wrong
     """
-    check_names(values[NAMES])
+    check_names(values[NAMES], NAMES, 'collider', MOST_COLLIDERS)
     return tuple(_collider(values, name) for name in values[NAMES])
 
 

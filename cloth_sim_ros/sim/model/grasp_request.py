@@ -12,7 +12,7 @@ from cloth_sim_ros.sim.arguments import integer
 from cloth_sim_ros.sim.arguments import real_number
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.errors import NotFoundError
-from cloth_sim_ros.sim.model.colliders import NAME_PATTERN
+from cloth_sim_ros.sim.model.body_names import NAME_PATTERN
 from cloth_sim_ros.sim.model.pose import checked_position
 from cloth_sim_ros.sim.model.pose import NO_ROTATION
 from cloth_sim_ros.sim.model.pose import Pose

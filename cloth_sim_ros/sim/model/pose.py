@@ -94,6 +94,28 @@ def unit_quaternion(orientation: Sequence[float], of: str) -> Quaternion:
     return x, y, z, w
 
 
+def quaternion_of(axes: np.ndarray) -> Quaternion:
+    """
+    Return the orientation x y z w of a frame, by the largest of the four (Shepperd 1978).
+
+    :param axes: its x, y and z axis in the world, the rows of a rotation, (3, 3)
+    """
+    a = np.asarray(axes, float)
+    trace = float(np.trace(a))
+    # Four times the squares of x, y, z, w.
+    squares = np.array([*(1.0 + 2.0 * np.diag(a) - trace), 1.0 + trace])
+    k = int(np.argmax(squares))
+    differences = (a[1, 2] - a[2, 1], a[2, 0] - a[0, 2], a[0, 1] - a[1, 0])
+    parts = np.empty(4)
+    if k == 3:
+        parts[:] = (*differences, squares[3])
+    else:
+        parts[:3] = a[k] + a[:, k]
+        parts[k] = squares[k]
+        parts[3] = differences[k]
+    return unit_quaternion(parts.tolist(), 'an orientation')
+
+
 def rotation_between(first: Quaternion, second: Quaternion) -> tuple[Vector, float]:
     """Return unit axis and angle [rad], 0 to pi, of what turns ``first`` into ``second``."""
     x, y, z, w = product(second, (-first[0], -first[1], -first[2], first[3]))

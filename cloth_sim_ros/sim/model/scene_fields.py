@@ -30,6 +30,8 @@ MATERIALS = (
 ALL_LAYERS = 'all'
 TOP_LAYER = 'top'
 LAYERS = (ALL_LAYERS, TOP_LAYER)
+# Patterns of a cloth.
+PLAIN, CHECKED, WOVEN = FABRICS = ('plain', 'checked', 'woven')
 _NAMES = {
     bool: 'true or false', int: 'a whole number', float: 'a number', str: 'a word',
 }
@@ -336,6 +338,31 @@ SCENE_FIELDS = (
           'middle; at most half a cell', 'm', low=1e-6, high=1.0),
     Field('self_contact.friction', float, 0.3, 'coefficient of friction of the cloth on itself',
           low=0.0, high=10.0),
+    Field('cameras.names', str, (), 'names of the cameras that look at the cloth, each described '
+          'by its parameters cameras.NAME.*',
+          words='lower-case letters, digits and underscores', is_array=True),
+    Field('look.fabric', str, 'plain', 'pattern of the cloth in pictures of cameras: of one '
+          'colour, checks of two, or warp and weft of two', choices=FABRICS),
+    Field('look.color', float, (0.45, 0.60, 0.76), 'red green blue of the side of the cloth that '
+          'is up when it lies flat, of every other check, or of the warp', low=0.0, high=1.0,
+          is_array=True),
+    Field('look.back_color', float, (0.52, 0.64, 0.77), 'the same of its other side', low=0.0,
+          high=1.0, is_array=True),
+    Field('look.second_color', float, (0.97, 0.96, 0.93), 'red green blue of the ground of '
+          'checks, or of the weft', low=0.0, high=1.0, is_array=True),
+    Field('look.pitch', float, 0.02, 'side of a check, or distance of two threads', 'm', low=1e-5,
+          high=1e3),
+    Field('look.texture', str, '', 'image that is printed on the side of the cloth that is up '
+          'when it lies flat, instead of a fabric; a path, from the folder of the scene file',
+          words='the path of an image'),
+    Field('look.backdrop', str, '', 'image that fills the picture where nothing is, instead of '
+          'look.background; likewise', words='the path of an image'),
+    Field('look.background', float, (0.75, 0.80, 0.86), 'red green blue where nothing is',
+          low=0.0, high=1.0, is_array=True),
+    Field('look.sun', float, (0.4, 0.5, 1.0), 'direction to the sun, x y z of any length',
+          low=-1e3, high=1e3, is_array=True),
+    Field('look.shadow', float, 0.008, 'radius of the soft edge of shadows', 'm', low=1e-4,
+          high=1e2),
     Field('layout', str, 'fused', 'fused: forces and update in one shader pass; paper: the two '
           'passes of the paper, a baseline for benchmarks', choices=('fused', 'paper')),
     Field('loads', str, 'auto', 'how shaders read the state; auto chooses for the device: what '

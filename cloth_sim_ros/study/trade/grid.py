@@ -16,7 +16,7 @@ from cloth_sim_ros.files.errors import cut
 from cloth_sim_ros.files.errors import shown
 from cloth_sim_ros.gl.shared_directory import shared_directory
 from cloth_sim_ros.sim.errors import ClothSimError
-from cloth_sim_ros.sim.model.colliders import fields_with_colliders
+from cloth_sim_ros.sim.model.named_fields import all_fields
 from cloth_sim_ros.sim.model.scene_fields import SCENE_FIELDS
 from cloth_sim_ros.sim.model.stability import choose_substeps
 from cloth_sim_ros.sim.scene import refuse_unknown
@@ -67,7 +67,7 @@ class Variant:
 def without_defaults(values: Mapping[str, Any]) -> dict[str, Any]:
     """Return those of ``values`` that differ from their default, with lists for tuples."""
     given = {
-        field.name: values[field.name] for field in fields_with_colliders(values)
+        field.name: values[field.name] for field in all_fields(values)
         if field.name in values and field.check(values[field.name]) != field.default}
     return {name: list(value) if isinstance(value, tuple) else value
             for name, value in given.items()}

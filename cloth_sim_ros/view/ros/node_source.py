@@ -28,8 +28,8 @@ from cloth_sim_ros.node.refusals import no_node
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.model.colliders import Collider
 from cloth_sim_ros.sim.model.colliders import colliders_of
-from cloth_sim_ros.sim.model.colliders import fields_with_colliders
 from cloth_sim_ros.sim.model.colliders import NAMES
+from cloth_sim_ros.sim.model.named_fields import all_fields
 from cloth_sim_ros.view.source import Moment
 from cloth_sim_ros.view.source import Source
 from geometry_msgs.msg import Point
@@ -85,7 +85,7 @@ class NodeColliders:
         if not values[NAMES]:
             return
         names = [
-            field.name for field in fields_with_colliders(values)
+            field.name for field in all_fields(values)
             if field.name.startswith('colliders.')]
         self._get(names, self._begin)
 

@@ -9,6 +9,10 @@ uniform vec3 lamp;           // unit vector to it
 uniform float lamp_blur;     // radius of the soft edge of a shadow, over the depth texture's side
 uniform float lamp_lift;     // the same radius [m]
 
+float lamp_tap(vec3 at, float away, float angle) {
+    return texture(lamp_depths, vec3(at.xy + away * vec2(cos(angle), sin(angle)), at.z));
+}
+
 // How much of the lamp a point sees, 0 to 1: the mean over a disc of LAMP_TAPS places.
 float lamp_share(vec3 point) {
     vec3 at = 0.5 + 0.5 * (lamp_matrix * vec4(point, 1.0)).xyz;
@@ -17,13 +21,21 @@ float lamp_share(vec3 point) {
         return 1.0;
     }
     at.z = min(at.z, 1.0);
+#ifdef LAMP_RIM_TAPS
+    // Where all of the rim is lit, or none of it, so is the disc.
+    float rim = 0.0;
+    for (int tap = 0; tap < LAMP_RIM_TAPS; ++tap) {
+        rim += lamp_tap(at, lamp_blur, 6.28318531 * float(tap) / float(LAMP_RIM_TAPS));
+    }
+    if (rim == 0.0 || rim == float(LAMP_RIM_TAPS)) {
+        return rim / float(LAMP_RIM_TAPS);
+    }
+#endif
     float seen_taps = 0.0;
     for (int tap = 0; tap < LAMP_TAPS; ++tap) {
         // A sunflower spiral covers a disc evenly.
-        float angle = 2.39996323 * float(tap);
-        float away = lamp_blur * sqrt((float(tap) + 0.5) / float(LAMP_TAPS));
-        seen_taps += texture(
-            lamp_depths, vec3(at.xy + away * vec2(cos(angle), sin(angle)), at.z));
+        seen_taps += lamp_tap(
+            at, lamp_blur * sqrt((float(tap) + 0.5) / float(LAMP_TAPS)), 2.39996323 * float(tap));
     }
     return seen_taps / float(LAMP_TAPS);
 }

@@ -3,8 +3,8 @@
 
 """The lattice of a collider is its surface."""
 
-from cloth_sim_ros.analysis.collider_surface import collider_surface
-from cloth_sim_ros.analysis.collider_surface import ground
+from cloth_sim_ros.sim.model.collider_surface import collider_surface
+from cloth_sim_ros.sim.model.collider_surface import ground
 from cloth_sim_ros.sim.model.colliders import Collider
 from cloth_sim_ros.sim.model.pose import unit_quaternion
 import numpy as np

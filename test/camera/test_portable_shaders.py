@@ -1,0 +1,50 @@
+# SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
+# SPDX-License-Identifier: Apache-2.0
+
+"""Every shader of the cameras, in every form, is portable GLSL."""
+
+from pathlib import Path
+import subprocess
+
+from cloth_sim_ros.camera.color_drawing import FABRIC_DEFINES
+from cloth_sim_ros.camera.color_drawing import PRINT_DEFINES
+from cloth_sim_ros.camera.light import DAYLIGHT_DEFINES
+from cloth_sim_ros.gl.shader_source import ShaderSource
+from cloth_sim_ros.gl.shared_directory import shader_directory
+from cloth_sim_ros.sim.model.colliders import SHAPES
+import pytest
+
+_GAPS = [{}, {'HAS_GAPS': 1}]
+_NORMALS = [{}, {'HAS_NORMALS': 1}]
+_FORMS = {
+    'backdrop.frag': [{}],
+    'body.vert': [{}],
+    'body_color.frag': [DAYLIGHT_DEFINES],
+    'body_depth.vert': [{}],
+    'body_values.frag': [
+        {**normals, 'MEETS': f'meets_{shape}'} for normals in _NORMALS for shape in SHAPES],
+    'cloth.vert': _GAPS,
+    'cloth_color.frag': [
+        {**DAYLIGHT_DEFINES, **fabric} for fabric in (*FABRIC_DEFINES.values(), PRINT_DEFINES)],
+    'cloth_depth.vert': _GAPS,
+    'cloth_values.frag': _NORMALS,
+    'nothing.frag': [{}],
+    'screen.vert': [{}],
+}
+
+
+def test_every_shader_is_looked_at():
+    """A new shader would be tried on one driver only."""
+    assert {path.name for path in (shader_directory() / 'camera').iterdir()} == set(_FORMS)
+
+
+@pytest.mark.parametrize(
+    ('name', 'defines'), [(name, defines) for name, forms in _FORMS.items() for defines in forms])
+def test_glslang_accepts_the_shader(tmp_path: Path, name: str, defines: dict):
+    """The picture would be drawn on one driver's leniency only."""
+    source = ShaderSource(f'camera/{name}', defines)
+    assert source.text.startswith('#version 430 core\n')
+    (tmp_path / name).write_text(source.text)
+    done = subprocess.run(
+        ['glslangValidator', str(tmp_path / name)], capture_output=True, text=True)
+    assert done.returncode == 0, done.stdout
