@@ -85,11 +85,17 @@ class View:
         """Return whether it is no plane, or the camera is on the side of it that cloth is on."""
         if collider.shape != 'plane':
             return True
-        normal = collider.axes[2]
+        return self._is_before(collider.axes[2], np.array(collider.position))
+
+    def is_above(self, height: float) -> bool:
+        """Return whether the camera looks at the upper side of a floor at ``height`` [m]."""
+        return self._is_before(np.array([0.0, 0.0, 1.0]), np.array([0.0, 0.0, height]))
+
+    def _is_before(self, normal: np.ndarray, point: np.ndarray) -> bool:
         if not math.isfinite(self.distance):
             return bool(normal @ self.axes[2] > 0.0)
         eye = self.middle + self.distance * self.axes[2]
-        return bool(normal @ (eye - np.array(collider.position)) > 0.0)
+        return bool(normal @ (eye - point) > 0.0)
 
     @property
     def _depth_line(self) -> tuple[float, float]:

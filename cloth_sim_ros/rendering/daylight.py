@@ -102,12 +102,14 @@ class DaylightDrawing:
         :param floor: its height [m]
         """
         draw_nearest()
-        with self._in_daylight(self._floor, view) as program:
-            program.set_float('reach', _FLOOR_REACH * self._survey.size)
-            program.set_vectors(
-                'middle', np.append(self._survey.middle[:2], floor) - view.middle)
-            program.set_vectors('floor_color', FLOOR_COLOR)
-            program.draw_strips(4)
+        # From below, it would hide what lies on it.
+        if view.is_above(floor):
+            with self._in_daylight(self._floor, view) as program:
+                program.set_float('reach', _FLOOR_REACH * self._survey.size)
+                program.set_vectors(
+                    'middle', np.append(self._survey.middle[:2], floor) - view.middle)
+                program.set_vectors('floor_color', FLOOR_COLOR)
+                program.draw_strips(4)
         with self._in_daylight(self._body, view) as program:
             program.set_float('behind', _BEHIND * self._survey.size)
             program.set_vectors('body_color', BODY_COLOR)

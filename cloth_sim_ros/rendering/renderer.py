@@ -110,12 +110,14 @@ class Renderer:
     def _draw_with_strains(self, frame: Frame, floor: float, *, has_ground: bool) -> None:
         """Draw a floor at the height ``floor`` [m], the cloth unless it is a chain, and bodies."""
         is_chain = min(frame.records.shape) == 1
-        if has_ground:
+        # From below, the floor would hide what lies on it.
+        is_above = self.view.is_above(floor)
+        if has_ground and is_above:
             self._floor.draw_ground(self.view, floor)
-        if frame.colliders:
+        if frame.colliders and is_above:
             self._colliders.draw_shadows(frame.colliders, self.view, floor)
         self._nodes.load(frame, self.view.middle)
-        if not is_chain:
+        if not is_chain and is_above:
             self._cloth.draw_shadow(frame, self.view, floor)
         self._floor.draw(self.view, floor)
         draw_nearest()

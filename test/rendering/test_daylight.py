@@ -75,6 +75,19 @@ def test_the_cloth_casts_a_shadow_on_the_floor(flat, rendered):
     assert 0.01 < np.mean(levels < 0.85 * np.median(levels)) < 0.2
 
 
+@pytest.mark.parametrize('look', ['plain', 'strain'])
+def test_a_floor_hides_nothing_from_below(flat, rendered, look):
+    """Nobody would see how the lower layer of a folded towel lies."""
+    frame = flat(rows=5, cols=5, strain=0.05)
+    floor = Collider('floor', 'plane', (), (0.0, 0.0, -0.01), (0.0, 0.0, 0.0, 1.0), 0.5)
+    camera = Camera(-90.0, -40.0, 0.0)
+    seen, without = (
+        np.ptp(rendered(each, camera, look=look)[0], axis=-1) > 25
+        for each in (_with(frame, floor), frame))
+    assert without.mean() > 0.1
+    np.testing.assert_array_equal(seen, without)
+
+
 def test_a_body_below_the_cloth_is_drawn(flat, rendered):
     """What the cloth lies on would not be seen."""
     frame = flat(rows=5, cols=5)
