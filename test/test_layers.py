@@ -30,7 +30,7 @@ ROOMS = {
     'view/ros': {'view', 'node', 'analysis', 'messages', 'sim', 'files'},
     'resimulation': {'analysis', 'recording', 'sim', 'files'},
     'gym': {'rendering', 'camera', 'sim', 'files'},
-    'api': {'node', 'resimulation', 'analysis', 'recording', 'messages', 'sim'},
+    'api': {'node', 'resimulation', 'analysis', 'recording', 'messages', 'sim', 'files'},
     'verb': {
         'view', 'view/ros', 'api', 'node', 'dataset', 'study', 'resimulation', 'rendering',
         'analysis', 'recording', 'messages', 'reference', 'sim', 'gl', 'playback', 'files'},

@@ -13,6 +13,7 @@ from typing import Any
 import warnings
 
 from cloth_sim_interfaces.msg import ClothState
+from cloth_sim_ros.files.errors import shown
 from cloth_sim_ros.messages.frame_messages import FrameMessages
 from cloth_sim_ros.messages.frame_messages import FrameTaker
 from cloth_sim_ros.messages.frame_messages import Pace
@@ -38,6 +39,7 @@ from cloth_sim_ros.sim.inputs import Input
 from cloth_sim_ros.sim.inputs import InputListener
 from cloth_sim_ros.sim.inputs import ReplaceState
 from cloth_sim_ros.sim.inputs import Reset
+from cloth_sim_ros.sim.model.cameras import CameraModel
 from cloth_sim_ros.sim.scene import refuse_unknown
 from cloth_sim_ros.sim.simulation import Simulation
 import numpy as np
@@ -70,14 +72,16 @@ class RunRecording:
         self._lost = lost or (lambda error: say(str(error)))
         self._node_values = node_values
         self._node_name = node_name
+        self._unplaced: set[str] = set()
         self._frame_id = node_values['frame_id']
         self._taker = FrameTaker(simulation, {
-            **node_values, 'publish.clock': False, 'publish.points': True, 'publish.stats': True})
+            **node_values, 'publish.clock': False, 'publish.points': True, 'publish.stats': True},
+            self._place_camera)
         self._messages = FrameMessages(simulation.scene, node_name, self._frame_id)
         self.problem = ''
         self._session = RecordingSession(
             directory, node_name, self._on_lost, setting,
-            options=RecordingOptions.from_values(node_values))
+            options=RecordingOptions.from_values({**simulation.scene.values, **node_values}))
         self.path = self._session.start(node_values['recording.name'])
         values = {**simulation.scene.values, **node_values}
         write_opening(self._session, simulation, values, f'/{node_name.strip("/")}')
@@ -142,6 +146,14 @@ class RunRecording:
             self._simulation, frame_id=self._frame_id, run_state=run_state,
             recording_path=self.path)
         self._session.write('state', serialize_message(state), self._simulation.time)
+
+    def _place_camera(self, camera: CameraModel) -> None:
+        """Say once that there is no tf to attach ``camera`` to."""
+        if camera.name not in self._unplaced:
+            self._unplaced.add(camera.name)
+            self._say(
+                f'camera {camera.name} takes no pictures, as only a node knows its frame '
+                f'{shown(camera.frame)}: leave cameras.{camera.name}.frame out')
 
     def _on_lost(self, error: RecordingError) -> None:
         if not isinstance(error, RecordingFull):

@@ -14,13 +14,17 @@ from cloth_sim_ros.gl.errors import DeviceError
 from cloth_sim_ros.node.early_stop import leave_when_interrupted
 from cloth_sim_ros.node.missing_module import way_out
 from cloth_sim_ros.node.shared_memory import frame_bytes
+from cloth_sim_ros.node.shared_memory import picture_bytes
 from cloth_sim_ros.node.shared_memory import reclaim_dead_segments
 from cloth_sim_ros.node.shared_memory import refuse_ros_without_memory
 from cloth_sim_ros.node.shared_memory import use_profile
 from cloth_sim_ros.sim.errors import ClothSimError
+from cloth_sim_ros.sim.model.cameras import CAMERA_FIELDS
 from cloth_sim_ros.sim.model.scene_fields import SCENE_FIELDS
 
 _DEFAULTS = {field.name: field.default for field in SCENE_FIELDS}
+_CAMERA_DEFAULTS = {
+    field.name.rpartition('.')[2]: field.default for field in CAMERA_FIELDS}
 # Namespaces, node, ros__parameters: no file that ROS takes goes deeper before its names.
 _DEEPEST = 16
 
@@ -34,15 +38,39 @@ def grid_of_arguments(args: Sequence[str]) -> tuple[int, int]:
     """
     given: dict[str, list[int]] = {'rows': [], 'cols': []}
     for option, value in pairwise(args):
-        for name, number in _values(option, value):
+        for place, number in _values(option, value):
+            name = place.rpartition('.')[2]
             if name in given and type(number) is int and number > 0:
                 given[name].append(number)
     rows, cols = (max(found, default=_DEFAULTS[name]) for name, found in given.items())
     return rows, cols
 
 
+def pictures_of_arguments(args: Sequence[str]) -> tuple[int, int]:
+    """
+    Return width and height of the largest picture that the command line ``args`` asks for.
+
+    Both are 0 where there is no camera.
+    """
+    has_cameras = False
+    sides: dict[str, list[int]] = {'width': [], 'height': []}
+    for option, value in pairwise(args):
+        for name, number in _values(option, value):
+            *groups, last = name.split('.')
+            if 'cameras' not in groups:
+                continue
+            has_cameras = True
+            if last in sides and type(number) is int and number > 0:
+                sides[last].append(number)
+    if not has_cameras:
+        return 0, 0
+    width, height = (
+        max(found, default=_CAMERA_DEFAULTS[name]) for name, found in sides.items())
+    return width, height
+
+
 def _values(option: str, value: str) -> list[tuple[str, Any]]:
-    """Return the names and values that one option of ROS gives."""
+    """Return the names and values that one option of ROS gives, with all groups in dots."""
     try:
         if option in ('-p', '--param'):
             name, _, text = value.partition(':=')
@@ -55,13 +83,16 @@ def _values(option: str, value: str) -> list[tuple[str, Any]]:
     return []
 
 
-def _leaves(content: Any, depth: int = 0) -> list[tuple[str, Any]]:
-    """Return the names and values of a parameter file, of all nodes."""
+def _leaves(content: Any, depth: int = 0, prefix: str = '') -> list[tuple[str, Any]]:
+    """Return the names and values of a parameter file, of all nodes, with theirs before."""
     if not isinstance(content, dict) or depth > _DEEPEST:
         return []
     found: list[tuple[str, Any]] = []
     for name, value in content.items():
-        found += _leaves(value, depth + 1) if isinstance(value, dict) else [(str(name), value)]
+        place = f'{prefix}{name}'
+        found += (
+            _leaves(value, depth + 1, f'{place}.') if isinstance(value, dict)
+            else [(place, value)])
     return found
 
 
@@ -72,7 +103,8 @@ def main(args: Sequence[str] | None = None) -> int:
     try:
         # Before ROS starts, and first what gives room to the second.
         reclaimed = reclaim_dead_segments()
-        memory = use_profile(frame_bytes(*grid_of_arguments(args)))
+        memory = use_profile(max(
+            frame_bytes(*grid_of_arguments(args)), picture_bytes(*pictures_of_arguments(args))))
         refuse_ros_without_memory()
         # Imported here, so that a missing ROS or interface package gets an answer as well.
         from cloth_sim_ros.node.process import run_node

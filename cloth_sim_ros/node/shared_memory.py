@@ -74,6 +74,10 @@ class SharedMemory:
         return self.lack if self.is_full else ''
 
 
+# Of a pixel: colour, depth, label and point [bytes].
+_PICTURE_BYTES = 3 + 4 + 1 + 12
+
+
 def cloud_bytes(nodes: int) -> int:
     """Return how large the cloud of ``nodes`` nodes is [bytes]."""
     return nodes * POINT_DTYPE.itemsize
@@ -82,6 +86,11 @@ def cloud_bytes(nodes: int) -> int:
 def frame_bytes(rows: int, cols: int) -> int:
     """Return how large the cloud and the markers of a frame are together [bytes]."""
     return cloud_bytes(rows * cols) + surface_bytes(rows, cols)
+
+
+def picture_bytes(width: int, height: int) -> int:
+    """Return how large all parts of a picture are together [bytes]."""
+    return width * height * _PICTURE_BYTES
 
 
 def use_profile(

@@ -45,14 +45,14 @@ class RecordingOptions:
 
     @classmethod
     def from_values(cls, values: Mapping[str, Any]) -> 'RecordingOptions':
-        """Return the options that a node's parameters, by name, ask for."""
+        """Return the options that the parameters of a scene and a node, by name, ask for."""
         return cls(
             max_bagfile_size=values['recording.max_bagfile_size'],
             max_bagfile_duration=values['recording.max_bagfile_duration'],
             max_size=values[MAX_SIZE_SETTING],
             fsync=values['recording.fsync'],
             markers=values['recording.markers'],
-            cameras=tuple(values.get('cameras.names', ())) if values['recording.cameras'] else ())
+            cameras=tuple(values['cameras.names']) if values['recording.cameras'] else ())
 
     @property
     def splits(self) -> bool:

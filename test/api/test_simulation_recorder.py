@@ -3,6 +3,7 @@
 
 """Recording a simulation from Python."""
 
+from cloth_sim_ros import Camera
 from cloth_sim_ros import ClothSimError
 from cloth_sim_ros import Recording
 from cloth_sim_ros import RecordingError
@@ -189,3 +190,31 @@ def test_recording_ends_at_the_last_finite_state(tmp_path):
     recording = Recording(recorder.path)
     assert np.isfinite(recording.arrays('points')['positions']).all()
     assert recording.arrays('state')['run_state'].tolist() == ['running', 'stopped']
+
+
+def test_pictures_of_cameras_are_recorded(tmp_path):
+    """A data set of a run would need a node."""
+    scene = Scene({
+        **SMALL, 'cameras.names': ['eye', 'hand'], 'cameras.eye.position': [1.0, -1.0, 1.5],
+        'cameras.eye.target': [0.0, 0.0, 1.0], 'cameras.eye.width': 40, 'cameras.eye.height': 30,
+        'cameras.eye.rate': 20.0, 'cameras.hand.frame': 'tool0'})
+    asked = {'publish.rate': 20.0, 'recording.cameras': True}
+    with Simulation(scene) as simulation:
+        with pytest.warns(UserWarning, match="only a node knows its frame 'tool0'") as told:
+            with SimulationRecorder(simulation, tmp_path, 'run', parameters=asked) as recorder:
+                recorder.advance(0.2)
+        with Camera(scene.cameras[0]) as eye:
+            picture = eye.capture(simulation)
+    assert len(told) == 1
+    recorded = Recorded(tmp_path / 'run')
+    for part, pixels in (
+            ('image', picture.color), ('depth', picture.depth), ('labels', picture.labels)):
+        messages = recorded.messages(f'cameras/eye/{part}')
+        assert [each.header.stamp.nanosec for each in messages] == [
+            50_000_000 * number for number in range(5)]
+        np.testing.assert_array_equal(
+            np.frombuffer(bytes(messages[-1].data), pixels.dtype).reshape(pixels.shape), pixels)
+    assert len(recorded.messages('cameras/eye/camera_info')) == 5
+    assert not recorded.messages('cameras/eye/points')
+    # The run is made again without its cameras being needed.
+    assert not resimulate(tmp_path / 'run').is_failure

@@ -6,6 +6,7 @@
 from pathlib import Path
 
 from cloth_sim_ros.node.main import grid_of_arguments
+from cloth_sim_ros.node.main import pictures_of_arguments
 from cloth_sim_ros.sim.model.given_values import load_parameters
 import pytest
 
@@ -52,3 +53,22 @@ def test_the_scenes_are_read():
         given = {'rows': 32, 'cols': 32, **load_parameters(file)}
         assert grid_of_arguments(['--params-file', str(file)]) == (given['rows'], given['cols'])
     assert len(files) > 2
+
+
+@pytest.mark.parametrize('options, size', [
+    (['-p', 'rows:=64', '-p', 'colliders.names:=[a]', '-p', 'width:=2'], (0, 0)),
+    (['-p', 'cameras.names:=[a]'], (640, 480)),
+    (['-p', 'cameras.names:=[a, b]', '-p', 'cameras.a.width:=320', '-p', 'cameras.a.height:=240',
+      '-p', 'cameras.b.width:=1280'], (1280, 240)),
+    (['-p', 'cameras.names:=[a]', '-p', 'cameras.a.width:=wide'], (640, 480))], ids=str)
+def test_sizes_of_pictures_are_read(options, size):
+    """Best-effort readers of a picture would miss parts of it."""
+    assert pictures_of_arguments(['node', '--ros-args', *options]) == size
+
+
+def test_sizes_of_pictures_are_read_from_files():
+    """A scene with a camera would get shared memory for its cloth alone."""
+    sizes = {
+        name: pictures_of_arguments(['--params-file', str(SCENES / f'{name}.yaml')])
+        for name in ('towel_under_camera', 'towel_over_bodies')}
+    assert sizes == {'towel_under_camera': (640, 480), 'towel_over_bodies': (0, 0)}
