@@ -7,8 +7,8 @@
 LIGHT_DEFINES = {
     'LAMP_LIGHT': 0.74, 'SKY_LIGHT': 0.40, 'FLOOR_LIGHT': 0.18,
     'SHINES_THROUGH': 0.22, 'FUZZ': 0.12, 'FUZZ_POWER': 3.0}
-# Taps of a shadow [1]: half as many as a still picture has, and a rim that tells where one is
-# enough. A picture of 640 x 480 takes half the time.
+# Taps of a shadow [1]: half as many as a still picture has, and none within the disc where all or
+# none of the rim is lit. A picture of 640 x 480 takes half the time.
 DAYLIGHT_DEFINES = {**LIGHT_DEFINES, 'LAMP_TAPS': 12, 'LAMP_RIM_TAPS': 4}
 # Side of the picture that the sun has of the scene, for shadows [pixel].
 DEPTH_SIDE = 1024

@@ -40,7 +40,7 @@ class CameraRig:
         """Return whether a picture of ``model`` is to be taken now: the first of its period."""
         now = self._simulation.time
         last, period = self._last.get(model.name, (math.inf, 0))
-        # Of a moment that is shown once more there is a picture again, and after a reset.
+        # A paused run shows one moment again and again, and a reset goes back in time.
         return now <= last or _period(now, model.rate) > period
 
     def take(self, model: CameraModel, parts: Collection[str]) -> CameraPicture | None:

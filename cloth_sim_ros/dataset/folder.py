@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-"""The folder of a data set: what it was asked for, what is there, and its annotations."""
+"""The folder of a data set: its settings, the samples in it, and their annotations."""
 
 from collections.abc import Mapping
 import json

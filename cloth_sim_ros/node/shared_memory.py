@@ -74,7 +74,7 @@ class SharedMemory:
         return self.lack if self.is_full else ''
 
 
-# Of a pixel: colour, depth, label and point [bytes].
+# Size of a pixel [bytes]: colour, depth, label and point.
 _PICTURE_BYTES = 3 + 4 + 1 + 12
 
 

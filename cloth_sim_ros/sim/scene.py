@@ -95,6 +95,10 @@ class Scene:
         self.colliders = colliders_of(self.values)
         self.cameras = cameras_of(self.values)
         self.look = look_of(self.values)
+        if self.cameras and min(self.rows, self.cols) < 2:
+            raise ClothSimError(
+                f'cameras see surfaces, and a chain of rows {self.rows} x cols {self.cols} has '
+                'none: give 2 or more of both, or leave cameras.names out')
         self._check_contact()
         self._check_self_contact()
         self.pinned_nodes()

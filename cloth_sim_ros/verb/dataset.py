@@ -17,13 +17,16 @@ from argparse import ArgumentParser
 from argparse import Namespace
 from concurrent.futures import as_completed
 from concurrent.futures import BrokenExecutor
+from pathlib import Path
 import sys
 from typing import Any
 
 from cloth_sim_ros.dataset.folder import ANNOTATIONS
 from cloth_sim_ros.dataset.folder import DatasetFolder
 from cloth_sim_ros.dataset.sample import make_sample
+from cloth_sim_ros.dataset.sheet import write_sheet
 from cloth_sim_ros.dataset.variation import Bounds
+from cloth_sim_ros.files.errors import cut
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.model.given_values import load_parameters
 from cloth_sim_ros.sim.model.named_fields import all_fields
@@ -54,6 +57,8 @@ def add_arguments(parser: ArgumentParser) -> None:
                             metavar=('FROM', 'TO'), help=f'{what} (default: {low:g} {high:g})')
     parser.add_argument('--keep-fabric', action='store_true',
                         help='the fabric of the scene in all samples, not one by chance')
+    parser.add_argument('--sheet', metavar='FILE.png',
+                        help='write colour, depth and labels of the first samples to this image')
     add_run_arguments(parser, 'dataset')
 
 
@@ -91,6 +96,13 @@ def main(args: Namespace) -> int:
                         lost.append(f'sample {futures[future]}: {reason}')
                     bar.update()
     there = folder.annotate(args.count)
+    if args.sheet:
+        try:
+            write_sheet(folder.path, args.count, Path(args.sheet))
+        except (OSError, ValueError) as error:
+            raise ClothSimError(
+                f'--sheet {cut(args.sheet)} cannot be written ({error}): give a file that ends '
+                'in .png') from error
     for reason in lost:
         print(f'cloth_sim dataset: {reason}', file=sys.stderr)
     print(f'{there} samples in {folder.path}, described in {folder.path / ANNOTATIONS}')

@@ -25,7 +25,7 @@ def mean_color(picture, label):
 
 
 def test_each_side_has_its_color(camera):
-    """A detector could not tell a folded corner from the rest."""
+    """A folded corner would look like the rest of the cloth."""
     eye = camera(**ABOVE)
     look = Look(color=RED, back_color=GREEN, sun=(0.0, 0.0, 1.0))
     front = mean_color(eye.capture(snapshot_of(CLOTH), look=look), 1)

@@ -101,7 +101,7 @@ def test_the_picture_is_that_of_python(cloth, watches):
 
 
 def test_an_attached_camera_sees_from_its_frame(node, cloth, watches):
-    """A camera in a hand would stay behind, or a missing frame never be told of."""
+    """A camera in a hand would stay behind, or wait for its frame in silence."""
     cloth.client.spin_until(
         lambda: cloth.call(Step, 'step', steps=40).success
         and 'camera hand takes no pictures' in node.output, 'the warning')

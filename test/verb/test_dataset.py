@@ -99,6 +99,19 @@ def test_a_set_that_was_stopped_goes_on(scene, made, tmp_path, capsys):
         assert all((one[name] == other[name]).all() for name in one)
 
 
+def test_a_sheet_shows_the_samples(scene, made, tmp_path, capsys):
+    """Nobody would see what a set of thousands of files looks like."""
+    again = ['dataset', scene, '--count', '3', '--seed', '5', *SHORT, '--out', str(made)]
+    assert main([*again, '--sheet', str(tmp_path / 'sheet.png')]) == 0
+    sheet = np.asarray(Image.open(tmp_path / 'sheet.png'))
+    assert sheet.shape == (135, 3 * 544 - 4, 3)
+    small = Image.open(made / 'images' / '000001.png').resize((180, 135), Image.LANCZOS)
+    np.testing.assert_array_equal(sheet[:, 544:724], np.asarray(small))
+    capsys.readouterr()
+    assert main([*again, '--sheet', str(tmp_path / 'no' / 'sheet.png')]) != 0
+    assert 'cannot be written' in capsys.readouterr().err
+
+
 @pytest.mark.parametrize('wrong, rule', [
     (['--count', '0'], '--count must be from 1'),
     (['--count', '1', '--seconds', '2', '1'], '--seconds 2 1 must be two values from 0 to 1000'),
