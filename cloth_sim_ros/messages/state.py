@@ -131,7 +131,7 @@ def diagnostics_message(
     :param time_problem: what is wrong with /clock; empty for nothing
     :param followers: of each body that follows a frame: its name, the frame, whether that is late,
         and how far the body is behind [m]
-    :param waiting: bodies whose frame is not known yet, and the frame
+    :param waiting: bodies and cameras whose frame is not known yet, and the frame
     """
     findings = {'GL device': _device(snapshot, device)}
     if snapshot is not None:
@@ -300,7 +300,7 @@ def _followed(
     if missing:
         return WARN, (
             f'{", ".join(sorted(set(missing)))} have not come on /tf: start what publishes them, '
-            'or call ~/follow_grasp or ~/follow_collider with an empty frame'), values
+            'or, for a body, call ~/follow_grasp or ~/follow_collider with an empty frame'), values
     slow = [name for name, _, _, behind in followers if behind > FAR]
     if slow:
         return WARN, (

@@ -36,6 +36,13 @@ class CameraPlaces:
         self._missing: dict[str, float] = {}
         self._told: set[str] = set()
 
+    @property
+    def waiting(self) -> tuple[tuple[str, str], ...]:
+        """Return names of cameras that somebody reads and whose frame is not known, and it."""
+        return tuple(
+            (camera.name, camera.frame) for camera in self._simulation.scene.cameras
+            if camera.name in self._missing)
+
     def find(self, camera: CameraModel) -> Pose | None:
         """Return where the frame of ``camera`` is now; None, and a warning once, if unknown."""
         now = self._simulation.time

@@ -176,12 +176,12 @@ class ClothSimNode(GuardedNode):
             frames_of_scene(values['tf.follow'], simulation),
             lambda: (values['tf.follow_speed'], values['tf.follow_angular_speed']),
             lambda text: self._device.emit(lambda: log.warning(text)))
-        camera_places = CameraPlaces(
+        self._camera_places = CameraPlaces(
             simulation, self._input_frames, self._time.base,
             lambda text: self._device.emit(lambda: log.warning(text)))
         self._reports = simulation.listener = Reports(
             self._device, simulation, self._outlet, self._recording, values, name,
-            self._input_frames, self._time, place=camera_places.find,
+            self._input_frames, self._time, place=self._camera_places.find,
             warn=log.warning, follow=lambda names: self._moves.follow(names))
         pace_report = PaceReport(
             simulation, self._pacing,
@@ -483,7 +483,7 @@ class ClothSimNode(GuardedNode):
             'followers': [
                 (each.name, each.frame, each.is_late, each.behind)
                 for each in self._followers.present],
-            'waiting': list(self._followers.waiting)}
+            'waiting': [*self._followers.waiting, *self._camera_places.waiting]}
         epoch = base.epoch
         self._device.emit(lambda: self._send_health(snapshot, now, number, epoch, known))
 
