@@ -11,13 +11,16 @@ from cloth_sim_ros.camera.lens import Lens
 from cloth_sim_ros.camera.light import DAYLIGHT_DEFINES
 from cloth_sim_ros.camera.light import DEPTH_SIDE
 from cloth_sim_ros.camera.light import DEPTH_UNIT
+from cloth_sim_ros.camera.picture_file import load_picture
 from cloth_sim_ros.camera.subject import Subject
 from cloth_sim_ros.camera.value_drawing import behind_of
 from cloth_sim_ros.gl.buffer import Buffer
 from cloth_sim_ros.gl.framebuffer import clamp_depths
 from cloth_sim_ros.gl.framebuffer import DepthTexture
 from cloth_sim_ros.gl.framebuffer import draw_nearest
+from cloth_sim_ros.gl.framebuffer import draw_over_all
 from cloth_sim_ros.gl.framebuffer import Framebuffer
+from cloth_sim_ros.gl.picture_texture import PictureTexture
 from cloth_sim_ros.gl.program import RenderProgram
 from cloth_sim_ros.sim.model.collider_surface import local_surface
 from cloth_sim_ros.sim.model.colliders import Collider
@@ -30,6 +33,8 @@ import numpy as np
 # What shaders compile in for each pattern.
 FABRIC_DEFINES: Mapping[str, Mapping[str, int]] = {
     PLAIN: {}, CHECKED: {'HAS_PATTERN': 1, 'CHECKED': 1}, WOVEN: {'HAS_PATTERN': 1, 'WOVEN': 1}}
+PRINT_DEFINES = {'PRINTED': 1}
+_PICTURE_UNIT = 3   # camera/fabric.glsl and camera/backdrop.frag
 _SURFACE_UNIT = 0   # camera/solid.glsl
 _MARGIN = 1.05      # what the sun sees over what casts shadows
 _SMALLEST = 1e-3    # a scene of one point still has a size [m]
@@ -43,6 +48,7 @@ class ColorDrawing:
         """Begin without memory."""
         self._size = width, height
         self._programs: dict[tuple[str, ...], RenderProgram] = {}
+        self._pictures: dict[str, PictureTexture] = {}
         self._surfaces: dict[tuple[str, tuple[float, ...]], tuple[Buffer, int, int]] = {}
 
     def draw(
@@ -57,6 +63,8 @@ class ColorDrawing:
         sun = _Sun(look.sun, subject, lens, nodes)
         self._cast(subject, cloth, lens, sun)
         self._framebuffer.begin(look.background)
+        if look.backdrop:
+            self._draw_backdrop(look)
         draw_nearest()
         clamp_depths(True)
         self._draw_cloth(subject, cloth, lens, look, sun)
@@ -87,8 +95,15 @@ class ColorDrawing:
             sun: '_Sun') -> None:
         program = self._program(
             'camera/cloth.vert', 'camera/cloth_color.frag',
-            {**DAYLIGHT_DEFINES, **FABRIC_DEFINES[look.fabric], **cloth.defines})
+            {**DAYLIGHT_DEFINES,
+             **(PRINT_DEFINES if look.texture else FABRIC_DEFINES[look.fabric]),
+             **cloth.defines})
         program.use()
+        if look.texture:
+            self._picture(look.texture, 'look.texture').bind(_PICTURE_UNIT)
+            along, down = subject.cell
+            program.set_pair('cloth_size', (
+                (subject.shape[1] - 1) * along, (subject.shape[0] - 1) * down))
         self._light(program, look, sun)
         program.set_vectors('front_color', look.color)
         program.set_vectors('back_color', look.back_color)
@@ -97,6 +112,20 @@ class ColorDrawing:
         program.set_pair('cell', subject.cell)
         cloth.bind()
         cloth.draw(program, lens)
+
+    def _draw_backdrop(self, look: Look) -> None:
+        program = self._program('camera/screen.vert', 'camera/backdrop.frag', {})
+        program.use()
+        self._picture(look.backdrop, 'look.backdrop').bind(_PICTURE_UNIT)
+        program.set_pair('picture_size', self._size)
+        draw_over_all()
+        program.draw_strips(4)
+
+    def _picture(self, path: str, parameter: str) -> PictureTexture:
+        """Return the picture in a file; it is read once."""
+        if path not in self._pictures:
+            self._pictures[path] = PictureTexture(load_picture(path, parameter))
+        return self._pictures[path]
 
     def _draw_bodies(self, subject: Subject, lens: Lens, look: Look, sun: '_Sun') -> None:
         program = self._program(

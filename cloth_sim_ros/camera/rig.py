@@ -10,6 +10,7 @@ import math
 from cloth_sim_ros.camera.camera import Camera
 from cloth_sim_ros.camera.camera import WORLD
 from cloth_sim_ros.camera.picture import CameraPicture
+from cloth_sim_ros.camera.picture_file import check_pictures
 from cloth_sim_ros.sim.model.cameras import CameraModel
 from cloth_sim_ros.sim.model.pose import Pose
 from cloth_sim_ros.sim.simulation import Simulation
@@ -29,7 +30,12 @@ class CameraRig:
 
     def __init__(
             self, simulation: Simulation, place: Callable[[CameraModel], Pose | None]) -> None:
-        """Make nothing on the device: a camera that nobody reads costs nothing."""
+        """
+        Make nothing on the device: a camera that nobody reads costs nothing.
+
+        :raises ClothSimError: when a picture that the look of the scene names is not there
+        """
+        check_pictures(simulation.scene.look)
         self._simulation = simulation
         self._place = place
         self._cameras: dict[str, Camera] = {}

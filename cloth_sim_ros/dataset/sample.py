@@ -71,7 +71,7 @@ def make_sample(
         camera = random_place(
             random, scene.cameras[0] if scene.cameras else _usual_camera(),
             nodes[scene.present_nodes], bounds)
-        look = random_look(random, simulation.colliders)
+        look = random_look(random, simulation.colliders, scene.look)
         with Camera(camera) as eye:
             picture = eye.capture(simulation, look=look, normals=False)
         _write(Path(folder), number, picture, nodes, {

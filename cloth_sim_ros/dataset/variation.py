@@ -73,15 +73,17 @@ def random_fabric(random: np.random.Generator, given: Mapping[str, Any]) -> dict
     return {**kept, 'material.preset': str(random.choice(MATERIALS))}
 
 
-def random_look(random: np.random.Generator, colliders: Sequence[Collider]) -> Look:
-    """Return a look with colours, fabric and sun by chance."""
+def random_look(
+        random: np.random.Generator, colliders: Sequence[Collider], base: Look) -> Look:
+    """Return a look with colours, fabric and sun by chance, and the images of ``base``."""
     tilt, turn = random.uniform(*_SUN_TILTS), random.uniform(0.0, 2.0 * math.pi)
     color = random_color(random)
     hue, saturation, value = colorsys.rgb_to_hsv(*color)
     # The back of a fabric has mostly the dye of its front.
     back = colorsys.hsv_to_rgb(hue, saturation * random.uniform(0.4, 1.0), value)
     return Look(
-        fabric=str(random.choice(FABRICS)), color=color, back_color=back,
+        texture=base.texture, backdrop=base.backdrop, fabric=str(random.choice(FABRICS)),
+        color=color, back_color=back,
         second_color=random_color(random), pitch=float(random.uniform(*_PITCHES)),
         background=random_color(random),
         sun=(math.sin(tilt) * math.cos(turn), math.sin(tilt) * math.sin(turn), math.cos(tilt)),

@@ -25,6 +25,6 @@ void main() {
     // The picture is upside down on the device, where front faces are clockwise.
     bool is_front = !gl_FrontFacing;
     vec3 outward = normalize(is_front ? normal : -normal);
-    vec3 dyed = dye(is_front ? front_color : back_color, place * cell);
+    vec3 dyed = dye(is_front ? front_color : back_color, place * cell, is_front);
     color = vec4(daylight_on_cloth(dyed, away, outward, -normalize(away)), 1.0);
 }

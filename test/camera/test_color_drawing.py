@@ -3,11 +3,14 @@
 
 """Pictures have the colours, the fabric and the shadows that the scene asks for."""
 
+from cloth_sim_ros.camera.rig import CameraRig
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.model.colliders import Collider
 from cloth_sim_ros.sim.model.look import Look
 from cloth_sim_ros.sim.scene import Scene
+from cloth_sim_ros.sim.simulation import Simulation
 import numpy as np
+from PIL import Image
 import pytest
 from seen_cloths import FALLING
 from seen_cloths import plane_cloth
@@ -88,6 +91,57 @@ def test_colors_are_those_of_the_labels(camera, fallen):
         inner &= np.roll(labels, shift, (0, 1)) == labels
     seen = picture.color.argmax(axis=-1) + 1
     assert inner.mean() > 0.9 and (seen[inner] == labels[inner]).mean() > 0.9999
+
+
+def test_a_print_lies_on_the_front_with_its_first_line_along_row_0(camera, tmp_path):
+    """A logo would be upside down, mirrored, or on the wrong side."""
+    quarters = np.zeros((40, 40, 3), np.uint8)
+    quarters[:20, :20], quarters[:20, 20:] = (255, 0, 0), (0, 255, 0)
+    quarters[20:, :20], quarters[20:, 20:] = (0, 0, 255), (255, 255, 255)
+    Image.fromarray(quarters).save(tmp_path / 'print.png')
+    look = Look(texture=str(tmp_path / 'print.png'), back_color=(0.5, 0.5, 0.5))
+    eye = camera(**ABOVE)
+    picture = eye.capture(snapshot_of(CLOTH), look=look)
+    # Seen from above with y up: row 0 is above in the picture, column 0 to the left.
+    rows, cols = np.nonzero(picture.labels == 1)
+    top, left = rows.min(), cols.min()
+    side = np.ptp(rows) // 4
+    found = picture.color[[[top + side], [top + 3 * side]], [left + side, left + 3 * side]]
+    assert found.argmax(axis=-1)[:, 0].tolist() == [0, 2] and found[0, 1].argmax() == 1
+    assert np.ptp(found[1, 1].astype(int)) < 30 and found[1, 1].min() > 150
+    back = eye.capture(snapshot_of(CLOTH[:, ::-1]), look=look)
+    seen = back.color[back.labels == 1].astype(int)
+    assert np.percentile(np.ptp(seen, axis=-1), 95.0) < 10
+
+
+def test_a_backdrop_fills_what_nothing_is_before(camera, tmp_path):
+    """A data set would have walls of one colour, or a backdrop over its cloth."""
+    halves = np.zeros((30, 40, 3), np.uint8)
+    halves[:15, :, 0], halves[15:, :, 2] = 255, 255
+    Image.fromarray(halves).save(tmp_path / 'room.png')
+    eye = camera(**ABOVE)
+    look = Look(backdrop=str(tmp_path / 'room.png'), color=GREEN)
+    picture = eye.capture(snapshot_of(CLOTH), look=look)
+    background = picture.labels == 0
+    assert (picture.color[:50][background[:50]].argmax(axis=-1) == 0).all()
+    assert (picture.color[70:][background[70:]].argmax(axis=-1) == 2).all()
+    assert mean_color(picture, 1).argmax() == 1
+
+
+def test_a_missing_picture_is_named(camera, tmp_path):
+    """A run would go on with black cloth, or end in a traceback."""
+    eye = camera(**ABOVE)
+    (tmp_path / 'text.png').write_text('no picture')
+    for given, rule in (
+            ({'texture': 'nowhere.png'}, 'look.texture: there is no file nowhere.png: give an'),
+            ({'backdrop': str(tmp_path / 'text.png')}, 'look.backdrop .* is no picture')):
+        with pytest.raises(ClothSimError, match=rule):
+            eye.capture(snapshot_of(CLOTH), look=Look(**given))
+    values = {**FALLING, 'cameras.names': ['eye'], 'cameras.eye.position': [1.0, 0.0, 1.0],
+              'cameras.eye.target': [0.0, 0.0, 0.0], 'look.texture': 'nowhere.png'}
+    with Simulation(Scene(values)) as simulation:
+        with pytest.raises(ClothSimError, match='there is no file nowhere.png'):
+            CameraRig(simulation, lambda _: None)
 
 
 @pytest.mark.parametrize('wrong, rule', [

@@ -7,6 +7,7 @@ from pathlib import Path
 import subprocess
 
 from cloth_sim_ros.camera.color_drawing import FABRIC_DEFINES
+from cloth_sim_ros.camera.color_drawing import PRINT_DEFINES
 from cloth_sim_ros.camera.light import DAYLIGHT_DEFINES
 from cloth_sim_ros.gl.shader_source import ShaderSource
 from cloth_sim_ros.gl.shared_directory import shader_directory
@@ -16,13 +17,15 @@ import pytest
 _GAPS = [{}, {'HAS_GAPS': 1}]
 _NORMALS = [{}, {'HAS_NORMALS': 1}]
 _FORMS = {
+    'backdrop.frag': [{}],
     'body.vert': [{}],
     'body_color.frag': [DAYLIGHT_DEFINES],
     'body_depth.vert': [{}],
     'body_values.frag': [
         {**normals, 'MEETS': f'meets_{shape}'} for normals in _NORMALS for shape in SHAPES],
     'cloth.vert': _GAPS,
-    'cloth_color.frag': [{**DAYLIGHT_DEFINES, **fabric} for fabric in FABRIC_DEFINES.values()],
+    'cloth_color.frag': [
+        {**DAYLIGHT_DEFINES, **fabric} for fabric in (*FABRIC_DEFINES.values(), PRINT_DEFINES)],
     'cloth_depth.vert': _GAPS,
     'cloth_values.frag': _NORMALS,
     'nothing.frag': [{}],

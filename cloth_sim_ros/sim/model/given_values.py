@@ -25,6 +25,8 @@ NO_PINS = ('none',)
 DEFAULT_FABRIC = MappingProxyType({'material.preset': 'trousers', 'air.density': 1.225})
 # They stretch, too, which would add to what a material says.
 _BEND_SPRINGS = ('stiffness.bend', 'damping.bend')
+# Paths of images.
+_PATHS = ('shape.mask', 'look.texture', 'look.backdrop')
 _EDGES_OF_CONSTRAINT = ('constraint.hard', 'constraint.springs')
 
 
@@ -33,7 +35,7 @@ def load_parameters(path: str | Path) -> dict[str, Any]:
     Return the parameters of a ROS parameter YAML as dotted names and values.
 
     Every node section of the file is taken, later ones over earlier ones; within one, each
-    parameter stands once. The path of a mask is taken from the folder of the file.
+    parameter stands once. Paths of images are taken from the folder of the file.
 
     :raises ClothSimError: when the file can't be read or is no parameter file
     """
@@ -51,9 +53,10 @@ def load_parameters(path: str | Path) -> dict[str, Any]:
         names: dict[str, Any] = {}
         _flatten(section['ros__parameters'], '', names, path)
         parameters.update(names)
-    mask = parameters.get('shape.mask')
-    if isinstance(mask, str):
-        parameters['shape.mask'] = beside(path, mask)
+    for name in _PATHS:
+        image = parameters.get(name)
+        if isinstance(image, str):
+            parameters[name] = beside(path, image)
     return parameters
 
 

@@ -35,7 +35,10 @@ class Look:
     :param back_color: of the other side
     :param second_color: of the ground of checks, or of the weft
     :param pitch: side of a check, or distance of two threads [m]
-    :param background: where nothing is
+    :param texture: path of an image that is printed on the side that is up, instead of a fabric;
+        empty for none
+    :param backdrop: path of an image that fills the picture where nothing is; empty for none
+    :param background: where nothing is, without such an image
     :param sun: direction to it in the world, of any length
     :param shadow: radius of the soft edge of a shadow [m]
     :param bodies: colours by the names of colliders; others are of wood, and planes light grey
@@ -46,6 +49,8 @@ class Look:
     back_color: Color = _DEFAULTS['back_color']
     second_color: Color = _DEFAULTS['second_color']
     pitch: float = _DEFAULTS['pitch']
+    texture: str = _DEFAULTS['texture']
+    backdrop: str = _DEFAULTS['backdrop']
     background: Color = _DEFAULTS['background']
     sun: tuple[float, float, float] = _DEFAULTS['sun']
     shadow: float = _DEFAULTS['shadow']

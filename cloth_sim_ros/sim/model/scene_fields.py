@@ -352,6 +352,11 @@ SCENE_FIELDS = (
           'checks, or of the weft', low=0.0, high=1.0, is_array=True),
     Field('look.pitch', float, 0.02, 'side of a check, or distance of two threads', 'm', low=1e-5,
           high=1e3),
+    Field('look.texture', str, '', 'image that is printed on the side of the cloth that is up '
+          'when it lies flat, instead of a fabric; a path, from the folder of the scene file',
+          words='the path of an image'),
+    Field('look.backdrop', str, '', 'image that fills the picture where nothing is, instead of '
+          'look.background; likewise', words='the path of an image'),
     Field('look.background', float, (0.75, 0.80, 0.86), 'red green blue where nothing is',
           low=0.0, high=1.0, is_array=True),
     Field('look.sun', float, (0.4, 0.5, 1.0), 'direction to the sun, x y z of any length',

@@ -8,7 +8,15 @@ uniform vec3 second_color;
 uniform float pitch;     // of checks, or of threads [m]
 #endif
 
-#if defined(CHECKED)
+#if defined(PRINTED)
+layout(binding = 3) uniform sampler2D fabric_print;  // its first line lies along row 0
+uniform vec2 cloth_size;                              // along a row and along a column [m]
+
+// Printed on one side alone, which has no colour of its own.
+vec3 dye(vec3 own, vec2 at, bool is_front) {
+    return is_front ? texture(fabric_print, at / cloth_size).rgb : own;
+}
+#elif defined(CHECKED)
 // The share of coloured threads in one direction, smooth where a check is as small as a pixel.
 vec2 coloured(vec2 at) {
     vec2 width = max(fwidth(at), vec2(1e-4));
@@ -19,7 +27,7 @@ vec2 coloured(vec2 at) {
     return clamp(sum / width, 0.0, 1.0);
 }
 
-vec3 dye(vec3 own, vec2 at) {
+vec3 dye(vec3 own, vec2 at, bool is_front) {
     // Warp and weft cover each other by halves.
     vec2 share = coloured(0.5 * at / pitch);
     return mix(second_color, own, 0.5 * (share.x + share.y));
@@ -27,7 +35,7 @@ vec3 dye(vec3 own, vec2 at) {
 #elif defined(WOVEN)
 const float PI = 3.14159265;
 
-vec3 dye(vec3 own, vec2 at) {
+vec3 dye(vec3 own, vec2 at, bool is_front) {
     vec2 threads = at / pitch;
     ivec2 crossing = ivec2(floor(threads));
     vec2 within = fract(threads) - 0.5;
@@ -42,7 +50,7 @@ vec3 dye(vec3 own, vec2 at) {
     return thread * mix(0.55 + 0.45 * light, 0.76, blur);
 }
 #else
-vec3 dye(vec3 own, vec2 at) {
+vec3 dye(vec3 own, vec2 at, bool is_front) {
     return own;
 }
 #endif
