@@ -6,6 +6,7 @@
 from pathlib import Path
 from xml.etree import ElementTree
 
+from cloth_sim_ros.messages.topics import CAMERA_PARTS
 from cloth_sim_ros.messages.topics import TOPICS
 from graph_client import GraphClient
 from node_process import NodeProcess
@@ -16,13 +17,16 @@ from std_srvs.srv import SetBool
 FILE = Path(__file__).resolve().parents[2] / 'config' / 'sros2_policy.xml'
 RULES = {
     ('topics', 'publish'), ('topics', 'subscribe'), ('services', 'reply'), ('services', 'request')}
-# A collider and a grasp have topics of their own, which the policy has by a pattern.
+# Colliders, grasps and cameras have topics of their own, which the policy has by a pattern.
 SCENE = {
     'publish.clock': True, 'colliders.names': ['ball'], 'colliders.ball.size': [0.1],
-    'grasps.start': [9.0], 'grasps.name': ['hand'], 'grasps.position': [0.0, 0.0, 1.0]}
+    'grasps.start': [9.0], 'grasps.name': ['hand'], 'grasps.position': [0.0, 0.0, 1.0],
+    'cameras.names': ['eye'], 'cameras.eye.position': [1.0, 0.0, 1.0],
+    'cameras.eye.target': [0.0, 0.0, 0.0]}
 PATTERNS = {
     '/cloth_sim/colliders/*/pose': '/cloth_sim/colliders/ball/pose',
-    '/cloth_sim/grasps/*/target': '/cloth_sim/grasps/hand/target'}
+    '/cloth_sim/grasps/*/target': '/cloth_sim/grasps/hand/target',
+    **{f'/cloth_sim/cameras/*/{part}': f'/cloth_sim/cameras/eye/{part}' for part in CAMERA_PARTS}}
 # ROS opens these two for every node, and they change nothing.
 # What sros2 makes of an action: services of its server, and topics that this publishes.
 ACTION = {
