@@ -118,7 +118,7 @@ class _Studio:
                     'on another device')
             self._cloth = DrawnCloth(self._context.max_texture_texels)
             self._values = ValueDrawing(model.width, model.height)
-            self._colors = ColorDrawing(model.width, model.height)
+            self._colors = ColorDrawing(model.width, model.height, model.samples)
         except BaseException:
             self._context.close()
             raise

@@ -42,11 +42,16 @@ _AROUND_PLANE = 2.0  # half a side of a plane that is drawn, over far
 
 
 class ColorDrawing:
-    """Draws pictures of ``width`` x ``height`` pixels, in the current context."""
+    """
+    Draws pictures of ``width`` x ``height`` pixels, in the current context.
 
-    def __init__(self, width: int, height: int) -> None:
+    :param samples: of the colour of a pixel
+    """
+
+    def __init__(self, width: int, height: int, samples: int) -> None:
         """Begin without memory."""
         self._size = width, height
+        self._samples = samples
         self._programs: dict[tuple[str, ...], RenderProgram] = {}
         self._pictures: dict[str, PictureTexture] = {}
         self._surfaces: dict[tuple[str, tuple[float, ...]], tuple[Buffer, int, int]] = {}
@@ -184,7 +189,7 @@ class ColorDrawing:
 
     @cached_property
     def _framebuffer(self) -> Framebuffer:
-        return Framebuffer(*self._size)
+        return Framebuffer(*self._size, most_samples=self._samples)
 
     @cached_property
     def _depths(self) -> DepthTexture:

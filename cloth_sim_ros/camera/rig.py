@@ -39,15 +39,15 @@ class CameraRig:
         self._simulation = simulation
         self._place = place
         self._cameras: dict[str, Camera] = {}
-        # Time of the last picture of each, and the number of the period that it was in.
+        # Time of the last picture of each, and its number.
         self._last: dict[str, tuple[float, int]] = {}
 
     def is_due(self, model: CameraModel) -> bool:
-        """Return whether a picture of ``model`` is to be taken now: the first of its period."""
+        """Return whether a picture of ``model`` is to be taken now: each is taken once."""
         now = self._simulation.time
-        last, period = self._last.get(model.name, (math.inf, 0))
+        last, number = self._last.get(model.name, (math.inf, 0))
         # A paused run shows one moment again and again, and a reset goes back in time.
-        return now <= last or _period(now, model.rate) > period
+        return now <= last or self._number(model) > number
 
     def take(self, model: CameraModel, parts: Collection[str]) -> CameraPicture | None:
         """
@@ -59,7 +59,7 @@ class CameraRig:
         frame = self._place(model) if model.frame else WORLD
         if frame is None:
             return None
-        self._last[model.name] = simulation.time, _period(simulation.time, model.rate)
+        self._last[model.name] = simulation.time, self._number(model)
         if not set(parts) - {INFO}:
             return CameraPicture.without_pixels(model, model.placed(frame), simulation.time)
         camera = self._cameras.setdefault(model.name, Camera(model))
@@ -67,12 +67,13 @@ class CameraRig:
             simulation, frame=frame, color=COLOR in parts, depth=DEPTH in parts,
             labels=LABELS in parts, normals=False, visible=False)
 
+    def _number(self, model: CameraModel) -> int:
+        """Return how many pictures are due until now: a frame ends up to a step early."""
+        now = self._simulation.time + self._simulation.dt
+        return math.floor(now * model.rate - _ROUNDING)
+
     def close(self) -> None:
         """Release the device."""
         for camera in self._cameras.values():
             camera.close()
         self._cameras.clear()
-
-
-def _period(time: float, rate: float) -> int:
-    return math.floor(time * rate + _ROUNDING)

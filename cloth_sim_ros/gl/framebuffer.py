@@ -20,10 +20,13 @@ class Framebuffer:
     Each pixel is the mean of several samples (multisampling), times ``detail`` squared.
 
     :param detail: 2 draws twice as many pixels along each side and averages them
+    :param most_samples: of a pixel; 1 leaves outlines jagged
     :raises DeviceError: when the device has no picture so large
     """
 
-    def __init__(self, width: int, height: int, detail: int = 1) -> None:
+    def __init__(
+            self, width: int, height: int, detail: int = 1,
+            most_samples: int = _MOST_SAMPLES) -> None:
         """Allocate the memory."""
         most = int(GL.glGetIntegerv(GL.GL_MAX_RENDERBUFFER_SIZE))
         if max(width, height) * detail > most:
@@ -31,10 +34,12 @@ class Framebuffer:
                 f'an image of {width} x {height} pixels is too large for this device: use at most '
                 f'{most // detail} per side')
         self.width, self.height, self.detail = width, height, detail
-        self.samples = min(int(GL.glGetIntegerv(GL.GL_MAX_SAMPLES)), _MOST_SAMPLES)
+        wanted = min(int(GL.glGetIntegerv(GL.GL_MAX_SAMPLES)), most_samples)
+        # One sample is none in GL: some devices make two or more of it.
+        self.samples = wanted if wanted > 1 else 0
         self._buffers: list[int] = []
         self._drawn = self._make(detail, self.samples, with_depth=True)
-        self._resolved = self._make(detail, 0)
+        self._resolved = self._make(detail, 0) if self.samples else self._drawn
         self._read = self._make(1, 0) if detail > 1 else self._resolved
 
     def begin(self, color: tuple[float, float, float]) -> None:
@@ -51,7 +56,8 @@ class Framebuffer:
 
         :param is_upside_down: True for what was drawn with the uppermost line below
         """
-        self._copy(self._drawn, self._resolved, self.detail, GL.GL_NEAREST)
+        if self._resolved != self._drawn:
+            self._copy(self._drawn, self._resolved, self.detail, GL.GL_NEAREST)
         if self.detail > 1:
             self._copy(self._resolved, self._read, 1, GL.GL_LINEAR)
         GL.glBindFramebuffer(GL.GL_READ_FRAMEBUFFER, self._read)

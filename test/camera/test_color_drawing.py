@@ -62,6 +62,18 @@ def test_the_sun_casts_the_shadow_where_it_falls(camera):
     assert light[inside].max() < 0.85 * light[outside].min()
 
 
+def test_outlines_are_smooth_unless_there_is_one_sample(camera):
+    """A detector would learn the stairs of an outline, or pay for what it does not see."""
+    look = Look(color=(0.0, 0.0, 0.0), back_color=(0.0, 0.0, 0.0), background=(1.0, 1.0, 1.0))
+    tilted = plane_cloth((-0.3, 0.3, 0.3), (0.55, 0.11, 0.0), (0.11, -0.55, 0.0))
+    between = {}
+    for samples in (1, 4):
+        color = camera(**ABOVE, samples=samples).capture(snapshot_of(tilted), look=look).color
+        light = color.mean(axis=-1)
+        between[samples] = int(((light > 80) & (light < 230)).sum())
+    assert between[1] == 0 and between[4] > 50
+
+
 @pytest.mark.parametrize('fabric', ['checked', 'woven'])
 def test_a_pattern_has_its_pitch_on_the_cloth(camera, fabric):
     """Checks would be of another size than the fabric has them."""
