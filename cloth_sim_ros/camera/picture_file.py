@@ -10,7 +10,6 @@ from cloth_sim_ros.files.regular_file import read_regular
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.model.look import Look
 import numpy as np
-from PIL import Image
 
 # Max. size of a file [bytes], and pixels of a picture [1].
 _MOST_BYTES = 2**26
@@ -26,6 +25,8 @@ def load_picture(path: str, parameter: str) -> np.ndarray:
     :param parameter: that names the file, for the error
     :raises ClothSimError: when there is none
     """
+    # Only a look with pictures needs it.
+    from PIL import Image
     way_out = f'give an image of {", ".join(_FORMATS)}, or leave {parameter} out'
     try:
         with Image.open(BytesIO(read_regular(path, _MOST_BYTES)), formats=_FORMATS) as image:

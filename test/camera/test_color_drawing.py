@@ -105,7 +105,7 @@ def test_colors_are_those_of_the_labels(camera, fallen):
     assert inner.mean() > 0.9 and (seen[inner] == labels[inner]).mean() > 0.9999
 
 
-def test_a_print_lies_on_the_front_with_its_first_line_along_row_0(camera, tmp_path):
+def test_a_print_lies_on_the_front_along_row_0(camera, tmp_path):
     """A logo would be upside down, mirrored, or on the wrong side."""
     quarters = np.zeros((40, 40, 3), np.uint8)
     quarters[:20, :20], quarters[:20, 20:] = (255, 0, 0), (0, 255, 0)
@@ -141,7 +141,7 @@ def test_a_backdrop_fills_what_nothing_is_before(camera, tmp_path):
 
 
 def test_a_missing_picture_is_named(camera, tmp_path):
-    """A run would go on with black cloth, or end in a traceback."""
+    """The cloth would be black, or the run end in a traceback."""
     eye = camera(**ABOVE)
     (tmp_path / 'text.png').write_text('no picture')
     for given, rule in (
