@@ -7,7 +7,8 @@
 #
 #   scripts/setup.sh           what the node, the commands and the demo need
 #   scripts/setup.sh --view    what `cloth_sim view` needs as well
-#   scripts/setup.sh --tests   what the tests need as well, the view too
+#   scripts/setup.sh --cpp     what programs in C++ need of the messages as well, without a sourced ROS
+#   scripts/setup.sh --tests   what the tests need as well, the view and C++ too
 #   scripts/setup.sh --long    what the long tests need as well: Chromium
 
 set -euo pipefail
@@ -18,18 +19,19 @@ stamps=$venv/.setup
 cd "$root"
 
 for part in progress counts one_at_a_time other_ros find_python system_packages stamps \
-  python_packages interfaces project shaders; do
+  python_packages interface_cache interfaces project shaders; do
   # shellcheck source=/dev/null
   . "$root/scripts/setup/$part.sh"
 done
 
-with_view=no with_tests=no with_browser=no
+with_view=no with_cpp=no with_tests=no with_browser=no
 case "$*" in
   '') ;;
   --view) with_view=yes ;;
-  --tests) with_tests=yes ;;
-  --long) with_tests=yes with_browser=yes ;;
-  *) stop "unknown argument: $*: give --view, --tests, --long or nothing" ;;
+  --cpp) with_cpp=yes ;;
+  --tests) with_cpp=yes with_tests=yes ;;
+  --long) with_cpp=yes with_tests=yes with_browser=yes ;;
+  *) stop "unknown argument: $*: give --view, --cpp, --tests, --long or nothing" ;;
 esac
 
 one_at_a_time

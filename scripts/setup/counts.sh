@@ -44,8 +44,10 @@ apt_words() {
     printf '%d of %d packages installed' "$(grep -c '^Setting up ' "$1")" "$total"
 }
 
+# Print the share that is built, on average over the logs.
 cmake_words() {
-  local done
-  done=$(sed -nE 's/^\[ *([0-9]+)%\].*/\1/p' "$1" | tail -n 1)
-  [ -z "$done" ] || printf '%d %% built' "$done"
+  awk '
+    match($0, /^\[ *[0-9]+%\]/) { share[FILENAME] = substr($0, 2, RLENGTH - 3) }
+    END { for (name in share) { sum += share[name]; begun = 1 }
+      if (begun) printf "%d %% built", sum / (ARGC - 1) }' "$@"
 }

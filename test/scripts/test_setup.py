@@ -54,7 +54,7 @@ def test_unknown_argument_is_refused():
     """A mistyped --tests would leave the tests without what they need."""
     done = setup('--test')
     assert done.returncode != 0
-    assert '--test: give --view, --tests, --long or nothing' in done.stderr
+    assert '--test: give --view, --cpp, --tests, --long or nothing' in done.stderr
 
 
 def test_what_cannot_be_installed_is_named(tmp_path):

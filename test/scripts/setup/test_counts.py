@@ -65,6 +65,14 @@ def test_the_share_that_is_built_is_said(tmp_path):
     assert said == '41 % built'
 
 
+def test_the_share_is_that_of_all_packages(tmp_path):
+    """A user would read of the package that printed last, and see the share fall."""
+    for name, text in (('a', '[ 90%] Linking\n'), ('b', '[ 30%] Building\n'), ('c', '')):
+        (tmp_path / name).write_text(text)
+    code, output = run_bash('counts', 'cmake_words a b c', tmp_path, venv=str(tmp_path))
+    assert (code, output) == (0, '40 % built')
+
+
 def test_only_requirements_for_this_python_are_counted(tmp_path):
     """The count would never reach its end."""
     (tmp_path / 'lock.txt').write_text(

@@ -1,7 +1,6 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-
 """Which messages the set-up builds."""
 
 from pathlib import Path
@@ -25,8 +24,9 @@ def test_messages_are_built_where_ros_lacks_them(tmp_path, has_them, prefixes, b
     searched = ':'.join(str(tmp_path / name) for name in prefixes)
     done = subprocess.run(
         ['bash', '-euc', f'. {shlex.quote(str(PARTS))}/interfaces.sh; '
-         'build_package() { echo "$1"; }; build_interfaces'],
-        env={'PATH': '/usr/bin:/bin', 'venv': str(tmp_path / 'venv'),
+         'install_interfaces() { printf "%s\\n" "$@"; }; build_interfaces'],
+        env={'PATH': '/usr/bin:/bin', 'venv': str(tmp_path / 'venv'), 'with_cpp': 'no',
+             'stamps': str(tmp_path / 'venv' / '.setup'),
              'AMENT_PREFIX_PATH': searched},
         capture_output=True, text=True, check=True)
     assert done.stdout.split() == ([
