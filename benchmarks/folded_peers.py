@@ -21,10 +21,11 @@ from pathlib import Path
 import sys
 import time
 from typing import Any
-from typing import Protocol
 
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.simulation import Simulation
+from mujoco_peer import Flex
+from mujoco_peer import Sheet
 import numpy as np
 
 sys.path.insert(0, str(Path(__file__).parents[1] / 'test' / 'support'))
@@ -53,16 +54,6 @@ def folded(nodes: int, thickness: float) -> np.ndarray:
     return found
 
 
-class Towel(Protocol):
-    """What takes part."""
-
-    def advance(self, seconds: float) -> None:
-        """Simulate for ``seconds``."""
-
-    def positions(self) -> np.ndarray:
-        """Return where the nodes are, (n, n, 3) [m]."""
-
-
 class Here:
     """The towel here."""
 
@@ -81,9 +72,9 @@ class Here:
         self._cloth.set_state(places, np.zeros_like(places))
         self._cloth.step(1)
 
-    def advance(self, seconds: float) -> None:
-        """Simulate for ``seconds``."""
-        self._cloth.advance(seconds)
+    def advance(self, end: float) -> None:
+        """Simulate up to ``end`` [s]."""
+        self._cloth.advance(end - self._cloth.time)
         self._cloth.finish()
 
     def positions(self) -> np.ndarray:
@@ -110,40 +101,23 @@ _MODEL = """
 """
 
 
-class MuJoCo:
+class MuJoCo(Flex):
     """
     The towel as a flex of MuJoCo.
 
     :param step: its time step [s]
-    :param ipc: on or off, the flag of that name
+    :param ipc: enable or disable, of the flag of that name
     """
 
     def __init__(self, nodes: int, thickness: float, step: float, ipc: str) -> None:
         """Compile the model, and fold the towel."""
-        import mujoco
-        self._mujoco, self._nodes = mujoco, nodes
-        self._model = mujoco.MjModel.from_xml_string(_MODEL.format(
+        super().__init__(nodes, _MODEL.format(
             step=step, constant=2.0 * step, gravity=' '.join(map(str, ACCELERATION)), ipc=ipc,
-            integrator='discrete' if ipc == 'enable' else 'Euler',
-            friction=FRICTION, nodes=nodes, cell=SIDE / (nodes - 1), mass=DENSITY * SIDE**2,
+            integrator='discrete' if ipc == 'enable' else 'Euler', friction=FRICTION,
+            nodes=nodes, cell=SIDE / (nodes - 1), mass=DENSITY * SIDE**2,
             radius=0.5 * thickness))
-        self._data = mujoco.MjData(self._model)
-        mujoco.mj_forward(self._model, self._data)
-        flat = self._data.flexvert_xpos.copy()
-        self._data.qpos[:] += (folded(nodes, thickness).reshape(-1, 3) - flat).ravel()
-        mujoco.mj_forward(self._model, self._data)
-
-    def advance(self, seconds: float) -> None:
-        """Simulate for ``seconds``."""
-        end = self._data.time + seconds
-        while self._data.time < end - 1e-9:
-            self._mujoco.mj_step(self._model, self._data)
-
-    def positions(self) -> np.ndarray:
-        """Return where the nodes are, (n, n, 3) [m]."""
-        self._mujoco.mj_kinematics(self._model, self._data)
-        self._mujoco.mj_flex(self._model, self._data)
-        return self._data.flexvert_xpos.reshape(self._nodes, self._nodes, 3).copy()
+        # Its coordinates are displacements from where the model has the nodes.
+        self._data.qpos[:] = (folded(nodes, thickness) - self.positions()).ravel()
 
 
 class Newton:
@@ -159,7 +133,7 @@ class Newton:
         import newton
         import warp
         warp.config.quiet = True
-        self._warp, self._nodes, self._step = warp, nodes, step
+        self._nodes, self._step, self._time = nodes, step, 0.0
         with warp.ScopedDevice('cpu'):
             builder = newton.ModelBuilder(gravity=ACCELERATION)
             cell = SIDE / (nodes - 1)
@@ -186,9 +160,10 @@ class Newton:
             self._control = self._model.control()
             self._contacts = self._model.contacts()
 
-    def advance(self, seconds: float) -> None:
-        """Simulate for ``seconds``."""
-        for _ in range(round(seconds / self._step)):
+    def advance(self, end: float) -> None:
+        """Simulate up to ``end`` [s]."""
+        while self._time < end - 1e-9:
+            self._time += self._step
             first, second = self._states
             first.clear_forces()
             self._model.collide(first, self._contacts)
@@ -200,20 +175,20 @@ class Newton:
         return self._states[0].particle_q.numpy().reshape(self._nodes, self._nodes, 3)
 
 
-def layers_of(towel: Towel) -> tuple[np.ndarray, np.ndarray]:
+def layers_of(towel: Sheet) -> tuple[np.ndarray, np.ndarray]:
     """Return the mean places of the lower and of the upper half, without hem and fold [m]."""
     places = towel.positions().astype(float)
     part = len(places) // 4
     return places[:part].mean(axis=(0, 1)), places[-part:].mean(axis=(0, 1))
 
 
-def measure(make: Callable[[], Towel]) -> str:
+def measure(make: Callable[[], Sheet]) -> str:
     """Return the figures of a towel."""
     towel = make()
     towel.advance(SETTLED)
     before = layers_of(towel)
     begin = time.process_time()
-    towel.advance(LONG)
+    towel.advance(SETTLED + LONG)
     taken = (time.process_time() - begin) / LONG
     creep = [np.linalg.norm((now - then)[:2]) / LONG for now, then in zip(
         layers_of(towel), before)]
@@ -233,7 +208,7 @@ def main() -> None:
     given = parser.parse_args()
     nodes = given.nodes
     thickness = 0.25 * SIDE / (nodes - 1)
-    takers: dict[str, Callable[[], Towel]] = {
+    takers: dict[str, Callable[[], Sheet]] = {
         'mass_spring': lambda: Here(nodes, thickness),
         'constraint': lambda: Here(nodes, thickness, mode='constraint', dt=0.005),
         'MuJoCo, 2 ms': lambda: MuJoCo(nodes, thickness, 0.002, 'disable'),

@@ -66,19 +66,18 @@ class Sheet(Protocol):
 
 class Flex:
     """
-    The sheet in MuJoCo.
+    A model of MuJoCo with one flex of nodes in a square.
 
-    :param step: its time step [s]
+    :param nodes: along a side
+    :param model: as MJCF
     """
 
-    def __init__(self, nodes: int, step: float) -> None:
+    def __init__(self, nodes: int, model: str) -> None:
         """Compile the model."""
         import mujoco
         self._mujoco = mujoco
         self._nodes = nodes
-        self._model = mujoco.MjModel.from_xml_string(_MODEL.format(
-            step=step, constant=2.0 * step, nodes=nodes, spacing=SIDE / (nodes - 1), mass=MASS,
-            radius=RADIUS, friction=FRICTION, height=HEIGHT, clearance=CLEARANCE))
+        self._model = mujoco.MjModel.from_xml_string(model)
         self._data = mujoco.MjData(self._model)
 
     def advance(self, end: float) -> None:
@@ -92,6 +91,13 @@ class Flex:
         self._mujoco.mj_kinematics(self._model, self._data)
         self._mujoco.mj_flex(self._model, self._data)
         return self._data.flexvert_xpos.reshape(self._nodes, self._nodes, 3).copy()
+
+
+def falling(nodes: int, step: float) -> Flex:
+    """Return the sheet in MuJoCo, in steps of ``step`` [s]."""
+    return Flex(nodes, _MODEL.format(
+        step=step, constant=2.0 * step, nodes=nodes, spacing=SIDE / (nodes - 1), mass=MASS,
+        radius=RADIUS, friction=FRICTION, height=HEIGHT, clearance=CLEARANCE))
 
 
 class Cloth:
@@ -167,7 +173,7 @@ def main() -> int:
             name: Cloth(args.nodes, values, context) for name, values in MODES.items()}
         try:
             for step in args.mujoco_steps:
-                sheets[f'MuJoCo, step {step:g} s'] = Flex(args.nodes, step)
+                sheets[f'MuJoCo, step {step:g} s'] = falling(args.nodes, step)
         except ImportError:
             print('MuJoCo is missing: python -m pip install mujoco', file=sys.stderr)
         for row in compare(sheets, args.seconds):

@@ -4,14 +4,13 @@
 """Every shader of the cameras, in every form, is portable GLSL."""
 
 from pathlib import Path
-import subprocess
 
 from cloth_sim_ros.camera.color_drawing import FABRIC_DEFINES
 from cloth_sim_ros.camera.color_drawing import PRINT_DEFINES
 from cloth_sim_ros.camera.light import DAYLIGHT_DEFINES
-from cloth_sim_ros.gl.shader_source import ShaderSource
 from cloth_sim_ros.gl.shared_directory import shader_directory
 from cloth_sim_ros.sim.model.colliders import SHAPES
+from portable import assert_accepted
 import pytest
 
 _GAPS = [{}, {'HAS_GAPS': 1}]
@@ -42,9 +41,4 @@ def test_every_shader_is_looked_at():
     ('name', 'defines'), [(name, defines) for name, forms in _FORMS.items() for defines in forms])
 def test_glslang_accepts_the_shader(tmp_path: Path, name: str, defines: dict):
     """The picture would be drawn on one driver's leniency only."""
-    source = ShaderSource(f'camera/{name}', defines)
-    assert source.text.startswith('#version 430 core\n')
-    (tmp_path / name).write_text(source.text)
-    done = subprocess.run(
-        ['glslangValidator', str(tmp_path / name)], capture_output=True, text=True)
-    assert done.returncode == 0, done.stdout
+    assert_accepted(tmp_path, f'camera/{name}', defines)

@@ -395,7 +395,7 @@ def test_another_publisher_is_named(bag, client, tmp_path):
 
 
 def test_what_every_node_publishes_is_no_other_cloth(client, tmp_path):
-    """A user with a bag of `ros2 bag record --all` would be told to stop the player itself."""
+    """A user with a bag of `ros2 bag record --all` would be advised to stop the player itself."""
     bag = write_bag(
         tmp_path / 'all', [('/parameter_events', ParameterEvent())] * 5, interval=10**8)
     with PlayerProcess(tmp_path, bag, '--delay', 0.5) as process:

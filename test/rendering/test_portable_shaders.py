@@ -8,9 +8,7 @@ Apart from test/shaders, which runs where there is no matplotlib.
 """
 
 from pathlib import Path
-import subprocess
 
-from cloth_sim_ros.gl.shader_source import ShaderSource
 from cloth_sim_ros.gl.shared_directory import shader_directory
 from cloth_sim_ros.rendering.cloth_drawing import CLOTH_DEFINES
 from cloth_sim_ros.rendering.cloth_drawing import LIMIT_DEFINES
@@ -20,6 +18,7 @@ from cloth_sim_ros.rendering.look import LIGHT_DEFINES
 from cloth_sim_ros.rendering.solid_drawing import ARROW_DEFINES
 from cloth_sim_ros.rendering.solid_drawing import BALL_DEFINES
 from cloth_sim_ros.rendering.solid_drawing import RIBBON_DEFINES
+from portable import assert_accepted
 import pytest
 
 _SHADOW = {'SHADOW': 1}
@@ -52,12 +51,7 @@ def test_every_shader_is_looked_at():
     ('name', 'defines'), [(name, defines) for name, forms in _FORMS.items() for defines in forms])
 def test_glslang_accepts_the_shader(tmp_path: Path, name: str, defines: dict):
     """The picture would be drawn on one driver's leniency only."""
-    source = ShaderSource(f'render/{name}', defines)
-    assert source.text.startswith('#version 430 core\n')
-    (tmp_path / name).write_text(source.text)
-    done = subprocess.run(
-        ['glslangValidator', str(tmp_path / name)], capture_output=True, text=True)
-    assert done.returncode == 0, done.stdout
+    assert_accepted(tmp_path, f'render/{name}', defines)
 
 
 @pytest.mark.parametrize('name', _FORMS)

@@ -241,7 +241,7 @@ class SelfContact:
         self._applied_for = 0.0
 
     def bind_driven(self) -> None:
-        """Let a solve read what it is to include."""
+        """Let a solve read the impulses that it is to include."""
         self._driven.bind_texture(bindings.SELF_DRIVEN)
 
     def drive(self, ends: SubstepEnds) -> float:

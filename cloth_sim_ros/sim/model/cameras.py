@@ -16,7 +16,7 @@ from cloth_sim_ros.files.errors import cut
 from cloth_sim_ros.files.errors import shown
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.model.body_names import check_names
-from cloth_sim_ros.sim.model.body_names import is_name
+from cloth_sim_ros.sim.model.body_names import fields_of_names
 from cloth_sim_ros.sim.model.pose import NO_ROTATION
 from cloth_sim_ros.sim.model.pose import Pose
 from cloth_sim_ros.sim.model.pose import quaternion_of
@@ -177,13 +177,7 @@ class CameraModel:
 
 def camera_fields(given: Mapping[str, Any]) -> tuple[Field, ...]:
     """Return the fields of each camera that ``given`` names; names that are wrong have none."""
-    names = given.get(NAMES)
-    if isinstance(names, str) or not isinstance(names, Sequence):
-        return ()
-    some = dict.fromkeys(name for name in names[:MOST_CAMERAS] if is_name(name))
-    return tuple(
-        replace(field, name=field.name.replace('NAME', name))
-        for name in some for field in CAMERA_FIELDS)
+    return fields_of_names(given.get(NAMES), MOST_CAMERAS, CAMERA_FIELDS)
 
 
 def cameras_of(values: Mapping[str, Any]) -> tuple[CameraModel, ...]:

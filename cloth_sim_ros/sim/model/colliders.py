@@ -6,13 +6,12 @@
 from collections.abc import Mapping
 from collections.abc import Sequence
 from dataclasses import dataclass
-from dataclasses import replace
 import math
 from typing import Any
 
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.model.body_names import check_names
-from cloth_sim_ros.sim.model.body_names import is_name
+from cloth_sim_ros.sim.model.body_names import fields_of_names
 from cloth_sim_ros.sim.model.pose import Pose
 from cloth_sim_ros.sim.model.pose import unit_quaternion
 from cloth_sim_ros.sim.model.scene_fields import Field
@@ -52,13 +51,7 @@ COLLIDER_FIELDS = (
 
 def collider_fields(given: Mapping[str, Any]) -> tuple[Field, ...]:
     """Return the fields of each collider that ``given`` names; names that are wrong have none."""
-    names = given.get(NAMES)
-    if isinstance(names, str) or not isinstance(names, Sequence):
-        return ()
-    some = dict.fromkeys(name for name in names[:MOST_COLLIDERS] if is_name(name))
-    return tuple(
-        replace(field, name=field.name.replace('NAME', name))
-        for name in some for field in COLLIDER_FIELDS)
+    return fields_of_names(given.get(NAMES), MOST_COLLIDERS, COLLIDER_FIELDS)
 
 
 @dataclass(frozen=True)

@@ -154,9 +154,9 @@ class ImplicitStep(ABC):
         self._energies = Observer(scene, layout, set(families))
         # The law of the last substep, with its arguments.
         self._law: tuple[tuple[float, float], EdgeLaw] | None = None
-        # Of the substep under way: where it leaves its entries of held.glsl, below 0 nowhere; what
-        # acts on nodes one by one; whether nothing holds the cloth, or touches it as it begins;
-        # and whether colliders ask for another solve.
+        # In the substep under way: first entry of held.glsl that it writes, below 0 for none; the
+        # loads on single nodes; whether the cloth is free, neither pinned nor touched as it
+        # begins; and whether colliders ask for another solve.
         self._held_at = -1
         self._forcing = _NO_FORCING
         self._is_free = self._is_due = False

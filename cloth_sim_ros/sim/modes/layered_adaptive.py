@@ -12,14 +12,14 @@ from cloth_sim_ros.sim.loads.forcing import Forcing
 from cloth_sim_ros.sim.loads.loads import Loads
 from cloth_sim_ros.sim.modes.adaptive import Adaptive
 from cloth_sim_ros.sim.modes.layered_substeps import LayeredSubsteps
+from cloth_sim_ros.sim.modes.layered_substeps import WrittenSubsteps
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.state import State
-from cloth_sim_ros.sim.state import SubstepEnds
 from cloth_sim_ros.sim.stop import never
 from cloth_sim_ros.sim.stop import Stop
 
 
-class LayeredAdaptive(Adaptive):
+class LayeredAdaptive(WrittenSubsteps, Adaptive):
     """
     Substeps of springs and of edges at their limit, each with the contact of layers.
 
@@ -83,21 +83,6 @@ class LayeredAdaptive(Adaptive):
         else:
             self._springs.run(state, forcing, length, kick, acts=False)
 
-    def ends(self, state: State) -> SubstepEnds:
-        """Return the present state and the one that is written."""
-        return state
-
-    def act(
-            self, state: State, forcing: Forcing, length: float,
-            layers: SelfContact | None) -> None:
-        """Let colliders and layers act, as Motion.act."""
-        if layers is not None and forcing.touch is not None:
-            forcing.touch.begin_try()
-        if self._holds_edges:
-            self._act_on_touch(state, forcing, length, layers)
-        else:
-            self._springs.act(forcing, layers)
-
     def end(self, state: State, forcing: Forcing, loads: Loads, length: float) -> None:
         """Go on from a substep, as Motion.end."""
         state.swap()
@@ -106,10 +91,13 @@ class LayeredAdaptive(Adaptive):
         else:
             self.last_length = length
 
-    def undo(self, state: State, forcing: Forcing) -> None:
-        """Forget what colliders have done, as Motion.undo."""
-        if forcing.touch is not None:
-            forcing.touch.undo_try()
+    def _act_on_written(
+            self, state: State, forcing: Forcing, length: float,
+            layers: SelfContact | None) -> None:
+        if self._holds_edges:
+            self._act_on_touch(state, forcing, length, layers)
+        else:
+            self._springs.act(forcing, layers)
 
     # What Adaptive makes in a substep.
 

@@ -37,13 +37,13 @@ class LayeredConstraint(Constraint):
     def __init__(self, scene: Scene, layout: Layout, *, check_stability: bool = True) -> None:
         """Compile the solver."""
         self._layers = LayeredSubsteps(scene, layout, is_implicit=True)
-        # Of the substep under way: the layers that touch, its length [s] and what its solves act
-        # for [s], and whether it may be left.
+        # In the substep under way: the contact of layers, None where none touch; its length and
+        # the time that forces act for [s]; and how a caller leaves it early.
         self._touching: SelfContact | None = None
         self._length = self._kick_now = scene['dt']
         self._stop = never
         self._cell = min(scene.spacing)
-        # Substeps of the step under way whose last solve has left much.
+        # Substeps of the step under way in which the impulses of layers did not converge [1].
         self._unsolved_layers = 0
         super().__init__(scene, layout, check_stability=check_stability)
 

@@ -10,17 +10,17 @@ from cloth_sim_ros.sim.device.layout import Layout
 from cloth_sim_ros.sim.loads.forcing import Forcing
 from cloth_sim_ros.sim.loads.loads import Loads
 from cloth_sim_ros.sim.modes.layered_substeps import LayeredSubsteps
+from cloth_sim_ros.sim.modes.layered_substeps import WrittenSubsteps
 from cloth_sim_ros.sim.modes.mass_spring import MassSpring
 from cloth_sim_ros.sim.modes.mass_spring import OnePass
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.state import State
-from cloth_sim_ros.sim.state import SubstepEnds
 from cloth_sim_ros.sim.stop import leave_if
 from cloth_sim_ros.sim.stop import never
 from cloth_sim_ros.sim.stop import Stop
 
 
-class LayeredSprings(MassSpring):
+class LayeredSprings(WrittenSubsteps, MassSpring):
     """Substeps of springs, each with the contact of the cloth with itself."""
 
     has_memory = True
@@ -55,27 +55,10 @@ class LayeredSprings(MassSpring):
         """Write the state after ``length`` [s] by springs alone, as Motion.write."""
         self._springs.run(state, forcing, length, kick, acts=False)
 
-    def ends(self, state: State) -> SubstepEnds:
-        """Return the present state and the one that is written."""
-        return state
-
-    def act(
-            self, state: State, forcing: Forcing, length: float,
-            layers: SelfContact | None) -> None:
-        """Let colliders and layers act, as Motion.act."""
-        if layers is not None and forcing.touch is not None:
-            forcing.touch.begin_try()
-        self._springs.act(forcing, layers)
-
     def end(self, state: State, forcing: Forcing, loads: Loads, length: float) -> None:
         """Go on from a substep, as Motion.end."""
         state.swap()
         self.last_length = length
-
-    def undo(self, state: State, forcing: Forcing) -> None:
-        """Forget what colliders have done, as Motion.undo."""
-        if forcing.touch is not None:
-            forcing.touch.undo_try()
 
     def run_all_passes(self, state: State, loads: Loads, stop: Stop = never) -> None:
         """Make a substep of a ``state`` that nobody needs."""
@@ -95,3 +78,8 @@ class LayeredSprings(MassSpring):
         """Release the passes, with what they allocated."""
         super().delete()
         self._layers.delete()
+
+    def _act_on_written(
+            self, state: State, forcing: Forcing, length: float,
+            layers: SelfContact | None) -> None:
+        self._springs.act(forcing, layers)

@@ -3,6 +3,8 @@
 
 """Substeps in which layers of the cloth touch each other."""
 
+from abc import ABC
+from abc import abstractmethod
 from typing import Any
 from typing import Protocol
 
@@ -48,10 +50,39 @@ class Motion(Protocol):
         """
 
     def end(self, state: State, forcing: Forcing, loads: Loads, length: float) -> None:
-        """Make what was written the present ``state``, and go on from there."""
+        """Make what was written the present ``state``, and advance the time by ``length`` [s]."""
 
     def undo(self, state: State, forcing: Forcing) -> None:
         """Go back to where the substep began."""
+
+
+class WrittenSubsteps(ABC):
+    """What motions have in common that write a state, which becomes the present one at the end."""
+
+    @staticmethod
+    def ends(state: State) -> SubstepEnds:
+        """Return the present state and the one that is written."""
+        return state
+
+    def act(
+            self, state: State, forcing: Forcing, length: float,
+            layers: SelfContact | None) -> None:
+        """Let colliders and layers act, as Motion.act."""
+        if layers is not None and forcing.touch is not None:
+            forcing.touch.begin_try()
+        self._act_on_written(state, forcing, length, layers)
+
+    @staticmethod
+    def undo(state: State, forcing: Forcing) -> None:
+        """Drop the impulses of colliders in the substep, as Motion.undo."""
+        if forcing.touch is not None:
+            forcing.touch.undo_try()
+
+    @abstractmethod
+    def _act_on_written(
+            self, state: State, forcing: Forcing, length: float,
+            layers: SelfContact | None) -> None:
+        """Let colliders and layers act on the state that was written."""
 
 
 class LayeredSubsteps:

@@ -40,13 +40,8 @@ def laid_on_drum():
     return line[:, None] + np.array([[0.0, -WIDTH / 2, 0.0], [0.0, WIDTH / 2, 0.0]]), slack, pulled
 
 
-@pytest.mark.parametrize('friction', [pytest.param(0.2, marks=pytest.mark.long), 0.4])
-def test_ratio_of_tensions_at_the_onset_of_slip(simulate, within, any_mode, friction):
-    """A cloth pulled over an edge or round a body would need another force."""
-    simulation = simulate({
-        **BELT, 'mode': any_mode, 'colliders.drum.friction': friction,
-        **(HARD if any_mode == 'constraint' else {})})
-    positions, slack, pulled = laid_on_drum()
+def pull_slowly(simulation, positions, slack, way):
+    """Lay the belt, load its slack end, and begin to pull the other one along ``way`` [m]."""
     simulation.set_state(
         positions.astype(np.float32), np.zeros(positions.shape, dtype=np.float32))
     simulation.push(
@@ -54,7 +49,17 @@ def test_ratio_of_tensions_at_the_onset_of_slip(simulate, within, any_mode, fric
         center=tuple(positions[0].mean(axis=0)), radius=0.03)
     simulation.advance(0.05)
     for col in range(2):
-        simulation.move_pin(ROWS - 1, col, tuple(positions[-1, col] + 0.003 * pulled), 0.005)
+        simulation.move_pin(len(positions) - 1, col, tuple(positions[-1, col] + way), 0.005)
+
+
+@pytest.mark.parametrize('friction', [pytest.param(0.2, marks=pytest.mark.long), 0.4])
+def test_ratio_of_tensions_at_the_onset_of_slip(simulate, within, any_mode, friction):
+    """A cloth pulled over an edge or round a body would need another force."""
+    simulation = simulate({
+        **BELT, 'mode': any_mode, 'colliders.drum.friction': friction,
+        **(HARD if any_mode == 'constraint' else {})})
+    positions, slack, pulled = laid_on_drum()
+    pull_slowly(simulation, positions, slack, 0.003 * pulled)
     simulation.advance(0.2)
     tensions = []
     for _ in range(25):
@@ -118,15 +123,7 @@ def test_edge_over_a_thin_rod_slips_as_a_seesaw(simulate, within, any_mode, fric
         **(HARD if any_mode == 'constraint' else {})})
     assert simulation.scene.thin_colliders
     positions, slack, pulled = laid_on_rod()
-    simulation.set_state(
-        positions.astype(np.float32), np.zeros(positions.shape, dtype=np.float32))
-    simulation.push(
-        tuple(LOAD * slack), duration=100.0, region='sphere',
-        center=tuple(positions[0].mean(axis=0)), radius=0.03)
-    simulation.advance(0.05)
-    last = len(positions) - 1
-    for col in range(2):
-        simulation.move_pin(last, col, tuple(positions[-1, col] + 0.005 * pulled), 0.005)
+    pull_slowly(simulation, positions, slack, 0.005 * pulled)
     # It slips by then.
     simulation.advance(0.8 * friction)
     found = []
