@@ -103,6 +103,12 @@ SCENES: Mapping[str, tuple[Mapping[str, Any], float, float]] = {
         **_LOOSE, **_FLOOR, 'rows': 12, 'cols': 12, 'mode': 'constraint', 'start.z': -0.02,
         'colliders.names': ['floor'], 'colliders.floor.orientation': [0.0, 0.05, 0.0, 1.0]},
         0.3, 1.0),
+    # A ribbon that falls into a heap.
+    'heap': ({
+        **_FLOOR, 'rows': 32, 'cols': 4, 'width': 0.06, 'height': 0.62, 'mode': 'constraint',
+        'pins': ['none'], 'start.pose': 'hanging', 'start.z': 0.0, 'start.jitter': 0.003,
+        'dt': 0.005, 'colliders.names': ['floor'], 'colliders.floor.position': [0.0, 0.0, -0.35],
+        'self_contact.enabled': True, 'self_contact.thickness': 0.005}, 0.45, 1.0),
 }
 _LIMITED = ('whole', 'stretched', 'friction')
 _HARD = ('constraint', 'drape')
@@ -150,6 +156,7 @@ class Constant:
 
 _SOLVER = 'cloth_sim_ros/sim/solver/'
 _MODES = 'cloth_sim_ros/sim/modes/'
+_CONTACT = 'cloth_sim_ros/sim/contact/'
 _LIMITS = 'cloth_sim_ros/sim/limits/'
 CONSTANTS = (
     Constant('_EARLY', f'{_SOLVER}solver.py', ('0.0', '0.1', '0.5', '0.9'), _LIMITED),
@@ -203,8 +210,13 @@ CONSTANTS = (
              ('constraint', 'stretched')),
     Constant('_MOST_SOLVES', f'{_MODES}implicit.py', ('2', '8', '16', '64'), _LIMITED),
     Constant('_MOST_CONTACT_SOLVES', f'{_MODES}implicit.py', ('2', '4', '16', '64'), _TOUCHING),
+    Constant('_LAYERS_UNSOLVED', f'{_MODES}layered_constraint.py', ('1e-5', '1e-3'), ('heap',)),
+    Constant('_MOST_LAYER_SOLVES', f'{_MODES}layered_constraint.py', ('6', '24', '48'),
+             ('heap',)),
+    Constant('_ROUNDS_OF_SOLVE', f'{_CONTACT}self_contact.py', ('2', '4', '24'), ('heap',)),
+    Constant('_SKIN_OF_LONG_WAY', f'{_CONTACT}self_contact.py', ('4.0', '16.0'), ('heap',)),
     Constant('_MOST_CONTACT_TURNS', f'{_MODES}implicit.py', ('1', '2', '8'), _TOUCHING),
-    Constant('_WAY_OUT_SPEED', 'cloth_sim_ros/sim/contact/contacts.py',
+    Constant('_WAY_OUT_SPEED', f'{_CONTACT}contacts.py',
              ('0.0', '0.25', '0.5', '2.0', '4.0'), ('drape', 'squeezed', 'sunk')),
     Constant('FACING', 'shaders/include/contact.glsl', ('0.5', '0.8', '0.95', '0.99'),
              ('squeezed', 'friction')),

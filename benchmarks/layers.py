@@ -5,15 +5,17 @@
 
 import argparse
 from time import process_time
+from typing import Any
 
 from cloth_sim_ros import Scene
 from cloth_sim_ros import Simulation
 import numpy as np
 
 SIDE = 0.6
+_TIMED = 0.1  # [s] simulated, in each mode
 
 
-def scene_of(nodes: int, *, enabled: bool) -> Scene:
+def scene_of(nodes: int, *, enabled: bool, **values: Any) -> Scene:
     """Return a towel on a floor."""
     cell = SIDE / (nodes - 1)
     return Scene({
@@ -23,7 +25,7 @@ def scene_of(nodes: int, *, enabled: bool) -> Scene:
         'contact.thickness': cell / 4.0, 'colliders.names': ['floor'],
         'colliders.floor.shape': 'plane',
         'colliders.floor.friction': 0.5, 'self_contact.enabled': enabled,
-        'self_contact.thickness': cell / 4.0})
+        'self_contact.thickness': cell / 4.0, **values})
 
 
 def folded(nodes: int) -> np.ndarray:
@@ -42,14 +44,32 @@ def folded(nodes: int) -> np.ndarray:
     return found
 
 
+def time_modes(nodes: int, settle: float) -> None:
+    """Print what a simulated second of a folded towel takes in each mode."""
+    for mode, dt in (('mass_spring', 0.001), ('adaptive', 0.001), ('constraint', 0.005)):
+        with Simulation(scene_of(nodes, enabled=True, mode=mode, dt=dt)) as cloth:
+            positions = folded(nodes)
+            cloth.set_state(positions, np.zeros_like(positions))
+            cloth.advance(settle)
+            begin = process_time()
+            cloth.advance(_TIMED)
+            taken = (process_time() - begin) / _TIMED
+            print(f'{nodes} x {nodes}, {mode}, steps of {1e3 * dt:g} ms: {taken:.1f} s of a '
+                  f'processor; {cloth.snapshot().self_contacts} contacts', flush=True)
+
+
 def main() -> None:
     """Print the times of both, flat and folded, in turns."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument('--nodes', type=int, nargs='+', default=[64])
     parser.add_argument('--settle', type=float, default=0.3, help='time before the first [s]')
     parser.add_argument('--rounds', type=int, default=3)
+    parser.add_argument('--modes', action='store_true', help='time each mode instead')
     given = parser.parse_args()
     for nodes in given.nodes:
+        if given.modes:
+            time_modes(nodes, given.settle)
+            continue
         for name in ('flat', 'folded'):
             runs = []
             for enabled in (False, True):

@@ -32,8 +32,12 @@ _READS = {'LOADS_TEXTURE': 1}
 # with 32 layers of a cloth twisted twice keep 0.97 of their thickness instead of 0.86, and the
 # other figures of test_self_contact.py stay as they are.
 _ROUNDS, _MOST_ROUNDS = 4, 8
-# Both between two solves of an implicit step [1], where a solve costs more than rounds.
-_ROUNDS_OF_SOLVE, _MOST_ROUNDS_OF_SOLVE = 8, 24
+# Rounds between two looks [1], before a solve of an implicit step, which costs more than rounds;
+# chosen: from 2 to 24 less changes than by half the tolerance, solves by 1 %
+# (constants.py --only _ROUNDS_OF_SOLVE).
+_ROUNDS_OF_SOLVE = 8
+# Max. of them before a solve [1].
+_MOST_ROUNDS_OF_SOLVE = 24
 # Change of a velocity in a round over the largest impulse [1], at which they end; chosen: at rest
 # it is 0.01 to 0.05 after four rounds.
 _STILL = 0.1
@@ -41,7 +45,8 @@ _STILL = 0.1
 # and displacements of a substep [1]; chosen: with 0.25 thicknesses lists cost what looks at pairs
 # save (benchmarks/layers.py).
 _SKIN, _SKIN_OF_CELL, _SKIN_OF_WAY = 1.0, 0.1, 4.0
-# Such displacements in long substeps, so that lists last for several [1].
+# Reach over the displacement of an implicit substep [1], so that lists last for several;
+# chosen: same bits from 4 to 16, time -13 to 0 % (constants.py --only _SKIN_OF_LONG_WAY).
 _SKIN_OF_LONG_WAY = 8.0
 # Max. of it, in parts of a cell [1]: nodes that would go farther are stopped, as more pairs are
 # near then than memory has room for.
