@@ -13,10 +13,13 @@ from cloth_sim_ros.dataset.coco import categories
 from cloth_sim_ros.dataset.sample import FOLDERS
 from cloth_sim_ros.dataset.sample import path_of
 from cloth_sim_ros.files.errors import cut
+from cloth_sim_ros.files.regular_file import read_regular
 from cloth_sim_ros.sim.errors import ClothSimError
 
 _ASKED = 'dataset.json'
 ANNOTATIONS = 'annotations.json'
+# Largest size of a file of settings or of a sample [bytes]; chosen: 1000 times the largest seen.
+_LIMIT = 2**26
 
 
 class DatasetFolder:
@@ -44,10 +47,7 @@ class DatasetFolder:
         if not file.exists():
             self._write(file, asked)
             return
-        try:
-            there = json.loads(file.read_text(encoding='utf-8'))
-        except ValueError:
-            there = None
+        there = _parsed(file)
         if there != asked:
             names = sorted(
                 name for name in asked
@@ -71,13 +71,18 @@ class DatasetFolder:
             file = path_of(self.path, 'samples', number)
             if not file.exists():
                 continue
-            sample = json.loads(file.read_text(encoding='utf-8'))
-            names = sample['label_names']
-            images.append({
-                'id': number, 'file_name': f'images/{number:06d}.png',
-                'width': sample['width'], 'height': sample['height']})
-            for entry in sample['annotations']:
-                entries.append({'id': len(entries) + 1, 'image_id': number, **entry})
+            sample = _parsed(file)
+            try:
+                names = sample['label_names']
+                images.append({
+                    'id': number, 'file_name': f'images/{number:06d}.png',
+                    'width': sample['width'], 'height': sample['height']})
+                for entry in sample['annotations']:
+                    entries.append({'id': len(entries) + 1, 'image_id': number, **entry})
+            except (TypeError, KeyError) as error:
+                raise ClothSimError(
+                    f'{cut(file)} is not as it was written: remove it, and give the same command '
+                    'again, which makes that sample anew') from error
         self._write(self.path / ANNOTATIONS, {
             'images': images, 'annotations': entries, 'categories': categories(names)})
         return len(images)
@@ -86,3 +91,11 @@ class DatasetFolder:
         passing = file.with_suffix('.part')
         passing.write_text(json.dumps(content), encoding='utf-8')
         os.replace(passing, file)
+
+
+def _parsed(file: Path) -> Any:
+    """Return what a JSON file holds; None if it is none."""
+    try:
+        return json.loads(read_regular(file, _LIMIT))
+    except (ValueError, RecursionError):
+        return None

@@ -9,6 +9,7 @@ import os
 from pathlib import Path
 import shutil
 
+from cloth_sim_ros.files.regular_file import open_regular
 from cloth_sim_ros.recording.bag_folder import MAGIC
 from cloth_sim_ros.recording.bag_folder import RecordingOptions
 from cloth_sim_ros.recording.bag_folder import sync_file
@@ -110,7 +111,7 @@ class Rosbag2Writer:
         if not names:
             raise OSError(f'rosbag2 has not written {METADATA_NAME}')
         for name in names:
-            with open(self._folder / name, 'rb') as file:
+            with open_regular(self._folder / name) as file:
                 file.seek(-len(MAGIC), os.SEEK_END)
                 if file.read() != MAGIC:
                     raise OSError(f'rosbag2 has not written all of {name}')

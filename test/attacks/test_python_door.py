@@ -51,7 +51,7 @@ MESH = mesh_of_nodes(STATE, STATE, np.ones((ROWS - 1, COLS - 1), bool))
 OF_SIMULATION: dict[str, dict[str, Any]] = {
     'warm_up': {}, 'advance': {'seconds': 0.01}, 'step': {'count': 1},
     'work': {'is_due': lambda: False, 'stop': lambda: False}, 'apply': {'given': Pin(3, 3)},
-    'positions': {}, 'velocities': {},
+    'positions': {}, 'stored_positions': {}, 'velocities': {},
     'set_mode': {'name': 'mass_spring'}, 'take_over': {'prepared': None},
     'set_state': {'positions': STATE, 'velocities': STATE},
     'go_on_from': {

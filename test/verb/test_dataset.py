@@ -5,6 +5,7 @@
 
 import json
 from pathlib import Path
+import shutil
 
 from cloth_sim_ros.verb.main import main
 import numpy as np
@@ -126,3 +127,19 @@ def test_wrong_values_are_refused(scene, made, wrong, rule, capsys):
     said = capsys.readouterr().err.strip()
     assert rule in said and '\n' not in said
     assert sorted(made.rglob('*')) == before
+
+
+@pytest.mark.parametrize('content', ['', '[1', '[]', '{"label_names": 3}', '[' * 10**5])
+def test_a_damaged_sample_is_named(scene, made, tmp_path, content, capsys):
+    """A sample cut off by a full disk ended each further run with a traceback."""
+    folder = tmp_path / 'set'
+    shutil.copytree(made, folder)
+    sample = folder / 'samples' / '000001.json'
+    sample.write_text(content)
+    again = ['dataset', scene, '--count', '3', '--seed', '5', *SHORT, '--out', str(folder)]
+    assert main(again) != 0
+    said = capsys.readouterr().err.strip()
+    assert said.endswith('which makes that sample anew') and said.count('\n') == 0, said
+    sample.unlink()
+    assert main(again) == 0
+    assert sample.read_bytes() == (made / 'samples' / '000001.json').read_bytes()
