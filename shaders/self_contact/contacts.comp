@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 
 #version 430 core
-// Find the contacts of a substep, or of several, one pair an invocation, at the positions that they begin with. A pair
-// acts where its features own the nearest points, so that layers do not catch on inner edges: a point
+// Find the contacts of a substep, or of several, at the positions that they begin with: one pair an
+// invocation. A pair acts where its features own the nearest points, so that layers do not catch on inner edges: a point
 // in a triangle, two points within edges, or a corner or edge that all triangles around it name.
 
 #define POSITIONS_ALONE 1
@@ -123,9 +123,13 @@ void add_contact(uint pair, ivec4 nodes, vec3 weights, vec3 d, float distance, f
     vec3 impulse = pressed * normal + along;
     uint at = atomicAdd(contact_count, 1u);
     atomicAdd(contact_groups[0], at % SELF_LOCAL == 0u ? 1u : 0u);
-    // One that may come to act in its time counts once it does: with others at once, rounds would
-    // allow for what it never does.
+    // A contact that may act later counts once it does: rounds are slower by what they allow for.
+#if IS_IMPLICIT
+    // Solves end while contacts still come and go by their tolerance, and layers would tremble.
+    bool acts = true;
+#else
     bool acts = pressed > 0.0 || gap <= 0.0;
+#endif
     contacts_found[at] = SelfContact(
         nodes, vec4(normal, gap), vec4(impulse, uintBitsToFloat(pair)),
         weights, acts ? least : -least);

@@ -42,9 +42,9 @@ _MOST_ROUNDS_OF_SOLVE = 24
 # it is 0.01 to 0.05 after four rounds.
 _STILL = 0.1
 # Reach of the lists beyond the thickness: the largest of this many thicknesses, parts of a cell,
-# and displacements of a substep [1]; chosen: with 0.25 thicknesses lists cost what looks at pairs
-# save (benchmarks/layers.py).
-_SKIN, _SKIN_OF_CELL, _SKIN_OF_WAY = 1.0, 0.1, 4.0
+# and displacements of a substep [1]; chosen: from 1 to 2 thicknesses a moving towel takes the same
+# time to 10 % (benchmarks/layers.py).
+_SKIN, _SKIN_OF_CELL, _SKIN_OF_WAY = 1.5, 0.1, 4.0
 # Reach over the displacement of an implicit substep [1], so that lists last for several;
 # chosen: same bits from 4 to 16, time -13 to 0 % (constants.py --only _SKIN_OF_LONG_WAY).
 _SKIN_OF_LONG_WAY = 8.0
@@ -57,10 +57,12 @@ _USED = 0.9
 # Max. substeps without a look at displacements, while no pair is near [1], and how many times
 # faster nodes may become meanwhile [1]; if they went too far, the next look counts crossings.
 _MOST_UNLOOKED, _FASTER = 16, 4.0
-# Max. substeps that contacts serve before they are found anew [1]; and max. displacement meanwhile,
-# in parts of a cell and of the thickness [1].
+# Max. number of explicit substeps that contacts serve before they are found anew [1].
 _MOST_WINDOW = 16
-_WINDOW_OF_CELL, _WINDOW_OF_THICKNESS = 0.05, 0.2
+# Max. displacement meanwhile, over a cell and over the thickness [1]: points that touch are those of
+# the first substep; chosen: from (0.05, 0.2) to (0.1, 0.4) the figures of test_self_contact.py stay,
+# and a moving towel takes 12 % less time (benchmarks/layers.py).
+_WINDOW_OF_CELL, _WINDOW_OF_THICKNESS = 0.1, 0.4
 # Displacement since lists were made, as a fraction of half the reach [1], at which a node is
 # stopped; the rest is rounding.
 _ROOM = 0.98
@@ -92,8 +94,8 @@ _HEAD = np.dtype([
     ('least_moved', '3u4'), ('most_moved', '3u4'), ('least_speed', '3u4'),
     ('most_speed', '3u4'),
     ('vertex_pairs', 'u4'), ('edge_pairs', 'u4'), ('cut_nodes', 'u4'),
-    ('largest_cut', 'f4'), ('longest_way', 'f4'), ('largest_impulse', 'f4'), ('largest_change', 'f4'), ('undivided', 'u4'),
-    ('unfinished', 'u4'), ('largest', 'f4'), ('crossing_edges', 'u4'),
+    ('largest_cut', 'f4'), ('longest_way', 'f4'), ('largest_impulse', 'f4'),
+    ('largest_change', 'f4'), ('undivided', 'u4'), ('unfinished', 'u4'), ('largest', 'f4'), ('crossing_edges', 'u4'),
     ('first_crossing', 'u4'), ('cut_pins', 'u4'), ('largest_drive', 'f4')])
 _FIRST_ROUND, _LAST_ROUND = 1, 2
 
@@ -246,6 +248,7 @@ class SelfContact:
             self.drive(state)
         self.give(-1)
         self.guard(state)
+        self._clear_contacts()
         self.forget()
 
     def programs_with_colliders(self) -> Iterator[Program]:
@@ -641,7 +644,8 @@ def _programs(
         **{f'nodes last{" held" * held}{" noting" * notes}': {
             **of_nodes, 'IS_LAST': 1, 'HAS_HELD': held, 'NOTES_CHANGES': notes}
            for held in (0, 1) for notes in ((0,) if is_implicit else (0, 1))},
-        **{f'{name} {of_edges}': {**of_items, 'OF_EDGES': of_edges}
+        **{f'{name} {of_edges}': {
+            **of_items, 'OF_EDGES': of_edges, 'IS_IMPLICIT': int(is_implicit)}
            for name in ('contacts', 'guard') for of_edges in (0, 1)},
         **dict.fromkeys(('ways', 'longest', 'cut', *(('drive',) * is_implicit)), strips)}
     return {
