@@ -59,9 +59,9 @@ _USED = 0.9
 _MOST_UNLOOKED, _FASTER = 16, 4.0
 # Max. number of explicit substeps that contacts serve before they are found anew [1].
 _MOST_WINDOW = 16
-# Max. displacement meanwhile, over a cell and over the thickness [1]: points that touch are those of
-# the first substep; chosen: from (0.05, 0.2) to (0.1, 0.4) the figures of test_self_contact.py stay,
-# and a moving towel takes 12 % less time (benchmarks/layers.py).
+# Max. displacement meanwhile, over a cell and over the thickness [1]: points that touch are those
+# of the first substep; chosen: from (0.05, 0.2) to (0.1, 0.4) the figures of
+# test_self_contact.py stay, and a moving towel takes 12 % less time (benchmarks/layers.py).
 _WINDOW_OF_CELL, _WINDOW_OF_THICKNESS = 0.1, 0.4
 # Displacement since lists were made, as a fraction of half the reach [1], at which a node is
 # stopped; the rest is rounding.
@@ -92,11 +92,11 @@ _HEAD = np.dtype([
     ('self_node_count', 'u4'), ('acting_groups', '3u4'), ('acting_count', 'u4'),
     ('least_distance', 'f4'),
     ('least_moved', '3u4'), ('most_moved', '3u4'), ('least_speed', '3u4'),
-    ('most_speed', '3u4'),
-    ('vertex_pairs', 'u4'), ('edge_pairs', 'u4'), ('cut_nodes', 'u4'),
+    ('most_speed', '3u4'), ('vertex_pairs', 'u4'), ('edge_pairs', 'u4'), ('cut_nodes', 'u4'),
     ('largest_cut', 'f4'), ('longest_way', 'f4'), ('largest_impulse', 'f4'),
-    ('largest_change', 'f4'), ('undivided', 'u4'), ('unfinished', 'u4'), ('largest', 'f4'), ('crossing_edges', 'u4'),
-    ('first_crossing', 'u4'), ('cut_pins', 'u4'), ('largest_drive', 'f4')])
+    ('largest_change', 'f4'), ('undivided', 'u4'), ('unfinished', 'u4'), ('largest', 'f4'),
+    ('crossing_edges', 'u4'), ('first_crossing', 'u4'), ('cut_pins', 'u4'),
+    ('largest_drive', 'f4')])
 _FIRST_ROUND, _LAST_ROUND = 1, 2
 
 
