@@ -41,6 +41,8 @@ class Controls:
         self._answer = answer
         self._is_running = True
         self._shown_mode = ''
+        self._picture: Any = None
+        self._shown_picture: np.ndarray | None = None
         self._told = self._gui.add_markdown('')
         self._add_time()
         self._add_mode()
@@ -140,7 +142,6 @@ class Controls:
             raise
 
     def _add_camera(self) -> None:
-        self._shown_picture: np.ndarray | None = None
         with self._gui.add_folder('What a camera sees'):
             self._camera: Any = self._gui.add_dropdown(
                 'Camera', (_NO_CAMERA, *self._source.cameras))

@@ -94,7 +94,7 @@ class SceneSource(Source):
                 self._camera = self._picture = None
                 return
             camera = next(each for each in self._scene.cameras if each.name == name)
-            # What is wrong with a camera is told to the page that asks for it.
+            # Errors of the camera go to the page that has chosen it.
             self._picture = self._taken(simulation, camera, part)
             self._camera, self._part = camera, part
         self._ask(choose)

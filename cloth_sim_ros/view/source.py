@@ -40,7 +40,8 @@ class Source(ABC):
     A cloth that moves, of which the latest moment can be had from any thread.
 
     What is asked for raises ClothSimError when it cannot be done. What ``modes``, ``can_act``,
-    ``span`` and ``cameras`` rule out is not offered by the page: a source need not define it, and refuses it.
+    ``span`` and ``cameras`` rule out is not offered by the page: a source need not define it, and
+    refuses it.
 
     :param name: of the scene, the recording or the node
     :param modes: that ``set_mode`` takes; none where the mode is settled
@@ -67,7 +68,8 @@ class Source(ABC):
     def close(self) -> None:
         """Free all resources."""
 
-    # A page asks for these only where `span`, `modes`, `can_act` and `cameras` say that the source has them.
+    # A page asks for these only where `span`, `modes`, `can_act` and `cameras` say that the source
+    # has them.
     def go_to(self, time: float) -> None:
         """Show the moment at ``time`` [s], and stay there."""
         raise self._refusal('go to a time', 'a recording')

@@ -390,7 +390,7 @@ def test_camera_takes_or_refuses_anything(context):
 
 @pytest.mark.parametrize('name', HOSTILE)
 def test_camera_of_anything(context, name):
-    """A Look of numbers in place of colours was a TypeError."""
+    """A number as the colour of a Look was a TypeError."""
     value = hostile(name)
     fields = {*CAMERA, *(
         key.rpartition('.')[2] for key in Scene({**SMALL, 'cameras.names': ['eye'], **{
