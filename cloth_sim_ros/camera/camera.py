@@ -85,7 +85,7 @@ class Camera(AbstractContextManager['Camera']):
         subject = Subject.of(cloth, colliders)
         instance(frame, Pose, 'the frame of a camera', 'give where its tf frame is in the world')
         if look is not None:
-            instance(look, Look, 'the look of a picture', 'give a Look, or None for that of the scene')
+            instance(look, Look, 'the look of a picture', 'give a Look, or None for the usual one')
         for part, value in (
                 ('color', color), ('depth', depth), ('labels', labels), ('normals', normals),
                 ('visible', visible)):
