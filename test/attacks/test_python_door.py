@@ -392,16 +392,19 @@ def test_camera_takes_or_refuses_anything(context):
 def test_camera_of_anything(context, name):
     """A number as the colour of a Look was a TypeError."""
     value = hostile(name)
-    fields = {*CAMERA, *(
-        key.rpartition('.')[2] for key in Scene({**SMALL, 'cameras.names': ['eye'], **{
-            f'cameras.eye.{key}': each for key, each in CAMERA.items()}}).values
-        if key.startswith('cameras.eye.'))}
+    watched = {**SMALL, 'cameras.names': ['eye'], **{
+        f'cameras.eye.{key}': each for key, each in CAMERA.items()}}
+    fields = {
+        key.rpartition('.')[2] for key in Scene(watched).values if key.startswith('cameras.eye.')}
     with Simulation(Scene(SMALL), context=context) as cloth:
         model = CameraModel.of(**CAMERA)
         usual = {'camera': model, 'cloth': cloth, 'seed': 1}
         makers = {
             'Camera': lambda: Camera(value), 'Camera name': lambda: Camera(name=value),
             **{f'Camera {key}': lambda key=key: Camera(**{**CAMERA, key: value})
+               for key in fields},
+            'Scene names': lambda: Scene({**watched, 'cameras.names': value}),
+            **{f'Scene {key}': lambda key=key: Scene({**watched, f'cameras.eye.{key}': value})
                for key in fields},
             **{f'Look {key}': lambda key=key: Look(**{key: value}) for key in vars(Look())},
             'Look body': lambda: Look(bodies={'ball': value}),
