@@ -46,6 +46,7 @@ _MODULES = {
     'Snapshot': 'sim.snapshot',
     'Verdict': 'resimulation.verdict',
     'load_scene': 'api.scene_file',
+    'randomise': 'camera.randomise',
     'resimulate': 'api.resimulate',
     'write_mesh': 'analysis.mesh_files',
 }

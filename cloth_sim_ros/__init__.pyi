@@ -9,6 +9,7 @@ from cloth_sim_ros.api.scene_file import load_scene as load_scene
 from cloth_sim_ros.api.simulation_recorder import SimulationRecorder as SimulationRecorder
 from cloth_sim_ros.camera.camera import Camera as Camera
 from cloth_sim_ros.camera.picture import CameraPicture as CameraPicture
+from cloth_sim_ros.camera.randomise import randomise as randomise
 from cloth_sim_ros.gl.errors import DeviceError as DeviceError
 from cloth_sim_ros.recording.recording_faults import RecordingError as RecordingError
 from cloth_sim_ros.resimulation.frame_check import Difference as Difference

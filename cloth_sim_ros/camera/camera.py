@@ -18,6 +18,8 @@ from cloth_sim_ros.camera.visibility import visible_nodes
 from cloth_sim_ros.files.errors import shown
 from cloth_sim_ros.gl.context import Context
 from cloth_sim_ros.gl.errors import DeviceError
+from cloth_sim_ros.sim.arguments import flag
+from cloth_sim_ros.sim.arguments import instance
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.model.cameras import CameraModel
 from cloth_sim_ros.sim.model.colliders import Collider
@@ -77,10 +79,17 @@ class Camera(AbstractContextManager['Camera']):
         :param normals: False leaves out the normals
         :param visible: False leaves out which nodes are seen
         :param look: colours, fabric and sun; by default those of the scene of a Simulation
-        :raises ClothSimError: when ``cloth`` is none, or a chain
+        :raises ClothSimError: when ``cloth`` is none, or a chain, or for another wrong value
         :raises DeviceError: when there is no GL device for it
         """
         subject = Subject.of(cloth, colliders)
+        instance(frame, Pose, 'the frame of a camera', 'give where its tf frame is in the world')
+        if look is not None:
+            instance(look, Look, 'the look of a picture', 'give a Look, or None for the usual one')
+        for part, value in (
+                ('color', color), ('depth', depth), ('labels', labels), ('normals', normals),
+                ('visible', visible)):
+            flag(value, f'{part} of a picture')
         lens = Lens(self.model, self.model.placed(frame))
         return self._studio_for(subject).take(
             subject, lens, (look or subject.look) if color else None, depth=depth, labels=labels,

@@ -9,8 +9,10 @@ from functools import cached_property
 from cloth_sim_ros.camera.drawn_cloth import DrawnCloth
 from cloth_sim_ros.camera.lens import Lens
 from cloth_sim_ros.camera.light import DAYLIGHT_DEFINES
-from cloth_sim_ros.camera.light import DEPTH_SIDE
+from cloth_sim_ros.camera.light import DEPTH_PIXEL
+from cloth_sim_ros.camera.light import DEPTH_SIDES
 from cloth_sim_ros.camera.light import DEPTH_UNIT
+from cloth_sim_ros.camera.light import NEAREST_DEPTH_UNIT
 from cloth_sim_ros.camera.picture_file import load_picture
 from cloth_sim_ros.camera.subject import Subject
 from cloth_sim_ros.camera.value_drawing import behind_of
@@ -54,6 +56,7 @@ class ColorDrawing:
         self._samples = samples
         self._programs: dict[tuple[str, ...], RenderProgram] = {}
         self._pictures: dict[str, PictureTexture] = {}
+        self._depths: dict[int, DepthTexture] = {}
         self._surfaces: dict[tuple[str, tuple[float, ...]], tuple[Buffer, int, int]] = {}
 
     def draw(
@@ -66,7 +69,10 @@ class ColorDrawing:
         :param nodes: where its nodes are, (rows, cols, 3) [m]: where there can be shadows
         """
         sun = _Sun(look.sun, subject, lens, nodes)
-        self._cast(subject, cloth, lens, sun)
+        depths = self._depths_for(2.0 * sun.reach, look.shadow)
+        self._cast(subject, cloth, lens, sun, depths)
+        depths.bind(DEPTH_UNIT)
+        depths.bind_nearest(NEAREST_DEPTH_UNIT)
         self._framebuffer.begin(look.background)
         if look.backdrop:
             self._draw_backdrop(look)
@@ -77,9 +83,11 @@ class ColorDrawing:
         clamp_depths(False)
         return self._framebuffer.read(is_upside_down=True)
 
-    def _cast(self, subject: Subject, cloth: DrawnCloth, lens: Lens, sun: '_Sun') -> None:
-        """Draw what the sun sees."""
-        self._depths.begin()
+    def _cast(
+            self, subject: Subject, cloth: DrawnCloth, lens: Lens, sun: '_Sun',
+            depths: DepthTexture) -> None:
+        """Draw what the sun sees into ``depths``."""
+        depths.begin()
         draw_nearest()
         clamp_depths(True)
         program = self._program('camera/cloth_depth.vert', 'camera/nothing.frag', cloth.defines)
@@ -147,7 +155,6 @@ class ColorDrawing:
 
     def _light(self, program: RenderProgram, look: Look, sun: '_Sun') -> None:
         """Set the uniforms of render/lamp.glsl in ``program``, which is in use."""
-        self._depths.bind(DEPTH_UNIT)
         program.set_matrix('lamp_matrix', sun.matrix)
         program.set_vectors('lamp', sun.axes[2])
         program.set_float('lamp_blur', look.shadow / (2.0 * sun.reach))
@@ -191,9 +198,18 @@ class ColorDrawing:
     def _framebuffer(self) -> Framebuffer:
         return Framebuffer(*self._size, most_samples=self._samples)
 
-    @cached_property
-    def _depths(self) -> DepthTexture:
-        return DepthTexture(DEPTH_SIDE)
+    def _depths_for(self, length: float, shadow: float) -> DepthTexture:
+        """
+        Return the texture for shadows with a soft edge of radius ``shadow`` [m].
+
+        :param length: of the side of what the sun sees [m]
+        """
+        side = next(
+            (each for each in DEPTH_SIDES if length <= each * DEPTH_PIXEL * shadow),
+            DEPTH_SIDES[-1])
+        if side not in self._depths:
+            self._depths[side] = DepthTexture(side)
+        return self._depths[side]
 
 
 class _Sun:

@@ -10,7 +10,10 @@ LIGHT_DEFINES = {
 # Taps of a shadow [1]: half as many as a still picture has, and none within the disc where all or
 # none of the rim is lit. A picture of 640 x 480 takes half the time.
 DAYLIGHT_DEFINES = {**LIGHT_DEFINES, 'LAMP_TAPS': 12, 'LAMP_RIM_TAPS': 4}
-# Side of the picture that the sun has of the scene, for shadows [pixel].
-DEPTH_SIDE = 1024
-# Texture unit of that picture, render/lamp.glsl.
-DEPTH_UNIT = 2
+# Sides of the picture that the sun has of the scene, for shadows [pixel]: the first whose pixels
+# are small enough.
+DEPTH_SIDES = (256, 512, 1024)
+# Largest pixel of that picture over the radius of the soft edge of a shadow [1].
+DEPTH_PIXEL = 0.25
+# Texture units of that picture, render/lamp.glsl.
+DEPTH_UNIT, NEAREST_DEPTH_UNIT = 2, 4

@@ -9,6 +9,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from cloth_sim_ros.files.errors import shown
+from cloth_sim_ros.sim.arguments import instance
+from cloth_sim_ros.sim.arguments import iterable
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.model.colliders import Collider
 from cloth_sim_ros.sim.model.look import Look
@@ -53,13 +55,14 @@ class Subject:
         :param colliders: None for those of a Simulation, and none beside a Snapshot
         :raises ClothSimError: when it is neither, or a chain, which has no surface
         """
+        given = None if colliders is None else _checked(colliders)
         if isinstance(cloth, Simulation):
             scene = cloth.scene
             _check_shape((scene.rows, scene.cols))
             return cls(
                 cloth, (scene.rows, scene.cols), scene.cut_cells, scene.spacing,
                 scene['contact.thickness'],
-                cloth.colliders if colliders is None else tuple(colliders), cloth.time)
+                cloth.colliders if given is None else given, cloth.time)
         if not isinstance(cloth, Snapshot):
             raise ClothSimError(
                 f'a camera looks at a Simulation or a Snapshot, got {shown(cloth)}: give one')
@@ -71,7 +74,7 @@ class Subject:
             for axis in (1, 0))
         return cls(
             cloth, (rows, cols), None if cells.all() else cells, (along, down), _THICKNESS,
-            tuple(colliders or ()), cloth.time)
+            given or (), cloth.time)
 
     @property
     def look(self) -> Look:
@@ -83,6 +86,13 @@ class Subject:
         cloth = self.cloth
         positions = cloth.positions() if isinstance(cloth, Simulation) else cloth.positions
         return positions.astype(float)
+
+
+def _checked(colliders: Sequence[Collider]) -> tuple[Collider, ...]:
+    hint = 'give those of Simulation.colliders'
+    return tuple(
+        instance(each, Collider, 'a collider of a picture', hint)
+        for each in iterable(colliders, 'the colliders of a picture', hint))
 
 
 def _check_shape(shape: tuple[int, int]) -> None:

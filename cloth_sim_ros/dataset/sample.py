@@ -13,12 +13,11 @@ from typing import Any
 
 from cloth_sim_ros.camera.camera import Camera
 from cloth_sim_ros.camera.picture import CameraPicture
+from cloth_sim_ros.camera.randomise import randomise
 from cloth_sim_ros.dataset.coco import keypoints
 from cloth_sim_ros.dataset.coco import mask_annotations
 from cloth_sim_ros.dataset.variation import Bounds
 from cloth_sim_ros.dataset.variation import random_fabric
-from cloth_sim_ros.dataset.variation import random_look
-from cloth_sim_ros.dataset.variation import random_place
 from cloth_sim_ros.gl.errors import DeviceError
 from cloth_sim_ros.gl.errors import ShaderError
 from cloth_sim_ros.sim.errors import NonFiniteStateError
@@ -68,10 +67,9 @@ def make_sample(
             # A cloth that is lost in one sample is no reason to make no others.
             return str(error)
         nodes = simulation.positions().astype(float)
-        camera = random_place(
-            random, scene.cameras[0] if scene.cameras else _usual_camera(),
-            nodes[scene.present_nodes], bounds)
-        look = random_look(random, simulation.colliders, scene.look)
+        camera, look = randomise(
+            scene.cameras[0] if scene.cameras else _usual_camera(), simulation, seed=random,
+            distance=bounds.distance, elevation=bounds.elevation)
         with Camera(camera) as eye:
             picture = eye.capture(simulation, look=look, normals=False)
         _write(Path(folder), number, picture, nodes, {

@@ -5,6 +5,7 @@
 
 from pathlib import Path
 
+from cloth_sim_ros.camera.depth_shades import depth_shades
 from cloth_sim_ros.dataset.sample import path_of
 from matplotlib import colormaps
 import numpy as np
@@ -46,11 +47,7 @@ def _sample(folder: Path, number: int) -> np.ndarray:
     color, depth, labels = (
         np.asarray(Image.open(path_of(folder, kind, number)))
         for kind in ('images', 'depth', 'labels'))
-    is_there = depth > 0
-    near, far = (depth[is_there].min(), depth[is_there].max()) if is_there.any() else (0, 1)
-    share = (far - depth.astype(float)) / max(float(far) - float(near), 1.0)
-    shades = 255.0 * colormaps['viridis'](np.clip(share, 0.0, 1.0))[..., :3]
-    shades[~is_there] = _WHITE
+    shades = depth_shades(np.where(depth > 0, depth.astype(float), np.inf))
     paints = 255.0 * colormaps['tab10'](labels % 10)[..., :3]
     paints[labels == 0] = _WHITE
     height = round(_WIDTH * color.shape[0] / color.shape[1])

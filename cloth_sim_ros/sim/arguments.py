@@ -98,6 +98,16 @@ def array(
         return found.astype(float)
 
 
+def vectors(values: object, of: str, hint: str = _XYZ) -> np.ndarray:
+    """Return ``values`` as an array of float64, (..., 3), which may hold NaN."""
+    found = _array(values)
+    if found is None or found.dtype.kind not in _NUMBERS or found.shape[-1:] != (3,):
+        raise ClothSimError(
+            f'{of} must be (..., 3) numbers, got {_described(values, found)}: {hint}')
+    with np.errstate(over='ignore'):  # of float128, which becomes infinite
+        return found.astype(float)
+
+
 def integers(values: object, of: str, hint: str = 'give a list of int') -> np.ndarray:
     """Return ``values``, one after the other, as an array of int64 of the shape they have."""
     if isinstance(values, Iterable) and not isinstance(

@@ -6,6 +6,8 @@
 from collections.abc import Callable
 from typing import Any
 
+from cloth_sim_ros.camera.rig import COLOR
+from cloth_sim_ros.camera.rig import DEPTH
 from cloth_sim_ros.messages.geometry import FULL_STRAIN
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.view.source import Moment
@@ -17,6 +19,10 @@ import viser
 
 _PUSH, _PIN = 'pushes', 'pins or releases'
 _PAUSE, _RESUME = 'Pause', 'Run'
+# No name of a camera has a blank.
+_NO_CAMERA = 'no camera'
+_PARTS = {'colour': COLOR, 'depth': DEPTH}
+_NO_PICTURE = np.zeros((1, 1, 3), np.uint8)
 
 
 class Controls:
@@ -35,6 +41,8 @@ class Controls:
         self._answer = answer
         self._is_running = True
         self._shown_mode = ''
+        self._picture: Any = None
+        self._shown_picture: np.ndarray | None = None
         self._told = self._gui.add_markdown('')
         self._add_time()
         self._add_mode()
@@ -42,6 +50,8 @@ class Controls:
             'Colour scale ends at strain [%]', 100.0 * FULL_STRAIN, min=0.01, max=1000.0,
             step=0.01)
         self._gui.add_html(_legend())
+        if source.cameras:
+            self._add_camera()
         if source.can_act:
             self._add_actions()
 
@@ -91,6 +101,11 @@ class Controls:
         # A choice that is being made is not taken back before it had its effect.
         if self._mode is not None and self._shown_mode != moment.mode:
             self._mode.value = self._shown_mode = moment.mode
+        if self._source.cameras and self._shown_picture is not moment.picture:
+            self._shown_picture = moment.picture
+            self._picture.visible = moment.picture is not None
+            if moment.picture is not None:
+                self._picture.image = moment.picture
         if self._time is not None and self._is_running:
             self._time.value = frame.time
 
@@ -125,6 +140,19 @@ class Controls:
         except ClothSimError:
             self._mode.value = self._shown_mode
             raise
+
+    def _add_camera(self) -> None:
+        with self._gui.add_folder('What a camera sees'):
+            self._camera: Any = self._gui.add_dropdown(
+                'Camera', (_NO_CAMERA, *self._source.cameras))
+            self._part: Any = self._gui.add_dropdown('Picture', tuple(_PARTS))
+            self._picture = self._gui.add_image(_NO_PICTURE, label='Seen', visible=False)
+        for choice in (self._camera, self._part):
+            self._when_set(choice, lambda _: self._choose_camera())
+
+    def _choose_camera(self) -> None:
+        name = self._camera.value
+        self._source.show_camera('' if name == _NO_CAMERA else name, _PARTS[self._part.value])
 
     def _add_actions(self) -> None:
         with self._gui.add_folder('A click on the cloth'):

@@ -14,8 +14,12 @@ import time
 from typing import Any
 
 from cloth_sim_ros.analysis.frame import Frame
+from cloth_sim_ros.camera.depth_shades import depth_shades
+from cloth_sim_ros.camera.rig import CameraRig
+from cloth_sim_ros.camera.rig import COLOR
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.errors import NonFiniteStateError
+from cloth_sim_ros.sim.model.cameras import CameraModel
 from cloth_sim_ros.sim.modes import AVAILABLE
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.simulation import Simulation
@@ -24,6 +28,7 @@ from cloth_sim_ros.view.source import PAUSED
 from cloth_sim_ros.view.source import RUNNING
 from cloth_sim_ros.view.source import Source
 from cloth_sim_ros.view.source import STOPPED
+import numpy as np
 
 _Request = tuple[Callable[[Simulation], Any], Future[None]]
 # Max. delay that the view catches up with [s]; a longer one makes it slower than real time.
@@ -47,7 +52,13 @@ class SceneSource(Source):
         """Start the simulation, and return when its first moment is there."""
         self.name = name
         self.modes = tuple(AVAILABLE)
+        # There is no tf here that one could be attached to.
+        self.cameras = tuple(camera.name for camera in scene.cameras if not camera.frame)
         self._scene = scene
+        self._rig: CameraRig | None = None
+        self._camera: CameraModel | None = None
+        self._part = COLOR
+        self._picture: np.ndarray | None = None
         self._frame_seconds = max(frame_seconds, scene['dt'])
         self._run_state = PAUSED if is_paused else RUNNING
         self._note = ''
@@ -75,6 +86,18 @@ class SceneSource(Source):
     def set_mode(self, mode: str) -> None:
         """Step with ``mode`` from now on."""
         self._ask(lambda simulation: simulation.set_mode(mode))
+
+    def show_camera(self, name: str, part: str) -> None:
+        """Let moments have the picture of a camera, its COLOR or DEPTH; an empty name: none."""
+        def choose(simulation: Simulation) -> None:
+            if not name:
+                self._camera = self._picture = None
+                return
+            camera = next(each for each in self._scene.cameras if each.name == name)
+            # Errors of the camera go to the page that has chosen it.
+            self._picture = self._taken(simulation, camera, part)
+            self._camera, self._part = camera, part
+        self._ask(choose)
 
     def step(self, count: int) -> None:
         """Make ``count`` steps of dt while paused."""
@@ -141,6 +164,8 @@ class SceneSource(Source):
             while (request := self._requests.get()) is not None:
                 request[1].set_exception(error)
         else:
+            if self._rig is not None:
+                self._rig.close()
             simulation.close()
 
     def _run(self, simulation: Simulation) -> None:
@@ -178,8 +203,24 @@ class SceneSource(Source):
         except NonFiniteStateError as error:
             self._run_state, self._note = STOPPED, str(error)
 
+    def _taken(self, simulation: Simulation, camera: CameraModel, part: str) -> np.ndarray:
+        """Return the picture of ``camera`` now, (height, width, 3) uint8."""
+        if self._rig is None:
+            self._rig = CameraRig(simulation, lambda _: None)
+        picture = self._rig.take(camera, (part,))
+        assert picture is not None
+        if part == COLOR:
+            assert picture.color is not None
+            return picture.color
+        assert picture.depth is not None
+        return depth_shades(picture.depth)
+
     def _show(self, simulation: Simulation) -> None:
+        # While paused, a page shows each step.
+        if self._camera is not None and self._rig is not None and (
+                self._run_state != RUNNING or self._rig.is_due(self._camera)):
+            self._picture = self._taken(simulation, self._camera, self._part)
         snapshot = simulation.snapshot()
         self._latest = Moment(
             Frame(snapshot.time, snapshot.records, colliders=simulation.colliders), snapshot.mode,
-            self._run_state, self._note)
+            self._run_state, self._note, self._picture)

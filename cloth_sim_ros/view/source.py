@@ -10,6 +10,7 @@ from dataclasses import dataclass
 
 from cloth_sim_ros.analysis.frame import Frame
 from cloth_sim_ros.sim.errors import ClothSimError
+import numpy as np
 
 RUNNING = 'running'
 PAUSED = 'paused'
@@ -24,31 +25,36 @@ class Moment:
     :param mode: of the simulation; empty where it is not known
     :param run_state: running, paused, or stopped when the run cannot go on
     :param note: what there is to say of it, such as why it has stopped
+    :param picture: of the camera that is shown, (height, width, 3) uint8; None without one
     """
 
     frame: Frame
     mode: str
     run_state: str
     note: str = ''
+    picture: np.ndarray | None = None
 
 
 class Source(ABC):
     """
     A cloth that moves, of which the latest moment can be had from any thread.
 
-    What is asked for raises ClothSimError when it cannot be done. What ``modes``, ``can_act`` and
-    ``span`` rule out is not offered by the page: a source need not define it, and refuses it.
+    What is asked for raises ClothSimError when it cannot be done. What ``modes``, ``can_act``,
+    ``span`` and ``cameras`` rule out is not offered by the page: a source need not define it, and
+    refuses it.
 
     :param name: of the scene, the recording or the node
     :param modes: that ``set_mode`` takes; none where the mode is settled
     :param can_act: whether the cloth can be stepped, pushed, pinned and reset
     :param span: first and last time [s] where the view can go to any; None where it cannot
+    :param cameras: names of those whose pictures can be shown
     """
 
     name: str
     modes: tuple[str, ...] = ()
     can_act: bool = False
     span: tuple[float, float] | None = None
+    cameras: tuple[str, ...] = ()
 
     @abstractmethod
     def latest(self) -> Moment | None:
@@ -62,7 +68,8 @@ class Source(ABC):
     def close(self) -> None:
         """Free all resources."""
 
-    # A page asks for these only where `span`, `modes` and `can_act` say that the source has them.
+    # A page asks for these only where `span`, `modes`, `can_act` and `cameras` say that the source
+    # has them.
     def go_to(self, time: float) -> None:
         """Show the moment at ``time`` [s], and stay there."""
         raise self._refusal('go to a time', 'a recording')
@@ -70,6 +77,10 @@ class Source(ABC):
     def set_mode(self, mode: str) -> None:
         """Step with ``mode`` from now on."""
         raise self._refusal('change its mode')
+
+    def show_camera(self, name: str, part: str) -> None:
+        """Let moments have the picture of a camera, its COLOR or DEPTH; an empty name: none."""
+        raise self._refusal('show a camera', 'a scene')
 
     def step(self, count: int) -> None:
         """Make ``count`` steps of dt while paused."""

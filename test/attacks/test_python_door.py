@@ -12,11 +12,15 @@ from pathlib import Path
 from typing import Any
 
 from cloth_sim_ros import Batch
+from cloth_sim_ros import Camera
+from cloth_sim_ros import CameraModel
 from cloth_sim_ros import ClothSimError
 from cloth_sim_ros import DeviceError
 from cloth_sim_ros import load_scene
+from cloth_sim_ros import Look
 from cloth_sim_ros import Pose
 from cloth_sim_ros import Push
+from cloth_sim_ros import randomise
 from cloth_sim_ros import Recording
 from cloth_sim_ros import resimulate
 from cloth_sim_ros import Scene
@@ -98,6 +102,14 @@ OF_SCENE: dict[str, dict[str, Any]] = {
     'gusts': {}, 'timed_pin_moves': {}, 'timed_collider_moves': {}, 'timed_grasp_moves': {},
     'timed_grasps': {},
 }
+CAMERA: dict[str, Any] = {
+    'position': [0.0, -1.0, 1.0], 'target': [0.0, 0.0, 0.5], 'width': 16, 'height': 12}
+OF_CAMERA: dict[str, dict[str, Any]] = {
+    'capture': {
+        'cloth': None, 'colliders': None, 'frame': Pose(CENTER), 'color': True, 'depth': True,
+        'labels': True, 'normals': True, 'visible': True, 'look': None}}
+OF_CAMERA_MODEL: dict[str, dict[str, Any]] = {
+    'placed': {'frame': Pose(CENTER)}, 'project': {'points': STATE}, 'rays': {}}
 OF_RECORDING: dict[str, dict[str, Any]] = {
     'count': {'*keys': 'stats'}, 'keys': {}, 'entries': {'*keys': 'stats'},
     'arrays': {'key': 'stats'}, 'raw_messages': {}, 'decode': {'message': None}, 'no_frame': {},
@@ -359,3 +371,48 @@ def test_environment_of_anything(name):
         else:
             assert math.isfinite(environment._simulation.dt)
             environment.close()
+
+
+def test_camera_takes_or_refuses_anything(context):
+    """A look of text was an AttributeError, after the picture had been begun."""
+    assert set(OF_CAMERA) == methods_of(Camera)
+    assert set(OF_CAMERA_MODEL) == methods_of(CameraModel)
+    print(attack(CameraModel.of(**CAMERA), OF_CAMERA_MODEL, lambda: []))
+    with Simulation(Scene(TOUCHING), context=context) as cloth, Camera(**CAMERA) as camera:
+        table = {'capture': {**OF_CAMERA['capture'], 'cloth': cloth}}
+        before = camera.capture(cloth)
+        count, refused = attack(camera, table, lambda: look_at(cloth))
+        print(f'{count} calls, {refused} refused')
+        after = camera.capture(cloth)
+        for part in ('color', 'depth', 'labels', 'normals', 'visible'):
+            np.testing.assert_array_equal(getattr(before, part), getattr(after, part))
+
+
+@pytest.mark.parametrize('name', HOSTILE)
+def test_camera_of_anything(context, name):
+    """A number as the colour of a Look was a TypeError."""
+    value = hostile(name)
+    watched = {**SMALL, 'cameras.names': ['eye'], **{
+        f'cameras.eye.{key}': each for key, each in CAMERA.items()}}
+    fields = {
+        key.rpartition('.')[2] for key in Scene(watched).values if key.startswith('cameras.eye.')}
+    with Simulation(Scene(SMALL), context=context) as cloth:
+        model = CameraModel.of(**CAMERA)
+        usual = {'camera': model, 'cloth': cloth, 'seed': 1}
+        makers = {
+            'Camera': lambda: Camera(value), 'Camera name': lambda: Camera(name=value),
+            **{f'Camera {key}': lambda key=key: Camera(**{**CAMERA, key: value})
+               for key in fields},
+            'Scene names': lambda: Scene({**watched, 'cameras.names': value}),
+            **{f'Scene {key}': lambda key=key: Scene({**watched, f'cameras.eye.{key}': value})
+               for key in fields},
+            **{f'Look {key}': lambda key=key: Look(**{key: value}) for key in vars(Look())},
+            'Look body': lambda: Look(bodies={'ball': value}),
+            **{f'randomise {key}': lambda key=key: randomise(**{**usual, key: value})
+               for key in (*usual, 'distance', 'elevation', 'colliders')},
+        }
+        for of, make in makers.items():
+            try:
+                make()
+            except ClothSimError as error:
+                assert str(error).strip() and '\n' not in str(error), of

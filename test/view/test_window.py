@@ -4,18 +4,25 @@
 """A page shows the cloth, and what is done there is done to the cloth."""
 
 from collections.abc import Iterator
+import io
 from pathlib import Path
 
+from cloth_sim_ros.camera.camera import Camera
+from cloth_sim_ros.camera.depth_shades import depth_shades
 from cloth_sim_ros.sim.scene import Scene
+from cloth_sim_ros.sim.simulation import Simulation
 from cloth_sim_ros.view.recording_source import RecordingSource
 from cloth_sim_ros.view.scene_source import SceneSource
 import numpy as np
+from PIL import Image
 import pytest
 from served_view import served
 from springs import SPRINGS
 from view_page import ViewPage
 
 SCENE = Scene({**SPRINGS, 'rows': 6, 'cols': 7})
+FRONT = {
+    'position': [0.3, -1.0, 1.4], 'target': [0.3, 0.3, 1.0], 'width': 80, 'height': 60}
 EXAMPLE = Path(__file__).resolve().parents[2] / 'bags' / 'example'
 
 
@@ -152,3 +159,36 @@ def test_a_chain_is_drawn_as_dots():
         page.wait_for(lambda: '/cloth/nodes' in page.nodes, 'nodes')
         np.testing.assert_allclose(
             page.dots('/cloth/nodes'), scene.rest_positions().reshape(-1, 3), atol=1e-6)
+
+
+def test_the_page_shows_what_a_camera_sees():
+    """A camera could only be aimed with RViz or Foxglove beside a running node."""
+    scene = Scene({
+        **SPRINGS, 'rows': 6, 'cols': 7, 'cameras.names': ['front', 'hand'], **{
+            f'cameras.front.{key}': value for key, value in FRONT.items()},
+        'cameras.hand.frame': 'tool0'})
+    source = SceneSource(scene, 'small', frame_seconds=0.02, is_paused=True)
+    with Simulation(scene) as simulation, Camera(scene.cameras[0]) as camera:
+        first = camera.capture(simulation)
+        simulation.step(40)
+        later = camera.capture(simulation)
+
+    def shows(pixels: np.ndarray) -> bool:
+        control = page.controls['Seen']
+        seen = np.asarray(Image.open(io.BytesIO(control['_data'])).convert('RGB')).astype(int)
+        # JPEG changes these by up to 2.8 of 255; the two moments differ by 5.7 and 24.
+        return control['visible'] and seen.shape == pixels.shape and (
+            np.abs(seen - pixels).mean() < 4.0)
+
+    with served(source) as address, ViewPage(address) as page:
+        page.wait_for(lambda: page.text, 'a cloth')
+        assert list(page.controls['Camera']['options']) == ['no camera', 'front']
+        assert not page.controls['Seen']['visible']
+        page.give('Camera', 'front')
+        page.wait_for(lambda: shows(first.color), 'a picture')
+        page.give('Picture', 'depth')
+        page.wait_for(lambda: shows(depth_shades(first.depth)), 'its depth')
+        source.step(40)
+        page.wait_for(lambda: shows(depth_shades(later.depth)), 'the depth after a motion')
+        page.give('Camera', 'no camera')
+        page.wait_for(lambda: not page.controls['Seen']['visible'], 'an end')

@@ -14,6 +14,9 @@ from typing import Any
 
 from cloth_sim_ros.files.errors import cut
 from cloth_sim_ros.files.errors import shown
+from cloth_sim_ros.sim.arguments import instance
+from cloth_sim_ros.sim.arguments import vectors
+from cloth_sim_ros.sim.arguments import word
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.model.body_names import check_names
 from cloth_sim_ros.sim.model.body_names import fields_of_names
@@ -141,6 +144,7 @@ class CameraModel:
 
         :raises ClothSimError: for an unknown name or a wrong value
         """
+        word(name, 'the name of a camera')
         for key in values:
             if key not in _FIELD_OF:
                 raise ClothSimError(
@@ -160,8 +164,12 @@ class CameraModel:
             (self.fx, 0.0, self.cx), (0.0, self.fy, self.cy), (0.0, 0.0, 1.0)])
 
     def project(self, points: np.ndarray) -> np.ndarray:
-        """Return where ``points`` of the optical frame, (..., 3) [m], are seen, (..., 2)."""
-        x, y, z = np.moveaxis(np.asarray(points, float), -1, 0)
+        """
+        Return where ``points`` of the optical frame, (..., 3) [m], are seen, (..., 2).
+
+        :raises ClothSimError: when they are no such numbers
+        """
+        x, y, z = np.moveaxis(vectors(points, 'the points to project'), -1, 0)
         with np.errstate(divide='ignore', invalid='ignore'):
             return np.stack([self.fx * x / z + self.cx, self.fy * y / z + self.cy], axis=-1)
 
@@ -171,7 +179,12 @@ class CameraModel:
         return np.stack([(u - self.cx) / self.fx, (v - self.cy) / self.fy], axis=-1)
 
     def placed(self, frame: Pose) -> Pose:
-        """Return the pose of the optical frame in the world, where its frame is at ``frame``."""
+        """
+        Return the pose of the optical frame in the world, where its frame is at ``frame``.
+
+        :raises ClothSimError: when that is no Pose
+        """
+        instance(frame, Pose, 'the frame of a camera', 'give where its tf frame is in the world')
         return frame.placed(self.pose)
 
 

@@ -8,9 +8,15 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from dataclasses import field
+import math
 from types import MappingProxyType
 from typing import Any
 
+from cloth_sim_ros.files.errors import shown
+from cloth_sim_ros.sim.arguments import mapping
+from cloth_sim_ros.sim.arguments import real_number
+from cloth_sim_ros.sim.arguments import vector_or_none
+from cloth_sim_ros.sim.arguments import word
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.model.scene_fields import FABRICS
 from cloth_sim_ros.sim.model.scene_fields import SCENE_FIELDS
@@ -42,6 +48,7 @@ class Look:
     :param sun: direction to it in the world, of any length
     :param shadow: radius of the soft edge of a shadow [m]
     :param bodies: colours by the names of colliders; others are of wood, and planes light grey
+    :raises ClothSimError: for a wrong value
     """
 
     fabric: str = _DEFAULTS['fabric']
@@ -58,26 +65,32 @@ class Look:
 
     def __post_init__(self) -> None:
         """Check the values."""
+        for name in ('fabric', 'texture', 'backdrop'):
+            word(getattr(self, name), f'look.{name}')
+        bodies = mapping(self.bodies, 'the colours of bodies', 'give colours by names')
         if self.fabric not in FABRICS:
             raise ClothSimError(
-                f'look.fabric must be one of {", ".join(FABRICS)}, got {self.fabric}')
+                f'look.fabric must be one of {", ".join(FABRICS)}, got {shown(self.fabric)}')
         colors = {
             'look.color': self.color, 'look.back_color': self.back_color,
             'look.second_color': self.second_color, 'look.background': self.background,
-            **{f'colliders.{name}.color': color for name, color in self.bodies.items()}}
+            **{f'colliders.{name}.color': color for name, color in bodies.items()}}
         for name, color in colors.items():
-            if len(color) != 3 or not all(0.0 <= part <= 1.0 for part in color):
+            parts = vector_or_none(color)
+            if parts is None or not all(0.0 <= part <= 1.0 for part in parts):
                 raise ClothSimError(
-                    f'{name} needs red, green and blue from 0 to 1, got {list(color)}: write '
+                    f'{name} needs red, green and blue from 0 to 1, got {shown(color)}: write '
                     '[0.5, 0.5, 0.5]')
-        if len(self.sun) != 3 or not any(self.sun):
+        sun = vector_or_none(self.sun)
+        if sun is None or not any(sun) or not math.isfinite(math.hypot(*sun)):
             raise ClothSimError(
-                f'look.sun needs a direction [x, y, z], got {list(self.sun)}: write '
+                f'look.sun needs a direction [x, y, z], got {shown(self.sun)}: write '
                 '[0.0, 0.0, 1.0] for a sun straight above')
-        if not (self.pitch > 0.0 and self.shadow > 0.0):
-            raise ClothSimError(
-                f'look.pitch {self.pitch:g} m and look.shadow {self.shadow:g} m must be above 0: '
-                'give lengths')
+        for name, length in (('look.pitch', self.pitch), ('look.shadow', self.shadow)):
+            metres = real_number(length, name, 'give a length')
+            if not 0.0 < metres < math.inf:
+                raise ClothSimError(
+                    f'{name} must be a finite length above 0 m, got {metres:g}: give a length')
 
     def of_body(self, name: str, shape: str) -> Color:
         """Return the colour of a collider."""

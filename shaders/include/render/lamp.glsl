@@ -4,6 +4,9 @@
 // Daylight on cloth, bodies and floor: a lamp that casts shadows, and light from the sky and the floor.
 
 layout(binding = 2) uniform sampler2DShadow lamp_depths;
+#ifdef LAMP_RIM_TAPS
+layout(binding = 4) uniform sampler2DShadow nearest_depths;  // the same, without a mean of pixels
+#endif
 uniform mat4 lamp_matrix;    // clip coordinates of the lamp, for points as view_matrix has them
 uniform vec3 lamp;           // unit vector to it
 uniform float lamp_blur;     // radius of the soft edge of a shadow, over the depth texture's side
@@ -25,7 +28,9 @@ float lamp_share(vec3 point) {
     // Where all of the rim is lit, or none of it, so is the disc.
     float rim = 0.0;
     for (int tap = 0; tap < LAMP_RIM_TAPS; ++tap) {
-        rim += lamp_tap(at, lamp_blur, 6.28318531 * float(tap) / float(LAMP_RIM_TAPS));
+        float angle = 6.28318531 * float(tap) / float(LAMP_RIM_TAPS);
+        rim += texture(
+            nearest_depths, vec3(at.xy + lamp_blur * vec2(cos(angle), sin(angle)), at.z));
     }
     if (rim == 0.0 || rim == float(LAMP_RIM_TAPS)) {
         return rim / float(LAMP_RIM_TAPS);
