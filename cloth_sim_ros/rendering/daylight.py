@@ -60,7 +60,7 @@ CHECKED_DEFINES = {**DAYLIGHT_DEFINES, 'CHECKED': 1}
 # Brightness from thread to thread and from band to band, relative; width of a band [thread].
 WOVEN_DEFINES = {**DAYLIGHT_DEFINES, 'WOVEN': 1, 'SLUB': 0.16, 'UNEVEN': 0.12, 'BAND': 2.5}
 # A wide edge of a shadow needs more taps, or it has steps.
-FLOOR_DEFINES = {**DAYLIGHT_DEFINES, 'LAMP_TAPS': 64}
+FLOOR_DEFINES = {**DAYLIGHT_DEFINES, 'LAMP_TAPS': 128}
 _FABRIC_DEFINES = {
     'fabric': WOVEN_DEFINES, 'plain': DAYLIGHT_DEFINES, 'checked': CHECKED_DEFINES}
 _COLORS = {
