@@ -181,5 +181,6 @@ class SceneSource(Source):
     def _show(self, simulation: Simulation) -> None:
         snapshot = simulation.snapshot()
         self._latest = Moment(
-            Frame(snapshot.time, snapshot.records, colliders=simulation.colliders), snapshot.mode,
-            self._run_state, self._note)
+            Frame(snapshot.time, snapshot.records, tuple(
+                applied.push for applied in simulation.pushes), simulation.colliders),
+            snapshot.mode, self._run_state, self._note)
