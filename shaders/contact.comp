@@ -46,7 +46,7 @@ void main() {
 #endif
 #if HAS_SELF
     // self_contact/nodes.comp does it.
-    if (self_nodes[index].shares > 0u) {
+    if (self_nodes[index].contacts > 0u) {
         return;
     }
 #endif

@@ -127,11 +127,11 @@ class Buffer:
         write_buffer(_STORAGE, offset, content.nbytes, content.ctypes.data)
         refuse_lost_context()
 
-    def write_calls(self, data: np.ndarray) -> list[Call]:
-        """Return the calls that overwrite its first bytes with ``data``, which has to be kept."""
+    def write_calls(self, data: np.ndarray, offset: int = 0) -> list[Call]:
+        """Return the calls that overwrite its bytes with ``data``, which has to be kept."""
         return [
             (memory_barrier, (_READS,)), (bind_buffer, (_STORAGE, self.name)),
-            (write_buffer, (_STORAGE, 0, data.nbytes, data.ctypes.data))]
+            (write_buffer, (_STORAGE, offset, data.nbytes, data.ctypes.data))]
 
     def clear(self) -> None:
         """Make all of it zero."""

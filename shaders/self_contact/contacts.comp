@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 
 #version 430 core
-// Find the contacts of a substep, one pair an invocation, at the positions that it begins with. A pair
-// acts where its features own the nearest points, so that layers do not catch on inner edges: a point
+// Find the contacts of a substep, or of several, at the positions that they begin with: one pair an
+// invocation. A pair acts where its features own the nearest points, so that layers do not catch on inner edges: a point
 // in a triangle, two points within edges, or a corner or edge that all triangles around it name.
 
 #define POSITIONS_ALONE 1
@@ -13,6 +13,7 @@
 #include "self_contact/nearest.glsl"
 #include "self_contact/head.glsl"
 #include "self_contact/pairs.glsl"
+#define LISTS_ACTING 1
 #include "self_contact/contacts.glsl"
 
 layout(local_size_x = SELF_LOCAL) in;
@@ -34,6 +35,8 @@ uniform float substep;      // [s]
 uniform float thickness;    // [m] from middle to middle
 uniform float friction;     // [1]
 uniform float kept_share;   // of the impulses of the last substep, by its length [1]
+uniform float window;       // substeps that the contacts are to serve [1]
+uniform float least_speed_unit;  // [m/s] that gravity gives in a substep
 
 vec3 place_of(int index) { return load_position(index).xyz; }
 
@@ -108,40 +111,46 @@ bool touches_corner(int index, int face, int corner, vec3 d) {
     return true;
 }
 
-// Gap of a contact [m]; within what positions are rounded by, there is none.
-float gap_of(float gap, vec3 x) {
-    float rounding = 4e-7 * max(abs(x.x), max(abs(x.y), abs(x.z))) + 1e-9;
-    return sign(gap) * max(abs(gap) - rounding, 0.0);
-}
-
 void add_contact(uint pair, ivec4 nodes, vec3 weights, vec3 d, float distance, float least) {
     vec3 normal = d / max(distance, 1e-30);
     float gap = gap_of(distance - least, place_of(nodes.x));
     // What it had in the last substep, along the normal of this one.
     vec3 before = kept_share * kept[pair].xyz;
-    float speed = speed_unit();
-    float pressed = clamp(dot(before, normal), 0.0, IMPULSE_RANGE * speed);
+    float pressed = clamp(dot(before, normal), 0.0, most_impulse());
     vec3 along = before - dot(before, normal) * normal;
     float l = length(along);
     along *= l > friction * pressed ? friction * pressed / max(l, 1e-30) : 1.0;
     vec3 impulse = pressed * normal + along;
     uint at = atomicAdd(contact_count, 1u);
     atomicAdd(contact_groups[0], at % SELF_LOCAL == 0u ? 1u : 0u);
+    // A contact that may act later counts once it does: rounds are slower by what they allow for.
+#if IS_IMPLICIT
+    // Solves end while contacts still come and go by their tolerance, and layers would tremble.
+    bool acts = true;
+#else
+    bool acts = pressed > 0.0 || gap <= 0.0;
+#endif
     contacts_found[at] = SelfContact(
         nodes, vec4(normal, gap), vec4(impulse, uintBitsToFloat(pair)),
-        weights, 0.0);
-    float unit = impulse_unit(speed);
+        weights, acts ? least : -least);
     vec4 all = all_weights(weights);
     for (int i = 0; i < 4; ++i) {
         int node = nodes[i];
-        uint shares = uint(ceil(abs(all[i]) * SHARE_PARTS));
-        uint others = atomicAdd(self_nodes[node].shares, shares);
-        if (others == 0u && all[i] != 0.0) {
+        if (atomicAdd(self_nodes[node].contacts, 1u) == 0u) {
             uint place = atomicAdd(self_node_count, 1u);
             self_nodes[place].listed = uint(node);
             atomicAdd(node_groups[0], place % SELF_LOCAL == 0u ? 1u : 0u);
         }
-        ivec3 part = in_units(all[i], impulse, unit);
+    }
+    if (!acts) {
+        kept[pair] = vec4(0.0);
+        return;
+    }
+    list_acting(at);
+    for (int i = 0; i < 4; ++i) {
+        int node = nodes[i];
+        atomicAdd(self_nodes[node].shares, in_shares(all[i]));
+        ivec3 part = in_units(all[i], impulse);
         for (int k = 0; k < 3; ++k) {
             if (part[k] != 0) {
                 atomicAdd(self_nodes[node].impulse[k], part[k]);
@@ -174,7 +183,7 @@ void look(uint i, uint own, uint other, float reach, float least, float gone) {
     acts = acts && distance <= reach;
     if (acts) {
         acts = distance <= least + max(
-            SPARE * thickness, 2.0 * substep * speed_among(nodes));
+            SPARE * thickness, 2.0 * window * substep * speed_among(nodes));
     }
 #if !OF_EDGES
     if (acts && place <= AT_C) {
@@ -199,7 +208,7 @@ void main() {
     // Those that can come to the thickness in the substep, if cells go twice as far as in the last.
     vec2 ways = ways_of(pair);
     float least = OF_EDGES == 1 ? EDGE_THICKNESS * thickness : thickness;
-    float reach = least + max(SPARE * thickness, 2.0 * (ways.y + substep * least_speed_unit));
+    float reach = least + max(SPARE * thickness, 2.0 * window * (ways.y + substep * least_speed_unit));
     if (is_there && pair.distance - ways.x <= reach) {
         look(i, pair.own, pair.other, reach, least, ways.x);
     }

@@ -34,7 +34,7 @@ void main() {
             continue;
         }
         int sums[3] = self_nodes[index].impulse;
-        vec3 now = impulse_unit(speed_unit()) * vec3(sums[0], sums[1], sums[2]);
+        vec3 now = impulse_unit * vec3(sums[0], sums[1], sums[2]);
         vec3 change = now - before;
         applied[index] = vec4(now, 0.0);
         driven[index] = vec4(change, 0.0);

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 
 #version 430 core
-// The velocity of each node that touches the cloth after a round, with what colliders do to it. The last
-// round writes the state to come. IS_IMPLICIT 1: solves give nodes their velocities, and include impulses
-// of layers; the last round moves layers that are too near apart.
+// The velocity of each node that touches the cloth after a round, with what colliders do to it. IS_LAST
+// 1: write the state to come instead. IS_IMPLICIT 1: solves give nodes their velocities, and include impulses
+// of layers; layers that are too near are moved apart last.
 
 #define POSITIONS_ALONE 1
 #include "lattice.glsl"
@@ -18,10 +18,15 @@
 
 layout(local_size_x = SELF_LOCAL) in;
 
+#if IS_LAST
 layout(std430, binding = POSITION_OUT) buffer PositionOut { vec4 position_out[]; };
 layout(std430, binding = VELOCITY_OUT) buffer VelocityOut { vec4 velocity_out[]; };
+#endif
+// Software reads texels much faster than numbers.
+layout(binding = VELOCITY_OUT) uniform samplerBuffer velocity_texels;
+layout(binding = SELF_NODES) uniform samplerBuffer node_texels;
 layout(std430, binding = SELF_VELOCITIES) writeonly buffer SelfVelocities { vec4 velocities[]; };
-#if HAS_CONTACT && !IS_IMPLICIT
+#if HAS_CONTACT && IS_LAST && !IS_IMPLICIT
 #include "contact_record.glsl"
 #endif
 #if IS_IMPLICIT
@@ -41,22 +46,23 @@ layout(binding = SURFACE_NODES) uniform samplerBuffer surface_texels;
 
 uniform float substep;  // [s]
 uniform float way_unit;  // [m]
-uniform int is_last;
 
-vec3 of_numbers(int numbers[3], float unit) {
-    return unit * vec3(numbers[0], numbers[1], numbers[2]);
-}
+// A vector that three whole numbers are [unit].
+vec3 of_numbers(vec4 texel, float unit) { return unit * vec3(floatBitsToInt(texel.xyz)); }
 
 void main() {
     uint i = gl_GlobalInvocationID.x;
     if (i >= self_node_count) {
         return;
     }
-    int index = int(self_nodes[i].listed);
-    SelfNode node = self_nodes[index];
-    vec4 free = velocity_out[index];
+    int index = floatBitsToInt(texelFetch(node_texels, 3 * int(i) + 2).x);
+    vec4 node = texelFetch(node_texels, 3 * index);
+    vec4 free = texelFetch(velocity_texels, index);
     vec3 x = load_position(index).xyz;
-    vec3 impulse = of_numbers(node.impulse, impulse_unit(speed_unit()));
+    vec3 impulse = of_numbers(node, impulse_unit);
+#if IS_LAST
+    vec3 out_of_layers = free.w * of_numbers(texelFetch(node_texels, 3 * index + 1), way_unit);
+#endif
 #if IS_IMPLICIT
     free.xyz -= free.w * texelFetch(applied, index).xyz;
 #endif
@@ -72,9 +78,9 @@ void main() {
     vec3 v = free.xyz + free.w * impulse;
 #endif
 #if HAS_CONTACT
-#if IS_IMPLICIT
+#if IS_IMPLICIT && IS_LAST
     // Layers that are moved apart may be moved into a body.
-    v += float(is_last) * free.w / substep * of_numbers(node.way, way_unit);
+    v += out_of_layers / substep;
 #endif
     uint bodies = free.w > 0.0 ? near_bodies(x, 0.0, substep * length(v)) : 0u;
     touched_count = 0;
@@ -85,21 +91,18 @@ void main() {
         kind = contact.kind;
     }
 #endif
-    velocities[index] = vec4(v, free.w * float(node.shares) / SHARE_PARTS);
-    if (is_last == 0) {
-        return;
-    }
+#if !IS_LAST
+    velocities[index] = vec4(v, free.w * float(floatBitsToUint(node.w)) / SHARE_PARTS);
+#else
 #if HAS_HELD
     vec4 position = load_position(index);
     if (is_held_by_pin(position, free)) {
         held[held_entry(index)].xyz += impulse;
     }
 #endif
-    self_nodes[index].impulse = int[3](0, 0, 0);
     self_nodes[index].way = int[3](0, 0, 0);
-    self_nodes[index].shares = 0u;
     if (free.w > 0.0) {
-        vec3 way = free.w * of_numbers(node.way, way_unit);
+        vec3 way = out_of_layers;
 #if !IS_IMPLICIT
         way += substep * (v - free.xyz);
 #endif
@@ -120,4 +123,5 @@ void main() {
 #endif
         position_out[index].xyz = to;
     }
+#endif
 }

@@ -2,21 +2,22 @@
 // SPDX-License-Identifier: Apache-2.0
 
 #version 430 core
-// A round: each contact changes its impulse by what the velocities of its nodes lack. With s_k the sum
+// A round: each contact that acts changes its impulse by what the velocities of its nodes lack. With s_k the sum
 // of the weights of the node k, sum_k |w_k| s_k / m_k is no less than what an impulse changes, whatever
 // other contacts do, so that rounds converge for any stack (Cauchy-Schwarz).
 
 #include "lattice.glsl"
 #include "self_contact/head.glsl"
 #include "self_contact/contacts.glsl"
+#include "self_contact/found_contact.glsl"
 
 layout(local_size_x = SELF_LOCAL) in;
 
 layout(std430, binding = SELF_KEPT) buffer SelfKept { vec4 kept[]; };
 layout(std430, binding = SELF_CONTACTS) buffer SelfContacts { SelfContact contacts_found[]; };
-layout(binding = SELF_CONTACTS) uniform samplerBuffer contact_texels;
-// Velocity that a node has after the round before [m/s], and its inverse mass times its weights.
+// Velocity of a node [m/s], and its inverse mass times its weights in contacts that act.
 layout(binding = SELF_VELOCITIES) uniform samplerBuffer velocities;
+layout(binding = SELF_ACTING) uniform samplerBuffer acting_texels;
 
 uniform float substep;   // [s]
 uniform float friction;  // [1]
@@ -28,17 +29,8 @@ uniform int part;        // FIRST and LAST of the rounds of a substep, as bits
 #define WAY_PART 0.2
 #define MOST_WAY_SPEED 1.0
 
-// Software reads four texels much faster than sixteen numbers.
-SelfContact load_contact(int place) {
-    vec4 last = texelFetch(contact_texels, 4 * place + 3);
-    return SelfContact(
-        floatBitsToInt(texelFetch(contact_texels, 4 * place)),
-        texelFetch(contact_texels, 4 * place + 1), texelFetch(contact_texels, 4 * place + 2),
-        last.xyz, last.w);
-}
-
-void add_to(int node, float weight, vec3 before, vec3 now, float unit) {
-    ivec3 change = in_units(weight, now, unit) - in_units(weight, before, unit);
+void add_to(int node, float weight, vec3 before, vec3 now) {
+    ivec3 change = in_units(weight, now) - in_units(weight, before);
     for (int k = 0; k < 3; ++k) {
         if (change[k] != 0) {
             atomicAdd(self_nodes[node].impulse[k], change[k]);
@@ -47,7 +39,8 @@ void add_to(int node, float weight, vec3 before, vec3 now, float unit) {
 }
 
 void move_out(int node, float weight, vec3 way) {
-    ivec3 change = in_units(weight, way, MOST_WAY_SPEED * substep * (IMPULSE_RANGE / 2147483648.0));
+    float unit = MOST_WAY_SPEED * substep * (IMPULSE_RANGE / 2147483648.0);
+    ivec3 change = ivec3(round(weight * way / unit));
     for (int k = 0; k < 3; ++k) {
         if (change[k] != 0) {
             atomicAdd(self_nodes[node].way[k], change[k]);
@@ -56,12 +49,14 @@ void move_out(int node, float weight, vec3 way) {
 }
 
 void main() {
-    uint i = gl_GlobalInvocationID.x;
-    if (i >= contact_count) {
+    uint number = gl_GlobalInvocationID.x;
+    if (number >= acting_count) {
         return;
     }
+    uint i = floatBitsToUint(texelFetch(acting_texels, int(number >> 2))[number & 3u]);
     SelfContact found = load_contact(int(i));
     vec4 weights = all_weights(found.weights);
+    // Velocity of the first side against the second, and what an impulse of 1 changes of it at most.
     vec3 u = vec3(0.0);
     float share = 0.0;
     for (int k = 0; k < 4; ++k) {
@@ -69,25 +64,23 @@ void main() {
         u += weights[k] * v.xyz;
         share += abs(weights[k]) * v.w;
     }
+    vec3 normal = found.normal.xyz;
+    float gap = found.normal.w;
+    float pressed = dot(found.impulse.xyz, normal);
+    float along_normal = dot(u, normal);
     if (share <= 0.0) {
         return;
     }
-    vec3 normal = found.normal.xyz;
-    float gap = found.normal.w;
-    float speed = speed_unit();
-    float pressed = dot(found.impulse.xyz, normal);
-    float along_normal = dot(u, normal);
     float now = clamp(
-        pressed - (along_normal + max(gap, 0.0) / substep) / share, 0.0, IMPULSE_RANGE * speed);
+        pressed - (along_normal + max(gap, 0.0) / substep) / share, 0.0, most_impulse());
     vec3 along = found.impulse.xyz - pressed * normal - (u - along_normal * normal) / share;
     float most = friction * now;
     float l = length(along);
     along *= l > most ? most / max(l, 1e-30) : 1.0;
     vec3 impulse = now * normal + along;
-    float unit = impulse_unit(speed);
     vec3 way = normal * (min(-WAY_PART * gap, MOST_WAY_SPEED * substep) / share);
     for (int k = 0; k < 4; ++k) {
-        add_to(found.nodes[k], weights[k], found.impulse.xyz, impulse, unit);
+        add_to(found.nodes[k], weights[k], found.impulse.xyz, impulse);
         if ((part & FIRST) != 0 && gap < 0.0) {
             move_out(found.nodes[k], weights[k], way);
         }

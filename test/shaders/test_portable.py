@@ -86,10 +86,17 @@ _COUNTING = {
         'atomicAdd(unfinished, 1u)'],
     'self_contact/pairs.comp': [
         'atomicAdd(edge_pairs, 1u)', 'atomicAdd(vertex_pairs, 1u)', 'atomicAdd(unfinished, 1u)'],
+    'include/self_contact/contacts.glsl': [
+        'atomicAdd(acting_count, 1u)',
+        'atomicAdd(acting_groups[0], at % SELF_LOCAL == 0u ? 1u : 0u)'],
+    'self_contact/wake.comp': [
+        'atomicMin(least_distance, floatBitsToUint(max(gap + abs(found.least), 0.0)))',
+        'atomicAdd(self_nodes[found.nodes[k]].shares, in_shares(weights[k]))'],
     'self_contact/contacts.comp': [
         'atomicAdd(contact_count, 1u)',
         'atomicAdd(contact_groups[0], at % SELF_LOCAL == 0u ? 1u : 0u)',
-        'atomicAdd(self_nodes[node].shares, shares)', 'atomicAdd(self_node_count, 1u)',
+        'atomicAdd(self_nodes[node].contacts, 1u)', 'atomicAdd(self_node_count, 1u)',
+        'atomicAdd(self_nodes[node].shares, in_shares(all[i]))',
         'atomicAdd(node_groups[0], place % SELF_LOCAL == 0u ? 1u : 0u)',
         'atomicAdd(self_nodes[node].impulse[k], part[k])',
         'atomicMin(least_distance, floatBitsToUint(distance))'],
@@ -137,17 +144,25 @@ _FORMS = {
     'surface_contact.comp, beside layers': {
         'WAYS_OUT': 0, 'NOTES_CHANGES': 0, 'FINDS_IMPULSES': 1, 'HAS_SELF': 1, **_SURFACE},
     'self_contact/nodes.comp, beside the surface': {
-        'LOADS_TEXTURE': 1, 'SELF_LOCAL': 32, 'HAS_HELD': 1, 'HAS_SELF': 1, 'HAS_SURFACE': 1},
+        'LOADS_TEXTURE': 1, 'SELF_LOCAL': 32, 'IS_LAST': 1, 'HAS_HELD': 1, 'HAS_SELF': 1,
+        'HAS_SURFACE': 1},
     'contact.comp, beside layers': {'NOTES_CHANGES': 0, 'HAS_SELF': 1},
     **{f'self_contact/{name}.comp': {
         'LOADS_TEXTURE': 1, 'SELF_LOCAL': 32, 'MOST_GROUPS': 65535}
-       for name in ('boxes', 'crossings', 'keep', 'nodes', 'pairs', 'round')},
+       for name in (
+           'boxes', 'clear', 'crossings', 'keep', 'nodes', 'pairs', 'round', 'wake')},
+    'self_contact/wake.comp, of solves': {
+        'LOADS_TEXTURE': 1, 'SELF_LOCAL': 32, 'IS_IMPLICIT': 1},
+    'self_contact/contacts.comp, of solves': {
+        'LOADS_TEXTURE': 1, 'SELF_LOCAL': 32, 'OF_EDGES': 1, 'MOST_GROUPS': 65535,
+        'IS_IMPLICIT': 1},
+    'self_contact/nodes.comp, last': {'LOADS_TEXTURE': 1, 'SELF_LOCAL': 32, 'IS_LAST': 1},
     'self_contact/nodes.comp, after limits': {
-        'LOADS_TEXTURE': 1, 'SELF_LOCAL': 32, 'HAS_HELD': 1, 'NOTES_CHANGES': 1},
+        'LOADS_TEXTURE': 1, 'SELF_LOCAL': 32, 'IS_LAST': 1, 'HAS_HELD': 1, 'NOTES_CHANGES': 1},
     'self_contact/nodes.comp, of solves': {
-        'LOADS_TEXTURE': 1, 'SELF_LOCAL': 32, 'HAS_HELD': 1, 'IS_IMPLICIT': 1},
+        'LOADS_TEXTURE': 1, 'SELF_LOCAL': 32, 'IS_LAST': 1, 'HAS_HELD': 1, 'IS_IMPLICIT': 1},
     'self_contact/nodes.comp, recording': {
-        'LOADS_TEXTURE': 1, 'SELF_LOCAL': 32, 'HAS_HELD': 1, 'HAS_LOW_PARTS': 1},
+        'LOADS_TEXTURE': 1, 'SELF_LOCAL': 32, 'IS_LAST': 1, 'HAS_HELD': 1, 'HAS_LOW_PARTS': 1},
     **{f'self_contact/{name}.comp{words}': {
         'LOADS_TEXTURE': 1, 'SELF_LOCAL': 32, 'OF_EDGES': of_edges, 'MOST_GROUPS': 65535}
        for name in ('contacts', 'guard') for words, of_edges in (('', 0), (', of edges', 1))},

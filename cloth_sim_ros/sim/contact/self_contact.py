@@ -42,9 +42,9 @@ _MOST_ROUNDS_OF_SOLVE = 24
 # it is 0.01 to 0.05 after four rounds.
 _STILL = 0.1
 # Reach of the lists beyond the thickness: the largest of this many thicknesses, parts of a cell,
-# and displacements of a substep [1]; chosen: with 0.25 thicknesses lists cost what looks at pairs
-# save (benchmarks/layers.py).
-_SKIN, _SKIN_OF_CELL, _SKIN_OF_WAY = 1.0, 0.1, 4.0
+# and displacements of a substep [1]; chosen: from 1 to 2 thicknesses a moving towel takes the same
+# time to 10 % (benchmarks/layers.py).
+_SKIN, _SKIN_OF_CELL, _SKIN_OF_WAY = 1.5, 0.1, 4.0
 # Reach over the displacement of an implicit substep [1], so that lists last for several;
 # chosen: same bits from 4 to 16, time -13 to 0 % (constants.py --only _SKIN_OF_LONG_WAY).
 _SKIN_OF_LONG_WAY = 8.0
@@ -57,6 +57,12 @@ _USED = 0.9
 # Max. substeps without a look at displacements, while no pair is near [1], and how many times
 # faster nodes may become meanwhile [1]; if they went too far, the next look counts crossings.
 _MOST_UNLOOKED, _FASTER = 16, 4.0
+# Max. number of explicit substeps that contacts serve before they are found anew [1].
+_MOST_WINDOW = 16
+# Max. displacement meanwhile, over a cell and over the thickness [1]: points that touch are those
+# of the first substep; chosen: from (0.05, 0.2) to (0.1, 0.4) the figures of
+# test_self_contact.py stay, and a moving towel takes 12 % less time (benchmarks/layers.py).
+_WINDOW_OF_CELL, _WINDOW_OF_THICKNESS = 0.1, 0.4
 # Displacement since lists were made, as a fraction of half the reach [1], at which a node is
 # stopped; the rest is rounding.
 _ROOM = 0.98
@@ -82,15 +88,15 @@ _WAY_RANGE = 64.0 / 2.0**31
 # The head of head.glsl, as a substep begins.
 _LEAST = 0xFFFFFFFF
 _HEAD = np.dtype([
+    ('contact_groups', '3u4'), ('contact_count', 'u4'), ('node_groups', '3u4'),
+    ('self_node_count', 'u4'), ('acting_groups', '3u4'), ('acting_count', 'u4'),
+    ('least_distance', 'f4'),
     ('least_moved', '3u4'), ('most_moved', '3u4'), ('least_speed', '3u4'),
-    ('most_speed', '3u4'),
-    ('vertex_pairs', 'u4'), ('edge_pairs', 'u4'), ('contact_groups', '3u4'),
-    ('contact_count', 'u4'), ('node_groups', '3u4'), ('self_node_count', 'u4'),
-    ('cut_nodes', 'u4'),
-    ('largest_cut', 'f4'), ('longest_way', 'f4'), ('least_distance', 'f4'),
-    ('largest_impulse', 'f4'), ('largest_change', 'f4'), ('undivided', 'u4'),
-    ('unfinished', 'u4'), ('largest', 'f4'), ('crossing_edges', 'u4'),
-    ('first_crossing', 'u4'), ('cut_pins', 'u4'), ('largest_drive', 'f4')])
+    ('most_speed', '3u4'), ('vertex_pairs', 'u4'), ('edge_pairs', 'u4'), ('cut_nodes', 'u4'),
+    ('largest_cut', 'f4'), ('longest_way', 'f4'), ('largest_impulse', 'f4'),
+    ('largest_change', 'f4'), ('undivided', 'u4'), ('unfinished', 'u4'), ('largest', 'f4'),
+    ('crossing_edges', 'u4'), ('first_crossing', 'u4'), ('cut_pins', 'u4'),
+    ('largest_drive', 'f4')])
 _FIRST_ROUND, _LAST_ROUND = 1, 2
 
 
@@ -101,7 +107,10 @@ def _place(name: str) -> int:
     return fields[name][1]
 
 
-_CONTACT_GROUPS, _NODE_GROUPS = _place('contact_groups'), _place('node_groups')
+_CONTACT_GROUPS, _NODE_GROUPS, _ACTING_GROUPS = (
+    _place('contact_groups'), _place('node_groups'), _place('acting_groups'))
+# Where the figures of one substep begin in the head, behind those of the contacts [bytes].
+_OF_SUBSTEP = _place('least_moved')
 
 
 @dataclass
@@ -150,6 +159,8 @@ class SelfContact:
         self._scene, self._layout = scene, layout
         self._gravity = float(np.linalg.norm(scene['gravity']))
         self._thickness: float = scene['self_contact.thickness']
+        self._most_gone = min(
+            _WINDOW_OF_CELL * min(scene.spacing), _WINDOW_OF_THICKNESS * self._thickness)
         self._levels = _levels(layout.rows, layout.cols)
         self._programs = _programs(scene, layout, is_implicit=is_implicit)
         self._rounds = (
@@ -158,8 +169,12 @@ class SelfContact:
         self._skin_of_way = _SKIN_OF_LONG_WAY if is_implicit else _SKIN_OF_WAY
         self._strips = Strips.groups(layout)
         self._head = Buffer(_HEAD.itemsize, is_polled=True)
+        self._head.write(_fresh_head())
         self._fresh = _fresh_head()
-        self._reset = self._head.write_calls(self._fresh)
+        # The figures of the contacts stay.
+        self._of_substep = self._fresh.view(np.uint8)[_OF_SUBSTEP:]
+        self._reset = self._head.write_calls(self._of_substep, _OF_SUBSTEP)
+        self._fresh_contacts = _fresh_head().view(np.uint8)[:_OF_SUBSTEP].copy()
         self._features = Buffer(layout.store(_owned(scene)).reshape(-1))
         stored = layout.stored
         nothing = np.zeros((stored, 4), dtype=np.float32)
@@ -173,12 +188,15 @@ class SelfContact:
         self._most_pairs = _PAIRS * scene.node_count
         self._pairs = [Buffer(self._most_pairs * _PAIR_BYTES) for _ in range(2)]
         self._contacts = Buffer(self._most_pairs * _CONTACT_BYTES)
+        self._acting = Buffer(self._most_pairs * 4)
         self._kept = [Buffer(self._most_pairs * _PAIR_BYTES) for _ in range(2)]
         # Impulses on nodes: all that solves have included, and what the next one is to.
         self._applied, self._driven = (
             Buffer(nothing if is_implicit else nothing[:1]) for _ in range(2))
         self._length = 0.0
         self._told_room = 0
+        # Whether there are contacts on the device.
+        self._has_found = False
         self._read = np.zeros(1, dtype=_HEAD)
         self.forget()
 
@@ -186,6 +204,9 @@ class SelfContact:
         """Drop lists and impulses: the next state is not the result of the last substep."""
         self._reach = 0.0
         self._impulse_unit = 0.0
+        # Displacement since contacts were found, in which they may serve, and substeps left.
+        self._gone, self._window = 0.0, 0
+        self._serves_again = False
         # Edges that pierced triangles at the last count, and whether there may be others by now.
         self._crossings = 0
         self._has_doubts = self._is_new = True
@@ -227,6 +248,7 @@ class SelfContact:
             self.drive(state)
         self.give(-1)
         self.guard(state)
+        self._clear_contacts()
         self.forget()
 
     def programs_with_colliders(self) -> Iterator[Program]:
@@ -309,12 +331,43 @@ class SelfContact:
         is_free = not (self._scene.has_contact or state.pinned.any())
         self._common_way = 0.5 * length * (slowest + fastest) if is_free else np.zeros(3)
         speed = way / length + self._gravity * length + _LEAST_SPEED
-        self._impulse_unit = speed * _SUM_RANGE / 2.0**31 if self.has_pairs else 0.0
-        if self.has_pairs:
+        self._serves_again = self._window > 0 and self._may_serve_again(way, speed)
+        if self._serves_again:
+            self._window -= 1
+        elif self.has_pairs:
+            self._set_impulse_unit(speed)
+            self._set_window(way)
             self._find_contacts(state)
-        elif way > 0.0:
+        else:
+            self._clear_contacts()
+        if not self.has_pairs and way > 0.0:
             left = 0.5 * _USED * (self._reach - self._thickness) - min(moved, room)
             self._unlooked = int(min(_MOST_UNLOOKED, left / (_FASTER * way)))
+
+    def _may_serve_again(self, way: float, speed: float) -> bool:
+        """Return whether the contacts of an earlier substep serve the one under way as well."""
+        return (
+            self._gone + way <= self._most_gone
+            and speed <= self._impulse_unit * (2.0**31 / _SUM_RANGE))
+
+    def _set_window(self, way: float) -> None:
+        """Choose how many substeps the contacts are to serve that are found now."""
+        window = 1
+        if not self._is_implicit:
+            window = int(min(_MOST_WINDOW, max(1.0, self._most_gone / max(way, 1e-30))))
+        self._window, self._gone = window - 1, 0.0
+        for of_edges, count in enumerate(self._counts):
+            if count:
+                self._programs[f'contacts {of_edges}'].use().set_float('window', float(window))
+
+    def _set_impulse_unit(self, speed: float) -> None:
+        """Choose the least power of two that sums of impulses have room with."""
+        unit = 2.0**math.ceil(math.log2(speed * _SUM_RANGE / 2.0**31))
+        if unit != self._impulse_unit:
+            self._impulse_unit = unit
+            for name, program in self._programs.items():
+                if name.split()[0] in ('contacts', 'drive', 'nodes', 'round', 'wake'):
+                    program.use().set_float('impulse_unit', unit)
 
     def begin(self, state: SubstepEnds) -> None:
         """Begin to act: the impulses of the last substep."""
@@ -324,6 +377,7 @@ class SelfContact:
     def go_on(self, state: SubstepEnds) -> None:
         """Go on to act, after others have bound their buffers."""
         state.bind_in_textures()
+        state.bind_out_textures()
         state.bind_out()
         self._velocities.bind_storage(bindings.SELF_VELOCITIES)
         self._velocities.bind_texture(bindings.SELF_VELOCITIES)
@@ -336,25 +390,28 @@ class SelfContact:
         """Let contacts act on each other, in rounds, and colliders on the nodes that they hold."""
         self._head.bind_dispatches()
         shader_dispatches_visible()
-        self._let_nodes_move(is_last=False)
         rounds, (some, most) = 0, self._rounds
         while True:
+            wake = self._programs['wake'].use()
+            wake.set_int('again', int(self._is_first and self._serves_again))
+            wake.dispatch_indirect(_CONTACT_GROUPS)
+            shader_dispatches_visible()
+            self._let_nodes_move()
             for number in range(some):
                 program = self._programs['round'].use()
                 program.set_int('part', (
                     _FIRST_ROUND * self._is_first + _LAST_ROUND * (number == some - 1)))
-                program.dispatch_indirect(_CONTACT_GROUPS)
+                program.dispatch_indirect(_ACTING_GROUPS)
                 shader_writes_visible()
                 self._is_first = False
                 if number < some - 1:
-                    self._let_nodes_move(is_last=False)
+                    self._let_nodes_move()
             rounds += some
             head = self._read_head()
             _refuse_too_many(head)
             if rounds >= most or (
                     head['largest_change'] <= _STILL * head['largest_impulse']):
                 break
-            self._let_nodes_move(is_last=False)
             self._head.write(np.zeros(2, dtype=np.uint32), _place('largest_impulse'))
 
     def give(self, held_at: int, *, notes_changes: bool = False) -> None:
@@ -366,7 +423,12 @@ class SelfContact:
             are bound
         """
         self._head.bind_dispatches()
-        self._let_nodes_move(is_last=True, held_at=held_at, notes_changes=notes_changes)
+        name = f'nodes last{" held" * (held_at >= 0)}{" noting" * notes_changes}'
+        program = self._programs[name].use()
+        if held_at >= 0:
+            program.set_int('held_at', held_at)
+        program.dispatch_indirect(_NODE_GROUPS)
+        shader_writes_visible()
 
     def guard(self, state: SubstepEnds) -> SelfContactFigures:
         """Shorten the ways of nodes so that nothing passes; wait, and return what was done."""
@@ -377,7 +439,10 @@ class SelfContact:
         head = self._read_head()
         # NaN is no reason to go on: what checks the state finds it.
         longest = float(head['longest_way'])
-        nearest = min(float(head['least_distance']), _OF_EDGES * self._thickness)
+        # Pairs that were looked at when contacts were found; others were farther than those act.
+        nearest = min(
+            float(head['least_distance']), _OF_EDGES * self._thickness) - 2.0 * self._gone
+        self._gone += longest
         rounding = _ROUNDING * float(head['largest']) + 1e-9
         if head['cut_nodes'] or (1.0 - _LEFT) * nearest <= 2.0 * (longest + rounding):
             for guard in self._each_kind_of('guard'):
@@ -402,7 +467,7 @@ class SelfContact:
         for buffer in (
                 self._head, self._features, self._built, self._velocities, self._cell_ways,
                 self._boxes, self._first, *self._pairs, *self._kept, self._nodes,
-                self._contacts, self._applied, self._driven):
+                self._contacts, self._acting, self._applied, self._driven):
             buffer.delete()
 
     def _run_over_nodes(self, name: str) -> None:
@@ -413,21 +478,27 @@ class SelfContact:
         program.dispatch(*self._strips)
         shader_writes_visible()
 
-    def _let_nodes_move(
-            self, *, is_last: bool, held_at: int = -1, notes_changes: bool = False) -> None:
-        name = f'nodes{" held" * (held_at >= 0)}{" noting" * notes_changes}'
-        program = self._programs[name].use()
-        if held_at >= 0:
-            program.set_int('held_at', held_at)
-        program.set_int('is_last', int(is_last))
-        program.dispatch_indirect(_NODE_GROUPS)
+    def _let_nodes_move(self) -> None:
+        self._programs['nodes'].use().dispatch_indirect(_NODE_GROUPS)
         shader_writes_visible()
 
     def _find_contacts(self, state: SubstepEnds) -> None:
+        self._clear_contacts()
         state.bind_in_textures()
         state.bind_out_textures()
+        self._has_found = True
         for program in self._each_kind_of('contacts'):
             program.set_float('kept_share', self._share_to_keep)
+
+    def _clear_contacts(self) -> None:
+        """Forget the contacts that were found, if there are some."""
+        if not self._has_found:
+            return
+        self._has_found = False
+        self._head.bind_dispatches()
+        shader_dispatches_visible()
+        self._programs['clear'].use().dispatch_indirect(_NODE_GROUPS)
+        self._head.write(self._fresh_contacts)
 
     def _each_kind_of(self, name: str) -> Iterator[Program]:
         """Yield the pass over each kind of pairs to be set, and run it."""
@@ -441,6 +512,7 @@ class SelfContact:
     def _build(self, state: SubstepEnds, reach: float) -> None:
         """List the pairs within ``reach`` [m]; room grows until it suffices."""
         self._reach = reach
+        self._window = 0
         boxes = self._programs['boxes'].use()
         state.bind_in_textures()
         self._built.bind_storage(bindings.SELF_BUILT)
@@ -496,9 +568,16 @@ class SelfContact:
             lists[0].delete()
             lists[0] = Buffer(pairs * _PAIR_BYTES)
         self._contacts.delete()
+        self._acting.delete()
         self._contacts = Buffer(pairs * _CONTACT_BYTES)
-        self._contacts.bind_storage(bindings.SELF_CONTACTS)
-        self._contacts.bind_texture(bindings.SELF_CONTACTS)
+        self._acting = Buffer(pairs * 4)
+        self._bind_contacts()
+
+    def _bind_contacts(self) -> None:
+        for buffer, place in (
+                (self._contacts, bindings.SELF_CONTACTS), (self._acting, bindings.SELF_ACTING)):
+            buffer.bind_storage(place)
+            buffer.bind_texture(place)
 
     def _tell_room(self) -> None:
         if self._told_room != self._most_pairs:
@@ -510,11 +589,11 @@ class SelfContact:
     def _bind(self) -> None:
         for buffer, place in (
                 (self._head, bindings.SELF_HEAD), (self._features, bindings.SELF_FEATURES),
-                (self._boxes, bindings.SELF_BOXES), (self._contacts, bindings.SELF_CONTACTS),
-                (self._nodes, bindings.SELF_NODES), (self._cell_ways, bindings.SELF_WAYS)):
+                (self._boxes, bindings.SELF_BOXES), (self._nodes, bindings.SELF_NODES),
+                (self._cell_ways, bindings.SELF_WAYS)):
             buffer.bind_storage(place)
         self._cell_ways.bind_texture(bindings.SELF_WAYS)
-        self._contacts.bind_texture(bindings.SELF_CONTACTS)
+        self._bind_contacts()
         self._bind_lists()
 
     def _bind_lists(self) -> None:
@@ -530,6 +609,7 @@ class SelfContact:
         if length == self._length:
             return
         self._length = length
+        self._window = 0
         for name, part in self._programs.items():
             program = part.use()
             program.set_float('substep', length)
@@ -553,15 +633,19 @@ def _programs(
     of_items: dict[str, object] = {'SELF_LOCAL': _LOCAL, 'MOST_GROUPS': MOST_GROUPS}
     # Solves let thin colliders act.
     has_surface = int(bool(scene.thin_colliders) and not is_implicit)
+    of_nodes: dict[str, object] = {
+        **of_items, 'HAS_SURFACE': has_surface, 'IS_IMPLICIT': int(is_implicit)}
     forms: dict[str, dict[str, object]] = {
-        **dict.fromkeys(('boxes', 'crossings', 'pairs', 'keep', 'round'), of_items),
+        **dict.fromkeys(('boxes', 'clear', 'crossings', 'pairs', 'keep', 'round'), of_items),
         # With what layers do to pinned nodes added to the entries of held.glsl, and with changes
         # of velocity noted for the limits of edges.
-        **{f'nodes{" held" * held}{" noting" * notes}': {
-            **of_items, 'HAS_SURFACE': has_surface, 'HAS_HELD': held, 'NOTES_CHANGES': notes,
-            'IS_IMPLICIT': int(is_implicit)}
+        'wake': {**of_items, 'IS_IMPLICIT': int(is_implicit)},
+        'nodes': {**of_nodes, 'IS_LAST': 0, 'HAS_HELD': 0, 'NOTES_CHANGES': 0},
+        **{f'nodes last{" held" * held}{" noting" * notes}': {
+            **of_nodes, 'IS_LAST': 1, 'HAS_HELD': held, 'NOTES_CHANGES': notes}
            for held in (0, 1) for notes in ((0,) if is_implicit else (0, 1))},
-        **{f'{name} {of_edges}': {**of_items, 'OF_EDGES': of_edges}
+        **{f'{name} {of_edges}': {
+            **of_items, 'OF_EDGES': of_edges, 'IS_IMPLICIT': int(is_implicit)}
            for name in ('contacts', 'guard') for of_edges in (0, 1)},
         **dict.fromkeys(('ways', 'longest', 'cut', *(('drive',) * is_implicit)), strips)}
     return {
@@ -592,7 +676,8 @@ def _refuse_unfinished(head: np.void) -> None:
 def _fresh_head() -> np.ndarray:
     head = np.zeros(1, dtype=_HEAD)
     head['least_moved'] = head['least_speed'] = _LEAST
-    head['contact_groups'][0, 1:] = head['node_groups'][0, 1:] = 1
+    for name in ('contact_groups', 'node_groups', 'acting_groups'):
+        head[name][0, 1:] = 1
     head['least_distance'] = np.inf
     head['first_crossing'] = _LEAST
     return head

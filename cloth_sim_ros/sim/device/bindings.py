@@ -56,5 +56,6 @@ SELF_KEPT_BEFORE = 33
 SELF_WAYS = 34
 SELF_APPLIED = 35
 SELF_DRIVEN = 36
+SELF_ACTING = 37
 
 DEFINES = {name: value for name, value in list(globals().items()) if name.isupper()}

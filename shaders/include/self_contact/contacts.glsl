@@ -9,19 +9,31 @@ struct SelfContact {
     vec4 normal;    // from the second feature to the first, and the gap [m]
     vec4 impulse;   // on the first [m/s of a node amid the cloth], and the pair as bits
     vec3 weights;   // of the first three nodes; all four add up to 0
-    float share;    // what an impulse of 1 changes at most, whatever other contacts do [1]
+    float least;    // [m] distance at which it acts; negative until it does
 };
 
 struct SelfNode {
     int impulse[3];
-    uint shares;     // of its weights in contacts, in parts of SHARE_PARTS
+    uint shares;     // of its weights in contacts that act, in parts of SHARE_PARTS
     int way[3];      // out of layers that are too near
     uint cut;        // bits of the share of its way that it may go
     uint listed;     // of the list of nodes with contacts, which stands here: a node
-    uint spare[3];   // so that it is three texels
+    uint contacts;   // of it, whether they act or not
+    uint spare[2];   // so that it is three texels
 };
 
 #define SHARE_PARTS 1048576.0
+
+#if LISTS_ACTING
+// Places of the contacts that act, in no order.
+layout(std430, binding = SELF_ACTING) writeonly buffer SelfActing { uint acting[]; };
+
+void list_acting(uint place) {
+    uint at = atomicAdd(acting_count, 1u);
+    acting[at] = place;
+    atomicAdd(acting_groups[0], at % SELF_LOCAL == 0u ? 1u : 0u);
+}
+#endif
 
 layout(std430, binding = SELF_NODES) buffer SelfNodes { SelfNode self_nodes[]; };
 
@@ -29,20 +41,23 @@ layout(std430, binding = SELF_NODES) buffer SelfNodes { SelfNode self_nodes[]; }
 #define IMPULSE_RANGE 64.0
 #define SUM_RANGE 4096.0
 
-uniform float least_speed_unit;  // [m/s] that gravity gives in a substep
+uniform float impulse_unit;  // [m/s] of whole numbers; at least the speed in a substep over their range
 
-// Speed by which impulses are measured [m/s].
-float speed_unit() {
-    return half_diagonal(least_speed, most_speed) + least_speed_unit;
+// Largest impulse of a contact [m/s].
+float most_impulse() { return impulse_unit * (2147483648.0 / SUM_RANGE * IMPULSE_RANGE); }
+
+// Gap of a contact [m]; within what positions are rounded by, there is none.
+float gap_of(float gap, vec3 x) {
+    float rounding = 4e-7 * max(abs(x.x), max(abs(x.y), abs(x.z))) + 1e-9;
+    return sign(gap) * max(abs(gap) - rounding, 0.0);
 }
-
-// Unit of whole numbers [m/s].
-float impulse_unit(float speed) { return speed * (SUM_RANGE / 2147483648.0); }
 
 float last_weight(vec3 weights) { return -(weights.x + weights.y + weights.z); }
 
 vec4 all_weights(vec3 weights) { return vec4(weights, last_weight(weights)); }
 
-ivec3 in_units(float weight, vec3 impulse, float unit) {
-    return ivec3(round(weight * impulse / unit));
+ivec3 in_units(float weight, vec3 impulse) {
+    return ivec3(round(weight * impulse / impulse_unit));
 }
+
+uint in_shares(float weight) { return uint(ceil(abs(weight) * SHARE_PARTS)); }

@@ -5,20 +5,24 @@
 // Least and largest numbers are of bits that keep the order of floats, so that atomics are exact.
 
 layout(std430, binding = SELF_HEAD) buffer SelfHead {
+    // Of the contacts that were found, which may serve several substeps.
+    uint contact_groups[3];
+    uint contact_count;
+    uint node_groups[3];
+    uint self_node_count;
+    uint acting_groups[3];
+    uint acting_count;      // of the contacts, those that act
+    uint least_distance;    // [m] of a pair that was looked at, or of a contact
+    // Of the substep.
     uint least_moved[3];    // [m] since the lists were made, in this substep as well
     uint most_moved[3];
     uint least_speed[3];    // [m/s] of the substep without contact
     uint most_speed[3];
     uint vertex_pairs;      // of a node and a triangle
     uint edge_pairs;        // of two edges
-    uint contact_groups[3];
-    uint contact_count;
-    uint node_groups[3];
-    uint self_node_count;
     uint cut_nodes;
     uint largest_cut;       // [m]
     uint longest_way;       // [m] of a node in the substep, beside what is common to all
-    uint least_distance;    // [m] of a pair that was looked at
     uint largest_impulse;   // [m/s]
     uint largest_change;    // [m/s] of one in the last round
     uint undivided;         // pairs that no plane divides
@@ -33,15 +37,4 @@ layout(std430, binding = SELF_HEAD) buffer SelfHead {
 uint in_order(float value) {
     uint bits = floatBitsToUint(value);
     return (bits & 0x80000000u) != 0u ? ~bits : bits | 0x80000000u;
-}
-
-float from_order(uint bits) {
-    return uintBitsToFloat((bits & 0x80000000u) != 0u ? bits & 0x7fffffffu : ~bits);
-}
-
-float half_diagonal(uint least[3], uint most[3]) {
-    vec3 d = vec3(
-        from_order(most[0]) - from_order(least[0]), from_order(most[1]) - from_order(least[1]),
-        from_order(most[2]) - from_order(least[2]));
-    return 0.5 * length(d);
 }
