@@ -22,10 +22,10 @@ BLOCK = re.compile(r'(?:^ {4}.*\n)+', re.MULTILINE)
 SET_UP = ('./scripts/setup.sh', '. scripts/env.sh')
 
 
-def blocks():
-    """Return what to type into the first terminal and into the second, line by line."""
+def blocks(heading):
+    """Return what to type into one terminal after the other, line by line."""
     page = (ROOT / 'README.md').read_text(encoding='utf-8')
-    part = page.partition('## A first cloth in ROS\n')[2].partition('\n## ')[0]
+    part = page.partition(f'## {heading}\n')[2].partition('\n## ')[0]
     return [
         [line.strip() for line in block.splitlines() if line.strip() not in SET_UP]
         for block in BLOCK.findall(part)]
@@ -47,10 +47,20 @@ def shell(folder, lines, **options):
     return process
 
 
+def test_the_first_block_makes_a_picture_of_a_fabric(tmp_path):
+    """The very first commands of a newcomer would fail, or end without anything to see."""
+    (tmp_path / 'config').symlink_to(ROOT / 'config')
+    said, _ = shell(tmp_path, ['set -e', *blocks('First pictures')[0]]).communicate(
+        timeout=PATIENCE)
+    image = np.asarray(Image.open(tmp_path / 'first_pictures.png').convert('RGB')).astype(int)
+    blue = image[..., 2] - image[..., 0] > 30
+    assert 0.05 < blue.mean() < 0.5, said
+
+
 def test_the_first_commands_end_with_a_picture_of_the_push(tmp_path):
     """A newcomer would get an error, or a picture of a cloth that nothing happens to."""
     (tmp_path / 'config').symlink_to(ROOT / 'config')
-    first, second = blocks()
+    first, second = blocks('A first cloth in ROS')
     node = shell(tmp_path, first)
     node.stdin.flush()
     try:

@@ -31,7 +31,7 @@ from std_srvs.srv import SetBool
 ROOT = Path(__file__).resolve().parents[1]
 DOCS = ROOT / 'docs'
 PAGES = [ROOT / 'README.md', ROOT / 'bags' / 'README.md', *sorted(DOCS.rglob('*.md'))]
-MOST_LINES = 120
+MOST_LINES = 100
 COMMAND = re.compile(r'^ {4}(cloth_sim [^#\n]*)', re.MULTILINE)
 PICTURE = re.compile(r'!\[[^]]*\]\(([^)]+)\)')
 CONTINUED = re.compile(r'\\\n *')

@@ -29,11 +29,13 @@ import numpy as np
 
 # Looks of a cloth: coloured by its strain, or one of the fabrics.
 STRAIN = 'strain'
-FABRICS = ('plain', 'checked')
+FABRICS = ('fabric', 'plain', 'checked')
 LOOKS = (STRAIN, *FABRICS)
 
 # Colours as a screen has them.
 PLAIN_COLOR = (0.45, 0.60, 0.76)
+WARP_COLOR = (0.26, 0.43, 0.60)   # chambray: dyed threads along columns, light ones along rows
+WEFT_COLOR = (0.58, 0.70, 0.79)
 CHECK_COLOR = (0.76, 0.15, 0.17)
 CHECK_GROUND = (0.97, 0.96, 0.93)
 BODY_COLOR = (0.66, 0.52, 0.40)   # wood
@@ -41,10 +43,12 @@ FLOOR_COLOR = (0.96, 0.955, 0.945)
 
 # Across a cloth along its shorter side: checks of 4 cm on a tablecloth of 0.8 m.
 _CHECKS = 20
+_THREADS = 128        # coarser than most cloth, so that pictures of 400 pixels show them
 # Right, up and towards the camera: from the side, so that folds shade each other.
 _LAMP = np.array([-0.50, 0.76, 0.42]) / np.linalg.norm([-0.50, 0.76, 0.42])
 _DEPTH_SIDE = 2048    # [pixel]
 _BLUR = 0.008         # radius of a shadow's soft edge, over the longest side of all cloths
+_FLOOR_BLUR = 0.06    # the same on the floor, which casts no shadow on itself
 _MARGIN = 1.05        # what the lamp sees over what is in view
 _FLOOR_REACH = 2.6    # half a side of the floor, over the longest side of all cloths
 _PLANE = 0.9          # half the side of a plane that is not level, over that side
@@ -53,6 +57,15 @@ _BEHIND = 3e-3
 
 DAYLIGHT_DEFINES = {**LIGHT_DEFINES, 'DAYLIGHT': 1, 'HEM_SHADE': 0.25, 'LAMP_TAPS': 24}
 CHECKED_DEFINES = {**DAYLIGHT_DEFINES, 'CHECKED': 1}
+# Brightness from thread to thread and from band to band, relative; width of a band [thread].
+WOVEN_DEFINES = {**DAYLIGHT_DEFINES, 'WOVEN': 1, 'SLUB': 0.16, 'UNEVEN': 0.12, 'BAND': 2.5}
+# A wide edge of a shadow needs more taps, or it has steps.
+FLOOR_DEFINES = {**DAYLIGHT_DEFINES, 'LAMP_TAPS': 128}
+_FABRIC_DEFINES = {
+    'fabric': WOVEN_DEFINES, 'plain': DAYLIGHT_DEFINES, 'checked': CHECKED_DEFINES}
+_COLORS = {
+    'fabric': (WARP_COLOR, WEFT_COLOR), 'plain': (PLAIN_COLOR, PLAIN_COLOR),
+    'checked': (CHECK_COLOR, CHECK_GROUND)}
 
 
 class DaylightDrawing:
@@ -69,7 +82,8 @@ class DaylightDrawing:
             self, fabric: str, nodes: NodeBuffer, bodies: NodeBuffer, survey: Survey,
             detail: int) -> None:
         """Keep what all frames share."""
-        self._is_checked = fabric == 'checked'
+        self._defines = _FABRIC_DEFINES[fabric]
+        self._color, self._ground = _COLORS[fabric]
         self._nodes = nodes
         self._bodies = bodies
         self._survey = survey
@@ -104,7 +118,7 @@ class DaylightDrawing:
         draw_nearest()
         # From below, it would hide what lies on it.
         if view.is_above(floor):
-            with self._in_daylight(self._floor, view) as program:
+            with self._in_daylight(self._floor, view, _FLOOR_BLUR) as program:
                 program.set_float('reach', _FLOOR_REACH * self._survey.size)
                 program.set_vectors(
                     'middle', np.append(self._survey.middle[:2], floor) - view.middle)
@@ -119,18 +133,17 @@ class DaylightDrawing:
             return
         self._nodes.load(frame, view.middle)
         gaps = gap_defines(frame)
-        defines = CHECKED_DEFINES if self._is_checked else DAYLIGHT_DEFINES
-        fabric = self._programs.of('render/fabric.frag', {**defines, **gaps})
+        fabric = self._programs.of('render/fabric.frag', {**self._defines, **gaps})
         with self._in_daylight(fabric, view) as program:
             rows, cols = frame.records.shape
             along, down = cell_sides(frame.positions)
             shorter = min((cols - 1) * along, (rows - 1) * down)
             program.set_int('rows', rows)
-            program.set_pair('check', (shorter / _CHECKS / along, shorter / _CHECKS / down))
+            for name, count in (('check', _CHECKS), ('thread', _THREADS)):
+                program.set_pair(name, (shorter / count / along, shorter / count / down))
             program.set_float('hem_width', HEM_WIDTH * self._detail)
-            program.set_vectors('ground_color', CHECK_GROUND)
-            program.set_vectors(
-                'fabric_color', CHECK_COLOR if self._is_checked else PLAIN_COLOR)
+            program.set_vectors('ground_color', self._ground)
+            program.set_vectors('fabric_color', self._color)
             draw_surface(program, (rows, cols), has_gaps=bool(gaps))
 
     def _lamp_view(self, view: View) -> View:
@@ -146,17 +159,19 @@ class DaylightDrawing:
             depth=_MARGIN * float(reach[2]))
 
     @contextmanager
-    def _in_daylight(self, program: RenderProgram, view: View) -> Iterator[RenderProgram]:
+    def _in_daylight(
+            self, program: RenderProgram, view: View, blur: float = _BLUR,
+            ) -> Iterator[RenderProgram]:
         """Use ``program`` with the uniforms of render/lamp.glsl."""
         lamp = self._lamp_view(view)
-        blur = _BLUR * self._survey.size
+        blur *= self._survey.size
         program.use()
         set_view(program, view)
         self._depths.bind(DEPTH_UNIT)
         program.set_matrix('lamp_matrix', lamp.matrix)
         program.set_vectors('lamp', lamp.axes[2])
         program.set_float('lamp_blur', blur / (2.0 * lamp.half_height))
-        program.set_float('lamp_lift', blur)
+        program.set_float('lamp_lift', _BLUR * self._survey.size)
         yield program
 
     def _each_body(self, frame: Frame, view: View) -> Iterator[tuple[int, int]]:
@@ -175,7 +190,7 @@ class DaylightDrawing:
 
     @cached_property
     def _floor(self) -> RenderProgram:
-        return RenderProgram('render/floor.vert', 'render/lit_floor.frag', DAYLIGHT_DEFINES)
+        return RenderProgram('render/floor.vert', 'render/lit_floor.frag', FLOOR_DEFINES)
 
     @cached_property
     def _body(self) -> RenderProgram:

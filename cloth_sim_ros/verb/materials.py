@@ -5,7 +5,7 @@
 List the fabrics that a scene can name in material.preset.
 
 Needs no node. N/m is the stiffness along rows, along columns and in shear; uN m is the rigidity of
-bends along rows and columns. docs/how_to/choose_a_fabric.md says what is measured.
+bends along rows and columns. docs/how_to/choose_a_fabric.md lists the measured quantities.
 
 For example:
   cloth_sim materials

@@ -222,5 +222,6 @@ class SceneSource(Source):
             self._picture = self._taken(simulation, self._camera, self._part)
         snapshot = simulation.snapshot()
         self._latest = Moment(
-            Frame(snapshot.time, snapshot.records, colliders=simulation.colliders), snapshot.mode,
-            self._run_state, self._note, self._picture)
+            Frame(snapshot.time, snapshot.records, tuple(
+                applied.push for applied in simulation.pushes), simulation.colliders),
+            snapshot.mode, self._run_state, self._note, self._picture)

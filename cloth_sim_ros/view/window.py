@@ -11,6 +11,7 @@ from cloth_sim_ros.view.drawing import ClothDrawing
 from cloth_sim_ros.view.drawing import ColliderDrawing
 from cloth_sim_ros.view.drawing import draw_surroundings
 from cloth_sim_ros.view.drawing import PinHandles
+from cloth_sim_ros.view.push_arrows import PushArrows
 from cloth_sim_ros.view.server import do_for
 from cloth_sim_ros.view.server import ViewServer
 from cloth_sim_ros.view.source import Moment
@@ -34,6 +35,7 @@ class Window:
         self._shown: Moment | None = None
         self._drawing = ClothDrawing(server)
         self._colliders = ColliderDrawing(server)
+        self._pushes = PushArrows(server)
         self._controls = Controls(server, source, self.answer)
         self._pins = PinHandles(server, source, self.answer) if source.can_act else None
         if source.can_act:
@@ -55,6 +57,7 @@ class Window:
             if is_new or self._controls.full_strain != self._drawing.full_strain:
                 self._drawing.draw(moment.frame, self._controls.full_strain)
             self._colliders.draw(moment.frame)
+            self._pushes.draw(moment.frame)
             if self._pins is not None and is_new:
                 self._pins.follow(moment.frame, self._controls.shows_handles)
             self._controls.show(moment)

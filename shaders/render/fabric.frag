@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 
 #version 430 core
-// Cloth as one sees it: a fabric of one colour or in checks, in daylight, and a hem.
+// Cloth as one sees it: a fabric of one colour, in checks or woven, in daylight, and a hem.
 
 #include "render/nodes.glsl"
 #include "render/hem.glsl"
@@ -13,6 +13,10 @@ uniform vec3 fabric_color;
 #ifdef CHECKED
 uniform vec2 check;          // sides of a check: columns, rows
 uniform vec3 ground_color;   // of the threads between the coloured ones
+#endif
+#ifdef WOVEN
+uniform vec2 thread;         // distance of threads: columns, rows
+uniform vec3 ground_color;   // of the threads along a row
 #endif
 
 in vec3 normal;
@@ -32,11 +36,49 @@ vec2 coloured(vec2 at) {
 }
 #endif
 
+#ifdef WOVEN
+const float PI = 3.14159265;
+
+// A number from 0 to 1 for each thread, always the same one (PCG hash, Jarzynski and Olano 2020).
+float yarn(int index) {
+    uint state = uint(index) * 747796405u + 2891336453u;
+    uint mixed = ((state >> ((state >> 28u) + 4u)) ^ state) * 277803737u;
+    return float(((mixed >> 22u) ^ mixed) >> 8u) / 16777216.0;
+}
+
+// The same, smooth from thread to thread.
+float uneven(float at) {
+    int below = int(floor(at));
+    return mix(yarn(below), yarn(below + 1), smoothstep(0.0, 1.0, at - float(below)));
+}
+
+// Plain weave: threads along columns and rows are on top of each other in turns.
+vec3 woven(vec2 threads) {
+    ivec2 crossing = ivec2(floor(threads));
+    vec2 within = fract(threads) - 0.5;
+    bool is_warp = ((crossing.x + crossing.y) & 1) == 0;
+    float across = is_warp ? within.x : within.y, along = is_warp ? within.y : within.x;
+    // A thread is round, and bends down at either end of the crossing.
+    float relief = cos(PI * across) * (0.7 + 0.3 * cos(2.0 * PI * along));
+    float slub = yarn(is_warp ? crossing.x : crossing.y + 8192) - 0.5;
+    // Threads as small as pixels run together into their mean.
+    vec2 width = fwidth(threads);
+    float blur = smoothstep(0.05, 0.6, max(width.x, width.y));
+    vec3 dyed = mix(is_warp ? fabric_color : ground_color, 0.5 * (fabric_color + ground_color), blur);
+    float shade = mix(0.72 + 0.42 * relief + SLUB * slub, 0.97, blur);
+    // Yarn is uneven: bands of several threads remain visible from farther away.
+    vec2 bands = vec2(uneven(threads.x / BAND), uneven(threads.y / BAND + 4096.0)) - 0.5;
+    return dyed * (shade + UNEVEN * (bands.x + bands.y));
+}
+#endif
+
 void main() {
 #ifdef CHECKED
     // Warp and weft cover each other by halves.
     vec2 share = coloured(0.5 * place / check);
     vec3 dyed = mix(ground_color, fabric_color, 0.5 * (share.x + share.y));
+#elif defined(WOVEN)
+    vec3 dyed = min(woven(place / thread), 1.0);
 #else
     vec3 dyed = fabric_color;
 #endif

@@ -14,6 +14,8 @@ from cloth_sim_ros.rendering.cloth_drawing import CLOTH_DEFINES
 from cloth_sim_ros.rendering.cloth_drawing import LIMIT_DEFINES
 from cloth_sim_ros.rendering.daylight import CHECKED_DEFINES
 from cloth_sim_ros.rendering.daylight import DAYLIGHT_DEFINES
+from cloth_sim_ros.rendering.daylight import FLOOR_DEFINES
+from cloth_sim_ros.rendering.daylight import WOVEN_DEFINES
 from cloth_sim_ros.rendering.look import LIGHT_DEFINES
 from cloth_sim_ros.rendering.solid_drawing import ARROW_DEFINES
 from cloth_sim_ros.rendering.solid_drawing import BALL_DEFINES
@@ -31,11 +33,11 @@ _FORMS = {
     'cloth.frag': [CLOTH_DEFINES, LIMIT_DEFINES],
     'cloth.vert': [CLOTH_DEFINES, LIMIT_DEFINES, _SHADOW, DAYLIGHT_DEFINES],
     'collider.vert': [LIGHT_DEFINES, DAYLIGHT_DEFINES],
-    'fabric.frag': [DAYLIGHT_DEFINES, CHECKED_DEFINES],
+    'fabric.frag': [DAYLIGHT_DEFINES, CHECKED_DEFINES, WOVEN_DEFINES],
     'floor.frag': [{}],
     'floor.vert': [{}, DAYLIGHT_DEFINES],
     'ground.frag': [{}],
-    'lit_floor.frag': [DAYLIGHT_DEFINES],
+    'lit_floor.frag': [FLOOR_DEFINES],
     'plain.frag': [_SHADOW],
     'ribbon.frag': [RIBBON_DEFINES],
     'ribbon.vert': [RIBBON_DEFINES],
