@@ -40,9 +40,7 @@ def exact_fall(nodes: int, strain: float = 0.008, seconds: float = SECONDS) -> n
     scene = scene_of(nodes, SECONDS, strain)
     law = constraint_law(scene)
     start = scene.start_positions().astype(float).reshape(-1, 3)
-    held = np.zeros((nodes, nodes), dtype=bool)
-    held[0, [0, -1]] = True
-    held = held.ravel()
+    held = np.array([0, nodes - 1])
 
     def rates(_: float, state: np.ndarray) -> np.ndarray:
         places, speeds = state.reshape(2, -1, 3)
@@ -78,9 +76,11 @@ def orders(context: Context, nodes: int, strain: float = 0.008) -> tuple[float, 
     """Return the order in dt of the root mean square of the distances, and of the largest."""
     found = [distances(context, nodes, dt, strain) for dt in (STEPS[0], STEPS[-1])]
     doublings = np.log2(STEPS[0] / STEPS[-1])
-    return tuple(
-        float(np.log2(size(found[0]) / size(found[1])) / doublings)
-        for size in (lambda each: np.sqrt(np.mean(each**2)), np.max))
+    mean, largest = (
+        float(np.log2(before / after) / doublings)
+        for before, after in (
+            [np.sqrt(np.mean(each**2)) for each in found], [each.max() for each in found]))
+    return mean, largest
 
 
 def order_of_mean(context: Context, mode: str, nodes: int) -> Figure:

@@ -97,7 +97,7 @@ def nodes_of_elastica(kind: str, load: float, columns: int) -> np.ndarray:
 
 def strip(
         context: Context, mode: str, columns: int, load: float, **values: Any) -> Simulation:
-    """Return a simulation of a strip held by two columns at each end, weightless for a load of 0."""
+    """Return a strip held by two columns at each end, weightless for a load of 0."""
     rigidity = WEIGHT * LENGTH**3 / load if load else WEIGHTLESS
     period = LENGTH**2 * np.sqrt(DENSITY / rigidity) / MODE
     held = [
@@ -129,8 +129,8 @@ def move_clamps(simulation: Simulation, apart: float, angle: float) -> None:
         up = half * np.sin(angle) * (-1.0 if along == 0 else 1.0)
         here = positions[row, column]
         target = np.array([side * out, here[1], up])
-        speed = max(np.linalg.norm(target - here) / 0.04, 1e-3)
-        simulation.move_pin(row, column, target.tolist(), speed=float(speed))
+        speed = max(float(np.linalg.norm(target - here)) / 0.04, 1e-3)
+        simulation.move_pin(row, column, target.tolist(), speed=speed)
     simulation.advance(0.044)
 
 

@@ -133,11 +133,12 @@ def _move(
     except NonFiniteStateError:
         finite = False
     snapshot = simulation.snapshot()
+    stretch, shear = np.max(found, axis=0).tolist()
+    usual, slowest = np.percentile(spent, (50.0, 95.0)).tolist()
     return Motion(
-        finite and snapshot.finite, *np.max(found, axis=0).tolist(), jitter_of(places),
-        jitter_of(grippers),
-        float(np.linalg.norm(snapshot.velocities, axis=-1).mean()),
-        *np.percentile(spent, (50.0, 95.0)).tolist(), snapshot.substeps)
+        finite and snapshot.finite, stretch, shear, jitter_of(places), jitter_of(grippers),
+        float(np.linalg.norm(snapshot.velocities, axis=-1).mean()), usual, slowest,
+        snapshot.substeps)
 
 
 def _control_step(

@@ -120,8 +120,9 @@ def hung(
 def frequency(context: Context, mode: str, nodes: int, lines: int = 2) -> Figure:
     """Return the frequency of the first mode, from a quarter of a period [Hz]."""
     rigidity = WEIGHT * LENGTH**3 / 0.5
-    with clamped(context, mode, nodes, 0.5, lines, gravity=[0.0, 0.0, 0.0], dt=5e-4, **{
-            'bending.damping': 0.0}) as simulation:
+    values: dict[str, Any] = {
+        'gravity': [0.0, 0.0, 0.0], 'dt': 5e-4, 'bending.damping': 0.0}
+    with clamped(context, mode, nodes, 0.5, lines, **values) as simulation:
         positions = simulation.positions().astype(float)
         at = _MODE / LENGTH * np.maximum(positions[0, :, 0] - positions[0, :2, 0].mean(), 0.0)
         shape = np.cosh(at) - np.cos(at) - _SHARE * (np.sinh(at) - np.sin(at))

@@ -79,7 +79,7 @@ def markdown(found: Sequence[Measured]) -> str:
     """Return the table, and below it why each failure is one."""
     lines = [_HEADER, ('---',) * len(_HEADER), *map(_cells, found)]
     table = ''.join(f'| {" | ".join(line)} |\n' for line in lines)
-    failures = {}
+    failures: dict[Row, list[str]] = {}
     for each in found:
         for mode in each.failed:
             failures.setdefault(each.row, []).append(f'{mode} on {each.nodes}')
