@@ -114,7 +114,7 @@ ROWS: tuple[Row, ...] = (
     *(Row(f'air.{1e3 * sigma:g}', f'a level sheet of {sigma:g} kg/m2, dt {1e3 * dt:g} ms: '
           'terminal speed', 'sqrt(2 w / (rho Cn))', 'm/s', 1e-3,
           _with(air.mean_speed, sigma, dt), (16,)) for sigma, dt in _FALLS),
-    _drape('light'),
+    _drape('light', 'in mode constraint diagonals are hard by default: it hardly shears'),
     _drape('t_shirt', 'the range is of woven cotton, and the fabric is knitted'),
     _drape('trousers', 'a polyester blend that is stiffer than the cottons of the range'),
     _drape('denim', 'bends about a diagonal with 40 uN m, where 73 were measured'),
