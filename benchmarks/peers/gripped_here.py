@@ -75,7 +75,7 @@ class ThrownHere(Run):
     """
     The sheet that hits a box.
 
-    Boxes here move as they are told: its own motion under that force is left out.
+    Bodies here are kinematic: the box stays where it is, and the force on it is added up.
     """
 
     def __init__(self, nodes: int, mode: str) -> None:
