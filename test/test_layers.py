@@ -18,6 +18,7 @@ ROOMS = {
     'sim': {'gl', 'files'},
     'reference': {'sim'},
     'camera': {'sim', 'gl', 'files'},
+    'validation': {'reference', 'sim', 'gl', 'files'},
     'messages': {'camera', 'sim'},
     'recording': {'messages', 'sim', 'files'},
     'playback': {'recording', 'messages', 'sim', 'files'},
@@ -26,24 +27,25 @@ ROOMS = {
     'dataset': {'study', 'camera', 'sim', 'gl', 'files'},
     'analysis': {'recording', 'messages', 'sim', 'files'},
     'rendering': {'analysis', 'recording', 'messages', 'camera', 'sim', 'gl', 'files'},
-    'view': {'analysis', 'messages', 'sim', 'files'},
+    'view': {'analysis', 'messages', 'camera', 'sim', 'files'},
     'view/ros': {'view', 'node', 'analysis', 'messages', 'sim', 'files'},
     'resimulation': {'analysis', 'recording', 'sim', 'files'},
     'gym': {'rendering', 'camera', 'sim', 'files'},
     'api': {'node', 'resimulation', 'analysis', 'recording', 'messages', 'sim', 'files'},
     'verb': {
-        'view', 'view/ros', 'api', 'node', 'dataset', 'study', 'resimulation', 'rendering',
-        'analysis', 'recording', 'messages', 'reference', 'sim', 'gl', 'playback', 'files'},
+        'validation', 'view', 'view/ros', 'api', 'node', 'dataset', 'study', 'resimulation',
+        'rendering', 'analysis', 'recording', 'messages', 'reference', 'sim', 'gl', 'playback',
+        'files'},
 }
 
 # These rooms must run where there is no ROS; they may import no more than this beside Python.
-WITHOUT_ROS = ('files', 'gl', 'sim', 'camera', 'reference', 'gym', 'view')
+WITHOUT_ROS = ('files', 'gl', 'sim', 'camera', 'reference', 'gym', 'validation', 'view')
 NUMERIC_MODULES = {'numpy', 'scipy', 'OpenGL', 'yaml'}
 # What one room alone may import besides.
 # viser brings msgspec and websockets. The shape of a cloth is an image or a polygon.
 OWN_MODULES = {
-    'sim': {'PIL', 'matplotlib'}, 'view': {'viser', 'msgspec', 'websockets'}, 'camera': {'PIL'},
-    'gym': {'gymnasium'}}
+    'sim': {'PIL', 'matplotlib'}, 'view': {'viser', 'msgspec', 'websockets'}, 'camera': {'PIL', 'matplotlib'},
+    'validation': {'PIL'}, 'gym': {'gymnasium'}}
 
 SOURCES = sorted(path for path in PACKAGE.rglob('*.py') if path.parent != PACKAGE)
 

@@ -33,6 +33,7 @@ VERBS = {
     'run': 'simulate a scene file, without ROS',
     'materials': 'list the measured fabrics that a scene can name',
     'bench': 'benchmark this device, without ROS',
+    'validate': 'measure scenes with a known outcome, without ROS',
     'tune': 'measure what is fastest on this device, for runs to use',
     'mode': 'switch the simulation mode of a running node',
     'push': 'push the cloth of a running node, or cancel all pushes',

@@ -14,6 +14,7 @@ from cloth_sim_interfaces.srv import StartRecording
 from cloth_sim_interfaces.srv import Step
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.simulation import Simulation
+from cloth_sim_ros.validation.layers import CELL
 from cloth_sim_ros.verb.main import main
 from cloth_under_test import ClothUnderTest
 from folded_towel import FOLD
@@ -23,7 +24,6 @@ from folded_towel import HEM
 from geometry_msgs.msg import Point
 from geometry_msgs.msg import Pose
 from graph_client import GraphClient
-from layers import CELL
 from node_process import NodeProcess
 import pytest
 from std_srvs.srv import Trigger

@@ -9,12 +9,12 @@ from cloth_sim_ros.reference.edges import edges_of
 from cloth_sim_ros.reference.implicit_cloth import ImplicitCloth
 from cloth_sim_ros.reference.implicit_cloth import turn_substep
 from cloth_sim_ros.reference.implicit_step import Passes
+from cloth_sim_ros.reference.rigid_links import catenary
+from cloth_sim_ros.reference.rigid_links import GRAVITY
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.scene import Scene
 import numpy as np
 import pytest
-from rigid_links import catenary
-from rigid_links import GRAVITY
 from springs import SPRINGS
 
 

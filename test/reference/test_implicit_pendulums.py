@@ -4,11 +4,11 @@
 """Chains of one, two and three hard links that fall from level, against rigid links."""
 
 from cloth_sim_ros.reference.implicit_cloth import ImplicitCloth
+from cloth_sim_ros.reference.rigid_links import fall_from_level
+from cloth_sim_ros.reference.rigid_links import GRAVITY
 from cloth_sim_ros.sim.scene import Scene
 import numpy as np
 import pytest
-from rigid_links import fall_from_level
-from rigid_links import GRAVITY
 
 LINK = 0.5
 

@@ -4,10 +4,10 @@
 """Chains, strips and cloths that hang at rest, against the balance of forces at each node."""
 
 from cloth_sim_ros.reference.implicit_cloth import ImplicitCloth
+from cloth_sim_ros.reference.rigid_links import GRAVITY
 from cloth_sim_ros.sim.scene import Scene
 import numpy as np
 import pytest
-from rigid_links import GRAVITY
 from scipy.optimize import brentq
 from springs import SPRINGS
 

@@ -8,11 +8,11 @@ from dataclasses import replace
 from cloth_sim_ros.reference.edge_law import constraint_law
 from cloth_sim_ros.reference.implicit_cloth import ImplicitCloth
 from cloth_sim_ros.reference.implicit_step import Passes
+from cloth_sim_ros.reference.rigid_links import GRAVITY
+from cloth_sim_ros.reference.rigid_links import period_error
 from cloth_sim_ros.sim.scene import Scene
 import numpy as np
 import pytest
-from rigid_links import GRAVITY
-from rigid_links import period_error
 
 ROD = {'rows': 2, 'cols': 1, 'height': 1.0, 'node_mass': 0.1, 'pins': ['top_left'],
        'start.pose': 'hanging', 'auto_substeps': False, 'constraint.strain': 1e-5}

@@ -5,11 +5,11 @@
 
 from cloth_sim_ros.reference.implicit_cloth import ImplicitCloth
 from cloth_sim_ros.reference.implicit_step import Passes
+from cloth_sim_ros.reference.rigid_links import GRAVITY
+from cloth_sim_ros.reference.rigid_links import longest_explicit_pull
 from cloth_sim_ros.sim.scene import Scene
 import numpy as np
 import pytest
-from rigid_links import GRAVITY
-from rigid_links import longest_explicit_pull
 
 
 @pytest.mark.parametrize('beta', [0.0, 0.1, 0.25, 0.5, 1.0])

@@ -3,8 +3,8 @@
 
 """A small towel on a floor, folded in half or folded by two grippers."""
 
-from layers import CELL
-from layers import THICKNESS
+from cloth_sim_ros.validation.layers import CELL
+from cloth_sim_ros.validation.layers import THICKNESS
 import numpy as np
 
 SIDE = 13

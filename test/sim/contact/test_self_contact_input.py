@@ -6,9 +6,9 @@
 from cloth_sim_ros import Scene
 from cloth_sim_ros import Simulation
 from cloth_sim_ros.sim.errors import ClothSimError
-from layers import layered_scene
-from layers import stacked
-from layers import THICKNESS
+from cloth_sim_ros.validation.layers import layered_scene
+from cloth_sim_ros.validation.layers import stacked
+from cloth_sim_ros.validation.layers import THICKNESS
 import numpy as np
 import pytest
 

@@ -4,10 +4,10 @@
 """The highest layer near a point: one side of a fold, whatever lies beside or below it."""
 
 from cloth_sim_ros.sim.model.top_layer import top_layer
-from layers import CELL
-from layers import layered_scene
-from layers import stacked
-from layers import THICKNESS
+from cloth_sim_ros.validation.layers import CELL
+from cloth_sim_ros.validation.layers import layered_scene
+from cloth_sim_ros.validation.layers import stacked
+from cloth_sim_ros.validation.layers import THICKNESS
 import numpy as np
 import pytest
 

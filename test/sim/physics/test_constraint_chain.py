@@ -3,10 +3,10 @@
 
 """The constraint mode on chains: where they hang, how tight, how long a step they stand."""
 
+from cloth_sim_ros.reference.rigid_links import GRAVITY
+from cloth_sim_ros.reference.rigid_links import longest_explicit_pull
 import numpy as np
 import pytest
-from rigid_links import GRAVITY
-from rigid_links import longest_explicit_pull
 from scipy.optimize import brentq
 
 CHAIN = {'mode': 'constraint', 'auto_substeps': False, 'solver.tolerance': 1e-6}

@@ -3,39 +3,20 @@
 
 """The constraint mode against closed forms of one rod, held at one end."""
 
+from cloth_sim_ros.reference.rigid_links import GRAVITY
+from cloth_sim_ros.reference.rigid_links import period_error
+from cloth_sim_ros.validation.pendulums import ROD
+from cloth_sim_ros.validation.pendulums import swing
 import numpy as np
 import pytest
-from rigid_links import GRAVITY
-from rigid_links import period_error
 
-ROD = {'mode': 'constraint', 'rows': 2, 'cols': 1, 'height': 1.0, 'node_mass': 0.1,
-       'pins': ['top_left'], 'start.pose': 'hanging', 'start.z': 0.0, 'auto_substeps': False,
-       'solver.tolerance': 1e-6}
 PAPER = {'constraint.newton_iterations': 1}
-# A rod so hard that its weight lengthens it by no more than 1e-6: the rule of constraint.strain
-# makes a cloth of one line 1 / 0.03 times as hard, and the rod carries half of the two nodes.
-RIGID = {'constraint.strain': 5e-5}
-
-
-def _swing(simulate, angle, seconds, **values):
-    """Return the offset of the lower end from the pin at each step, and its velocity."""
-    simulation = simulate({**ROD, **RIGID, **values})
-    positions = simulation.snapshot().positions.copy()
-    positions[1, 0] = positions[0, 0] + [np.sin(angle), 0.0, -np.cos(angle)]
-    simulation.set_state(positions, np.zeros_like(positions))
-    seen = []
-    for _ in range(round(seconds / simulation.dt)):
-        simulation.step()
-        snapshot = simulation.snapshot()
-        seen.append((snapshot.positions[1, 0] - snapshot.positions[0, 0],
-                     snapshot.velocities[1, 0]))
-    return tuple(np.array(values, dtype=float) for values in zip(*seen))
 
 
 @pytest.mark.parametrize('dt', [0.02, 0.01, pytest.param(0.005, marks=pytest.mark.long)])
-def test_pendulum_of_the_paper(simulate, within, dt):
+def test_pendulum_of_the_paper(context, within, dt):
     """The period is not 4 sqrt(L/g) K to second order, or the length not off (omega h)^2/2."""
-    offsets, velocities = _swing(simulate, 1.0, 10.0, dt=dt, **PAPER)
+    offsets, velocities = swing(context, 1.0, 10.0, dt=dt, **PAPER)
     longer = np.max(np.abs(np.linalg.norm(offsets, axis=1) - 1.0))
     foreseen = np.max(np.sum(velocities**2, axis=1)) * dt**2 / 2.0
     within('period of a rod', abs(period_error(offsets, dt)), 3e-4 * (dt / 0.01)**2)
@@ -43,9 +24,9 @@ def test_pendulum_of_the_paper(simulate, within, dt):
 
 
 @pytest.mark.parametrize('dt', [0.02, pytest.param(0.01, marks=pytest.mark.long)])
-def test_pendulum(simulate, within, dt):
+def test_pendulum(context, within, dt):
     """The turn that the first solve foresees is not the one that the second finds."""
-    offsets, _ = _swing(simulate, 1.0, 10.0, dt=dt)
+    offsets, _ = swing(context, 1.0, 10.0, dt=dt)
     within('period of a rod', abs(period_error(offsets, dt)), 3e-4 * (dt / 0.01)**2)
     within('length of a rod', np.max(np.abs(np.linalg.norm(offsets, axis=1) - 1.0)), 3e-6)
 
@@ -53,9 +34,9 @@ def test_pendulum(simulate, within, dt):
 @pytest.mark.parametrize('values', [
     pytest.param(PAPER, id='one solve', marks=pytest.mark.long),
     pytest.param({}, id='two solves')])
-def test_pendulum_keeps_its_energy(simulate, within, values):
+def test_pendulum_keeps_its_energy(context, within, values):
     """A swing of 20 s is damped or driven."""
-    offsets, velocities = _swing(simulate, 1.0, 20.0, dt=0.02, **values)
+    offsets, velocities = swing(context, 1.0, 20.0, dt=0.02, **values)
     energy = np.sum(velocities**2, axis=1) / 2.0 + GRAVITY * (offsets[:, 2] + 1.0)
     start = GRAVITY * (1.0 - np.cos(1.0))
     within('energy after 20 s, change', abs(energy[-50:].mean() / start - 1.0), 0.01)

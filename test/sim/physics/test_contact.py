@@ -7,19 +7,15 @@ import math
 
 from body_distance import distance_to
 from cloth_sim_ros.sim.snapshot import FLAG_TOUCHING
+from cloth_sim_ros.validation.slope import FLOOR
+from cloth_sim_ros.validation.slope import GRAVITY
+from cloth_sim_ros.validation.slope import inclined
+from cloth_sim_ros.validation.slope import LYING
+from cloth_sim_ros.validation.slope import Slope
 import numpy as np
 import pytest
 
-GRAVITY = 9.81
-FLOOR = {'colliders.names': ['floor'], 'colliders.floor.shape': 'plane'}
-LYING = {'rows': 8, 'cols': 6, 'width': 0.5, 'height': 0.7, 'pins': ['none'], 'dt': 0.002,
-         'contact.thickness': 0.0, 'start.z': 0.0}
 ANGLE = 0.4
-
-
-def inclined(angle):
-    """Return gravity on a plane that goes down along x, z being its normal."""
-    return [GRAVITY * math.sin(angle), 0.0, -GRAVITY * math.cos(angle)]
 
 
 def tilted(angle):
@@ -35,28 +31,6 @@ def lay_on_tilted(simulation, angle):
     laid[..., 0], laid[..., 2] = (
         math.cos(angle) * rest[..., 0], -math.sin(angle) * rest[..., 0])
     simulation.set_state(laid.astype(np.float32), np.zeros(laid.shape, dtype=np.float32))
-
-
-class Slope:
-    """A cloth that lies on a slope with friction, in one mode."""
-
-    def __init__(self, simulate, mode, friction, **others):
-        """Return the tolerance of mu: the rounding of hard edges, or of springs."""
-        self._simulate, self._friction = simulate, friction
-        self._scene = {**LYING, **FLOOR, 'mode': mode, **others}
-        self.allowed = 1e-3 if mode == 'constraint' else 1e-4
-        # The way at that share more than what would just hold.
-        self.gained = (
-            0.5 * GRAVITY * math.cos(math.atan(friction)) * friction * self.allowed * 0.5**2)
-
-    def way(self, share):
-        """Return how far nodes slide in 0.5 s, with mu at that share of the slope's tangent."""
-        simulation = self._simulate({
-            **self._scene, 'colliders.floor.friction': self._friction,
-            'gravity': inclined(math.atan(share * self._friction))})
-        begin = simulation.positions()
-        simulation.advance(0.5)
-        return (simulation.positions() - begin)[..., 0]
 
 
 # Between the least and the most friction there is no other way through the shaders.
@@ -86,13 +60,7 @@ def test_slip_angle_in_large_steps(simulate, dt, nodes, side):
 def test_the_slope_that_just_holds(simulate, within, any_mode, friction):
     """The same, bisected for the figure in the docs: a table of friction would be off by more."""
     slope = Slope(simulate, any_mode, friction)
-    sticking, sliding = 1.0 - 1e-3, 1.0 + slope.allowed
-    while sliding - sticking > 0.1 * slope.allowed:
-        middle = 0.5 * (sticking + sliding)
-        if slope.way(middle).min() > 0.5 * slope.gained:
-            sliding = middle
-        else:
-            sticking = middle
+    sticking, sliding = slope.bracket()
     print(f'measured mu / mu set: {sticking:.5f} to {sliding:.5f}, mu {friction}, {any_mode}')
     within('mu measured over mu set, less 1', abs(sticking - 1.0), slope.allowed)
 

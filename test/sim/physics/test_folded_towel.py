@@ -3,10 +3,10 @@
 
 """A towel that lies folded twice stays so, while nothing holds it."""
 
+from cloth_sim_ros.validation.layers import THICKNESS
 from crossings import crossings
 from folded_towel import folded_twice
 from folded_towel import TOWEL
-from layers import THICKNESS
 import numpy as np
 import pytest
 

@@ -7,6 +7,8 @@ from cloth_sim_ros import Scene
 from cloth_sim_ros import Simulation
 from cloth_sim_ros import SimulationRecorder
 from cloth_sim_ros.sim.errors import ClothSimError
+from cloth_sim_ros.validation.layers import CELL
+from cloth_sim_ros.validation.layers import THICKNESS
 from crossings import crossings
 from folded_towel import FOLD
 from folded_towel import folded
@@ -14,8 +16,6 @@ from folded_towel import FOLDED_AT
 from folded_towel import FOLDING
 from folded_towel import HEM
 from folded_towel import TOWEL
-from layers import CELL
-from layers import THICKNESS
 from made_again import assert_same
 import numpy as np
 import pytest

@@ -5,23 +5,18 @@
 
 from cloth_sim_ros import Scene
 from cloth_sim_ros import Simulation
+from cloth_sim_ros.validation.layers import CELL
+from cloth_sim_ros.validation.layers import layered_scene
+from cloth_sim_ros.validation.layers import RestingStack
+from cloth_sim_ros.validation.layers import SOFT
+from cloth_sim_ros.validation.layers import stacked
+from cloth_sim_ros.validation.layers import THICKNESS
 from crossings import crossings
-from layers import CELL
-from layers import layered_scene
-from layers import stacked
-from layers import THICKNESS
 import numpy as np
 import pytest
 
 GRAVITY = 9.81
 SHEET = 8
-SOFT = {
-    'stiffness.structural': 100.0, 'stiffness.shear': 30.0, 'bending.rigidity': [2e-6, 2e-6]}
-FLOOR = {
-    'colliders.names': ['floor'], 'colliders.floor.shape': 'plane',
-    'colliders.floor.friction': 0.3, 'contact.thickness': THICKNESS}
-
-
 # By mode; a limit of 2 % holds edges in most of these scenes.
 LAYERED = {
     'mass_spring': {'mode': 'mass_spring'},
@@ -146,14 +141,8 @@ def test_limits_in_a_heap() -> None:
 
 def test_four_layers_carry_each_other(layered: dict) -> None:
     """Sheets on a floor lie a thickness apart, at rest, and press with all of their weight."""
-    scene = layered_scene(4, SHEET, **SOFT, **FLOOR, **layered)
-    positions = stacked(scene, 4, (0.05, 0.03), first=THICKNESS / 2.0)
-    with Simulation(scene) as cloth:
-        cloth.set_state(positions, np.zeros_like(positions))
-        cloth.advance(0.5)
-        top = cloth.positions()[3 * SHEET + 2:-2, 2:-2, 2] / THICKNESS
-        speed = np.abs(cloth.velocities()[3 * SHEET + 2:-2, 2:-2]).max()
-        weight = -cloth.contact_forces()[0].force[2] / (scene.mass * GRAVITY)
+    stack = RestingStack(None, SHEET, **layered)
+    top, speed, weight = stack.heights / THICKNESS, stack.speeds.max(), stack.load
     print(f'top {top.min():.5f} to {top.max():.5f}, {speed:.1e} m/s, weight - 1 {weight - 1:.1e}')
     is_implicit = layered['mode'] == 'constraint'
     # Between edges, which carry in long substeps, layers are 0.2 % thinner.

@@ -3,17 +3,17 @@
 
 """A rag of true mass stays cloth as a robot moves it, however often it is controlled."""
 
-from motions import jitter_of
-from motions import MASSES
-from motions import MODES
-from motions import move_rag
-from motions import rag
-from motions import RATES
-from motions import strains
+from cloth_sim_ros.validation.motions import jitter_of
+from cloth_sim_ros.validation.motions import MASSES
+from cloth_sim_ros.validation.motions import MODES
+from cloth_sim_ros.validation.motions import move_rag
+from cloth_sim_ros.validation.motions import rag
+from cloth_sim_ros.validation.motions import RATES
+from cloth_sim_ros.validation.motions import strains
+from cloth_sim_ros.validation.robot_paths import DRAG
+from cloth_sim_ros.validation.robot_paths import FLING
 import numpy as np
 import pytest
-from robot_paths import DRAG
-from robot_paths import FLING
 
 # Simulated time of a coarse rag by rate [s], so that all runs take seconds.
 SHORT = {10.0: 1.3, 100.0: 1.3, 1000.0: 0.3}

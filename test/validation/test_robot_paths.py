@@ -6,16 +6,16 @@
 import math
 
 from cloth_sim_ros.sim.model.given_values import load_parameters
-from motions import in_air
-from motions import rag
-from motions import SCENE_FILE
+from cloth_sim_ros.validation.motions import in_air
+from cloth_sim_ros.validation.motions import rag
+from cloth_sim_ros.validation.motions import scene_file
+from cloth_sim_ros.validation.robot_paths import DRAG
+from cloth_sim_ros.validation.robot_paths import FLING
+from cloth_sim_ros.validation.robot_paths import gripper_places
+from cloth_sim_ros.validation.robot_paths import PATHS
+from cloth_sim_ros.validation.robot_paths import timed_moves
 import numpy as np
 import pytest
-from robot_paths import DRAG
-from robot_paths import FLING
-from robot_paths import gripper_places
-from robot_paths import PATHS
-from robot_paths import timed_moves
 
 CORNERS = np.array([[-0.25, 0.0, 1.0], [0.25, 0.0, 1.0]])
 
@@ -68,7 +68,7 @@ def test_the_grippers_close_in_and_stay_level(path):
 
 def test_the_scene_has_the_fling():
     """The shipped scene would show another motion than the page describes."""
-    given = load_parameters(SCENE_FILE)
+    given = load_parameters(scene_file())
     for name, values in timed_moves(FLING, CORNERS, 10.0).items():
         assert given[f'pin_moves.{name}'] == values
     assert not any(name.startswith('pin_moves') for name in rag(0.05, 'constraint', 10.0))

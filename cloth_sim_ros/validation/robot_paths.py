@@ -9,7 +9,7 @@ points, times, speeds and accelerations are those of the authors' code (github.c
 benchmarking_cloth, bcm/manipulation_utils.py); what computes them here is written anew.
 
 Print the moves of config/fling.yaml:
-  python benchmarks/robot_paths.py
+  python -m cloth_sim_ros.validation.robot_paths
 """
 
 from collections.abc import Sequence
