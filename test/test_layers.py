@@ -44,8 +44,8 @@ NUMERIC_MODULES = {'numpy', 'scipy', 'OpenGL', 'yaml'}
 # What one room alone may import besides.
 # viser brings msgspec and websockets. The shape of a cloth is an image or a polygon.
 OWN_MODULES = {
-    'sim': {'PIL', 'matplotlib'}, 'view': {'viser', 'msgspec', 'websockets'}, 'camera': {'PIL', 'matplotlib'},
-    'validation': {'PIL'}, 'gym': {'gymnasium'}}
+    'sim': {'PIL', 'matplotlib'}, 'view': {'viser', 'msgspec', 'websockets'},
+    'camera': {'PIL', 'matplotlib'}, 'validation': {'PIL'}, 'gym': {'gymnasium'}}
 
 SOURCES = sorted(path for path in PACKAGE.rglob('*.py') if path.parent != PACKAGE)
 
