@@ -20,6 +20,9 @@ layout(std430, binding = SELF_FIRST) buffer SelfFirst { uint first_pair[]; };
 layout(std430, binding = SELF_PAIRS) buffer SelfPairs { Pair pairs[]; };
 layout(std430, binding = SELF_KEPT) buffer SelfKept { vec4 kept[]; };
 
+// Nodes between two tests [1].
+#define MOST_LISTED 64
+
 uniform float reach;  // [m]
 
 uint chain;
@@ -81,18 +84,32 @@ void main() {
     own.most += reach;
     chain = 0u;
     Walk walk = Walk((one.features & OWNS_NODE) != 0u ? level_count - 1 : level_count, ivec2(0));
+    // Nodes are listed first: software tests all of its lanes where one has a node to test.
+    int listed[MOST_LISTED], listed_later[MOST_LISTED];
     while (walk.level < level_count) {
-        bool is_near = is_box_near(walk, own);
-        if (is_near && walk.level == 0) {
-            Owned other = owned_by(node_index(walk.at.x, walk.at.y));
+        int count = 0, later_count = 0;
+        while (walk.level < level_count && count < MOST_LISTED) {
+            bool is_near = is_box_near(walk, own);
+            if (is_near && walk.level == 0) {
+                int index = node_index(walk.at.x, walk.at.y);
+                listed[count] = index;
+                ++count;
+                if (index >= one.index) {
+                    listed_later[later_count] = index;
+                    ++later_count;
+                }
+            }
+            walk_on(walk, is_near);
+        }
+        for (int i = 0; i < count; ++i) {
+            Owned other = owned_by(listed[i]);
             if ((other.features & OWNS_CELL) != 0u) {
                 add_faces(one, other);
             }
-            if (other.index >= one.index) {
-                add_edges(one, other);
-            }
         }
-        walk_on(walk, is_near);
+        for (int i = 0; i < later_count; ++i) {
+            add_edges(one, owned_by(listed_later[i]));
+        }
     }
     // llvmpipe ends all loops of an invocation after 65535 rounds in all.
     if (walk.level < level_count) {
