@@ -74,8 +74,9 @@ uniform float layer_unit;  // [m/s] of impulses of layers; 0: there are none
 
 bool has_part(int part) { return (parts & part) != 0; }
 
+// Whether contacts of layers were found at a node, as contacts.glsl has it.
 bool has_layers(int index) {
-    return layer_unit > 0.0 && floatBitsToUint(texelFetch(self_texels, 3 * index).w) != 0u;
+    return layer_unit > 0.0 && floatBitsToUint(texelFetch(self_texels, 3 * index + 2).y) != 0u;
 }
 
 // Impulse of layers on a node [m/s].

@@ -345,3 +345,34 @@ def test_same_bits_in_two_runs(layered: dict) -> None:
             cloth.step(250)
             ends.append(cloth.positions())
     assert np.array_equal(*ends)
+
+
+@pytest.mark.parametrize('body', ['capsule', 'plane'])
+def test_layers_that_do_not_press_change_nothing(body: str) -> None:
+    """Contacts that a layer has yet to come to would act, or be lost to bodies below."""
+    values = {
+        **SOFT, 'mode': 'mass_spring', 'pins': nodes_of(1), 'contact.thickness': THICKNESS,
+        'colliders.names': ['body'], 'colliders.body.shape': body,
+        'colliders.body.friction': 1.0}
+    if body == 'capsule':
+        values.update({
+            'colliders.body.size': [0.003, 0.5], 'colliders.body.position': [
+                3.5 * CELL, -3.5 * CELL, -0.003 - THICKNESS / 2.0],
+            'colliders.body.orientation': [0.0, np.sqrt(0.5), 0.0, np.sqrt(0.5)]})
+    else:
+        values['colliders.body.position'] = [0.0, 0.0, -THICKNESS / 2.0]
+    found, looked = [], []
+    # A sheet on a body; the other one hangs just above it, or far above.
+    for apart in (1.0005, 10.0):
+        scene = layered_scene(2, SHEET, **values)
+        positions = stacked(scene, 2, apart=apart * THICKNESS)
+        with Simulation(scene) as cloth:
+            cloth.set_state(positions, np.zeros_like(positions))
+            looked.append(0)
+            for _ in range(25):
+                cloth.step(1)
+                looked[-1] += cloth.snapshot().self_contacts
+            found.append(cloth.positions()[:SHEET])
+    assert looked[0] > 0 and looked[1] == 0
+    print(f'{looked[0]} contacts, {np.abs(found[0] - found[1]).max():.1e} m')
+    np.testing.assert_allclose(found[0], found[1], rtol=0.0, atol=1e-5)
