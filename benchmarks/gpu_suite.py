@@ -30,6 +30,7 @@ from gpu import asynchronous
 from gpu import barriers
 from gpu import batches
 from gpu import buffer_order
+from gpu import cameras
 from gpu import device
 from gpu import dispatches
 from gpu import fused_substeps
@@ -40,6 +41,7 @@ from gpu import read_back
 from gpu import shaders
 from gpu import springs
 from gpu import states
+from gpu import surface
 from gpu import tuning
 from gpu.page import page
 from gpu.section import Outcome
@@ -49,9 +51,9 @@ from gpu.section import run_section
 # In order of worth: what comes last is lost first when time is short.
 SECTIONS = (
     device.SECTION, buffer_order.SECTION, states.SECTION, shaders.SECTION, barriers.SECTION,
-    asynchronous.SECTION, springs.SECTION, modes.SECTION, tuning.SECTION, passes.SECTION,
-    paper.SECTION,
-    batches.SECTION, fused_substeps.SECTION, dispatches.SECTION, read_back.SECTION)
+    asynchronous.SECTION, springs.SECTION, modes.SECTION, surface.SECTION, cameras.SECTION,
+    tuning.SECTION, passes.SECTION, paper.SECTION, batches.SECTION, fused_substeps.SECTION,
+    dispatches.SECTION, read_back.SECTION)
 # Wall time of all sections together [s].
 TIME_LIMIT = 470.0
 _ROOT = Path(__file__).resolve().parents[1]
