@@ -11,6 +11,7 @@ from pathlib import Path
 
 from cloth_sim_ros.files.close_name import close_name
 from cloth_sim_ros.files.errors import shown
+from cloth_sim_ros.files.regular_file import read_regular
 from cloth_sim_ros.gl.context import Context
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.validation.row import Figure
@@ -21,6 +22,8 @@ from cloth_sim_ros.validation.rows import ROWS
 # Between these lines a page holds the table.
 BEGIN = '<!-- validation table: written by cloth_sim validate --long --out -->'
 END = '<!-- end of the validation table -->'
+# Max. size of a page that the table is written into [bytes]; chosen: a thousand times the largest one.
+_PAGE_LIMIT = 2**25
 _HEADER = (
     'row', 'what', 'formula or measurement', 'nodes', 'true', *MODES, 'allowed')
 
@@ -138,7 +141,8 @@ def write(path: Path, text: str) -> None:
     :raises ClothSimError: if the file can't be read or written, or has one of both lines alone
     """
     try:
-        page = path.read_text(encoding='utf-8') if path.exists() else f'{BEGIN}\n{END}\n'
+        page = (
+            read_regular(path, _PAGE_LIMIT).decode() if path.exists() else f'{BEGIN}\n{END}\n')
         if (BEGIN in page) != (END in page):
             raise ClothSimError(
                 f'{shown(str(path))} has one of the two lines that the table stands between: '
