@@ -22,7 +22,7 @@ from cloth_sim_ros.validation.rows import ROWS
 # Between these lines a page holds the table.
 BEGIN = '<!-- validation table: written by cloth_sim validate --long --out -->'
 END = '<!-- end of the validation table -->'
-# Max. size of a page that the table is written into [bytes]; chosen: a thousand times the largest one.
+# Max. size of a page with the table [bytes]; chosen: a thousand times the largest one.
 _PAGE_LIMIT = 2**25
 _HEADER = (
     'row', 'what', 'formula or measurement', 'nodes', 'true', *MODES, 'allowed')
