@@ -19,7 +19,7 @@ def test_its_blocks_run_one_after_the_other(tmp_path):
     assert len(blocks) == 5
     done = subprocess.run(
         [sys.executable, '-c', '\n'.join(blocks)], cwd=tmp_path, capture_output=True, text=True,
-        timeout=120)
+        timeout=600)
     assert done.returncode == 0, done.stderr
     assert '36 of 36 frames bitwise identical' in done.stdout
     assert '(36,) (36, 32, 32, 3)' in done.stdout
