@@ -2,9 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 
 #version 430 core
-// Find the contacts of a substep, or of several, at the positions that they begin with: one pair an
-// invocation. A pair acts where its features own the nearest points, so that layers do not catch on inner edges: a point
-// in a triangle, two points within edges, or a corner or edge that all triangles around it name.
+// Find the contacts of one substep or several, one pair an invocation, at the positions that they begin
+// with. A pair acts where its features own the nearest points, so that layers do not catch on inner
+// edges: a point in a triangle, two points within edges, or a corner or edge that all triangles around
+// it name.
 
 #define POSITIONS_ALONE 1
 #include "lattice.glsl"
@@ -205,10 +206,11 @@ void main() {
     bool is_there = has_pair();
     uint i = is_there ? pair_place() : 0u;
     Pair pair = load_pair(i);
-    // Those that can come to the thickness in the substep, if cells go twice as far as in the last.
+    // Those that can come to the thickness meanwhile, if cells go twice as far as in the last substep.
     vec2 ways = ways_of(pair);
     float least = OF_EDGES == 1 ? EDGE_THICKNESS * thickness : thickness;
-    float reach = least + max(SPARE * thickness, 2.0 * window * (ways.y + substep * least_speed_unit));
+    float reach = least + max(
+        SPARE * thickness, 2.0 * window * (ways.y + substep * least_speed_unit));
     if (is_there && pair.distance - ways.x <= reach) {
         look(i, pair.own, pair.other, reach, least, ways.x);
     }

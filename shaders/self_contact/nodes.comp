@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 
 #version 430 core
-// The velocity of each node that touches the cloth after a round, with what colliders do to it. IS_LAST
-// 1: write the state to come instead. IS_IMPLICIT 1: solves give nodes their velocities, and include impulses
-// of layers; layers that are too near are moved apart last.
+// The velocity of each node that touches the cloth after a round, with what colliders do to it.
+// IS_LAST 1: write the state to come instead. IS_IMPLICIT 1: solves give nodes their velocities, and
+// include impulses of layers; layers that are too near are moved apart last.
 
 #define POSITIONS_ALONE 1
 #include "lattice.glsl"

@@ -41,7 +41,7 @@ layout(std430, binding = SELF_NODES) buffer SelfNodes { SelfNode self_nodes[]; }
 #define IMPULSE_RANGE 64.0
 #define SUM_RANGE 4096.0
 
-uniform float impulse_unit;  // [m/s] of whole numbers; at least the speed in a substep over their range
+uniform float impulse_unit;  // [m/s] of a 1: at least the speed in a substep over their range
 
 // Largest impulse of a contact [m/s].
 float most_impulse() { return impulse_unit * (2147483648.0 / SUM_RANGE * IMPULSE_RANGE); }

@@ -5,15 +5,15 @@
 // Least and largest numbers are of bits that keep the order of floats, so that atomics are exact.
 
 layout(std430, binding = SELF_HEAD) buffer SelfHead {
-    // Of the contacts that were found, which may serve several substeps.
-    uint contact_groups[3];
+    // These stay for as long as contacts serve.
+    uint contact_groups[3];  // workgroups of passes over contacts [1]
     uint contact_count;
-    uint node_groups[3];
+    uint node_groups[3];     // workgroups of passes over the nodes with contacts [1]
     uint self_node_count;
-    uint acting_groups[3];
-    uint acting_count;      // of the contacts, those that act
+    uint acting_groups[3];   // workgroups of passes over the contacts that act [1]
+    uint acting_count;
     uint least_distance;    // [m] of a pair that was looked at, or of a contact
-    // Of the substep.
+    // These begin anew in each substep.
     uint least_moved[3];    // [m] since the lists were made, in this substep as well
     uint most_moved[3];
     uint least_speed[3];    // [m/s] of the substep without contact

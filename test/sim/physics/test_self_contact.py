@@ -3,6 +3,7 @@
 
 """A cloth that touches itself: nothing passes, layers carry each other, and friction holds."""
 
+from cloth_sim_ros import NonFiniteStateError
 from cloth_sim_ros import Scene
 from cloth_sim_ros import Simulation
 from cloth_sim_ros.validation.layers import CELL
@@ -376,3 +377,16 @@ def test_layers_that_do_not_press_change_nothing(body: str) -> None:
     assert looked[0] > 0 and looked[1] == 0
     print(f'{looked[0]} contacts, {np.abs(found[0] - found[1]).max():.1e} m')
     np.testing.assert_allclose(found[0], found[1], rtol=0.0, atol=1e-5)
+
+
+def test_a_push_that_nothing_withstands_is_told(layered: dict) -> None:
+    """A state that is no longer finite would end a run as an error of whole numbers."""
+    scene = layered_scene(2, SHEET, **SOFT, **layered)
+    positions = stacked(scene, 2)
+    with Simulation(scene) as cloth:
+        cloth.set_state(positions, np.zeros_like(positions))
+        cloth.step(2)
+        cloth.push((0.0, 0.0, 1e30), duration=1.0, region='sphere', center=(0.0, 0.0, 0.0),
+                   radius=0.05)
+        with pytest.raises(NonFiniteStateError):
+            cloth.step(50)
