@@ -13,9 +13,9 @@ from argparse import ArgumentParser
 from collections.abc import Iterator
 from collections.abc import Sequence
 
+from cloth_sim_ros.sim.model.scene_fields import MODES
 from cloth_sim_ros.validation.motions import in_air
 from cloth_sim_ros.validation.motions import MASSES
-from cloth_sim_ros.validation.motions import MODES
 from cloth_sim_ros.validation.motions import move_rag
 from cloth_sim_ros.validation.motions import rag
 from cloth_sim_ros.validation.motions import RATES

@@ -28,7 +28,6 @@ from cloth_sim_ros.validation.robot_paths import RobotPath
 from cloth_sim_ros.validation.row import Figure
 import numpy as np
 
-MODES = ('mass_spring', 'constraint', 'adaptive')
 RATES = (10.0, 100.0, 1000.0)
 MASSES = (0.05, 0.1)
 

@@ -7,9 +7,9 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from cloth_sim_ros.gl.context import Context
+from cloth_sim_ros.sim.model.scene_fields import MODES
 
 # In the order of the table.
-MODES = ('mass_spring', 'constraint', 'adaptive')
 
 
 @dataclass(frozen=True)

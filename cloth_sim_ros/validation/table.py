@@ -6,6 +6,7 @@
 from collections.abc import Collection
 from collections.abc import Iterator
 from collections.abc import Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -14,8 +15,8 @@ from cloth_sim_ros.files.errors import shown
 from cloth_sim_ros.files.regular_file import read_regular
 from cloth_sim_ros.gl.context import Context
 from cloth_sim_ros.sim.errors import ClothSimError
+from cloth_sim_ros.sim.model.scene_fields import MODES
 from cloth_sim_ros.validation.row import Figure
-from cloth_sim_ros.validation.row import MODES
 from cloth_sim_ros.validation.row import Row
 from cloth_sim_ros.validation.rows import ROWS
 
@@ -134,23 +135,46 @@ def _in_unit(row: Row, value: float) -> str:
     return f'{_number(value)} {row.unit}'.strip()
 
 
-def write(path: Path, text: str) -> None:
+class Page:
     """
-    Write the table into a page: between BEGIN and END where it has them, else as the whole page.
+    A page that the table is written into: between BEGIN and END where it has them, else all of it.
 
-    :raises ClothSimError: if the file can't be read or written, or has one of both lines alone
+    :raises ClothSimError: if the file can't be read, its folder is not there, or it has one of
+        both lines alone
     """
-    try:
-        page = (
-            read_regular(path, _PAGE_LIMIT).decode() if path.exists() else f'{BEGIN}\n{END}\n')
-        if (BEGIN in page) != (END in page):
+
+    def __init__(self, path: Path) -> None:
+        """Read what stands around the table, before minutes of measuring."""
+        self._path = path
+        with self._errors_named():
+            path.parent.stat()
+            page = (
+                read_regular(path, _PAGE_LIMIT).decode() if path.exists()
+                else f'{BEGIN}\n{END}\n')
+            if (BEGIN in page) != (END in page):
+                raise ClothSimError(
+                    f'{shown(str(path))} has one of the two lines that the table stands between: '
+                    f'write both, {BEGIN} and {END}')
+        self._before, begin, rest = page.partition(BEGIN)
+        self._after = rest.partition(END)[2]
+        self._has_place = bool(begin)
+
+    def write(self, text: str) -> None:
+        """
+        Write the table.
+
+        :raises ClothSimError: if the file can't be written
+        """
+        if self._has_place:
+            text = f'{self._before}{BEGIN}\n\n{text}\n{END}{self._after}'
+        with self._errors_named():
+            self._path.write_text(text, encoding='utf-8')
+
+    @contextmanager
+    def _errors_named(self) -> Iterator[None]:
+        try:
+            yield
+        except (OSError, UnicodeDecodeError) as error:
             raise ClothSimError(
-                f'{shown(str(path))} has one of the two lines that the table stands between: '
-                f'write both, {BEGIN} and {END}')
-        if BEGIN in page:
-            before, _, rest = page.partition(BEGIN)
-            text = f'{before}{BEGIN}\n\n{text}\n{END}{rest.partition(END)[2]}'
-        path.write_text(text, encoding='utf-8')
-    except (OSError, UnicodeDecodeError) as error:
-        raise ClothSimError(
-            f'{shown(str(path))} can not be written: {error}: choose another file') from None
+                f'{shown(str(self._path))} can not be written: {error}: choose another file'
+            ) from None

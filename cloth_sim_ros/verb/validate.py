@@ -22,11 +22,11 @@ from contextlib import closing
 from pathlib import Path
 
 from cloth_sim_ros.gl.context import Context
-from cloth_sim_ros.validation.row import MODES
+from cloth_sim_ros.sim.model.scene_fields import MODES
 from cloth_sim_ros.validation.table import chosen
 from cloth_sim_ros.validation.table import markdown
 from cloth_sim_ros.validation.table import measure
-from cloth_sim_ros.validation.table import write
+from cloth_sim_ros.validation.table import Page
 from tqdm import tqdm
 
 
@@ -44,6 +44,7 @@ def add_arguments(parser: ArgumentParser) -> None:
 def main(args: Namespace) -> int:
     """Measure, print and write."""
     rows = chosen(args.only, is_long=args.long)
+    page = Page(args.out) if args.out else None
     found = []
     with closing(Context(single_thread=True)) as context, tqdm(
             total=sum(len(row.grids) for row in rows), unit=' rows', leave=False,
@@ -54,6 +55,6 @@ def main(args: Namespace) -> int:
             bar.update()
     text = markdown(found)
     print(text, end='')
-    if args.out:
-        write(args.out, text)
+    if page:
+        page.write(text)
     return int(any(each.failed and not each.row.shortfall for each in found))
