@@ -9,8 +9,6 @@ from dataclasses import dataclass
 from cloth_sim_ros.gl.context import Context
 from cloth_sim_ros.sim.model.scene_fields import MODES
 
-# In the order of the table.
-
 
 @dataclass(frozen=True)
 class Figure:

@@ -3,9 +3,9 @@
 
 """A rag of true mass stays cloth as a robot moves it, however often it is controlled."""
 
+from cloth_sim_ros.sim.model.scene_fields import MODES
 from cloth_sim_ros.validation.motions import jitter_of
 from cloth_sim_ros.validation.motions import MASSES
-from cloth_sim_ros.validation.motions import MODES
 from cloth_sim_ros.validation.motions import move_rag
 from cloth_sim_ros.validation.motions import rag
 from cloth_sim_ros.validation.motions import RATES
