@@ -26,7 +26,7 @@ layout(std430, binding = HELD_OWN) readonly buffer Own { vec4 own[]; };
 // holders, slots, first entry, how many substeps there are entries of;
 // the substep in which the last step of dt begins, whether it begins among these; before which one
 // pins change their velocity, after which one, or -1;
-// whether to go on with the frame, where the sums are read and where they are written.
+// whether to continue the frame, where the sums are read and where they are written.
 uniform ivec4 how[3];
 
 void main() {

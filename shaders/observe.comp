@@ -64,7 +64,7 @@ void look_at_edge(
 }
 
 #if HAS_RIGIDITY
-// What the line of three nodes around this one stores, over c / 2.
+// Energy of the line of three nodes around this one, over c / 2.
 float bent_square(vec4 here, int row, int col, int drow, int dcol) {
     vec4 behind = load_position(node_index(row - drow, col - dcol));
     vec4 ahead = load_position(node_index(row + drow, col + dcol));
@@ -102,7 +102,7 @@ vec3 direction_of(vec3 d) {
     return size > 0.0 ? d / size : d;
 }
 
-// The side that faces up when the cloth lies flat; up for a chain, which has no sides.
+// The upper side of a flat cloth; up for a chain, which has no sides.
 vec3 surface_normal(vec4 here, int row, int col) {
     vec3 normal = cross(
         direction_of(tangent(here, row, col, 1, 0)), direction_of(tangent(here, row, col, 0, 1)));
@@ -131,7 +131,7 @@ void write_record(int row, int col, vec4 x, vec4 v, float strain) {
     int word = ((row - first_row) * COLS + col) * RECORD_WORDS;
 #if HAS_CELLS
     if (x.w == 0.0) {
-        // There is no node: all its numbers are NaN.
+        // No node here: all values are NaN.
         for (int i = 0; i < RECORD_WORDS - 1; ++i) {
             records[word + i] = 0x7fc00000u;
         }

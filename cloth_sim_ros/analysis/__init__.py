@@ -2,4 +2,4 @@
 # SPDX-License-Identifier: Apache-2.0
 
 
-"""What a recording says: frames, figures and pictures. Reads, and changes nothing."""
+"""Frames, figures and pictures of a recording, which is never changed."""

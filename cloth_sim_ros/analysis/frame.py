@@ -92,22 +92,22 @@ class Frame:
 
     @property
     def pinned(self) -> np.ndarray:
-        """Tell which nodes are held, (rows, cols) bool."""
+        """Return which nodes are held, (rows, cols) bool."""
         return (self.records['flags'] & FLAG_PINNED) != 0
 
     @property
     def grasped(self) -> np.ndarray:
-        """Tell which of them grasps hold, (rows, cols) bool."""
+        """Return which of them grasps hold, (rows, cols) bool."""
         return (self.records['flags'] & FLAG_GRASPED) != 0
 
     @cached_property
     def cells(self) -> np.ndarray:
-        """Tell which cells there are, (rows - 1, cols - 1) bool."""
+        """Return which cells exist, (rows - 1, cols - 1) bool."""
         return present_cells(self.records['flags'])
 
     @cached_property
     def present(self) -> np.ndarray:
-        """Tell which nodes there are, (rows, cols) bool: all, or those of a shape."""
+        """Return which nodes exist, (rows, cols) bool: all, or those of a shape."""
         if self.cells.all():
             return np.ones(self.records.shape, dtype=bool)
         return present_nodes(self.cells)

@@ -131,7 +131,7 @@ def not_watched(entries: Iterable[Entry], _: int) -> Iterator[Entry]:
 
 class Run:
     """
-    A run as its recording tells it; a few hundred bytes a frame are kept.
+    A run as recorded; a few hundred bytes a frame are kept.
 
     :param watch: is given all entries and their number, and hands them on: a progress bar
     :raises ClothSimError: when it holds neither points nor stats, or points of several cloths
@@ -228,7 +228,7 @@ class Run:
         try:
             frame = Frame.from_points(entry.time, entry.message)
         except ClothSimError as error:
-            # The other topics still tell something.
+            # The other topics can still be read.
             self._unusable = str(error)
             return
         size = frame.records.shape

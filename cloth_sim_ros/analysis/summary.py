@@ -141,7 +141,7 @@ class Summary:
     :param strain_over_bound: largest strain over the limit of its mode; 0 without such a limit
     :param solver_iterations: most of any frame; 0 without a solver
     :param solver_residual: worst of any frame
-    :param solver_missed: frames in which a solve stopped before the residual asked for
+    :param solver_missed: frames in which a solve stopped before the residual requested
     :param lengths_lost: frames in which an edge was far off its length or limit
     :param contact_lost: frames in which contact of the surface was not held
     :param layer_overlap: of layers over their thickness, the largest
@@ -149,7 +149,7 @@ class Summary:
     :param settling_work: largest work of such a limit [J]
     :param stalled: frames in which a moving pin waited, as its edges pulled too hard
     :param gaps: begin and end [s] of spans without frames where there should be some
-    :param missing: topics that would have told more
+    :param missing: topics that would add figures
     :param is_whole: False when the recording was cut off, or a part of it can't be read
     :param problems: what could not be read, one sentence each
     """

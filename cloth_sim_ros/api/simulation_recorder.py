@@ -51,7 +51,7 @@ class RunRecording:
     A recording of points, stats, pins, grasps, colliders and inputs.
 
     ``problem`` says why it is not whole; it is empty when it is, or when it was completed at the
-    size that was asked for.
+    size that was requested.
 
     :param directory: folder that the recording's own folder is made in
     :param lost: called with the reason when the recording has ended before it was closed; by

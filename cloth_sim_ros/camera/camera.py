@@ -111,7 +111,7 @@ class Camera(AbstractContextManager['Camera']):
 
 class _Studio:
     """
-    What a camera has on the device, in a GL context of its own.
+    The device side of a camera, in its own GL context.
 
     :param beside: whose buffers it draws from; None for one that draws snapshots alone
     """

@@ -19,7 +19,7 @@ _TEXEL = 4  # floats
 
 class DrawnCloth:
     """
-    Holds what is drawn of one subject at a time.
+    Holds the drawing data of one subject at a time.
 
     The positions of a Simulation stay in its own buffers; those of a Snapshot are uploaded.
 

@@ -13,7 +13,7 @@ import numpy as np
 @dataclass(frozen=True)
 class CameraPicture:
     """
-    What a camera has seen at one time. Arrays that were not asked for are None.
+    What a camera has seen at one time. Arrays that were not requested are None.
 
     :param camera: that has taken it
     :param pose: of its optical frame in the world

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-"""What a camera is pointed at: a cloth at one time, running or as a snapshot, and colliders."""
+"""The subject of a picture: a cloth at one time, running or as a snapshot, and colliders."""
 
 from __future__ import annotations
 

@@ -34,13 +34,13 @@ _LENGTHS = 3
 
 class Values:
     """
-    What was measured.
+    Measured values.
 
     :param depth: (height, width) float32 [m]; inf where nothing is, -inf where it is too near
     :param labels: (height, width) uint8
-    :param normals: (height, width, 3) float32, in the optical frame; None where not asked for
+    :param normals: (height, width, 3) float32, in the optical frame; None where not requested
     :param facets: normal n and offset d of the plane n . X = d that a pixel sees, (height, width,
-        4) float32 [m]; None where not asked for
+        4) float32 [m]; None where not requested
     """
 
     def __init__(
@@ -57,7 +57,7 @@ class ValueDrawing:
     """Draws the values of pictures of ``width`` x ``height`` pixels, in the current context."""
 
     def __init__(self, width: int, height: int) -> None:
-        """Begin without memory: it is allocated when something is first asked for."""
+        """Begin without memory: it is allocated when something is first requested."""
         self._size = width, height
         self._images: dict[bool, ValueImages] = {}
         self._programs: dict[tuple[str, ...], RenderProgram] = {}

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-"""Read npz files that may be hostile: what is declared is compared before it is allocated."""
+"""Read npz files that may be hostile: declared sizes are checked before allocation."""
 
 import math
 from pathlib import Path

@@ -146,7 +146,7 @@ def parse_yaml(text: str, name: str) -> Any:
 
 
 class _Refused(ValueError):
-    """What is YAML but is not taken."""
+    """Valid YAML that is refused."""
 
 
 class _Collection:

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-"""The error of what is refused, and how much of the input its text repeats."""
+"""Errors of refused input, and how much of the input their text repeats."""
 
 
 class ClothSimError(ValueError):
@@ -9,7 +9,7 @@ class ClothSimError(ValueError):
 
 
 class NotFoundError(ClothSimError):
-    """What a request names or points at is not there."""
+    """The object that a request names does not exist."""
 
 
 class NameTakenError(ClothSimError):

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-"""Open files that are files: no pipe that nobody writes into, no device without an end."""
+"""Open regular files only: no pipe without a writer, no endless device."""
 
 import errno
 import os

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-"""Compute shaders without a window: context, program, buffers. Knows nothing of cloth."""
+"""Compute shaders without a window: context, program, buffers. No cloth here."""
 
 import os
 

@@ -200,7 +200,7 @@ def _allocated(size: int) -> int:
     """
     Return the bytes to allocate for ``size``: a power of two gets one texel more.
 
-    llvmpipe compiles a shader anew where the size of a buffer that it reads as a texture turns
+    llvmpipe recompiles a shader where the size of a buffer that it reads as a texture turns
     into a power of two, or is none any more: for each such combination of its buffers.
     """
     is_power_of_two = size & (size - 1) == 0
@@ -259,7 +259,7 @@ class BufferRow:
 
 
 class _Names:
-    # As the driver reads them. An address asked for each time would take longer than the call.
+    # As the driver reads them. An address requested each time would take longer than the call.
     def __init__(self, names: Sequence[int]) -> None:
         self._values = np.array(names, dtype=np.uint32)
         self.address: int = self._values.ctypes.data

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-"""What can go wrong between this process and the GL device."""
+"""Errors of the GL device and of shaders."""
 
 
 class DeviceError(RuntimeError):

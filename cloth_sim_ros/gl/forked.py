@@ -25,7 +25,7 @@ _WORKER = 'llvmpipe'
 
 class _Process:
     """
-    What is known of this process and of those it was forked from.
+    State of this process and of those it was forked from.
 
     :ivar forks: since the first of them
     :ivar has_context: whether a context was made
@@ -40,7 +40,7 @@ class _Process:
     _had_workers = False
 
     def look(self) -> None:
-        """Look at what the child will lack."""
+        """Note what the child will lack."""
         self._had_workers = self.has_context and (self.has_gpu or _has_workers())
 
     def become_child(self) -> None:

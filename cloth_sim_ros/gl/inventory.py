@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-"""What a piece of work has compiled, allocated and run on the device."""
+"""Programs, buffers and dispatches that a piece of work has used."""
 
 from collections.abc import Iterator
 from contextlib import contextmanager

@@ -47,7 +47,7 @@ class LinkedProgram:
         self._arrays: dict[str, bytes] = {}
 
     def delete(self) -> None:
-        """Leave the program to the next who asks for its shaders; it is not used here any more."""
+        """Return the program to the pool; it must not be used here any more."""
         lent, self._lent = self._lent, None
         if lent is None:
             return

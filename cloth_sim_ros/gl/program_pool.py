@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-"""Programs that nobody uses for now, kept for the next who asks for the same shaders."""
+"""Idle programs, kept for the next use of the same shaders."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ class PooledProgram:
     """A linked program: its name in GL, and where its uniforms are."""
 
     def __init__(self, name: int) -> None:
-        """Know of no uniform yet."""
+        """Begin without known uniforms."""
         self.name = name
         self.locations: dict[str, int] = {}
         self._clearing: list[tuple[Callable[..., None], tuple[Any, ...]]] | None = None
@@ -74,7 +74,7 @@ class ProgramPool:
         return program
 
     def give_back(self, texts: tuple[str, ...], program: PooledProgram) -> None:
-        """Keep a program that nobody uses any more; those that idle longest are dropped."""
+        """Keep an unused program; those that idle longest are dropped."""
         with self._lock:
             self._idle.setdefault(texts, []).append(program)
             self._idle.move_to_end(texts)
@@ -103,7 +103,7 @@ def current_pool() -> ProgramPool | None:
 
 
 def set_current_pool(pool: ProgramPool | None) -> None:
-    """Tell whose context is current on this thread."""
+    """Return whose context is current on this thread."""
     _current.pool = pool
 
 

@@ -20,7 +20,7 @@ class ReadBack:
     Has buffers copied on the device, and reads the copies once they are complete.
 
     A buffer that is read itself would have to wait for all that was submitted since. The memory
-    for the copies is allocated when they are first asked for.
+    for the copies is allocated when they are first requested.
     """
 
     def __init__(self) -> None:

@@ -83,7 +83,7 @@ def stats_message(
 
     :param step_wall_time: wall time of one dt, mean over this frame [s]
     :param real_time_factor: simulated time per wall time, achieved
-    :param wanted_factor: the same as asked for, 0 for as fast as possible
+    :param wanted_factor: the same as requested, 0 for as fast as possible
     :param too_slow: True when the last second fell short of that
     """
     return ClothStats(

@@ -69,7 +69,7 @@ class Pace:
     :param worked: wall time that its steps took [s]
     :param steps: of dt in it, 0 when the moment has been shown before
     :param achieved: simulated time per wall time
-    :param wanted: the same as asked for, 0 for as fast as possible
+    :param wanted: the same as requested, 0 for as fast as possible
     :param too_slow: True when the last second fell short of that
     """
 
@@ -88,7 +88,7 @@ class Pace:
 @dataclass(frozen=True)
 class FrameContent:
     """
-    What is known of one moment; no step changes it any more.
+    The content of one frame; later steps do not change it.
 
     :param keys: the topics that are wanted of it
     :param snapshot: None where nothing but the clock is wanted
@@ -166,7 +166,7 @@ class FrameTaker:
             tuple(pictures))
 
     def close(self) -> None:
-        """Add up no forces any more, and release the cameras."""
+        """Stop adding up forces, and release the cameras."""
         self._leave_out_forces()
         if self._rig is not None:
             self._rig.close()

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-"""What was done to the cloth, as messages: a recording keeps them for running it again."""
+"""Accepted inputs as messages, which a recording keeps for running it again."""
 
 from collections.abc import Iterable
 from collections.abc import Mapping

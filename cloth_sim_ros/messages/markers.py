@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-"""The cloth and what it can touch as markers, already in the bytes that go out."""
+"""The cloth and the colliders as markers, as serialised bytes."""
 
 from collections.abc import Iterable
 from collections.abc import Sequence

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-"""The frame of each pin and what it feels, already in the bytes that go out."""
+"""Frame of each pin and the force on it, as serialised bytes."""
 
 import struct
 

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-"""What can be asked of the node: its services, actions, and the topics that it subscribes to."""
+"""Services and actions of the node, and the topics that it subscribes to."""
 
 from dataclasses import dataclass
 

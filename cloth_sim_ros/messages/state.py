@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-"""What a run is doing and how healthy it is, for people and tools that come late."""
+"""State and health of a run, latched for late subscribers."""
 
 from collections.abc import Sequence
 from typing import Any
@@ -87,7 +87,7 @@ def slow_pace(
     Return that a run is too slow, and what makes it faster.
 
     :param achieved: simulated time per wall time
-    :param wanted: the same as asked for
+    :param wanted: the same as requested
     :param substeps: in each dt
     :param automatic: True where they follow from what is stable: a longer dt has more of them
     :param mode: its name
@@ -116,7 +116,7 @@ def diagnostics_message(
     :param stamp: of the present simulated time
     :param device: GL_RENDERER
     :param real_time_factor: simulated time per wall time, achieved
-    :param wanted_factor: the same as asked for, 0 for as fast as possible
+    :param wanted_factor: the same as requested, 0 for as fast as possible
     :param automatic_substeps: True where the substeps in a dt follow from what is stable
     :param problem: why the run has stopped, empty when it has not
     :param recording_path: folder being written to, empty when not recording

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-"""What the stamps of all messages follow from: an epoch, and simulated time since."""
+"""The base of all stamps: an epoch, and simulated time since."""
 
 from cloth_sim_interfaces.msg import TimeBase as TimeBaseMessage
 from cloth_sim_ros.messages.stamp import nanoseconds

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-"""Every topic that goes out: what the node publishes is what the recorder writes."""
+"""Every published topic: the node and the recorder use the same table."""
 
 from collections.abc import Iterable
 from dataclasses import dataclass
@@ -42,7 +42,7 @@ class Topic:
     :param reliable: False for best effort
     :param transient_local: True to keep the last ``depth`` for late subscribers
     :param is_global: True for a name that does not depend on the node
-    :param recorded: False for what a recording leaves out, unless it is asked for
+    :param recorded: False for what a recording leaves out, unless it is requested
     :param text: one line for people
     """
 

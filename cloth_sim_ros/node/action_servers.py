@@ -126,7 +126,7 @@ class Steps:
         self._look: Callable[[], None] | None = None
 
     def look(self) -> bool:
-        """Tell how far the steps are; return whether any are asked for."""
+        """Publish how far the steps are; return whether any are requested."""
         if self._look is None:
             return False
         self._look()
@@ -145,7 +145,7 @@ class Steps:
         first, before, told = simulation.steps, run_loop.run_state, time.monotonic()
 
         def made() -> int:
-            # After a reset they are counted anew.
+            # After a reset the count starts again.
             return max(simulation.steps - first, 0)
 
         def done(error: Exception | None) -> None:

@@ -120,7 +120,7 @@ class ClothSimNode(GuardedNode):
             lambda error: self._device.emit(lambda: self._on_recording_lost(error)),
             options=RecordingOptions.from_values(values), wake=self._on_recording_ended)
         said = library_report(self._recording.library)
-        # A node that is told to record refuses to start without one, and says why.
+        # A node with recording.enabled refuses to start without a recording, and reports why.
         if said and (self._recording.library or not values['recording.enabled']):
             self.get_logger().info(said)
         # The thread that writes triggers it; the check runs on the ROS thread.
@@ -198,7 +198,7 @@ class ClothSimNode(GuardedNode):
         return simulation
 
     def _make_time(self, simulation: Simulation) -> NodeTime:
-        """Make what says which time it is."""
+        """Make the source of the time."""
         def changed(before: int) -> None:
             self._reports.time_base(before)
 
@@ -232,7 +232,7 @@ class ClothSimNode(GuardedNode):
             self._has_events.trigger()
 
     def _note_fault(self, error: Exception, where: str) -> None:
-        # What is under way when ROS is shut down fails, and that is nobody's fault.
+        # Calls in progress when ROS is shut down fail; that is no error.
         if not self.context.ok():
             raise error
         self.faults.note(error, where)

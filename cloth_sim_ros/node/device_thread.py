@@ -209,7 +209,7 @@ class DeviceThread:
                 self._wake()
 
     def stop(self) -> None:
-        """Do no more jobs, and leave the step under way; the events that wait stay."""
+        """Do no more jobs, and leave the present step; the events that wait stay."""
         with self._condition:
             self._is_closing = True
             self._changes += 1

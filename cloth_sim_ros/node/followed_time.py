@@ -86,7 +86,7 @@ class FollowedTime(NodeTime):
         return self._looked_at == before
 
     def catch_up(self) -> None:
-        """Let the present moment have the time that it is now: what has passed is left out."""
+        """Continue from the time that it is now; steps missed until then are skipped."""
         if self.is_known:
             before = self._stamp()
             self._begin_at(max(self._now, before), before)

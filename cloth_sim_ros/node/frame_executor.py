@@ -28,7 +28,7 @@ class FrameExecutor(SingleThreadedExecutor):
 
     rclpy collects all entities of a node for each callback, and once more as each callback wakes
     the executor: 50 frames a second cost as much as a small cloth (docs/notes/performance.md).
-    Here what is waited for is kept, and rclpy's executor only runs when there is something to
+    Here the list of entities is kept, and rclpy's executor only runs when there is something to
     serve. Guard conditions, by which frames come, are served without it. Events of publishers and
     subscriptions are served along with the next other thing.
     """
@@ -58,7 +58,7 @@ class FrameExecutor(SingleThreadedExecutor):
         is_ready, triggered = self._wait(timeout_sec)
         for guard in triggered:
             guard.callback()
-        # What is taken as done is left for the next time.
+        # The rest is left for the next time.
         if is_ready or any(not task.done() for task, _, _ in self._tasks):
             self._serve()
 
@@ -86,7 +86,7 @@ class FrameExecutor(SingleThreadedExecutor):
             guard for guard in self._node.guards if guard.handle.pointer in guards]
 
     def _collect(self) -> None:
-        """Note what there is to wait for."""
+        """Collect the entities to wait for."""
         self._is_changed = False
         node = self._node
         waited: dict[str, list[Any]] = {

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-"""The frames of tf: heard, kept for seconds, and where one is, seen from another, at a time."""
+"""The frames of tf: received, kept for seconds, and the pose of one in another at a time."""
 
 from bisect import bisect_left
 from collections.abc import Callable
@@ -183,7 +183,7 @@ class FrameTree:
     """
     Keep transforms, and find the way from one frame to another, as the buffer of tf2 does.
 
-    :param own: returns the history of a frame that is not told but known; None for other frames
+    :param own: returns the history of a frame of this node; None for other frames
     :param way_out: what to do about a frame that is not known, for the error
     """
 

@@ -83,7 +83,7 @@ _MOST_WAITING = 20
 
 
 class _Answer(NamedTuple):
-    """What is to be sent, by which service, and until when."""
+    """An answer to send, its service, and until when."""
 
     name: str
     send: Callable[[Any, Any], None]
@@ -236,7 +236,7 @@ class GuardedNode(Node):
             ``callback`` was given; None by default
         """
         def note(error: Exception, arguments: tuple[Any, ...]) -> Any:
-            # What is under way when ROS is shut down fails, and that is nobody's fault.
+            # Calls in progress when ROS is shut down fail; that is no error.
             if not self.context.ok():
                 raise error
             reason = self.faults.note(error, where)

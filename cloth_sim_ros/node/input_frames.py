@@ -106,7 +106,7 @@ class OwnFrames:
         self._pins.append((now, nodes, snapshot.positions.reshape(-1, 3)[nodes]))
 
     def forget(self) -> None:
-        """Forget what was: the time has gone back."""
+        """Drop the history: the time has gone back."""
         self._bodies.clear()
         self._pins.clear()
 
@@ -232,7 +232,7 @@ class Given:
 
 class InputFrames:
     """
-    Know the frames, and say what a header means.
+    Keep the frames, and interpret headers.
 
     Headers are read on the device thread, and transforms taken on that of ROS as well.
 

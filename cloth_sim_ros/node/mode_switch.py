@@ -26,7 +26,7 @@ _REPORT_PERIOD = 0.5
 
 class ModeSwitch:
     """
-    Prepare the mode that was asked for last, and let it take over at the end of a step.
+    Prepare the mode that was requested last, and let it take over at the end of a step.
 
     :param switched: called on the device thread with the mode that steps from now on and the
         one before, which is empty for the first
@@ -38,7 +38,7 @@ class ModeSwitch:
             self, node: Node, device: DeviceThread, simulation: Simulation, *,
             switched: Callable[[str, str], None],
             failed: Callable[[str, Exception], None], changed: Callable[[], None]) -> None:
-        """Wait for a mode to be asked for."""
+        """Wait for a mode to be requested."""
         self._device = device
         self._simulation = simulation
         self._switched = switched
@@ -71,7 +71,7 @@ class ModeSwitch:
 
     def ask(self, mode: str) -> None:
         """
-        Switch to ``mode`` as soon as it is compiled, and to no mode asked for before.
+        Switch to ``mode`` as soon as it is compiled, and to no mode requested before.
 
         :raises ClothSimError: when it can't step this scene
         """
@@ -140,7 +140,7 @@ class ModeSwitch:
     def _have_taken_over(self, mode: str) -> None:
         """Let ``mode``, which is compiled, take over between two steps."""
         def take_over() -> Exception | None:
-            # Another one may have been asked for since.
+            # Another one may have been requested since.
             if self._wanted != mode:
                 return None
             previous = self._simulation.mode if self._simulation.is_ready else ''
@@ -184,7 +184,7 @@ class ModeSwitch:
                 future.set_exception(error)
 
     def _report(self) -> None:
-        # While one that nobody wants any more comes to its end, there is nothing to report.
+        # A preparation that is not wanted any more is not reported.
         if self.preparing and not self._is_reported:
             self._is_reported = True
             self._logger.info(

@@ -208,7 +208,7 @@ class Motions:
 
     def _progress(self, kind: str, name: Any, path: Any, force: float) -> Progress:
         pose = self._pose(kind, name)
-        assert pose is not None  # what is not there was refused, or has ended
+        assert pose is not None  # a missing one was refused, or has ended
         target = Pose(path.move.target) if kind == PIN else path.target
         return Progress(
             math.dist(pose.position, target.position),

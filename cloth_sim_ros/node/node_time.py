@@ -51,7 +51,7 @@ class NodeTime:
         return False
 
     def catch_up(self) -> None:
-        """Let the present moment have the time that it is now: what has passed is left out."""
+        """Continue from the time that it is now; steps missed until then are skipped."""
 
     def restart(self, before: float) -> None:
         """Note that simulated time has returned from ``before`` [s] to 0."""
@@ -86,7 +86,7 @@ class WallTime(NodeTime):
         return (time.time_ns() - self._stamp()) / NANOSECONDS
 
     def catch_up(self) -> None:
-        """Let the present moment have the time that it is now: what has passed is left out."""
+        """Continue from the time that it is now; steps missed until then are skipped."""
         before = self._stamp()
         self._begin_at(max(time.time_ns(), before), before)
 

@@ -86,7 +86,7 @@ class Outlet:
             try:
                 publish(self._publishers[key], data)
             except (InvalidHandle, RCLError):
-                # Once ROS is shut down nobody hears it, and the rest still has to be recorded.
+                # Once ROS is shut down nothing is published, but the rest is still recorded.
                 if self._node.context.ok():
                     raise
 

@@ -5,7 +5,7 @@
 Publish serialised messages while the other thread works.
 
 rclpy holds Python's lock while the middleware copies and sends a message, and copies it once more
-before. The device thread, which needs the lock after each dispatch, would stand still for as long
+before. The device thread, which needs the lock after each dispatch, would wait for as long
 (docs/notes/performance.md).
 """
 

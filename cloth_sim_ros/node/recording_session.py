@@ -204,7 +204,7 @@ class RecordingSession:
         return self._latest.written(key) if self._latest is not None else 0
 
     def check(self) -> None:
-        """Report an end of the recording that nobody has asked for."""
+        """Report that the recording has ended by itself."""
         with self._lock:
             if self._recorder is None:
                 return

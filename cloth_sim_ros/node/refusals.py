@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-"""What cannot be carried out: a service answers why, and of a topic the log has it."""
+"""Refused requests: a service responds with the reason, a topic logs it."""
 
 from collections.abc import Awaitable
 from collections.abc import Callable

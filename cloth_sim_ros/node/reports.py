@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-"""What the device thread reports: frames, accepted inputs, state and parameters, in order."""
+"""Reports of the device thread: frames, accepted inputs, state and parameters, in order."""
 
 from collections.abc import Callable
 from collections.abc import Mapping

@@ -49,7 +49,7 @@ class Pacing:
         self._frames: deque[tuple[float, float]] = deque()
 
     def restart(self, now: float) -> None:
-        """Forget the past: the next frame is due at once."""
+        """Reset the pace: the next frame is due at once."""
         self._due = now
         self._simulated = 0.0
         self._frames = deque([(now, 0.0)])
@@ -84,13 +84,13 @@ class Pacing:
 
     @property
     def too_slow(self) -> bool:
-        """Return whether a whole window fell short of the factor asked for by over 5 percent."""
+        """Return whether a whole window fell short of the factor requested by over 5 percent."""
         return self.has_window and self.achieved < 0.95 * self.factor
 
 
 class PaceReport:
     """
-    Warns once where a run falls behind, and says once that it keeps up again.
+    Warns once when a run falls behind, and reports once that it keeps up again.
 
     :param warn: is given the warning
     :param say: is given what is no warning
@@ -182,7 +182,7 @@ class RunLoop:
         self._part_end = 0
         # Wall time at which the next frame is due [s].
         self._due = 0.0
-        # Who is answered when steps are made, and how many were asked for.
+        # Who is answered when steps are made, and how many were requested.
         self._answer: Answer | None = None
         self._asked = 0
         self._is_canceled = False
@@ -245,7 +245,7 @@ class RunLoop:
         self._end_run(error)
 
     def restart(self) -> None:
-        """Forget a stop, and begin with a whole frame."""
+        """Drop a stop, and begin with a whole frame."""
         self._problem = ''
         self._begin_frame()
         self._end_steps(InterruptedRequestError(

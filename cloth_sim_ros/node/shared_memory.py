@@ -65,7 +65,7 @@ class SharedMemory:
 
         :param cloud: size of a cloud [bytes]; 0 when none are sent
         """
-        # UDP brings whole what the default segment would.
+        # UDP delivers messages of the default segment's size.
         if self.lack and cloud > (self.segment or _DEFAULT_SEGMENT):
             return (
                 f'a point cloud has {cloud / 1e6:.2g} MB but Fast DDS only '
@@ -200,7 +200,7 @@ def _has_tracing_files(folder: Path) -> bool:
 
 
 def _memory_of(profile: str) -> SharedMemory:
-    """Return what a profile gives that somebody has chosen."""
+    """Return the segment size of a profile chosen by the user."""
     if not profile:
         return SharedMemory(_DEFAULT_SEGMENT, f'{VARIABLE} is empty: unset it')
     try:
@@ -240,7 +240,7 @@ _YOUNG = 5.0
 @dataclass(frozen=True)
 class Reclaimed:
     """
-    What was given back.
+    The memory that was released.
 
     :param segments: how many there were
     :param size: of all of them [bytes]

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-"""Pins, grasps and colliders that are held, let go and moved from outside."""
+"""Requests to hold, release and move pins, grasps and colliders."""
 
 from collections.abc import Callable
 from collections.abc import Iterable

@@ -217,7 +217,7 @@ def other_publishers(node: Node, topics: Iterable[str]) -> dict[str, list[str]]:
 
 
 def warning_of(others: dict[str, list[str]]) -> str:
-    """Return what to tell about ``others``; empty when there are none."""
+    """Return a warning about ``others``; empty when there are none."""
     if not others:
         return ''
     name, topics = max(others.items(), key=lambda item: len(item[1]))
@@ -255,7 +255,7 @@ def open_topics(
     """
     Return the publishers of ``topics``, each by its recorded name and type.
 
-    What can't be played is left out.
+    Topics that cannot be played are left out.
 
     :param warn: called with a sentence for each topic left out
     :raises ClothSimError: when none is left

@@ -97,12 +97,12 @@ class PlayClock:
         return self._paused_at is not None
 
     def pause(self, wall: float) -> None:
-        """Stand still from ``wall`` on."""
+        """Stop at ``wall``."""
         if self._paused_at is None:
             self._paused_at = wall
 
     def resume(self, wall: float) -> None:
-        """Go on from where the clock stood."""
+        """Resume from where the clock stopped."""
         if self._paused_at is not None:
             self._wall += wall - self._paused_at
             self._paused_at = None

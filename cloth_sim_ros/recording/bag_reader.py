@@ -250,7 +250,7 @@ class BagReader:
     def _plain(self, message: RawMessage) -> RawMessage:
         try:
             return message._replace(data=decompress_message(message.data))
-        except Exception as error:  # what a damaged byte raises can be anything
+        except Exception as error:  # a damaged byte can raise anything
             raise self._undecompressed(error) from error
 
     def _undecompressed(self, error: Exception) -> ClothSimError:
@@ -263,13 +263,13 @@ def _storage(file: Path) -> Storage:
     if file.suffix == '.mcap':
         try:
             storage = IndexedMcap(file)
-        except Exception:  # what a broken file raises can be anything
+        except Exception:  # a broken file can raise anything
             return BrokenMcap(file)
         # The index of an mcap file may leave the topics out: they are found on the way.
         return storage if storage.topics else BrokenMcap(file)
     try:
         return SqliteBag(file)
-    except Exception as error:  # what a broken file raises can be anything
+    except Exception as error:  # a broken file can raise anything
         raise ClothSimError(
             f'{cut(file)} is not an intact sqlite3 bag ({cut(error) or type(error).__name__}): '
             f'give another one, or recover what is left with `sqlite3 {cut(file.name)} .recover | '

@@ -36,14 +36,14 @@ class McapSize:
     """
     A bound of the finished length of a file that is being written.
 
-    It counts the chunk under way as if it could not be compressed, and the index at the end.
+    It counts the current chunk as if it could not be compressed, and the index at the end.
     """
 
     def __init__(self) -> None:
         """Begin with an empty file."""
         self._position = 0
         self._channels = 0
-        self._chunk = 0       # records in the chunk under way, and their index
+        self._chunk = 0       # records in the current chunk, and their index
         self._summary = _END
 
     def add_channel(self, length: int) -> None:

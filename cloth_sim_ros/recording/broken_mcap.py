@@ -61,7 +61,7 @@ class McapScan:
             for opcode, content in self._frames(stream):
                 try:
                     records = _parsed(opcode, content)
-                except Exception:  # what a damaged byte raises can be anything
+                except Exception:  # a damaged byte can raise anything
                     damaged += 1
                     continue
                 yield from records
@@ -224,7 +224,7 @@ class BrokenMcap:
         """Yield what is in ``chunk``, up to where it is damaged; return whether it is whole."""
         try:
             yield from chunk_records(chunk)
-        except Exception as error:  # what a damaged byte raises can be anything
+        except Exception as error:  # a damaged byte can raise anything
             self._end(error)
             return False
         return True

@@ -94,7 +94,7 @@ class IndexedMcap:
                     time, _, place, topic, type_name, data = entry
                     if place:
                         yield RawMessage(topic, type_name, time, data)
-        except Exception as error:  # what a damaged byte raises can be anything
+        except Exception as error:  # a damaged byte can raise anything
             self.problem = (
                 f'{self.path.name} is damaged: read up to there '
                 f'({error or type(error).__name__})')

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-"""What a recording says about a message type, so that it can be read without the package."""
+"""Message definitions in a recording, so that it can be read without the package."""
 
 from functools import cache
 from importlib.util import find_spec

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-"""A recording under way, and the topics of this project as they stand in it."""
+"""A recording in progress, and the topics of this project as they stand in it."""
 
 from collections import Counter
 from collections.abc import Callable
@@ -77,7 +77,7 @@ def topic_channel(topic: Topic, node_name: str) -> BagChannel:
         qos, announced, topic.transient_local)
 
 
-# A recording under way.
+# A recording in progress.
 
 # Wall time [s]. With what a flush takes, a process that is killed loses less than a second.
 FLUSH_PERIOD = 0.5

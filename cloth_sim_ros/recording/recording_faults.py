@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-"""Why a recording cannot begin or go on, or was cut off or changed, with the way out."""
+"""Why a recording cannot begin or continue, or was cut off or changed, and the remedy."""
 
 import errno
 import io
@@ -85,7 +85,7 @@ def _open_for_appending(path: str, flags: int) -> int:
     return os.open(path, flags | os.O_APPEND, 0o666)
 
 
-# Why a recording cannot begin or go on, or was cut off, with the way out.
+# Why a recording cannot begin or continue, or was cut off, and the remedy.
 
 _NO_ROOM = {errno.ENOSPC, errno.EDQUOT, errno.EFBIG}
 _TOO_MANY_FILES = {errno.EMFILE, errno.ENFILE}

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-"""A whole bag of what is left of one that was cut off or damaged."""
+"""Make a whole bag from the readable rest of a damaged one."""
 
 from collections import Counter
 from dataclasses import dataclass
@@ -34,7 +34,7 @@ from mcap.records import Schema
 
 @dataclass(frozen=True)
 class _Contents:
-    """What a file has besides its messages, and how many of those."""
+    """Records of a file besides its messages, and the number of those."""
 
     path: Path
     channels: dict[int, BagChannel]
@@ -160,7 +160,7 @@ def _copy(contents: _Contents, path: Path, metadata: BagMetadata) -> None:
 def _has_index(path: Path) -> bool:
     try:
         IndexedMcap(path)
-    except Exception:  # what a damaged index raises can be anything
+    except Exception:  # a damaged index can raise anything
         return False
     return True
 

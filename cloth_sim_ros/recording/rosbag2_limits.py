@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-"""What the writer of rosbag2 can't do of what a recording can ask for."""
+"""Options of a recording that the writer of rosbag2 does not support."""
 
 from cloth_sim_ros.recording.bag_folder import MAX_SIZE_SETTING
 from cloth_sim_ros.recording.bag_folder import RecordingOptions

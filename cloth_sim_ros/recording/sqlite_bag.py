@@ -82,7 +82,7 @@ class SqliteBag:
                         ' '.join([*query, 'ORDER BY timestamp'])):
                     yield RawMessage(
                         *self._types[number], _checked(time, int), _checked(data, bytes))
-        except Exception as error:  # what a damaged byte raises can be anything
+        except Exception as error:  # a damaged byte can raise anything
             self.problem = (
                 f'{self.path.name} is damaged: read up to there '
                 f'({cut(error) or type(error).__name__})')

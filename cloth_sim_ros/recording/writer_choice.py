@@ -50,7 +50,7 @@ def chosen_library(is_there: Callable[[str], bool] = is_importable) -> str:
 
 
 def library_report(library: str) -> str:
-    """Return what a user should know of the ``library`` that was chosen; empty for the usual."""
+    """Return a note to the user on the chosen ``library``; empty for the usual one."""
     if library == LIBRARIES[0]:
         return ''
     if library:

@@ -49,7 +49,7 @@ def turn_substep(edges: Edges, positions: np.ndarray, velocities: np.ndarray) ->
         turns.max() / LARGEST_TURN, np.average(turns, weights=squares * turns) / MEAN_TURN))
 
 
-# Fraction of a substep that is taken for rounding [1]: no further substep is made for it.
+# Fraction of a substep that counts as rounding [1]: no further substep is made for it.
 _SUBSTEP_ROUNDING = 1e-9
 
 

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-"""What is drawn: frames of a recording, or a state file."""
+"""Sources of pictures: frames of a recording, or a state file."""
 
 from abc import ABC
 from abc import abstractmethod

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-"""What the cloths and pushes of a picture reach over."""
+"""The extent of the cloths and pushes of a picture."""
 
 from collections.abc import Iterable
 from collections.abc import Sequence

@@ -34,33 +34,33 @@ class Listener(InputListener):
 
     @property
     def problem(self) -> str:
-        """Why what was heard is not kept whole; empty where it is."""
+        """Why the inputs are not kept whole; empty where they are."""
         return ''
 
     def begin(self) -> None:
-        """Hear that all is set that holds at the beginning."""
+        """Note that the initial state is set."""
 
     def frame(self, step_wall_time: float, real_time_factor: float) -> None:
         """
-        Hear that the present moment is one of the recording's frames.
+        Note that now is one of the recording's frames.
 
         :param step_wall_time: of a step since the frame before [s]; 0 when there was none
         :param real_time_factor: simulated time per wall time in these steps
         """
 
     def stop(self) -> None:
-        """Hear that the run has stopped, at its last finite state."""
+        """Note that the run has stopped, at its last finite state."""
 
     def close_interrupted(self) -> None:
-        """Hear that there is no more to come, since somebody broke it off."""
+        """Note the end of an interrupted run."""
 
     def close(self) -> None:
-        """Hear that there is no more to come."""
+        """Note the end of the run."""
 
 
 class StepClock:
     """
-    Tell how many steps of dt lie before a recorded moment.
+    Counts the steps of dt before a recorded moment.
 
     A stamp has whole nanoseconds and dt need not, so the recorded step is the nearest one.
 
@@ -91,7 +91,7 @@ class StepClock:
 
 class InputReplay:
     """
-    Applies inputs one by one, at the present moment of ``simulation``.
+    Applies inputs one by one, at the present time of ``simulation``.
 
     What cannot be done in this run is left out and noted in ``refused``: with other settings a
     pin may not be there, or no node be where a push was.

@@ -136,10 +136,10 @@ _SHOWN = ('points', 'stats', 'state')
 
 class RecordedRun:
     """
-    Reads the beginning of a recording; the rest when it is asked for, one message at a time.
+    Reads the beginning of a recording; the rest when it is requested, one message at a time.
 
     The simulator begins each recording with inputs that stand for all that went before: the
-    parameters, the mode, changed pins, grasps, moves under way, and pushes that act or will act.
+    parameters, the mode, changed pins, grasps, moves in progress, and pushes that act or will act.
 
     ``path``, ``name`` and ``node`` are the recording's, ``scene`` has the parameters and the mode,
     ``begin`` is the stamp of the beginning, ``opening`` has the inputs there, ``device`` is the

@@ -56,7 +56,7 @@ class RerunLimits:
 
     def check_size(self, scene: Scene, changes: Mapping[str, Any]) -> None:
         """
-        Refuse a ``scene`` whose rows and cols nobody asked for and no cloud shows.
+        Refuse a ``scene`` whose rows and cols nobody requested and no cloud shows.
 
         :param changes: parameters that replace recorded ones
         :raises ClothSimError: when it is so

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-"""What is to be said of a run that was made again."""
+"""The verdict on a resimulated run."""
 
 from cloth_sim_ros.files.errors import shown
 from cloth_sim_ros.resimulation.frame_check import Difference

@@ -1,4 +1,4 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-"""Simulate the cloth; nothing here knows ROS."""
+"""Simulate the cloth; no ROS here."""

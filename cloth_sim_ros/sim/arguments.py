@@ -5,7 +5,7 @@
 Checks of the values that a Python program passes: numbers, vectors, arrays, words, objects.
 
 Each function returns the value in the type that the rest of the code works with, or raises a
-ClothSimError that says what was asked for, what came, and what to pass instead. True and False
+ClothSimError that says what was requested, what came, and what to pass instead. True and False
 are no numbers, text is no number, and a masked array is no array: each of them would otherwise be
 taken for something that its writer did not mean.
 """

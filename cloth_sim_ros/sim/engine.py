@@ -96,7 +96,7 @@ class Engine:
 
     def run_all_passes(self, stop: Stop = never) -> None:
         """
-        Run every pass once, on a cloth that nobody needs.
+        Run every pass once, on a scratch cloth.
 
         Drivers compile a program in part when it first runs.
 
@@ -176,7 +176,7 @@ class Preparation:
                     context.close()
                 else:
                     context.release()
-        # Whatever it is, the thread that waits for the engine has to know.
+        # Passed on to the thread that waits for the engine, whatever it is.
         except Exception as error:
             self.error = error
 
@@ -193,7 +193,7 @@ class Preparation:
 
 class Engines:
     """
-    Engines by mode, compiled when a mode is first asked for, and kept.
+    Engines by mode, compiled when a mode is first requested, and kept.
 
     :param state: what they advance
     :param context: in which engines are made that nobody has prepared
@@ -266,7 +266,7 @@ class Engines:
             mode, lambda context: self._make(mode, context), self._first_context)
 
     def add(self, prepared: Preparation) -> None:
-        """Have the engine that was prepared, if there is none of its mode yet."""
+        """Keep the prepared engine, unless its mode has one."""
         instance(
             prepared, Preparation, 'what is taken over', 'give what engines.preparation returns')
         if prepared.engine is None:
@@ -285,7 +285,7 @@ class Engines:
         return mode.last_length or self._scene['dt'] / mode.substeps
 
     def forget(self) -> None:
-        """Drop what the mode in use has kept from earlier steps."""
+        """Drop what the current mode carries over from earlier steps."""
         if self.current is not None:
             self.current.mode.forget()
 

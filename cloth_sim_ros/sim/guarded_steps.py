@@ -169,14 +169,14 @@ def _cause(
 
 
 def _shorter_springs(scene: Scene) -> str:
-    """Return the way out of substeps that are too long for springs."""
+    """Return the remedy for substeps that are too long for springs."""
     way_out = f'set dt <= {safe_substep(scene) * scene["substeps"]:.3g}'
     # With them substeps are short enough; a dt of that length would not be needed.
     return way_out if scene['auto_substeps'] else f'{way_out}, or auto_substeps: true'
 
 
 def _more_turns(scene: Scene) -> str:
-    """Return the way out of substeps in which edges turn too far."""
+    """Return the remedy for substeps in which edges turn too far."""
     other = (
         'raise constraint.max_substeps' if scene['auto_substeps'] else 'auto_substeps: true')
     if scene['constraint.newton_iterations'] == 1:
@@ -215,8 +215,8 @@ class GuardedSteps:
     Check the state at the end of each batch of steps, and now and then within.
 
     When a check fails, the steps since the last good one are made again, each with a check of
-    its own, and the state goes back to the last that passes. What the mode keeps from step to
-    step begins anew there.
+    its own, and the state goes back to the last that passes. What the mode carries
+    over from step to step is reset.
 
     :param guarded: False makes further steps of a non-finite state
     """
@@ -224,7 +224,7 @@ class GuardedSteps:
     def __init__(
             self, scene: Scene, layout: Layout, observer: Observer, state: State,
             guarded: bool = True) -> None:
-        """Allocate what the check needs."""
+        """Allocate the buffers of the check."""
         self._scene = scene
         self._dt: float = scene['dt']
         self._observer = observer
@@ -293,7 +293,7 @@ class GuardedSteps:
             if self.check.passes(self._state):
                 before = made
                 continue
-            # With NaN in the state no solve reaches its tolerance: the step before says more.
+            # With NaN in the state no solve reaches its tolerance: the previous step says more.
             if before is not None and before.is_implicit == made.is_implicit:
                 made = replace(before, substeps=made.substeps)
             else:

@@ -133,7 +133,7 @@ class Pin:
 
 @dataclass(frozen=True)
 class Unpin:
-    """Let the node (row, col) go, with the velocity of its pin."""
+    """Release the node (row, col), with the velocity of its pin."""
 
     row: int
     col: int
@@ -234,7 +234,7 @@ class TakeGrasp:
 @dataclass(frozen=True)
 class Release:
     """
-    Let the nodes of a grasp go, with the velocity that they have.
+    Release the nodes of a grasp, with the velocity that they have.
 
     :param by_force: True where the cloth has pulled harder than the grasp holds
     """
@@ -364,7 +364,7 @@ class ReplaceState:
     """
     Replace positions [m] and velocities [m/s], both (rows, cols, 3).
 
-    Pins are at rest then: moves under way end, pending ones of the scene stay.
+    Pins are at rest then: moves in progress end, pending ones of the scene stay.
     """
 
     positions: np.ndarray

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-"""What is modelled: the static description of a cloth, read from parameters."""
+"""The static description of a cloth, read from parameters."""
 
 from collections import Counter
 from collections.abc import Iterable

@@ -136,7 +136,7 @@ class Simulation(AbstractContextManager['Simulation']):
             self.engines.use(scene['mode'])
         # Is notified of every accepted input, and may refuse one.
         self.listener = InputListener()
-        # Grasps that the cloth has pulled too hard at in the step under way.
+        # Grasps that the cloth has pulled too hard at in the present step.
         self._lost: list[str] = []
         self._is_closed = False
         self.loads = Loads(scene, self.layout, self._state)
@@ -223,7 +223,7 @@ class Simulation(AbstractContextManager['Simulation']):
         :param is_due: asked after steps; True ends with the step that was made
         :param stop: asked within steps; True abandons those since the last check of the state
         :raises NonFiniteStateError: when the state is lost; the last finite one is kept
-        :raises StepAbandoned: when ``stop`` has asked for it
+        :raises StepAbandoned: when ``stop`` has requested it
         """
         check_callable(is_due=is_due, stop=stop)
         while self.stepping.is_behind:
@@ -441,7 +441,7 @@ class Simulation(AbstractContextManager['Simulation']):
             TakeGrasp(name, position, orientation, radius, count, max_force, nodes, layers))
 
     def release_grasp(self, name: str) -> Grasp:
-        """Let the nodes of a grasp go, with the velocity that they have; return what it held."""
+        """Release the nodes of a grasp, with the velocity that they have; return what it held."""
         return self.apply(Release(name))
 
     def move_grasp(
@@ -498,7 +498,7 @@ class Simulation(AbstractContextManager['Simulation']):
         """
         Replace positions [m] and velocities [m/s], both (rows, cols, 3).
 
-        Pins are at rest then: moves under way end, pending ones of the scene stay.
+        Pins are at rest then: moves in progress end, pending ones of the scene stay.
         """
         self.apply(ReplaceState(positions, velocities))
 
@@ -532,7 +532,7 @@ class Simulation(AbstractContextManager['Simulation']):
         """
         Go on from the middle of a run, as far as that is known.
 
-        Grasps and moves under way are not: call ``grasp``, ``move_pin``, ``move_grasp`` and
+        Grasps and moves in progress are not: call ``grasp``, ``move_pin``, ``move_grasp`` and
         ``move_collider`` for them. What the mode kept from earlier steps is dropped, and pushes
         under way act on the free nodes in their region now.
 

@@ -99,7 +99,7 @@ class Snapshot(Measures):
     :param limit_rounds: most rounds that such a substep took
     :param limit_unreached: substeps of the last step whose rounds did not suffice for the
         tolerance
-    :param stalled_pins: pins under way that stood still in the last step, as edges pulled at them
+    :param stalled_pins: moving pins that stood still in the last step, as edges pulled at them
         with more than ``pin.max_force``
     :param air_margin: a substep over the longest in which air acts on a pinned cloth with all its
         force; 0 where it is below 1 without doubt

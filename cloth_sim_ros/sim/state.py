@@ -41,7 +41,7 @@ class HeldEntries(Protocol):
 
     @property
     def is_recording(self) -> bool:
-        """Return whether some node is held in the step under way."""
+        """Return whether some node is held in the present step."""
 
     def reserve(self, substeps: int, place: int = bindings.HELD) -> tuple[int, int, int]:
         """Return where the first of ``substeps`` leaves its entries, how many, how far apart."""

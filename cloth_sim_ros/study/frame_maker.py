@@ -65,7 +65,7 @@ class FrameMaker:
             made.append(('stats', serialize_message(stats_message(snapshot, _FRAME_ID))))
         if self._has_wrenches:
             pins = snapshot.pin_forces
-            assert pins is not None  # asked for above
+            assert pins is not None  # requested above
             made += [('wrenches', data) for data in self._wrenches.serialise(
                 pins.nodes, pins.forces, snapshot.time)]
         if self._recorder is not None:

@@ -6,7 +6,7 @@ Derive the values of the parameter `preset` from a tradeoff study of a scene.
 
 Only settings that keep the springs of the scene are considered: a preset does not change the
 cloth. The file of each preset states its scene, criterion, error and real-time factor. The preset
-stiff is for scenes of stiff springs and light nodes, and is only made if it is asked for.
+stiff is for scenes of stiff springs and light nodes, and is only made if it is requested.
 
 For example:
   cloth_sim study presets config/studies/two_corners.yaml

@@ -136,7 +136,7 @@ class SolveSpeed:
     :param drape_time: when the state was taken [s]
     :param residual: as the solver measures it: over the change of velocity, that of the paper's
         over the one at its start
-    :param reached: whether that is the 1e-2 asked for
+    :param reached: whether that is the 1e-2 requested
     :param velocity_error: norm of dv less that of a direct float64 solve, over that norm
     :param median: solves a second, over the rounds
     :param rounds: each round's figure

@@ -22,7 +22,7 @@ from cloth_sim_ros.sim.errors import ClothSimError
 
 @cache
 def process_context() -> Context:
-    """Return the context of this process, made when it is first asked for; not to be closed."""
+    """Return the context of this process, made when it is first requested; not to be closed."""
     return Context(single_thread=True)
 
 

@@ -71,7 +71,7 @@ def chosen(names: Collection[str], *, is_long: bool) -> list[Row]:
 def measure(
         context: Context, rows: Sequence[Row],
         modes: Collection[str] = MODES) -> Iterator[Measured]:
-    """Measure each row on each of its grids, in those of its modes that are asked for."""
+    """Measure each row on each of its grids, in those of its modes that are requested."""
     for row in rows:
         asked = [mode for mode in MODES if mode in row.modes and mode in modes]
         for nodes in row.grids if asked else ():

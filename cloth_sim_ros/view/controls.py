@@ -27,7 +27,7 @@ _NO_PICTURE = np.zeros((1, 1, 3), np.uint8)
 
 class Controls:
     """
-    What can be set and asked for.
+    The controls.
 
     :param answer: does an action for a page, and tells it what is wrong
     """
@@ -86,7 +86,7 @@ class Controls:
         return _value(self._duration)
 
     def show(self, moment: Moment) -> None:
-        """Tell of ``moment``."""
+        """Show the figures of ``moment``."""
         frame = moment.frame
         note = f'\n\n**{moment.note}**' if moment.note else ''
         self._tell(

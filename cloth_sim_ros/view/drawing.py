@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-"""What is in the scene of a page: the cloth, handles at its pins, and what it can touch."""
+"""The scene of a page: the cloth, handles at its pins, and colliders."""
 
 from collections.abc import Callable
 from typing import Any
@@ -126,7 +126,7 @@ def draw_surroundings(
         position=(float(middle[0]), float(middle[1]), level))
 
 
-# What the cloth can touch, in the scene of a page.
+# The colliders in the scene of a page.
 
 COLOR = (140, 148, 158)
 # How far a plane is shown from its origin, in diagonals of the cloth.

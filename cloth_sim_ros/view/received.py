@@ -23,7 +23,7 @@ Check = Callable[[Any], bool]
 
 def problem_of(data: bytes | str, control: Callable[[str], Any]) -> str:
     """
-    Return what is wrong with a message from a page; empty when viser may have it.
+    Return the fault of a message from a page; empty when viser may have it.
 
     viser itself sets any attribute of a control to any value, and moves handles to positions
     that have no place in space.

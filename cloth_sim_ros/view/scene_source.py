@@ -76,7 +76,7 @@ class SceneSource(Source):
         return self._latest
 
     def set_paused(self, is_paused: bool) -> None:
-        """Stop the time, or let it go on."""
+        """Pause or resume the time."""
         def change(_: Simulation) -> None:
             if self._run_state == STOPPED:
                 raise ClothSimError(f'{self._note}: reset first')
@@ -128,7 +128,7 @@ class SceneSource(Source):
         self._ask(lambda simulation: simulation.pin(row, col))
 
     def release(self, row: int, col: int) -> None:
-        """Let the node (row, col) go."""
+        """Release the node (row, col)."""
         self._ask(lambda simulation: simulation.release(row, col))
 
     def move_pin(self, row: int, col: int, target: Sequence[float]) -> None:
@@ -157,7 +157,7 @@ class SceneSource(Source):
         started.set_result(None)
         try:
             self._run(simulation)
-        # Such as a device that is gone: what is asked for from now on is answered with it.
+        # Such as a device that is gone: what is requested from now on is answered with it.
         except Exception as error:
             if self._latest is not None:
                 self._latest = replace(self._latest, run_state=STOPPED, note=str(error))
@@ -178,7 +178,7 @@ class SceneSource(Source):
                 due = max(due + self._frame_seconds, now - _MOST_BEHIND)
 
     def _answer_requests(self, simulation: Simulation, due: float) -> bool:
-        """Do what is asked for until the next frame is due; False when the end is."""
+        """Serve requests until the next frame is due; False at the end."""
         while True:
             is_running = self._run_state == RUNNING
             wait = max(due - time.monotonic(), 0.0) if is_running else None

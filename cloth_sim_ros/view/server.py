@@ -31,7 +31,7 @@ _ORDINARY = 'opening handshake failed'
 
 
 class Complaints:
-    """Print what is wrong with what comes from outside, on stderr and not too often."""
+    """Print faults of requests from outside on stderr, not too often."""
 
     def __init__(self) -> None:
         """Begin with none."""
@@ -189,7 +189,7 @@ def open_server(host: str, port: int) -> Iterator[ViewServer]:
 
 
 def _check_free(host: str, port: int) -> None:
-    # Viser would go on to the next free port, which nobody asked for.
+    # Viser would go on to the next free port, which nobody requested.
     if not 0 < port < 65536:
         raise ClothSimError(f'--port must be from 1 to 65535, got {port}')
     try:

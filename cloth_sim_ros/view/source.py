@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-"""What a view shows, and what it can ask for."""
+"""The interface of sources that a view shows."""
 
 from abc import ABC
 from abc import abstractmethod
@@ -39,7 +39,7 @@ class Source(ABC):
     """
     A cloth that moves, of which the latest moment can be had from any thread.
 
-    What is asked for raises ClothSimError when it cannot be done. What ``modes``, ``can_act``,
+    What is requested raises ClothSimError when it cannot be done. What ``modes``, ``can_act``,
     ``span`` and ``cameras`` rule out is not offered by the page: a source need not define it, and
     refuses it.
 
@@ -62,7 +62,7 @@ class Source(ABC):
 
     @abstractmethod
     def set_paused(self, is_paused: bool) -> None:
-        """Stop the time, or let it go on."""
+        """Pause or resume the time."""
 
     @abstractmethod
     def close(self) -> None:
@@ -101,7 +101,7 @@ class Source(ABC):
         raise self._refusal('take new pins')
 
     def release(self, row: int, col: int) -> None:
-        """Let the node (row, col) go."""
+        """Release the node (row, col)."""
         raise self._refusal('release pins')
 
     def move_pin(self, row: int, col: int, target: Sequence[float]) -> None:

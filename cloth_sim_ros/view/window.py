@@ -23,7 +23,7 @@ import viser
 
 class Window:
     """
-    Shows ``source`` on every page that is open, and does there what is asked for.
+    Shows ``source`` on every page that is open, and carries out its requests.
 
     :param server: to be used by this window alone
     """

@@ -12,7 +12,7 @@ uniform float lead;       // [s] half of what the acceleration acts for on a clo
 uniform float most_rate;  // [1/s]
 
 #if MEASURES_RATE
-float fastest_rate = 0.0;  // [1/s] of those asked for
+float fastest_rate = 0.0;  // [1/s] of those requested
 #endif
 
 // The acceleration over the velocity of the air past the cloth [1/s]; before: without the lead's

@@ -29,7 +29,7 @@ void add_speed(inout Bound bound, vec3 v) {
     bound.fastest = square <= bound.fastest ? bound.fastest : square < 1e30 ? square : 1e30;
 }
 
-// List the block if any of its nodes may come to a collider in the substep.
+// List the block if any of its nodes may reach a collider in the substep.
 void list_if_near(Bound bound, ivec2 first) {
     uint bodies = near_bodies(
         0.5 * (bound.least + bound.most), 0.5 * WIDER * length(bound.most - bound.least),

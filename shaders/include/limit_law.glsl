@@ -42,7 +42,7 @@ Edge edge_between(vec4 start, vec4 end, int code) {
     return Edge(d, l, l - over, over, give);
 }
 
-// Whether an edge is far beyond its limit, and no impulse has held it in the substep before.
+// Whether an edge is far beyond its limit, and no impulse has held it in the previous substep.
 bool is_missed(Edge edge, int code, vec3 given) {
     float beyond = (code < SHORTEST ? edge.over : -edge.over) / closing;
     return beyond > MISSED * limit * rest_of(code) && given == vec3(0.0);

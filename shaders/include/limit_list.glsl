@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 
 // List the edges of a block that come near a limit in an explicit substep that has been made,
-// judged with the impulses of the substep before. load_next_position and load_change have to be
+// judged with the impulses of the previous substep. load_next_position and load_change have to be
 // there.
 
 #include "cells.glsl"

@@ -43,7 +43,7 @@ Node load_node(int row, int col) {
     vec4 x = load_next_position(index);
     vec3 v = load_next_velocity(index);
 #if HAS_CONTACT
-    // What colliders stopped in the substep before, they stop in this one.
+    // What colliders stopped in the previous substep, they stop in this one.
     vec3 change = load_change(index);
     x.xyz += substep * change;
     v += change;

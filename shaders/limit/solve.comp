@@ -50,7 +50,7 @@ uniform bool lists_first;
 #include "limit_list.glsl"
 #endif
 
-uniform float most_scale;  // of the impulses of the substep before at most
+uniform float most_scale;  // of the impulses of the previous substep at most
 uniform int round_limit;
 uniform int begins_step;
 uniform int work_limit;    // of edges of an invocation times rounds
@@ -198,7 +198,7 @@ void main() {
     if (edges == 0) {
         return;
     }
-    // The impulses of the substep before, times what takes most from the energy.
+    // The impulses of the previous substep, times what takes most from the energy.
     vec4 gain = vec4(0.0);
 #if HAS_CONTACT
     for (int i = LANE; i < nodes; i += LOCAL) {
@@ -240,7 +240,7 @@ void main() {
         changes[PREVIOUS_AT + i].xyz = start;
     }
     barrier();
-    // Jacobi rounds, accelerated (Nesterov), begun anew when they overshoot.
+    // Jacobi rounds, accelerated (Nesterov), restarted when they overshoot.
     float momentum = 1.0;
     float enough = 0.0;
     int rounds = 0;

@@ -30,7 +30,7 @@ vec2 limit_dot() {
     float pixel = 0.5 * (across.x + across.y);
     vec2 sharp = clamp(
         (vec2(DOT_RADIUS, DOT_INSIDE) - away) / max(pixel, 1e-6) + 0.5, vec2(0.0), vec2(1.0));
-    // Where a cell is hardly larger than a pixel, a dot is a tint.
+    // Where a cell is about as small as a pixel, a dot is a tint.
     return mix(sharp, vec2(0.0, DOT_TINT), smoothstep(0.25, 0.5, pixel));
 }
 #endif

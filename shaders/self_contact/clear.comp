@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 
 #version 430 core
-// Forget the contacts that were found: what they did to their nodes, one of those an invocation.
+// Clear the contacts and their impulses on nodes, one node an invocation.
 
 #include "lattice.glsl"
 #include "self_contact/head.glsl"

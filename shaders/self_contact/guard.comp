@@ -101,7 +101,7 @@ void guard(uint own, uint other, float least) {
         axis /= l;
         vec4 ends = spans(axis);
         if (which % 2 == 1 && ends.x - ends.y < 0.0) {
-            // The side that the first feature is on is known for what is nearest alone.
+            // The side of the first feature is known for the nearest points only.
             axis = -axis;
             ends = spans(axis);
         }
@@ -138,7 +138,7 @@ void main() {
     bool is_there = has_pair();
     uint i = is_there ? pair_place() : 0u;
     Pair pair = load_pair(i);
-    // Cells have gone that far already, with the substep under way.
+    // Cells have gone that far already, with the present substep.
     vec2 ways = ways_of(pair);
     float least = pair.distance - ways.x + ways.y;
     if (is_there && (1.0 - LEFT) * least <= ways.y + rounding) {

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 
 #version 430 core
-// How far nodes have moved since the lists of pairs were made, with the substep under way, and how
+// How far nodes have moved since the lists of pairs were made, with the present substep, and how
 // fast they are, and the largest coordinate: STRIP nodes of a column an invocation.
 
 #define POSITIONS_ALONE 1

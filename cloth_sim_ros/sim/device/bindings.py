@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-"""Which buffer stands where for the shaders: numbers that stand once, for both sides."""
+"""Binding points of buffers, defined once for Python and the shaders."""
 
 POSITION_IN = 0
 VELOCITY_IN = 1

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-"""How the lattice lies in memory, and the compile-time choices that suit a device."""
+"""The memory layout of the lattice, and the compile-time choices for a device."""
 
 from dataclasses import dataclass
 from dataclasses import replace

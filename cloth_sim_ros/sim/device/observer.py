@@ -35,7 +35,7 @@ _SLAB_BYTES = 32 * 2**20
 
 class Observer:
     """
-    Runs observe.comp; compiles and allocates for records only when they are asked for.
+    Runs observe.comp; compiles and allocates for records only when they are requested.
 
     :param families: of the edges that there are
     """
@@ -182,7 +182,7 @@ class Observer:
 
 
 def _added(totals: np.ndarray, sums: np.ndarray) -> np.ndarray:
-    """Return ``totals`` with those of a slab: what is a largest value is not added."""
+    """Return ``totals`` with those of a slab: largest values are not added."""
     added = totals + sums.sum(axis=0, dtype=np.float64)
     added[3] = max(totals[3], float(sums[:, 3].max()))
     return added

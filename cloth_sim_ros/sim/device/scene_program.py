@@ -53,7 +53,7 @@ class SceneProgram:
         """
         Return the program, in use and set to a substep of ``length`` [s] under ``forcing``.
 
-        :param kick: what forces act for [s], in shaders that tell it from the length
+        :param kick: what forces act for [s], in shaders that distinguish it from the length
         """
         program = self.use()
         forcing.bind()
@@ -77,7 +77,7 @@ class SceneProgram:
         return self._program
 
     def delete(self) -> None:
-        """Release the program; it is compiled anew when it is used again."""
+        """Release the program; it is compiled again at the next use."""
         if self._program is not None:
             self._program.delete()
             self._program = self._set = None
@@ -136,7 +136,7 @@ class Strips:
 
     @staticmethod
     def defines() -> dict[str, object]:
-        """Return what the shader of such a pass needs to know."""
+        """Return the defines of the shader of such a pass."""
         return {'LOCAL_X': _LOCAL[0], 'LOCAL_Y': _LOCAL[1], 'STRIP': _STRIP}
 
     def dispatch(self, program: Program) -> None:

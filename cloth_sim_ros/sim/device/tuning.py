@@ -20,7 +20,7 @@ from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.model.scene_fields import SCENE_FIELDS
 from cloth_sim_ros.sim.scene import Scene
 
-# In the environment: with one of these words, every device is taken for one without a tuning.
+# In the environment: with one of these words, no device has a tuning.
 VARIABLE = 'CLOTH_SIM_TUNING'
 OFF = 'off'
 _OFF = (OFF, 'no', 'false', '0')
@@ -47,7 +47,7 @@ class Choice:
         return f'{self.loads} loads, block {self.block}'
 
 
-# As in a scene: what the code chooses for a device that nobody has measured.
+# As in a scene: what the code chooses for a device without measurements.
 BUILT_IN = Choice('auto', 0)
 
 

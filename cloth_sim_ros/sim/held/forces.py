@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-"""What the cloth feels, for a snapshot and for pins that may not pull too hard."""
+"""Forces on pins and grasps, for a snapshot and for the max. force of pins."""
 
 from dataclasses import replace
 
@@ -44,7 +44,7 @@ def with_forces(
 
 
 def pulled_too_hard(scene: Scene, state: State, mode: Mode, pins: PinMotion) -> list[Node]:
-    """Return the pins under way that edges pull harder at than ``pin.max_force`` now."""
+    """Return the moving pins that edges pull harder at than ``pin.max_force`` now."""
     most, nodes = scene['pin.max_force'], pins.moving
     if not (most and nodes):
         return []

@@ -102,7 +102,7 @@ class Grasps:
         return name in self._held
 
     def end(self, name: str) -> None:
-        """Let the nodes of a grasp go, with the velocity that they have."""
+        """Release the nodes of a grasp, with the velocity that they have."""
         for row, col in self._held.pop(name).nodes.tolist():
             self._pins.release(row, col)
         self._paths.drop(name)

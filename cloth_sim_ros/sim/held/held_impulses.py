@@ -136,12 +136,12 @@ class HeldImpulses:
         self._how: tuple[int, ...] = ()
         # Where the sums are now, and where they were when they were kept.
         self._now = self._kept = 0
-        # Whether a step is under way that is recorded.
+        # Whether the present step is recorded.
         self.is_within_step = False
         self._until_last = 0
         # Velocities that pins had as the last step ended, those that rest left out.
         self.velocities: dict[Node, np.ndarray] = {}
-        # And those that they have in the step under way.
+        # And those that they have in the present step.
         self._within: dict[Node, np.ndarray] = {}
         self._own_values = np.zeros((0, 4), dtype=np.float32)
         self._has_own_begin = False
@@ -156,7 +156,7 @@ class HeldImpulses:
 
     @property
     def is_recording(self) -> bool:
-        """Return whether some node is held in the step under way."""
+        """Return whether some node is held in the present step."""
         return self.is_within_step and self._holders is not None
 
     def begin_step(
@@ -172,7 +172,7 @@ class HeldImpulses:
         :param caught: velocities of nodes that were free when they were pinned, since the last
             step
         :param edits: State.edits; if equal, the same nodes are pinned
-        :return: impulses since ``take`` that are not to be had any more, as other nodes are held
+        :return: impulses since ``take`` that are lost, as other nodes are held
         """
         before = None
         if not self._holds_the_same(pinned, grasps, edits):
@@ -193,7 +193,7 @@ class HeldImpulses:
         self._last = None
 
     def expect_steps(self, substeps: int) -> None:
-        """Tell that so many ``substeps`` come before those of the last step of dt."""
+        """Skip ``substeps`` that come before those of the last step of dt."""
         self._until_last = substeps
 
     def end_step(self, velocities: Mapping[Node, np.ndarray]) -> None:
@@ -303,7 +303,7 @@ class HeldImpulses:
             == [(grasp.name, id(grasp.nodes)) for grasp in self._grasped])
 
     def _rebuild(self, pinned: np.ndarray, grasps: Sequence[HoldsNodes]) -> None:
-        """Give each held node a slot, and begin to add up anew."""
+        """Give each held node a slot, and set the sums to zero."""
         self._pinned, self._grasped = pinned.copy(), tuple(grasps)
         self._goes_on = self._has_frame = False
         self._last = self._read = None
@@ -330,7 +330,7 @@ class HeldImpulses:
         self._place(holders)
 
     def _place(self, holders: Holders) -> None:
-        """Tell shaders the slots of nodes."""
+        """Upload the slots of nodes."""
         slots = len(holders.nodes)
         self._capacity = max(_FEWEST_SUBSTEPS, min(_MOST_SUBSTEPS, _ENTRIES // slots))
         size = (self._header + self._capacity * slots) * _VECTOR_BYTES

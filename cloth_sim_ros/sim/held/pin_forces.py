@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-"""What edges and bending pull nodes with at one moment, and what a pin feels."""
+"""Forces of edges and bending on nodes at one moment, and on pins."""
 
 from dataclasses import dataclass
 from functools import lru_cache

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-"""The pins of a run: which nodes they hold, where they go, and what is asked of them."""
+"""The pins of a run: which nodes they hold, their moves, and requests to them."""
 
 from collections.abc import Collection
 from collections.abc import Sequence
@@ -82,7 +82,7 @@ class PinMotion:
         self._state.set_pinned(row, col, True)
 
     def release(self, row: int, col: int) -> None:
-        """Let the node (row, col) go, with the velocity its pin has."""
+        """Release the node (row, col), with the velocity its pin has."""
         self.check_node(row, col)
         for entries in (self._paths, self._on_device, self.caught, self._off):
             entries.pop((row, col), None)
@@ -92,7 +92,7 @@ class PinMotion:
             self, row: int, col: int, target: Sequence[float], speed: float | None,
             now: float) -> PinPath:
         """
-        Begin to move the pin (row, col) ``now`` [s], instead of a move under way.
+        Begin to move the pin (row, col) ``now`` [s], instead of a move in progress.
 
         :param speed: [m/s]; None for the scene's pin_speed
         :return: its path, with the time of arrival
@@ -103,7 +103,7 @@ class PinMotion:
             self._checked(row, col, target, speed, now, self._state.pinned[row, col]))
 
     def follow(self, row: int, col: int, way: Way) -> None:
-        """Let the pin (row, col) follow what carries it."""
+        """Let the pin (row, col) follow a moving frame."""
         self._paths[row, col] = way
 
     def position(self, row: int, col: int, now: float) -> np.ndarray:
@@ -114,7 +114,7 @@ class PinMotion:
         return path.position(now) + self._off.get((row, col), _REST)
 
     def drop(self) -> None:
-        """Forget the moves under way: the state was replaced, and its pins are at rest."""
+        """Forget the moves in progress: the state was replaced, and its pins are at rest."""
         for entries in (self._paths, self._on_device, self.caught, self._off):
             entries.clear()
 
@@ -220,7 +220,7 @@ class PinMotion:
         self._set_velocity(node, _REST)
 
     def _set_velocity(self, node: Node, velocity: np.ndarray) -> None:
-        # Each change is an edit, after which a mode has to look at the state anew.
+        # Each change is an edit, after which a mode has to examine the state again.
         if not np.array_equal(velocity, self._on_device.get(node, _REST)):
             self._state.set_pin_velocity(*node, velocity)
             self._on_device[node] = velocity

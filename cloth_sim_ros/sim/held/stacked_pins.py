@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-"""The pins under way of many cloths, all moved at once."""
+"""The moving pins of many cloths, all moved at once."""
 
 from cloth_sim_ros.gl.buffer import Buffer
 from cloth_sim_ros.gl.buffer import shader_writes_visible
@@ -36,7 +36,7 @@ class StackedPins:
         self._layout = layout
         self._state = state
         self._paths = np.empty(0, dtype=_PATH)
-        # Velocities of the step under way.
+        # Velocities of the present step.
         self._latest: np.ndarray = np.empty((0, 3))
         self._program = SceneProgram('place_pins.comp', scene, layout, {'PINS_LOCAL': _LOCAL})
         self._buffer: Buffer | None = None
@@ -50,7 +50,7 @@ class StackedPins:
             self, nodes: np.ndarray, targets: np.ndarray, speeds: np.ndarray,
             now: float) -> None:
         """
-        Begin to move pins ``now`` [s], each instead of its move under way.
+        Begin to move pins ``now`` [s], each instead of its move in progress.
 
         :param nodes: row in the stack and col of each, (n, 2) int, each once
         :param targets: (n, 3) [m]
@@ -72,7 +72,7 @@ class StackedPins:
         self._paths = self._paths[(row < rows.start) | (row >= rows.stop)]
 
     def begin_step(self, begin: float, end: float) -> None:
-        """Give the pins under way their velocities from ``begin`` to ``end`` [s]."""
+        """Give the moving pins their velocities from ``begin`` to ``end`` [s]."""
         if self.rest:
             return
         paths = self._paths

@@ -180,7 +180,7 @@ class ActiveLimits:
         return is_due
 
     def look_calls(self, state: State) -> list[Call]:
-        """Return the calls that mark blocks anew, in a substep that was written."""
+        """Return the calls that mark blocks again, in a substep that was written."""
         return [
             *self._out_calls(state), *self._lists.mark_none_calls(),
             *self._look.made.calls(*self._strips), DISPATCHES_VISIBLE]
@@ -230,11 +230,11 @@ class ActiveLimits:
         return listed
 
     def look_anew(self) -> None:
-        """Look at all edges in the next substep: what was foreseen does not hold any more."""
+        """Look at all edges in the next substep: the prediction does not hold any more."""
         self._until_look = 0
 
     def begin_step(self) -> None:
-        """Begin to count anew for ``tally_of_step``."""
+        """Restart the counts of ``tally_of_step``."""
         self._begins_step = True
         self._tally_of_step = LimitTally()
 
@@ -270,7 +270,7 @@ class ActiveLimits:
     def run_all_passes(
             self, state: State, limits: Limits, touch: Touch | None, held_at: int, *,
             are_many: bool) -> None:
-        """Hold edges of a substep that nobody needs, in a list or on the lattice."""
+        """Hold edges of a scratch substep, in a list or on the lattice."""
         self.look_anew()
         self._list_edges(state, limits, in_own_pass=True)
         self._add_edges(limits)
@@ -345,7 +345,7 @@ class ActiveLimits:
             shader_writes_visible()
 
     def _forget_contacts(self) -> None:
-        """Forget what others did to nodes in the substep before: edges are listed by now."""
+        """Forget what others did to nodes in the previous substep: edges are listed by now."""
         if self._has_others:
             self._lists.clear_changes()
 

@@ -26,7 +26,7 @@ _ROUNDS_AT_ONCE = 4
 @dataclass(frozen=True)
 class LatticeSolve:
     """
-    What a substep took.
+    The work of a substep.
 
     :param listed: edges
     :param active: those that have an impulse
@@ -87,7 +87,7 @@ class LatticeRounds:
         return LatticeSolve(listed, active, rounds, is_reached, energy, self._missed)
 
     def run_all_passes(self, limits: Limits, touch: Touch | None, held_at: int) -> None:
-        """Run each pass once, whatever is listed."""
+        """Run each pass once, for any list."""
         self._find(limits, touch)
         self.give(limits, held_at)
 

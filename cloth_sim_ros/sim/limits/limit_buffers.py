@@ -59,7 +59,7 @@ class LimitBuffers:
         return (_HEAD + self._layout.block_count) * _WORD
 
     def mark_none(self) -> None:
-        """Begin to mark blocks anew."""
+        """Unmark all blocks."""
         make(self.mark_none_calls())
 
     def mark_none_calls(self) -> list[Call]:

@@ -35,7 +35,7 @@ _MOTION = 0.01
 CLOSING = 0.1
 # Max. rounds of a substep [1].
 MOST_ROUNDS = 400
-# Max. factor of the impulses of the substep before [1].
+# Max. factor of the impulses of the previous substep [1].
 MOST_SCALE = 1.5
 # Gravity where the scene has none [m/s2].
 _STANDARD_GRAVITY = 9.81
@@ -118,12 +118,12 @@ class LimitProgram:
 
     @property
     def made(self) -> Program:
-        """Return the program, in use, as it is set."""
+        """Return the program, bound, with its uniforms set."""
         return self._pass.use()
 
     def _compliances(self, length: float) -> list[float]:
         """Return what edges pass their limit by for each impulse, where they stay there [s]."""
-        # What they are beyond it is taken away, a share in each substep.
+        # The excess is removed, a fraction per substep.
         return [CLOSING / (length * stiffness) for stiffness in self._stiffness]
 
     def _tolerances(self, limits: Limits) -> tuple[float, float, float]:

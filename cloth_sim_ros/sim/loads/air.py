@@ -30,13 +30,13 @@ _MOST_SHARE = 0.5
 _GRAVITY = 9.81
 # Speed of a node, over that of a cloth that falls its own size: more is not looked for [1].
 _FASTEST = 4.0
-# Fraction of a substep that is taken for rounding [1].
+# Fraction of a substep that counts as rounding [1].
 _NOTHING = 1e-6
 
 
 class AirWork:
     """
-    Adds up what the accelerations in force do as the free nodes move.
+    Adds up the work of the present accelerations on the free nodes.
 
     Reads positions and accelerations back at each look of the air, which is slow.
 
@@ -97,7 +97,7 @@ class Air:
         self._strips = Strips(layout, 1)
         self._drag, self._friction = air_coefficients(scene)
         self._inverse_area = 1.0 / math.prod(scene.spacing)
-        # How fast a cloth is moved, as a rule: as if it fell its own size on earth [m/s].
+        # Typical speed of a cloth: of a free fall by its own size on earth [m/s].
         size = math.hypot(scene['width'], scene['height'])
         self._own_speed = math.sqrt(2.0 * _GRAVITY * size)
         self._accelerations = Buffer(np.zeros((layout.stored, 4), dtype=np.float32))
@@ -110,7 +110,7 @@ class Air:
         self.begin_step(-math.inf)
 
     def begin_step(self, end: float) -> None:
-        """Tell that a step of dt begins that goes to ``end`` [s]."""
+        """Begin a step of dt that ends at ``end`` [s]."""
         self._step_end = end
         self._forget()
 

@@ -34,7 +34,7 @@ class Layers(Protocol):
 
 
 class Touch(Protocol):
-    """What the cloth touches in one step."""
+    """The contacts of the cloth in one step."""
 
     def set_in(self, program: Program, length: float) -> None:
         """Set contact.glsl in the program in use to a time of ``length`` [s]; bind its record."""
@@ -75,7 +75,7 @@ class Touch(Protocol):
         """Begin a substep that may be made again: remember what was done before it."""
 
     def undo_try(self) -> None:
-        """Forget what was done in that substep."""
+        """Undo the impulses of that substep."""
 
     def has_acted(self) -> bool:
         """Return whether colliders may have acted on a node in the explicit substep."""
@@ -84,13 +84,13 @@ class Touch(Protocol):
         """Write the velocities that nodes have on their way through ``ahead`` [s] from now."""
 
     def begin_substep(self) -> None:
-        """Begin to ask anew whether anything is touched, in an implicit substep."""
+        """Reset whether anything is touched, in an implicit substep."""
 
     def is_touched(self) -> bool:
         """Return whether a node has touched a collider in the implicit substep."""
 
     def begin_decision(self) -> None:
-        """Begin to ask anew whether another solve is due."""
+        """Reset whether another solve is due."""
 
     def is_solve_due(self, *, is_exact: bool = False) -> bool:
         """Return whether the last decision has moved nodes by more than a solve leaves."""
@@ -108,7 +108,7 @@ class Forcing:
     :param parts: pushes and shares that it was composed of; equal parts act alike
     :param reads_texture: whether shaders read ``regions`` as they read the state, by textures
     :param stand_in: a buffer of the same size, bound where there are no ``regions`` and textures
-        would be read: llvmpipe compiles a shader anew when a texture comes that was not there
+        would be read: llvmpipe recompiles a shader when a texture is bound that was not there
     :param touch: the colliders in the step; None where there are none
     """
 
@@ -122,7 +122,7 @@ class Forcing:
 
     @property
     def has_regions(self) -> bool:
-        """Return whether nodes are accelerated each by itself."""
+        """Return whether accelerations differ between nodes."""
         return self.regions is not None
 
     def apply(self, program: Program) -> None:
@@ -131,7 +131,7 @@ class Forcing:
         program.set_int('has_region_pushes', int(self.has_regions))
 
     def bind(self) -> None:
-        """Bind the regions for the next dispatch, or what stands in for them, if anything."""
+        """Bind the regions for the next dispatch, or their stand-in, if there is one."""
         buffer = self.stand_in if self.regions is None else self.regions
         if buffer is not None:
             if self.reads_texture:

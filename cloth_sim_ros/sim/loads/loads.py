@@ -59,7 +59,7 @@ class Loads:
             self.contacts.begin_run()
 
     def begin_step(self, begin: float, end: float) -> None:
-        """Tell that a step of dt goes from ``begin`` to ``end`` [s]."""
+        """Begin a step of dt from ``begin`` to ``end`` [s]."""
         if self.air is not None:
             self.air.begin_step(end)
         if self.contacts is not None:
@@ -119,7 +119,7 @@ class Loads:
         return 0.0 if self.air is None else self.air.margin(state, begin, end, length)
 
     def keep_account(self) -> None:
-        """Begin to add up the work that ``work`` tells."""
+        """Start adding up the work that ``work`` returns."""
         if self.air is not None:
             self.air.work = AirWork(*self._masses)
 

@@ -25,7 +25,7 @@ MOST_PUSHES = 1000
 @dataclass(frozen=True)
 class AppliedPush:
     """
-    A push and what it acts on.
+    A push and its nodes.
 
     :param nodes: free nodes it acts on; 0 for a scheduled one, whose nodes are not known yet
     """
@@ -86,7 +86,7 @@ class PushField:
             gravity, reads_texture=layout.texture_loads,
             stand_in=stand_in if layout.texture_loads else None)
         self._latest: tuple[object, Forcing] = ((), self.still)
-        # What the latest was asked for: a substep asks several times.
+        # Arguments of the latest call: a substep asks several times.
         self._asked: object = None
 
     @property
@@ -161,7 +161,7 @@ class PushField:
         for entry, is_to_come in kept:
             if is_to_come:
                 entry.inside, entry.nodes = None, 0
-        # They may hold nodes and accelerations of pushes that begin anew.
+        # They may hold nodes and accelerations of pushes that begin again.
         self._in_buffer, self._latest, self._asked = (), ((), self.still), None
 
     def speed_gained(self, begin: float, end: float) -> float:

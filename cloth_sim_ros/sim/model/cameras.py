@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-"""Pinhole cameras of a scene: their parameters, where they stand, and how they project."""
+"""Pinhole cameras of a scene: their parameters, their poses, and how they project."""
 
 from __future__ import annotations
 

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-A cloth as a set of cells: what of them its nodes, edges and lines of bending stand for.
+A cloth as a set of cells: the parts of cells that belong to nodes, edges and bending lines.
 
 A cell gives a quarter of its mass to each of its corners, half of its stiffness to each of its
 sides, and all of it to its diagonals. Two cells side by side give half of theirs to the lines of

@@ -80,7 +80,7 @@ class EdgeKind:
             np.s_[self.drow:self.drow + height, left + self.dcol:left + self.dcol + width])
 
     def starting_at(self, nodes: np.ndarray, rows: int, cols: int) -> np.ndarray:
-        """Tell which ``nodes`` (n, 2) are the start of an edge of the cloth."""
+        """Return which ``nodes`` (n, 2) are the start of an edge of the cloth."""
         starts_inside = _are_inside(nodes, rows, cols)
         return starts_inside & _are_inside(nodes + (self.drow, self.dcol), rows, cols)
 

@@ -32,7 +32,7 @@ class FrameMove:
     """
     A move to a pose: in a straight line and about one axis, at constant speed, then at rest.
 
-    Whatever takes longer at its speed, way or rotation, sets how long both take.
+    Translation and rotation both take the time of the slower one.
 
     :param name: of the collider or grasp
     :param target: of its origin, x y z [m]
@@ -170,7 +170,7 @@ class FramePaths:
 
     def add(self, move: FrameMove) -> FramePath:
         """
-        Begin a move at its start, from where its frame is then; what was earlier is forgotten.
+        Begin a move at its start, from where its frame is then; earlier frames are dropped.
 
         :return: its path
         """

@@ -37,7 +37,7 @@ class Look:
     Colours as a screen has them, red green blue from 0 to 1, and the sun.
 
     :param fabric: one of FABRICS
-    :param color: of the side that is up when the cloth lies flat
+    :param color: of the upper side of a flat cloth
     :param back_color: of the other side
     :param second_color: of the ground of checks, or of the weft
     :param pitch: side of a check, or distance of two threads [m]

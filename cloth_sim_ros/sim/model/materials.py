@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-"""The stiffness of springs, as a scene says or as it follows from a material or fabric."""
+"""The stiffness of springs, given by a scene, or derived from a material or fabric."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -10,7 +10,7 @@ from typing import Any
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.model.scene_fields import NO_PRESET
 
-# How stiff the springs of a scene are: as it says, or as they follow from its material.
+# How stiff the springs of a scene are: as given, or derived from its material.
 #
 # A lattice with springs k_row and k_col along rows and columns and k_shear along both diagonals of
 # cells dx x dy, of length l, is a sheet with (docs/explanation/numerics.md derives it)

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-"""The wind: what blows always, what was set since, and gusts at their times."""
+"""The wind: steady, as set since, and gusts at their times."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -56,7 +56,7 @@ class Wind:
 
     @property
     def fastest(self) -> float:
-        """Return what no wind exceeds until another one is set [m/s]."""
+        """Return the largest possible speed until another wind is set [m/s]."""
         return math.hypot(*self.steady) + sum(math.hypot(*gust.velocity) for gust in self._gusts)
 
     def mean(self, begin: float, end: float) -> np.ndarray:

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-"""The simulation modes: small objects that know the passes of one substep."""
+"""The simulation modes: small objects with the passes of one substep."""
 
 from cloth_sim_ros.sim.modes.adaptive import Adaptive
 from cloth_sim_ros.sim.modes.constraint import Constraint

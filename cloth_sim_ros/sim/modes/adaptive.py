@@ -76,14 +76,14 @@ _ROUGH_MOST = 512
 # either: a shaken towel takes 0.8 of the time (shaken_towel.py --seconds 4); with 3, edges reach
 # 1.68 times their limit, not 1.35 (limits.py).
 _DEAR = 6.0
-# Strain over the limit above which a new cloth is let down to it in some time [1].
+# Strain over the limit above which a new cloth is brought back gradually [1].
 _NOTABLE = 1.05
 # Substeps that still count as settling after a limit has closed in [1]: they reduce the strain
 # beyond it to 1e-3.
 _CLOSING_FOR = 64
 # Max. substep margin that is reported [1]; a finite number where edges turn at once.
 _LARGEST_MARGIN = 1e9
-# Fraction of a dt that is taken for rounding [1].
+# Fraction of a dt that counts as rounding [1].
 _NOTHING = 1e-9
 
 
@@ -203,11 +203,11 @@ class Adaptive:
 
     @staticmethod
     def step_ahead(state: State, gravity: Forcing, most: int) -> int:
-        """Return 0: each step goes by what the one before has found."""
+        """Return 0: each step depends on the previous one."""
         return 0
 
     def run_all_passes(self, state: State, loads: Loads, stop: Stop = never) -> None:
-        """Make substeps in all ways of a ``state`` that nobody needs."""
+        """Make substeps of all kinds of a scratch ``state``."""
         still = loads.still
         self._watch.strains(state, still, self._length)
         leave_if(stop)
@@ -247,7 +247,7 @@ class Adaptive:
         # Listed substeps since their tally was read, and until the next look at the edges.
         self._unreviewed = self._until_look = 0
         self._look_edits = -1
-        # Substeps that are yet to be taken for rough.
+        # Substeps that still count as rough.
         self._rough_left = 0
         # Such substeps in a row that were made.
         self._rough_made = 0
@@ -517,7 +517,7 @@ class Adaptive:
             return
         listed_cost = _LISTED_COST + _ROUND_COST * rounds
         whole_cost = _WHOLE_COST * length / whole_length
-        # A list holds a cloth better that is thrown, which is mostly over soon.
+        # In violent motion, which is mostly short, a list holds the limits better.
         is_put_off = 0 < self._rough_made < _ROUGH_MOST and listed_cost < _DEAR * whole_cost
         if listed_cost > whole_cost and not is_put_off:
             self._listed_then = tally.most_listed

@@ -36,7 +36,7 @@ def _bind(state: State, forcing: Forcing, ahead: float) -> None:
 
 class StrainWatch:
     """
-    Says for how many substeps no edge will come near its limit.
+    Predicts for how many substeps no edge comes near its limit.
 
     A look predicts every edge's length from velocities and applied accelerations. It holds for as
     long as no edge comes near by that, also beyond the end of a step, while neither the state is
@@ -54,7 +54,7 @@ class StrainWatch:
         self.forget()
 
     def forget(self) -> None:
-        """Start anew: the next answer needs a look."""
+        """Drop the prediction: the next answer needs a new one."""
         self._reach = _FEWEST
         self._left = 0
         self._until = 0.0
@@ -68,7 +68,7 @@ class StrainWatch:
         return self._left
 
     def advance(self, substeps: int) -> None:
-        """Tell that ``substeps`` of the calm ones were made."""
+        """Count ``substeps`` of the calm ones as made."""
         self._left -= substeps
 
     def strains(self, state: State, forcing: Forcing, ahead: float) -> tuple[float, float]:

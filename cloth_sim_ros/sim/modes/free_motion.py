@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-"""Keep the momentum of a cloth that nothing holds, whatever the residual of the solver."""
+"""Conserve the momentum of a free cloth for any residual of the solver."""
 
 from cloth_sim_ros.gl.buffer import shader_writes_visible
 from cloth_sim_ros.sim.device.layout import Layout

@@ -32,7 +32,7 @@ class LayeredAdaptive(WrittenSubsteps, Adaptive):
     def __init__(self, scene: Scene, layout: Layout, *, check_stability: bool = True) -> None:
         """Choose the substeps and compile the passes."""
         self._layers = LayeredSubsteps(scene, layout)
-        # Whether edges are held in the substep under way.
+        # Whether edges are held in the present substep.
         self._holds_edges = False
         super().__init__(scene, layout, check_stability=check_stability)
 
@@ -52,7 +52,7 @@ class LayeredAdaptive(WrittenSubsteps, Adaptive):
         super().step(state, begin, loads, stop)
 
     def run_all_passes(self, state: State, loads: Loads, stop: Stop = never) -> None:
-        """Make substeps in all ways of a ``state`` that nobody needs."""
+        """Make substeps of all kinds of a scratch ``state``."""
         self._layers.run_all_passes(state, loads, self._length, self)
         super().run_all_passes(state, loads, stop)
 
@@ -112,7 +112,7 @@ class LayeredAdaptive(WrittenSubsteps, Adaptive):
     def _make_alike(
             self, state: State, start: float, length: float, most: int, loads: Loads,
             stop: Stop) -> int:
-        """Return 0: each substep goes by what the one before has found."""
+        """Return 0: each substep depends on the previous one."""
         return 0
 
     def _make_listed(self, state: State, start: float, length: float, loads: Loads) -> None:

@@ -41,13 +41,13 @@ class LayeredConstraint(Constraint):
     def __init__(self, scene: Scene, layout: Layout, *, check_stability: bool = True) -> None:
         """Compile the solver."""
         self._layers = LayeredSubsteps(scene, layout, is_implicit=True)
-        # In the substep under way: the contact of layers, None where none touch; its length and
+        # In the present substep: the contact of layers, None where none touch; its length and
         # the time that forces act for [s]; and how a caller leaves it early.
         self._touching: SelfContact | None = None
         self._length = self._kick_now = scene['dt']
         self._stop = never
         self._cell = min(scene.spacing)
-        # Substeps of the step under way in which the impulses of layers did not converge [1].
+        # Substeps of the present step in which the impulses of layers did not converge [1].
         self._unsolved_layers = 0
         super().__init__(scene, layout, check_stability=check_stability)
 
@@ -58,7 +58,7 @@ class LayeredConstraint(Constraint):
         super().step(state, begin, loads, stop)
 
     def run_all_passes(self, state: State, loads: Loads, stop: Stop = never) -> None:
-        """Make a substep of a ``state`` that nobody needs, held and free."""
+        """Make a substep of a scratch ``state``, held and free."""
         super().run_all_passes(state, loads, stop)
         self._layers.run_all_passes(state, loads, self._dt, self)
         state.end_substep()

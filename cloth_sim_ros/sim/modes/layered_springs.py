@@ -41,7 +41,7 @@ class LayeredSprings(WrittenSubsteps, MassSpring):
                 state, begin + number * self._length, self._length, loads, self)
 
     def step_ahead(self, state: State, gravity: Forcing, most: int) -> int:
-        """Return 0: each substep goes by what the one before has found."""
+        """Return 0: each substep depends on the previous one."""
         return 0
 
     def kick(self, length: float) -> float:
@@ -61,7 +61,7 @@ class LayeredSprings(WrittenSubsteps, MassSpring):
         self.last_length = length
 
     def run_all_passes(self, state: State, loads: Loads, stop: Stop = never) -> None:
-        """Make a substep of a ``state`` that nobody needs."""
+        """Make a substep of a scratch ``state``."""
         super().run_all_passes(state, loads, stop)
         self._layers.run_all_passes(state, loads, self._length, self)
 
@@ -71,7 +71,7 @@ class LayeredSprings(WrittenSubsteps, MassSpring):
         self.last_length = self._length
 
     def report(self) -> dict[str, Any]:
-        """Return what the contact of the cloth with itself did in the last step."""
+        """Return the report of self-contact in the last step."""
         return self._layers.report()
 
     def delete(self) -> None:

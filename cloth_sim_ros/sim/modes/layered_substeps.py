@@ -27,7 +27,7 @@ _MOST_HALVINGS = 4
 
 
 class Motion(Protocol):
-    """How the nodes of a substep move, and what acts on them beside layers."""
+    """The motion of the nodes in a substep without layers, and other contacts."""
 
     def kick(self, length: float) -> float:
         """Return for how long [s] forces act in a substep of ``length`` [s]."""
@@ -38,13 +38,13 @@ class Motion(Protocol):
         """Write the state after ``length`` [s]."""
 
     def ends(self, state: State) -> SubstepEnds:
-        """Return the states that the substep under way begins and ends with."""
+        """Return the states that the present substep begins and ends with."""
 
     def act(
             self, state: State, forcing: Forcing, length: float,
             layers: SelfContact | None) -> None:
         """
-        Let what touches the cloth act on the state that was written.
+        Let contacts act on the state that was written.
 
         :param layers: the contact of the cloth with itself; None where no layers touch
         """
@@ -108,7 +108,7 @@ class LayeredSubsteps:
         return self.contact.has_pairs
 
     def begin_step(self) -> None:
-        """Begin to count anew what ``report`` tells."""
+        """Restart the counts of ``report``."""
         self._figures, self._halvings = SelfContactFigures(), 0
 
     def advance(
@@ -120,7 +120,7 @@ class LayeredSubsteps:
 
     def run_all_passes(
             self, state: State, loads: Loads, length: float, motion: Motion) -> None:
-        """Make a substep of a ``state`` that nobody needs."""
+        """Make a substep of a scratch ``state``."""
         motion.write(state, loads.still, loads, length, length)
         self.begin_contact(loads.still, length)
         self.contact.run_all_passes(motion.ends(state))

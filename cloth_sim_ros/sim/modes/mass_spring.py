@@ -40,7 +40,7 @@ _SUBMITTED_AT_ONCE = CHECKED_SUBSTEPS
 # Max. substeps of a tile between two checks [1]: one dispatch of 0.4 to 1 ms on a GPU, where a
 # check takes some 0.1 ms.
 _TILED_AT_ONCE = 256
-# Fraction of a substep that is taken for rounding [1].
+# Fraction of a substep that counts as rounding [1].
 _ROUNDING = 1e-6
 
 
@@ -71,7 +71,7 @@ class OnePass:
         """
         Step ``state`` on by ``length`` [s].
 
-        :param kick: what forces act for [s], where the substep before had another length
+        :param kick: what forces act for [s], where the previous substep had another length
         """
         self.run(state, forcing, length, kick)
         state.swap()
@@ -170,7 +170,7 @@ class OnePass:
 
 
 class SubstepPasses(Protocol):
-    """What makes substeps of springs."""
+    """Makes substeps of springs."""
 
     def substep(self, state: State, forcing: Forcing, length: float) -> None:
         """Step ``state`` on by ``length`` [s]."""
@@ -209,7 +209,7 @@ class MassSpring:
 
     @staticmethod
     def make_passes(scene: Scene, layout: Layout) -> SubstepPasses:
-        """Compile and return what makes substeps."""
+        """Compile and return the passes of substeps."""
         return OnePass(scene, layout, acts_on_surface=True)
 
     @staticmethod
@@ -267,7 +267,7 @@ class MassSpring:
         return max(1, int(min(self._most_at_once, quiet / self._length + _ROUNDING)))
 
     def run_all_passes(self, state: State, loads: Loads, stop: Stop = never) -> None:
-        """Make a substep of a ``state`` that nobody needs."""
+        """Make a substep of a scratch ``state``."""
         self._passes.substep(state, loads.still, self._length)
         leave_if(stop)
         if self._tiles is not None:

@@ -32,7 +32,7 @@ class Mode(Protocol):
     ``strain_bound`` is what no structural or shear edge should be stretched or shortened beyond,
     0 for hard edges. ``is_implicit`` says that edges pull as the end of a substep asks, so that it
     has no stability limit; other modes step by symplectic Euler. ``has_memory`` says that a step
-    goes by more than the state and its time.
+    depends on more than the state and its time.
 
     :param check_stability: False takes a dt above the stability limit, to study what happens
     :raises ClothSimError: when the mode can't step the scene as it asks
@@ -64,7 +64,7 @@ class Mode(Protocol):
 
     @property
     def strain_bound(self) -> float:
-        """Get what no structural or shear edge should be stretched or shortened beyond."""
+        """Get the largest strain that structural and shear edges should have."""
 
     def __init__(self, scene: Scene, layout: Layout, *, check_stability: bool = True) -> None:
         """Compile and allocate what this mode needs and nothing else."""
@@ -104,10 +104,10 @@ class Mode(Protocol):
         """
 
     def run_all_passes(self, state: State, loads: Loads, stop: Stop = never) -> None:
-        """Run each pass that a step can need, on a ``state`` that nobody needs."""
+        """Run each pass that a step can need on a scratch ``state``."""
 
     def forget(self) -> None:
-        """Drop what was kept from earlier steps: the state is not the one they left."""
+        """Drop what earlier steps left: the state is another one."""
 
     def report(self) -> dict[str, Any]:
         """Return what the Snapshot says of solver and constraints, where it is not 0."""

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-"""A running node: what it publishes is shown, and what is asked for goes to its services."""
+"""A running node as a source: its topics are shown, requests go to its services."""
 
 from collections.abc import Callable
 from collections.abc import Sequence
@@ -193,7 +193,7 @@ class NodeSource(Source):
         return self._moment
 
     def set_paused(self, is_paused: bool) -> None:
-        """Stop the time, or let it go on."""
+        """Pause or resume the time."""
         self._call('pause', SetBool.Request(data=is_paused))
 
     def set_mode(self, mode: str) -> None:
@@ -222,7 +222,7 @@ class NodeSource(Source):
         self._call('set_pin', SetPin.Request(row=row, col=col))
 
     def release(self, row: int, col: int) -> None:
-        """Let the node (row, col) go."""
+        """Release the node (row, col)."""
         self._call('set_pin', SetPin.Request(row=row, col=col, release=True))
 
     def move_pin(self, row: int, col: int, target: Sequence[float]) -> None:

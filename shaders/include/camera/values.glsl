@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 // SPDX-License-Identifier: Apache-2.0
 
-// What is measured of the surface in a pixel.
+// Measured values of the surface in a pixel.
 
 #define TOO_NEAR uintBitsToFloat(0xff800000u)  // minus infinity (REP 117)
 

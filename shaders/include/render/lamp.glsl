@@ -19,7 +19,7 @@ float lamp_tap(vec3 at, float away, float angle) {
 // How much of the lamp a point sees, 0 to 1: the mean over a disc of LAMP_TAPS places.
 float lamp_share(vec3 point) {
     vec3 at = 0.5 + 0.5 * (lamp_matrix * vec4(point, 1.0)).xyz;
-    // What the lamp's picture has no part of is in no shadow; what is behind it may be.
+    // Outside the lamp's picture nothing is in shadow; behind it, it may be.
     if (any(lessThan(at.xy, vec2(0.0))) || any(greaterThan(at.xy, vec2(1.0)))) {
         return 1.0;
     }

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-"""The methods of the paper as it has them: what the modes of this project are compared with."""
+"""The methods of the paper as printed, for comparison with the modes of this project."""
 
 from cloth_sim_ros.sim.modes.mode import Mode
 from cloth_sim_ros.sim.modes.paper.one_solve import PaperConstraint

@@ -153,7 +153,7 @@ class PaperLimit:
             self._substep(state, loads.forcing(state, start, start + self._length))
 
     def run_all_passes(self, state: State, loads: Loads) -> None:
-        """Make a substep of a ``state`` that nobody needs."""
+        """Make a substep of a scratch ``state``."""
         self._substep(state, loads.still)
 
     def tensions(self) -> np.ndarray:
@@ -240,11 +240,11 @@ class PaperAdaptive:
 
     @staticmethod
     def step_ahead(state: State, gravity: Forcing, most: int) -> int:
-        """Return 0: each step goes by what the one before has found."""
+        """Return 0: each step depends on the previous one."""
         return 0
 
     def run_all_passes(self, state: State, loads: Loads, stop: Stop = never) -> None:
-        """Make substeps with and without limit of a ``state`` that nobody needs."""
+        """Make substeps with and without limit of a scratch ``state``."""
         self._watch.strains(state, loads.still, self._length)
         leave_if(stop)
         self._springs.substep(state, loads.still, self._length)
