@@ -31,7 +31,7 @@ class DatasetFolder:
     """
 
     def __init__(self, path: str, asked: Mapping[str, Any]) -> None:
-        """Make the folder, or look what is in it."""
+        """Make the folder, or read its content."""
         self.path = Path(path)
         try:
             self._open(json.loads(json.dumps(asked)))

@@ -83,7 +83,7 @@ def _usual_camera() -> CameraModel:
 
 def _let_fall(random: np.random.Generator, simulation: Simulation, bounds: Bounds) -> None:
     """
-    Turn the cloth, let a hand lift one of its nodes, let go and wait.
+    Turn the cloth, lift one of its nodes, release it and wait.
 
     One that is pinned only waits.
     """
@@ -137,7 +137,7 @@ def _write(
         'time': picture.time, 'label_names': list(picture.label_names), **chosen,
         'annotations': mask_annotations(picture, corners)}
     target = path_of(folder, 'samples', number)
-    # What is there is whole: a run that was killed goes on behind it.
+    # Existing samples are whole: an interrupted run continues after them.
     passing = target.with_suffix('.part')
     passing.write_text(json.dumps(content), encoding='utf-8')
     os.replace(passing, target)

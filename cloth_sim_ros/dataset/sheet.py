@@ -22,7 +22,7 @@ def write_sheet(folder: Path, count: int, file: Path) -> int:
     """
     Write a sheet of the first of ``count`` samples that are there; return how many it shows.
 
-    Near is bright in the depth of each sample, and what is not there is white.
+    Near is bright in the depth of each sample, and missing values are white.
     """
     numbers = [
         number for number in range(count) if path_of(folder, 'samples', number).exists()][:_MOST]

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-"""What differs from sample to sample beside look and camera: fabric and start, at random."""
+"""Random variations of samples besides look and camera: fabric and start."""
 
 from __future__ import annotations
 

@@ -79,7 +79,7 @@ class ReferenceCloth(ABC):
         self.elastic_springs = self.springs
         self.gravity = np.array(scene['gravity'])
         self.masses = node_masses(scene)
-        # There is no node without a mass.
+        # No node without a mass.
         self.free = ~scene.pinned_nodes() & (self.masses > 0.0)
         self._over_mass = np.divide(
             1.0, self.masses, out=np.zeros_like(self.masses), where=self.masses > 0.0)[..., None]
@@ -139,7 +139,7 @@ class ReferenceCloth(ABC):
         return pushes + self._air_accelerations(begin, end) if self.scene.has_air else pushes
 
     def _air_accelerations(self, begin: float, end: float) -> np.ndarray:
-        """Return what the air gives by the present motion, 0 at pinned nodes [m/s2]."""
+        """Return the acceleration by the air, 0 at pinned nodes [m/s2]."""
         wind = wind_at(self.scene, begin, end)
         forces = air_forces(self.scene, self.positions, self.velocities, wind)
         return self.free[..., None] * forces * self._over_mass

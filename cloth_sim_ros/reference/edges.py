@@ -165,7 +165,7 @@ class Edges:
             for component in vectors.T], axis=1, dtype=float)
 
     def spring_forces(self, positions: np.ndarray, velocities: np.ndarray) -> np.ndarray:
-        """Return what the edges, as damped springs, do to each node [N]."""
+        """Return the forces of the edges, as damped springs, on each node [N]."""
         lengths, directions = _along(self.differences(positions))
         rates = np.einsum('ij,ij->i', self.differences(velocities), directions)
         tensions = self.stiffness * (lengths - self.rest_length) + self.damping * rates

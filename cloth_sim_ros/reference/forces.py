@@ -190,7 +190,7 @@ class Bending:
         return -(matrix @ velocities.ravel()).reshape(velocities.shape)
 
     def energy(self, positions: np.ndarray) -> float:
-        """Return what the bent cloth stores [J]."""
+        """Return the bending energy [J]."""
         return -0.5 * float(np.sum(positions * self.forces(positions)))
 
 

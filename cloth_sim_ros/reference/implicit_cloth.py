@@ -56,7 +56,7 @@ _SUBSTEP_ROUNDING = 1e-9
 @dataclass(frozen=True)
 class Report:
     """
-    What the last dt took.
+    The work of the last dt.
 
     :param substeps: that were made
     :param solves: linear solves in them
@@ -184,12 +184,12 @@ class ImplicitCloth(ReferenceCloth):
         return np.where(self.free[..., None], self.velocities, pins)
 
     def _pull(self, step: Step) -> np.ndarray:
-        """Return what the edges give to each node in a step [N s], (rows, cols, 3)."""
+        """Return the impulses of the edges on each node in a step [N s], (rows, cols, 3)."""
         return -self.law.edges.scatter(
             step.impulse, self.scene.node_count).reshape(self.positions.shape)
 
     def _pin_impulse(self, step: Step, held: np.ndarray, h: float) -> np.ndarray:
-        """Return what the pins give to the cloth: against edges and weight, and for speed."""
+        """Return the impulses of the pins: against edges and weight, and for acceleration."""
         masses = self.masses[..., None]
         sped_up = masses * (self._start(held) - self.velocities)
         return ~self.free[..., None] * (sped_up - self._pull(step) - h * masses * self.gravity)

@@ -129,7 +129,7 @@ class Passes:
     :param start: passes along the edges as they are at the start of the step, 1 or more; they
         find the limits that are in force
     :param end: passes along the edges as they are at its end; they take away what lengths are off
-    :param foresees_turn: let the start passes allow for how much longer edges get by turning
+    :param foresees_turn: let the start passes predict the rotation of edges
     :param beta: share of K_geo in the matrix; 0 leaves it out, and large steps then blow up
     :param solves: the most linear solves of one pass, which ends when nothing is missing
     """
@@ -141,7 +141,7 @@ class Passes:
     solves: int = 40
 
     def __post_init__(self) -> None:
-        """Refuse what makes no step."""
+        """Refuse invalid options."""
         for name, least in (('start', 1), ('end', 0), ('solves', 1), ('beta', 0.0)):
             if not getattr(self, name) >= least:
                 raise ClothSimError(
@@ -160,7 +160,7 @@ def passes_of(scene: Scene) -> Passes:
 @dataclass(frozen=True)
 class Step:
     """
-    What a step has come to.
+    The result of a step.
 
     :param positions: at its end (nodes, 3) [m]
     :param velocities: (nodes, 3) [m/s]
@@ -181,7 +181,7 @@ class Step:
 @dataclass(frozen=True)
 class _Pass:
     """
-    What is frozen in a pass: the lengths without dv, and what acts without the edges.
+    Constants of a pass: the lengths without dv, and loads other than the edges.
 
     :param directions: n (edges, 3)
     :param lengths: [m]
@@ -324,7 +324,7 @@ class ImplicitStep:
         return 1.0 if down(1.0) >= 0.0 else brentq(down, 0.0, 1.0, xtol=1e-3)
 
     def _right(self, one: _Pass, change: np.ndarray) -> np.ndarray:
-        """Return what is missing of the momentum of each free node [kg m/s]."""
+        """Return the missing momentum of each free node [kg m/s]."""
         tension = self._law(one, change)
         return self._free * (
             self._masses * (one.driven - change)

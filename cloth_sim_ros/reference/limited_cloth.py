@@ -53,7 +53,7 @@ class LimitProjection:
     at rest that is pulled with the force F stays E F beyond its limit, at any h.
 
     The dual is solved: one impulse for each edge and limit, by accelerated proximal gradient steps
-    that begin anew where they overshoot.
+    that restart where they overshoot.
 
     :param edges: all of them have both limits
     :param inverse_masses: of the nodes, 0 for pins [1/kg]

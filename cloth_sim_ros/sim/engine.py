@@ -90,7 +90,7 @@ class Engine:
         return make
 
     def delete(self) -> None:
-        """Release what it allocated; its context, or one beside it, has to be current."""
+        """Release its buffers and programs; its context, or one beside it, has to be current."""
         for part in (self.observer, self.guard, self.mode):
             part.delete()
 
@@ -162,7 +162,7 @@ class Preparation:
         return sum(count > 0 for count in self._inventory.dispatches())
 
     def cancel(self) -> None:
-        """Let ``run`` return soon; what one program takes to compile can't be cut short."""
+        """Let ``run`` return soon, after the program that is being compiled."""
         self._is_cancelled = True
 
     def run(self) -> None:

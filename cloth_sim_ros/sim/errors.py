@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-"""Errors that a user can correct: each says rule, value and way out in one sentence."""
+"""Errors that a user can correct: rule, value and remedy in one sentence."""
 
 from cloth_sim_ros.files.errors import ClothSimError
 from cloth_sim_ros.files.errors import NameTakenError
@@ -26,7 +26,7 @@ class NonFiniteStateError(ClothSimError):
 
     def __init__(
             self, message: str, *, steps: int, node: tuple[int, int] | None = None) -> None:
-        """Keep what the message says."""
+        """Keep the parts of the message."""
         super().__init__(message)
         self.steps = steps
         self.node = node

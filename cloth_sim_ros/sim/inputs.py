@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-What can be done to a running cloth: one class an input.
+Inputs of a running cloth, one class each.
 
 Services, topics, Python, the scene's timed entries and the replay of a recording all make these.
 ``apply`` checks an input and carries it out, between two steps of dt; bad values change nothing.
@@ -206,7 +206,7 @@ class TakeGrasp:
 
     @classmethod
     def asked_by(cls, request: GraspRequest) -> TakeGrasp:
-        """Return the input that does what a timed grasp of the scene asks for."""
+        """Return the input of a timed grasp of the scene."""
         return cls(
             request.name, request.pose.position, request.pose.orientation, request.radius,
             0 if request.radius else request.count, request.max_force, layers=request.layers)
@@ -243,7 +243,7 @@ class Release:
     by_force: bool = False
 
     def apply(self, cloth: Cloth) -> tuple[Release, Grasp]:
-        """Return what the grasp held."""
+        """Return the nodes that the grasp held."""
         by_force = flag(self.by_force, 'by_force')
         grasp = _holding(cloth, self.name)
         cloth.held.end(grasp.name)

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-"""A running cloth: its state on the device, what is done to it, its steps, and what it shows."""
+"""A running cloth: its state on the device, inputs, steps and snapshots."""
 
 from collections.abc import Callable
 from collections.abc import Mapping
@@ -184,7 +184,7 @@ class Simulation(AbstractContextManager['Simulation']):
 
     @property
     def stability_margin(self) -> float:
-        """Return the substep over what it should be at most, see Snapshot."""
+        """Return the substep over its upper bound, see Snapshot."""
         return self.engines.in_use.mode.substep_margin if self.is_ready else 0.0
 
     @property
@@ -314,7 +314,7 @@ class Simulation(AbstractContextManager['Simulation']):
 
     def apply(self, given: Input) -> Any:
         """
-        Apply an input now, and notify the listener of what was accepted.
+        Apply an input now, and notify the listener of the accepted input.
 
         :return: its outcome
         :raises ClothSimError: when it can't be applied; nothing is changed then
@@ -384,7 +384,7 @@ class Simulation(AbstractContextManager['Simulation']):
 
     @property
     def pin_moves(self) -> tuple[PinMove, ...]:
-        """Return the moves of pins that are under way."""
+        """Return the moves of pins in progress."""
         return self.pin_motion.under_way
 
     def pinned_nodes(self) -> np.ndarray:
@@ -474,7 +474,7 @@ class Simulation(AbstractContextManager['Simulation']):
 
     @property
     def grasp_paths(self) -> tuple[FramePath, ...]:
-        """Return the paths of grasps that are under way."""
+        """Return the paths of moving grasps."""
         return self.held.under_way(self.time)
 
     @property
@@ -534,7 +534,7 @@ class Simulation(AbstractContextManager['Simulation']):
 
         Grasps and moves in progress are not: call ``grasp``, ``move_pin``, ``move_grasp`` and
         ``move_collider`` for them. What the mode kept from earlier steps is dropped, and pushes
-        under way act on the free nodes in their region now.
+        in progress act on the free nodes in their region now.
 
         :param steps: of dt made before
         :param positions: (rows, cols, 3) [m]
@@ -670,7 +670,7 @@ class Simulation(AbstractContextManager['Simulation']):
     @property
     def knows_forces(self) -> bool:
         """
-        Tell whether the forces on pins and grasps in the last step of dt are known.
+        Return whether the forces on pins and grasps in the last step of dt are known.
 
         They are recorded in the last step of each call of ``step`` and ``advance``, unless
         ``records_forces`` is False, and in all steps while a force window is open.
@@ -726,7 +726,7 @@ class Simulation(AbstractContextManager['Simulation']):
         return self._windows.open[-1]
 
     def close_force_window(self, window: ForceWindow) -> None:
-        """Add up nothing in ``window`` any more."""
+        """Stop adding up forces in ``window``."""
         self._check_open(window)
         self._windows.open.remove(window)
 
@@ -772,7 +772,7 @@ class Simulation(AbstractContextManager['Simulation']):
         return self._impulses.of_last_step()
 
     def _records(self, number: int) -> bool:
-        """Return whether somebody can read the forces of the step of that ``number``."""
+        """Return whether the forces of step ``number`` can be read."""
         if self._windows.open:
             return True
         # Steps that are made again may end at any of them.

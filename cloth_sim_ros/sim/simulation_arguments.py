@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-"""Checks of what the methods of a Simulation are given, before anything of it is changed."""
+"""Checks of the arguments of a Simulation's methods, before anything is changed."""
 
 from collections.abc import Callable
 from collections.abc import Mapping

@@ -47,13 +47,13 @@ class HeldEntries(Protocol):
         """Return where the first of ``substeps`` leaves its entries, how many, how far apart."""
 
     def bind(self, place: int = bindings.HELD) -> None:
-        """Let the next dispatches leave their entries."""
+        """Bind the entries for the next dispatches."""
 
     def drop_last(self) -> None:
         """Drop the entries of the last substep, which is made again."""
 
     def expect_steps(self, substeps: int) -> None:
-        """Tell that so many ``substeps`` come before those of the last step of dt."""
+        """Skip ``substeps`` that come before those of the last step of dt."""
 
 
 class SubstepEnds(Protocol):
@@ -64,13 +64,13 @@ class SubstepEnds(Protocol):
         """Get which nodes are pinned, (rows, cols) bool."""
 
     def bind_in_textures(self) -> None:
-        """Let the next dispatches read the first through textures."""
+        """Bind the first as textures for the next dispatches."""
 
     def bind_out_textures(self) -> None:
-        """Let the next dispatches read the last through textures."""
+        """Bind the last as textures for the next dispatches."""
 
     def bind_out(self) -> None:
-        """Let the next dispatches change the last."""
+        """Bind the last for writing by the next dispatches."""
 
 
 class StoredPositions(NamedTuple):
@@ -92,7 +92,7 @@ class State:
     """
     Positions and velocities of all nodes on the device, and which nodes are pinned.
 
-    Of the three pairs of buffers, steps go to and fro between two; the third holds the state that
+    Of the three pairs of buffers, steps alternate between two; the third holds the state that
     was kept last, so that keeping one costs nothing.
 
     The velocity of a pinned node is that of its pin. ``edits`` counts the changes made from
@@ -176,7 +176,7 @@ class State:
             self._low.clear(self._layout.index(first, -HALO), len(position) * self._layout.pitch)
 
     def set_pinned(self, row: int, col: int, pinned: bool) -> None:
-        """Hold one node where it is, or let it go with the velocity its pin has."""
+        """Hold one node where it is, or release it with the velocity of its pin."""
         if self.pinned[row, col] == pinned:
             return
         self.edits += 1
@@ -233,18 +233,18 @@ class State:
             self._now = now
 
     def bind_in(self) -> None:
-        """Let the next dispatch read the present state."""
+        """Bind the present state for the next dispatch."""
         if self._layout.texture_loads:
             self._pairs[self._now].bind_textures(bindings.POSITION_IN)
         else:
             self._pairs[self._now].bind_storage(bindings.POSITION_IN)
 
     def bind_in_textures(self) -> None:
-        """Let the next dispatch read the present state through textures, on each device."""
+        """Bind the present state as textures for the next dispatch, on each device."""
         self._pairs[self._now].bind_textures(bindings.POSITION_IN)
 
     def bind_out(self) -> None:
-        """Let the next dispatch write the state to come."""
+        """Bind the next state for writing by the next dispatch."""
         self._pairs[self._next].bind_storage(bindings.POSITION_OUT)
         self.bind_low_parts()
 
@@ -271,24 +271,24 @@ class State:
         return self._low is not None
 
     def bind_low_parts(self) -> None:
-        """Let the next dispatch change the low parts, where there are some."""
+        """Bind the low parts, if there are any, for writing."""
         if self._low is not None:
             self._low.bind(bindings.LOW_PARTS)
 
     def bind_for_changes(self) -> None:
-        """Let the next dispatch change the present state."""
+        """Bind the present state for writing."""
         self._pairs[self._now].bind_storage(bindings.POSITION_IN)
 
     def bind_out_for_reading(self) -> None:
-        """Let the next dispatches read the velocities to come instead of the present ones."""
+        """Bind the next velocities instead of the present ones."""
         self._velocities[self._next].bind_texture(bindings.VELOCITY_IN)
 
     def bind_out_textures(self) -> None:
-        """Let the next dispatches read the state to come, beside the present one."""
+        """Bind the next state as well as the present one."""
         self._pairs[self._next].bind_textures(bindings.POSITION_OUT)
 
     def bind_expected(self) -> None:
-        """Let the next dispatch read the present positions, with the velocities to come."""
+        """Bind the present positions, with the next velocities."""
         self._bind(bindings.POSITION_IN, self._positions[self._now])
         self._bind(bindings.VELOCITY_IN, self._velocities[self._next])
 
@@ -306,7 +306,7 @@ class State:
         return range(first, first + some * apart, apart)
 
     def swap(self) -> None:
-        """Make what was written the present state."""
+        """Make the written state the present one."""
         self._now = self._next
         self._choose_next()
 
@@ -337,7 +337,7 @@ class State:
         self._choose_next()
 
     def end_substep(self) -> None:
-        """Forget what ``begin_substep`` has kept."""
+        """Drop the state kept by ``begin_substep``."""
         self._begun = None
         self._choose_next()
 

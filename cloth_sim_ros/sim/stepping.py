@@ -25,7 +25,7 @@ class Stepping:
     _carried: float
 
     def __init__(self, dt: float, steps: int = 0) -> None:
-        """Aim at the present moment."""
+        """Aim at the present time."""
         self._dt = dt
         self.steps = steps
         self.drop_aim()
@@ -68,7 +68,7 @@ class Stepping:
         self._carried = 0.0
 
     def drop_aim(self) -> None:
-        """Let the aim be where the run is."""
+        """Aim at the present time of the run."""
         self.goal, self._carried = self.steps, 0.0
 
     def _aim_at(self, goal: int) -> None:

@@ -68,7 +68,7 @@ class BatchSpeed:
 def measure_batch(
         size: int, cloths: int, *, is_controlled: bool, frames: int, rounds: int) -> BatchSpeed:
     """
-    Run ``cloths`` of ``size`` x ``size`` nodes both ways, in turns.
+    Run ``cloths`` of ``size`` x ``size`` nodes both ways, interleaved.
 
     Each turn is a process of its own: a software device has threads for the batch alone, which is
     faster for both.

@@ -87,12 +87,12 @@ _ROUNDING = 2e-7
 
 class EnergyAccount:
     """
-    Keeps the books of a run: its energy, and the work that loads, pins, grasps and colliders do.
+    Balances the energy of a run with the work of loads, pins, grasps and colliders.
 
-    Every mode has its velocities half a substep before its positions, so the energy E swings to
-    and fro: near the stability limit of springs by as much as there is, in an implicit mode by
-    some percent at its longest substeps. What symplectic Euler keeps, exactly where forces are
-    linear, is H = E + h sum(m v . a) / 2. That is accounted for, with length and tensions of the
+    In every mode velocities lag positions by half a substep, so the energy E oscillates:
+    near the stability limit of springs by as much as there is, in an implicit mode by
+    some percent at its longest substeps. Symplectic Euler conserves, exactly where forces are
+    linear, H = E + h sum(m v . a) / 2. That is balanced, with length and tensions of the
     last substep, and the mean power of the air in the last step.
 
     The work of pins that move is that of the forces on them at the end of each step; that of a
@@ -103,7 +103,7 @@ class EnergyAccount:
     """
 
     def __init__(self, run: Simulation) -> None:
-        """Take down the energy at the start."""
+        """Record the energy at the start."""
         self._run = run
         self._is_symplectic = not AVAILABLE[run.mode].is_implicit
         self._is_limited = AVAILABLE[run.mode].edge_model(run.scene) == 'limited'
@@ -151,7 +151,7 @@ class EnergyAccount:
         """Make ``count`` steps of dt; one at a time while something does work on the cloth."""
         done = 0
         while done < count:
-            # A push that begins within the steps to come needs its nodes as they are by then.
+            # A push that begins within these steps needs its nodes at its start.
             some = 1 if self._is_worked_on(count - done) else count - done
             self._step(some)
             done += some
@@ -234,7 +234,7 @@ class EnergyAccount:
         return energy + self._half_a_step(seen)
 
     def _moving_edges(self) -> list[np.ndarray]:
-        """Tell of each kind of edges which have an end that can move."""
+        """Return, for each kind of edge, which have an end that can move."""
         pinned, size = self._run.pinned_nodes(), (self._run.scene.rows, self._run.scene.cols)
         return [~(pinned[starts] & pinned[ends]) for starts, ends in (
             kind.everywhere(*size) for kind in EDGE_KINDS)]
@@ -329,7 +329,7 @@ def _closing_work(
 def _pull_of_limits(
         scene: Scene, kind: EdgeKind, some: np.ndarray, side: str, law: EdgeLaw,
         positions: np.ndarray) -> float:
-    """Return what one side's limits of some edges of a kind push them apart with, summed [N]."""
+    """Return the summed forces of one side's limits of some edges of a kind [N]."""
     bound = getattr(law, side)[FAMILIES.index(kind.family)] * kind.rest_length(scene)
     sign = -1.0 if side == 'shortest' else 1.0
     past = sign * (_lengths(scene, kind, positions)[some] - bound)

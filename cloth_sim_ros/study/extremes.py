@@ -61,7 +61,7 @@ WAYS_OUT = ('set ', 'take ', 'push ', 'stretch ', 'give ', 'use ', 'go on ')
 
 
 def message_nonsense(message: str) -> tuple[str, ...]:
-    """Return what is wrong with an error: it has rule, value and way out, in one line."""
+    """Return the fault of an error, which has rule, value and remedy in one line."""
     rule, *others = message.split(': ')
     wrong = []
     if not any(character.isdigit() for character in message):
@@ -77,7 +77,7 @@ def nonsense_of(
         run: Simulation, seen: Snapshot, extreme: Extreme,
         account: EnergyAccount | None = None) -> tuple[str, ...]:
     """
-    Return what is wrong with ``seen``, the end of ``run``.
+    Return the faults of ``seen``, the end of ``run``.
 
     :param account: of its energy; None for a run that has stopped
     """
@@ -94,7 +94,7 @@ def nonsense_of(
 
 
 def tells_of(seen: Snapshot) -> tuple[str, ...]:
-    """Return what a snapshot itself tells to be wrong, as ~/diagnostics does."""
+    """Return the problems that a snapshot reports, as ~/diagnostics does."""
     told = []
     if seen.stability_margin > 1.0:
         told.append(f'substeps {seen.stability_margin:.2g} times as long as they should be')
@@ -140,7 +140,7 @@ def _wrong_lengths(run: Simulation, seen: Snapshot) -> list[str]:
 
 
 def _wrong_fall(run: Simulation, seen: Snapshot, begin: Snapshot) -> list[str]:
-    """Return what is wrong with the fall of a cloth that nothing holds: x = t (t + h) g / 2."""
+    """Return the fault of the fall of a free cloth: x = t (t + h) g / 2."""
     gravity = np.array(run.scene['gravity'])
     moved = (seen.positions.astype(float) - begin.positions).mean(axis=(0, 1))
     substep = run.dt / run.substeps
@@ -237,7 +237,7 @@ def verdict(result: Result) -> str:
     """
     Return whether a row is right, nonsense, or came out otherwise.
 
-    'reported' is what has gone wrong and says so, in its snapshot and in ~/diagnostics.
+    'reported' is a problem that the snapshot and ~/diagnostics report.
     """
     extreme = EXTREMES[result.settings['name']]
     if not result.is_done:
@@ -250,7 +250,7 @@ def verdict(result: Result) -> str:
 
 
 def is_right(result: Result) -> bool:
-    """Return whether a row is as it should be, or says itself what is wrong."""
+    """Return whether a row is right, or reports its problem itself."""
     return verdict(result) in (_RIGHT, _REPORTED)
 
 

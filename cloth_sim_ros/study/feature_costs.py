@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-"""The features of a scene that can be left out: time, passes, memory, and what is lost."""
+"""The features of a scene that can be left out: time, passes, memory and results."""
 
 from collections.abc import Mapping
 from collections.abc import Sequence

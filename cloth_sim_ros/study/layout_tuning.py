@@ -105,7 +105,7 @@ def tune(
     """
     Measure all choices at each of ``sizes``, in interleaved rounds, and yield what was found.
 
-    A rival is out at the first round that it does not win, so that most are measured once.
+    A variant is dropped once it loses a round, so that most are measured once.
     """
     for side in sizes:
         yield _tune_size(context, side, rounds, timer)

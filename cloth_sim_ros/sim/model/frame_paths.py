@@ -98,7 +98,7 @@ class FramePath:
     """
 
     def __init__(self, move: FrameMove, origin: Pose) -> None:
-        """Plan the way from ``origin`` to the target."""
+        """Plan the path from ``origin`` to the target."""
         self.move = move
         self.origin = origin
         self.target = Pose(
@@ -134,7 +134,7 @@ class FramePath:
 
     @property
     def velocity(self) -> np.ndarray:
-        """Return the velocity of its origin while it is under way, (3,) [m/s]."""
+        """Return the velocity of its origin while it moves, (3,) [m/s]."""
         return self._velocity
 
 
@@ -191,7 +191,7 @@ class FramePaths:
         self._paths[name] = []
 
     def drop(self, name: str) -> None:
-        """Forget the frame ``name``."""
+        """Drop the frame ``name``."""
         del self._origins[name], self._paths[name]
 
     def under_way(self, now: float) -> tuple[FramePath, ...]:

@@ -66,7 +66,7 @@ _SOME = 0.03
 # Way that a node is accelerated by in a substep over the limit of the shortest edge [1], above
 # which a solve throws further edges past their limit, so that more solves are needed.
 _ROUGH = 0.02
-# Substeps that are taken for rough [1] after a pin, a push or a collider has thrown nodes, or an
+# Substeps that count as rough [1] after a pin, a push or a collider has thrown nodes, or an
 # edge was found far beyond its limit.
 _ROUGH_FOR = 32
 # Max. rough substeps in a row that put off the whole-cloth step [1]: pins that are shaken throw
@@ -174,7 +174,7 @@ class Adaptive:
 
     @property
     def substep_margin(self) -> float:
-        """Return the longest substep over what it should be."""
+        """Return the longest substep over its upper bound."""
         if self._is_whole and self._whole is not None:
             return self._whole.substep_margin
         return max(self._longest / self._spring_limit, self._turn_margin)
@@ -381,7 +381,7 @@ class Adaptive:
         count = math.ceil(left / self._turned_length(state, now, left, loads) - _NOTHING)
         length = left / count
         if abs(length - self._limits_now.length) <= _NOTHING * length:
-            # Each other length would be set anew in all passes.
+            # Each other length would be set again in all passes.
             length = self._limits_now.length
         some = min(count, max(self._until_look, 1), _REVIEW if self._has_held else _FIRST)
         made = 0

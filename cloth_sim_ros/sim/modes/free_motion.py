@@ -42,7 +42,7 @@ class FreeMotion:
         self.forget()
 
     def forget(self) -> None:
-        """Take the momenta of the next state as they are."""
+        """Adopt the momenta of the next state."""
         # Sums of numbers near zero keep more digits, so positions are taken from here.
         self._centre = np.zeros(3, dtype=np.float32)
         self._edits = -1

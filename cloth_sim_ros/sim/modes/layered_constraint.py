@@ -31,7 +31,7 @@ _MOST_LAYER_SOLVES = 12
 
 class LayeredConstraint(Constraint):
     """
-    Implicit substeps in which solves and rounds of layers take turns.
+    Implicit substeps in which solves and rounds of layers alternate.
 
     Rounds find impulses as if nodes were free of each other, and a solve what comes of them: no
     impulse acts that has not gone through a solve. As edges only add to what nodes resist with,
@@ -65,7 +65,7 @@ class LayeredConstraint(Constraint):
         self.forget()
 
     def forget(self) -> None:
-        """Drop what was kept from earlier steps, and impulses and lists of pairs."""
+        """Drop what earlier steps left, with impulses and lists of pairs."""
         super().forget()
         self._layers.forget()
 
@@ -105,7 +105,7 @@ class LayeredConstraint(Constraint):
     def act(
             self, state: State, forcing: Forcing, length: float,
             layers: SelfContact | None) -> None:
-        """Let layers act in further solves."""
+        """Apply self-contact in further solves."""
         self._touching = layers
         self._solve_further(state, self._kick_now, self._stop)
         if layers is not None:
@@ -142,7 +142,7 @@ class LayeredConstraint(Constraint):
             state, forcing, stop, is_driven=self._layers.contact.drives, **how)
 
     def _is_solve_due(self, state: State, solves: int) -> bool:
-        """Let layers act on what was solved; return whether another solve is to follow."""
+        """Apply self-contact to the solution; return whether another solve is needed."""
         is_due = super()._is_solve_due(state, solves)
         if self._touching is None:
             return is_due

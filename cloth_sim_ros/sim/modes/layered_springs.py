@@ -75,7 +75,7 @@ class LayeredSprings(WrittenSubsteps, MassSpring):
         return self._layers.report()
 
     def delete(self) -> None:
-        """Release the passes, with what they allocated."""
+        """Release the passes and their buffers."""
         super().delete()
         self._layers.delete()
 

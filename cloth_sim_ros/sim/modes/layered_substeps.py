@@ -50,7 +50,7 @@ class Motion(Protocol):
         """
 
     def end(self, state: State, forcing: Forcing, loads: Loads, length: float) -> None:
-        """Make what was written the present ``state``, and advance the time by ``length`` [s]."""
+        """Make the written state the present ``state``, and advance the time by ``length`` [s]."""
 
     def undo(self, state: State, forcing: Forcing) -> None:
         """Go back to where the substep began."""
@@ -67,7 +67,7 @@ class WrittenSubsteps(ABC):
     def act(
             self, state: State, forcing: Forcing, length: float,
             layers: SelfContact | None) -> None:
-        """Let colliders and layers act, as Motion.act."""
+        """Apply contact with colliders and layers, as Motion.act."""
         if layers is not None and forcing.touch is not None:
             forcing.touch.begin_try()
         self._act_on_written(state, forcing, length, layers)
@@ -82,12 +82,12 @@ class WrittenSubsteps(ABC):
     def _act_on_written(
             self, state: State, forcing: Forcing, length: float,
             layers: SelfContact | None) -> None:
-        """Let colliders and layers act on the state that was written."""
+        """Apply contact with colliders and layers to the written state."""
 
 
 class LayeredSubsteps:
     """
-    Lets layers act in substeps, each as long as it may be.
+    Applies self-contact in substeps, each as long as possible.
 
     A substep in which displacements would be cut short by much is made again in halves.
     ``contact`` is that of the cloth with itself.

@@ -28,7 +28,7 @@ class LimitedSprings(ImplicitStep):
     The springs of the scene with its ``adaptive.threshold``.
 
     A limit begins to pull at that strain: an edge that was held exactly there has no energy of its
-    limit, so that explicit and implicit substeps can take turns.
+    limit, so that explicit and implicit substeps can alternate.
 
     :param settling: the limit of a cloth that comes with more strain
     """

@@ -93,7 +93,7 @@ class OnePass:
         """
         Write the state after ``length`` [s], without making it the present one.
 
-        :param acts: False leaves it to the caller to let colliders act on it
+        :param acts: False if the caller applies contact itself
         :param is_kept: False for a state that will not be the present one
         """
         self.held_at = state.next_held_entry() if is_kept else -1
@@ -286,11 +286,11 @@ class MassSpring:
     def tension(
             self, positions: np.ndarray, velocities: np.ndarray,
             nodes: np.ndarray | None = None) -> np.ndarray:
-        """Return the tension of every spring at the present moment [N]."""
+        """Return the present tension of every spring [N]."""
         return spring_tension(self._scene, positions, velocities, nodes)
 
     def delete(self) -> None:
-        """Release the passes, with what they allocated."""
+        """Release the passes and their buffers."""
         self._passes.delete()
         if self._tiles is not None:
             self._tiles.delete()

@@ -29,7 +29,7 @@ class Mode(Protocol):
 
     ``stability_limit`` is the longest stable substep [s], ``substep_margin`` a substep over it,
     or, in an implicit step, over the longest in which edges turn by no more than they should.
-    ``strain_bound`` is what no structural or shear edge should be stretched or shortened beyond,
+    ``strain_bound`` is the largest strain that structural and shear edges should have,
     0 for hard edges. ``is_implicit`` says that edges pull as the end of a substep asks, so that it
     has no stability limit; other modes step by symplectic Euler. ``has_memory`` says that a step
     depends on more than the state and its time.
@@ -75,7 +75,7 @@ class Mode(Protocol):
 
     @staticmethod
     def edge_model(scene: Scene) -> str:
-        """Return what the edges of ``scene`` are in this mode: springs, limited or hard."""
+        """Return the kind of the edges of ``scene`` in this mode: springs, limited or hard."""
 
     @staticmethod
     def edge_families(scene: Scene) -> Collection[str]:
@@ -110,7 +110,7 @@ class Mode(Protocol):
         """Drop what earlier steps left: the state is another one."""
 
     def report(self) -> dict[str, Any]:
-        """Return what the Snapshot says of solver and constraints, where it is not 0."""
+        """Return the Snapshot fields of solver and constraints that are not 0."""
 
     def limit_marks(self, state: State) -> Buffer | None:
         """
@@ -134,4 +134,4 @@ class Mode(Protocol):
         """
 
     def delete(self) -> None:
-        """Release what the mode allocated."""
+        """Release the buffers and programs of the mode."""
