@@ -36,7 +36,7 @@ layout(std430, binding = LIMIT_CHANGES) buffer Changes { vec4 changes[]; };
 #define WAY_SEARCHES 20
 #define WAY_ROUNDS 12
 // Change of an impulse in a round, over the largest impulse [1], at which rounds end.
-#define STILL 1e-6
+#define STILL 2e-2
 // The same [1] above which the last round has not settled: between bodies that leave no room, say.
 #define UNSETTLED 0.02
 
@@ -94,44 +94,136 @@ void synchronise() {
     barrier();
 }
 
-// The row of an entry, which belongs to a node and a collider.
-void find_row(int entry, int row) {
-    uvec2 owner = surface_rows[entry * SURFACE_ROWS_OF_BODY].entry;
-    int index = int(owner.x);
-    int collider = int(owner.y);
-    ivec3 nodes = index + surface_offsets(row);
-    SurfaceRow found = no_row();
-    if (owns(index, row)) {
-        if (row < SURFACE_EDGES) {
-            found = edge_row(collider, nodes.x, nodes.y);
-        } else {
-            found = face_row(collider, nodes, (row - SURFACE_EDGES) % SURFACE_TIPS);
+#if FINDS_IMPULSES && !WAYS_OUT
+// Impulse of a row in the substep before, for one of this length [m/s]; 0 where it did not act.
+vec3 kept_impulse(int place) {
+    vec4 before = kept[place];
+    bool is_last = kept_length > 0.0 && floatBitsToUint(before.w) + 1u == kept_time;
+    return is_last ? substep / kept_length * before.xyz : vec3(0.0);
+}
+
+// Keep the impulses of the rows that act for the next substep.
+void keep_impulses() {
+    for (uint i = gl_LocalInvocationID.x; i < acting_rows; i += SURFACE_LOCAL) {
+        uvec2 acting = surface_rows[i].acting;
+        SurfaceRow found = surface_rows[acting.x].row;
+#if COLLIDERS > 1
+        found.impulse.xyz -= surface_rows[acting.x].facing.xyz;
+#endif
+        int row = int(acting.x) % SURFACE_ROWS_OF_BODY;
+        kept[kept_place(int(acting.y), int(found.weights.w), row)] =
+            vec4(found.impulse.xyz, uintBitsToFloat(kept_time));
+    }
+    if (gl_LocalInvocationID.x == 0u) {
+        kept_length = substep;
+    }
+}
+#endif
+
+// What is read of an entry, which belongs to a node and a collider.
+struct Entry {
+    int index;
+    int collider;
+    int first_row;  // its place
+};
+
+Entry entry_at(uint i) {
+    int first = int(i) * SURFACE_ROWS_OF_BODY;
+    uvec2 owner = surface_rows[first].entry;
+    return Entry(int(owner.x), int(owner.y), first);
+}
+
+// Let find_listed find a row.
+void list_row(Entry entry, int row) {
+    surface_rows[atomicAdd(listed_rows, 1u)].spare.x = uint(entry.first_row + row);
+}
+
+// List the edges of an entry that may touch: lanes find together what few of them have.
+void list_edges(Entry entry) {
+    surface_rows[entry.first_row].spare.y = 0u;
+    EdgeEnd ends[3] = EdgeEnd[3](
+        edge_end(entry.collider, entry.index), edge_end(entry.collider, entry.index + 1),
+        edge_end(entry.collider, entry.index + PITCH));
+    bool may[SURFACE_EDGES] = bool[SURFACE_EDGES](
+        may_edge_touch(entry.collider, ends[0], ends[1]),
+        may_edge_touch(entry.collider, ends[0], ends[2]),
+        may_edge_touch(entry.collider, ends[1], ends[2]));
+    for (int row = 0; row < SURFACE_EDGES; ++row) {
+        surface_rows[entry.first_row + row].row.impulse.w = 0.0;
+        if (may[row] && owns(entry.index, row)) {
+            list_row(entry, row);
         }
     }
+}
+
+// The same of its faces.
+void list_faces(Entry entry) {
+    bool is_there = owns(entry.index, SURFACE_EDGES);
+    for (int row = SURFACE_EDGES; row < SURFACE_ROWS_OF_BODY; ++row) {
+        ivec3 nodes = entry.index + surface_offsets(row);
+        surface_rows[entry.first_row + row].row.impulse.w = 0.0;
+        if (is_there && may_face_touch(
+                entry.collider, nodes, (row - SURFACE_EDGES) % SURFACE_TIPS)) {
+            list_row(entry, row);
+        }
+    }
+}
+
+// Add a row that acts to the lists.
+void add_row(Entry entry, int row, SurfaceRow found) {
+    ivec3 nodes = entry.index + surface_offsets(row);
     if (found.impulse.w != 0.0 && !are_listed(nodes)) {
         atomicAdd(surface_missed, 1u);
         found = no_row();
     }
-    int slot = entry * SURFACE_ROWS_OF_BODY + row;
-#if COLLIDERS > 1
+    int slot = entry.first_row + row;
     if (found.impulse.w != 0.0) {
+#if COLLIDERS > 1
         vec3 x = vec3(0.0);
         for (int i = 0; i < surface_row_count(row); ++i) {
             x += found.weights[i] * place_of(nodes[i]);
         }
-        float room = find_facing(found, collider, x);
+        float room = find_facing(found, entry.collider, x);
         surface_rows[slot].facing = facing_of(found) >= 0
             ? vec4(vec3(0.0), part_of_row(facing_of(found)) * pressing_with(room)) : vec4(0.0);
-    }
 #endif
-    surface_rows[slot].row.impulse.w = found.impulse.w;
-    if (found.impulse.w != 0.0) {
+#if FINDS_IMPULSES && !WAYS_OUT
+        found.impulse.xyz = kept_impulse(kept_place(entry.index, entry.collider, row));
+#endif
         surface_rows[slot].row = found;
-        surface_rows[atomicAdd(acting_rows, 1u)].acting = uvec2(slot, index);
+        atomicOr(surface_rows[entry.first_row].spare.y, 1u << uint(row));
+        surface_rows[atomicAdd(acting_rows, 1u)].acting = uvec2(slot, entry.index);
         for (int i = 0; i < surface_row_count(row); ++i) {
             surface_nodes[nodes[i]].is_held = 1;
         }
     }
+}
+
+// Find the rows that are listed: edges, or faces.
+void find_listed(bool is_edge) {
+    synchronise();
+    uint edges = is_edge ? listed_rows : 0u;
+    for (uint i = gl_LocalInvocationID.x; i < edges; i += SURFACE_LOCAL) {
+        uint slot = surface_rows[i].spare.x;
+        Entry entry = entry_at(slot / uint(SURFACE_ROWS_OF_BODY));
+        int row = int(slot) - entry.first_row;
+        ivec3 nodes = entry.index + surface_offsets(row);
+        add_row(entry, row, edge_row(entry.collider, nodes.x, nodes.y));
+    }
+    uint faces = is_edge ? 0u : listed_rows;
+    for (uint i = gl_LocalInvocationID.x; i < faces; i += SURFACE_LOCAL) {
+        uint slot = surface_rows[i].spare.x;
+        Entry entry = entry_at(slot / uint(SURFACE_ROWS_OF_BODY));
+        int row = int(slot) - entry.first_row;
+        ivec3 nodes = entry.index + surface_offsets(row);
+        add_row(entry, row, face_row(
+            entry.collider, nodes, (row - SURFACE_EDGES) % SURFACE_TIPS));
+    }
+    synchronise();
+    if (gl_LocalInvocationID.x == 0u) {
+        listed_rows = 0u;
+    }
+    synchronise();
 }
 
 // List the rows of a node with its weight in each, in an order that is always the same, and add up
@@ -147,25 +239,26 @@ void list_rows_of(int index) {
         ivec4 owners = index - ivec4(0, 1, PITCH, PITCH + 1);
         for (int i = 0; i < 4; ++i) {
             SurfaceNode owner = surface_nodes[owners[i]];
-            int rows = owner.is_listed == 1 ? bitCount(owner.bodies) * SURFACE_ROWS_OF_BODY : 0;
-            int begin = owner.first * SURFACE_ROWS_OF_BODY;
-            for (int k = 0; k < rows; ++k) {
-                if (surface_rows[begin + k].row.impulse.w == 0.0) {
-                    continue;
-                }
-                int row = k % SURFACE_ROWS_OF_BODY;
-                ivec3 nodes = owners[i] + surface_offsets(row);
-                for (int n = 0; n < surface_row_count(row); ++n) {
-                    if (nodes[n] == index) {
-                        float weight = surface_rows[begin + k].row.weights[n];
-                        if (pass == 1) {
-                            uint at = first + uint(count);
-                            surface_rows[at / 3u].of_node[at % 3u] =
-                                uvec2(begin + k, floatBitsToUint(weight));
-                            shares += weight;
-                        }
-                        ++count;
+            int bodies = owner.is_listed == 1 ? bitCount(owner.bodies) : 0;
+            for (int body = 0; body < bodies; ++body) {
+                int begin = (owner.first + body) * SURFACE_ROWS_OF_BODY;
+                for (uint rows = surface_rows[begin].spare.y; rows != 0u; rows &= rows - 1u) {
+                    int row = findLSB(rows);
+                    ivec3 nodes = owners[i] + surface_offsets(row);
+                    // No node twice.
+                    bvec3 is_node = equal(nodes, ivec3(index));
+                    if (!any(is_node) || surface_row_count(row) == 2 && !any(is_node.xy)) {
+                        continue;
                     }
+                    if (pass == 1) {
+                        vec4 weights = surface_rows[begin + row].row.weights;
+                        float weight = dot(weights.xyz, vec3(is_node));
+                        uint at = first + uint(count);
+                        surface_rows[at / 3u].of_node[at % 3u] =
+                            uvec2(begin + row, floatBitsToUint(weight));
+                        shares += weight;
+                    }
+                    ++count;
                 }
             }
         }
@@ -317,13 +410,14 @@ void find_all_rows() {
     }
     synchronise();
     uint entries = min(surface_entries, uint(most_entries));
-    // Lanes beside one another do the same for other nodes.
-    for (int row = 0; row < SURFACE_ROWS_OF_BODY; ++row) {
-        for (uint i = gl_LocalInvocationID.x; i < entries; i += SURFACE_LOCAL) {
-            find_row(int(i), row);
-        }
+    for (uint i = gl_LocalInvocationID.x; i < entries; i += SURFACE_LOCAL) {
+        list_edges(entry_at(i));
     }
-    synchronise();
+    find_listed(true);
+    for (uint i = gl_LocalInvocationID.x; i < entries; i += SURFACE_LOCAL) {
+        list_faces(entry_at(i));
+    }
+    find_listed(false);
     for (EACH_NEAR(i)) {
         int index = node_at(i);
         if (surface_nodes[index].is_held == 1) {
@@ -441,6 +535,7 @@ void main() {
 void list_entries() {
     if (gl_LocalInvocationID.x == 0u) {
         surface_entries = 0u;
+        ++kept_time;
     }
     for (EACH_NEAR(i)) {
         int index = node_at(i);
@@ -487,11 +582,9 @@ void move_held_nodes() {
 
 void let_rows_act() {
     bool is_done = surface_entries == 0u || acting_rows == 0u;
-#if HAS_SELF
     if (!is_done) {
         move_held_nodes();
     }
-#endif
     for (int round = 0; !is_done && round < IMPULSE_ROUNDS; ++round) {
         is_done = rows_act();
         move_held_nodes();
@@ -504,6 +597,7 @@ void let_rows_act() {
 
 // Write the state to come of held nodes, and what was done to colliders.
 void give() {
+    keep_impulses();
     for (uint i = gl_LocalInvocationID.x; i < held_nodes; i += SURFACE_LOCAL) {
         int index = held_node(i);
         vec3 x = load_position(index).xyz;

@@ -240,7 +240,8 @@ def _stability(snapshot: Snapshot, problem: str, automatic: bool) -> _Verdict:
             f'{snapshot.strain_bound:.2g} is allowed: {way_out}'), values
     if not snapshot.surface_contact_held:
         return WARN, (
-            f'the cloth passes through itself or a thin collider, or layers overlap by '
+            f'the cloth passes through itself or a thin collider, or is inside a collider by '
+            f'{snapshot.deepest_node:.2g} m, or layers overlap by '
             f'{snapshot.layer_overlap:.2g} of their thickness and ways were cut by '
             f'{snapshot.largest_cut:.2g} m: use a shorter dt, or begin with layers apart'), values
     if snapshot.air_margin > 1.0 + 1e-3:

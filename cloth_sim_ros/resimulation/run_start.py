@@ -102,6 +102,8 @@ class RunStart:
         unknown = []
         if mode_for(simulation.mode, simulation.scene).has_memory:
             unknown.append(f'what mode {simulation.mode} carried over from earlier steps')
+        elif simulation.scene.thin_colliders:
+            unknown.append('what thin colliders pressed with before')
         if self._opening('inputs/pin_target'):
             unknown.append('where the moving pins started')
         if self._opening('inputs/grasp_target'):

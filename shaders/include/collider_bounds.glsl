@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Which colliders a node may come near to, by a sphere around each: cheap beside their distances.
+// Which colliders a node may come near to, by a sphere around each, or around the
+// axis of a long one: cheap beside their distances.
 
 #define SHAPE_PLANE 0
 #define SHAPE_SPHERE 1
@@ -12,14 +13,23 @@
 uniform float collider_shape[COLLIDERS];
 uniform vec3 collider_axes[3 * COLLIDERS];  // x, y and z axis of each as the substep begins
 uniform vec3 collider_centre[COLLIDERS];    // [m] as the substep begins
-uniform float near_limit[COLLIDERS];        // [m] from the centre that a node at rest is near
+uniform float near_limit[COLLIDERS];        // [m] from the core that a node at rest is near
 uniform float near_share[COLLIDERS];        // of that distance, with what it turns by
+
+#if HAS_LONG
+uniform vec3 near_core[COLLIDERS];          // half axis of a long one [m], or 0: the centre
+#endif
 
 // Min. distance that a point within radius of x has to travel to come near to a collider [m].
 float least_way(int collider, vec3 x, float radius) {
     vec3 arm = x - collider_centre[collider];
     float l = length(arm);
     float away = near_share[collider] * l;
+#if HAS_LONG
+    vec3 core = near_core[collider];
+    float place = clamp(dot(arm, core) / max(dot(core, core), 1e-30), -1.0, 1.0);
+    away += length(arm - place * core) - l;
+#endif
 #if HAS_PLANE
     away = int(collider_shape[collider]) == SHAPE_PLANE
         ? dot(collider_axes[3 * collider + 2], arm) - (l - away) : away;

@@ -5,6 +5,8 @@
 
 // Halvings and cuts of the bracket [1]: 12 find the place to 3e-7 of the edge.
 #define EDGE_STEPS 14
+// Slope over the difference of both ends [1] at which the search ends, as exact as by all steps.
+#define EDGE_LEVEL 3e-7
 
 struct NearEdge {
     float place;     // along the edge, from 0 to 1
@@ -12,26 +14,39 @@ struct NearEdge {
     vec3 slope;      // of the distance across the edge; its length is 1 where the surface is smooth
 };
 
+// Spheres and capsules: the points within a radius of a core.
+bool has_round_core(int collider) { return int(collider_shape[collider]) <= SHAPE_CAPSULE; }
+
+// Slope of the distance along an edge; around a round core of half the square of the distance to
+// it, which is linear but for the ends of a capsule.
+float slope_along(int collider, vec4 near, vec3 along) {
+    float slope = dot(near.xyz, along);
+    return has_round_core(collider) ? (near.w + collider_size[collider].x) * slope : slope;
+}
+
 // a, b: ends of the edge from the centre of the collider [m]; first, last: gradients and distances
 // there. The signed distance is convex along a line, and its gradients at both ends of a bracket
 // bound it from below: cuts of the two tangents alternate with halves.
 NearEdge nearest_on_edge(int collider, vec3 a, vec3 b, vec4 first, vec4 last) {
     vec3 along = b - a;
-    float slope_first = dot(first.xyz, along);
-    float slope_last = dot(last.xyz, along);
+    float slope_first = slope_along(collider, first, along);
+    float slope_last = slope_along(collider, last, along);
     bool is_first = !(slope_first < 0.0);
     bool is_last = !is_first && !(slope_last > 0.0);
+    bool is_round = has_round_core(collider);
+    float level = EDGE_LEVEL * (slope_last - slope_first);
     float begin = 0.0, end = 1.0;
     // Software runs the body of a branch for edges that do not take it, but no loop that ends at
     // once.
     int steps = is_first || is_last ? 0 : EDGE_STEPS;
     for (int i = 0; i < steps; ++i) {
         float middle = 0.5 * (begin + end);
-        float cut = begin + (last.w - first.w - slope_last * (end - begin))
-            / (slope_first - slope_last);
-        float place = i % 2 == 0 && cut > begin && cut < end ? cut : middle;
+        float cut = begin + (is_round ? -slope_first * (end - begin)
+            : last.w - first.w - slope_last * (end - begin)) / (slope_first - slope_last);
+        bool is_cut = is_round ? i % 3 < 2 : i % 2 == 0;
+        float place = is_cut && cut > begin && cut < end ? cut : middle;
         vec4 found = distance_to_collider(collider, a + place * along);
-        float slope = dot(found.xyz, along);
+        float slope = slope_along(collider, found, along);
         if (slope < 0.0) {
             begin = place;
             first = found;
@@ -41,6 +56,7 @@ NearEdge nearest_on_edge(int collider, vec3 a, vec3 b, vec4 first, vec4 last) {
             last = found;
             slope_last = slope;
         }
+        steps = abs(slope) <= level ? 0 : steps;
     }
     if (is_first) {
         return NearEdge(0.0, first.w, first.xyz);

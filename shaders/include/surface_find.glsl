@@ -49,23 +49,46 @@ float distance_at_end(int collider, vec3 a, vec3 b, vec3 va, vec3 vb) {
 
 SurfaceRow no_row() { return SurfaceRow(vec4(0.0), vec4(0.0), vec4(0.0)); }
 
+// Way of a node in the substep relative to a collider [m].
+float way_of(int collider, int index) {
+    return substep * length(load_speed(index) - surface_velocity(collider, place_of(index)));
+}
+
+// Max. gap of a contact of an edge [m]: what it may come nearer by; at the end, what is left within
+// the collider.
+float edge_limit(int collider, int first, int second, float around) {
+    return is_at_end ? -2.0 * around : max(way_of(collider, first), way_of(collider, second));
+}
+
+// The end of an edge: place, way as of way_of, and distance to a collider [m].
+struct EdgeEnd {
+    vec3 place;
+    float way;
+    float distance;
+};
+
+EdgeEnd edge_end(int collider, int index) {
+    vec3 place = place_of(index);
+    return EdgeEnd(place, is_at_end ? 0.0 : way_of(collider, index),
+        distance_to_collider(collider, arm_of(collider, place)).w);
+}
+
+// Whether an edge is near enough to touch: no distance falls by more than the way along it.
+bool may_edge_touch(int collider, EdgeEnd a, EdgeEnd b) {
+    float around = rounding(a.place, collider);
+    float limit = is_at_end ? -2.0 * around : max(a.way, b.way);
+    return 0.5 * (a.distance + b.distance - length(b.place - a.place)) - clearance
+        <= limit + 2.0 * around;
+}
+
+// The contact of an edge that may touch.
 SurfaceRow edge_row(int collider, int first, int second) {
     vec3 a = place_of(first), b = place_of(second);
     float around = rounding(a, collider);
-    // At the end, what is left within the collider.
-    float limit = -2.0 * around;
-    if (!is_at_end) {
-        vec3 va = load_speed(first) - surface_velocity(collider, a);
-        vec3 vb = load_speed(second) - surface_velocity(collider, b);
-        limit = substep * max(length(va), length(vb));
-    }
+    float limit = edge_limit(collider, first, second, around);
     vec3 arm_a = arm_of(collider, a), arm_b = arm_of(collider, b);
     vec4 at_a = distance_to_collider(collider, arm_a);
     vec4 at_b = distance_to_collider(collider, arm_b);
-    // No distance falls by more than the way along the edge.
-    if (0.5 * (at_a.w + at_b.w - length(b - a)) - clearance > limit + 2.0 * around) {
-        return no_row();
-    }
     NearEdge near = nearest_on_edge(collider, arm_a, arm_b, at_a, at_b);
     float gap = near.distance - clearance;
     bool is_near = near.place > 0.0 && near.place < 1.0 && gap < limit + around;
@@ -104,27 +127,51 @@ vec3 tip_of(int shape, vec3 size, vec3 normal, int tip) {
     return vec3(0.0);
 }
 
+// Depth below a tip, along each axis, of the point that core_of returns [m].
+float depth_of_core(int shape, vec3 size) {
+    return shape == SHAPE_BOX ? min(size.x, min(size.y, size.z))
+        : shape == SHAPE_CYLINDER ? min(size.x, size.y) : 0.0;
+}
+
 // A point within a collider that is as deep below a tip as any can be.
 vec3 core_of(int shape, vec3 size, vec3 tip) {
-    if (shape == SHAPE_BOX) {
-        return tip - sign(tip) * min(size.x, min(size.y, size.z));
-    }
-    if (shape == SHAPE_CYLINDER) {
-        float inset = min(size.x, size.y);
-        return tip - inset * vec3(tip.xy / max(length(tip.xy), 1e-30), sign(tip.z));
-    }
-    return tip;
+    vec3 outwards = shape == SHAPE_BOX ? sign(tip)
+        : vec3(tip.xy / max(length(tip.xy), 1e-30), sign(tip.z));
+    return tip - depth_of_core(shape, size) * outwards;
 }
 
 int tip_count(int shape) {
     return shape == SHAPE_BOX ? 8 : shape == SHAPE_CYLINDER ? 4 : shape == SHAPE_CAPSULE ? 2 : 1;
 }
 
+float face_limit(int collider, ivec3 nodes, float around) {
+    return is_at_end ? -2.0 * around : max(way_of(collider, nodes.x), max(
+        way_of(collider, nodes.y), way_of(collider, nodes.z)));
+}
+
+// Whether a face is near enough to a point of the collider to touch it there.
+bool may_face_touch(int collider, ivec3 nodes, int tip) {
+    int shape = int(collider_shape[collider]);
+    vec3 size = collider_size[collider];
+    // All points that a tip can be lie within a radius of the middle of them.
+    vec3 middle = tip_of(shape, size, vec3(0.0), tip);
+    float radius = shape == SHAPE_BOX ? 0.0 : size.x;
+    middle.xy = shape == SHAPE_CYLINDER ? vec2(0.0) : middle.xy;
+    vec3 x0 = arm_of(collider, place_of(nodes.x));
+    float reach = max(
+        length(place_of(nodes.y) - place_of(nodes.x)), length(place_of(nodes.z) - place_of(nodes.x)));
+    float around = rounding(place_of(nodes.x), collider);
+    vec3 away = middle.x * collider_axes[3 * collider]
+        + middle.y * collider_axes[3 * collider + 1] + middle.z * collider_axes[3 * collider + 2] - x0;
+    float limit = max(face_limit(collider, nodes, around) + around, 0.0) + clearance;
+    // A tip lies below the face by no more than its core does.
+    float deepest = 2.0 * depth_of_core(shape, size);
+    return tip < tip_count(shape) && length(away) <= reach + radius + max(limit, deepest);
+}
+
+// The contact of a face with a point of the collider.
 SurfaceRow face_row(int collider, ivec3 nodes, int tip) {
     int shape = int(collider_shape[collider]);
-    if (tip >= tip_count(shape)) {
-        return no_row();
-    }
     vec3 x0 = arm_of(collider, place_of(nodes.x));
     vec3 side = arm_of(collider, place_of(nodes.y)) - x0;
     vec3 other = arm_of(collider, place_of(nodes.z)) - x0;
@@ -145,16 +192,7 @@ SurfaceRow face_row(int collider, ivec3 nodes, int tip) {
     vec3 place = own.x * axis_x + own.y * axis_y + own.z * axis_z - x0;
     float gap = dot(normal, place) - (is_round ? size.x : 0.0) - clearance;
     float around = rounding(place_of(nodes.x), collider);
-    float limit = -2.0 * around;
-    if (!is_at_end) {
-        limit = 0.0;
-        for (int i = 0; i < 3; ++i) {
-            int index = nodes[i];
-            limit = max(limit, length(load_speed(index)
-                - surface_velocity(collider, place_of(index))));
-        }
-        limit *= substep;
-    }
+    float limit = face_limit(collider, nodes, around);
     float scale = 1.0 / max(area * area, 1e-30);
     float second = dot(cross(place, other), across) * scale;
     float third = dot(cross(side, place), across) * scale;

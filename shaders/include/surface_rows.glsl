@@ -29,5 +29,17 @@ layout(std430, binding = SURFACE_ROWS) coherent buffer SurfaceRows {
     uint listed_rows;       // of nodes
     uint surface_unsettled;  // substeps whose rounds did not settle
     uint surface_spare;
+    uint kept_time;     // substeps until now, modulo 2^32
+    float kept_length;  // of the last one in which rows acted [s]; 0: nothing is kept
+    uvec2 kept_spare;
+    // Impulse of each row when it last acted, without that of the collider that it faces [m/s], and
+    // bits of the time: in the next substep, rounds start from there.
+    vec4 kept[SURFACE_STORED * THIN_COLLIDERS * SURFACE_ROWS_OF_BODY];
     SurfacePlace surface_rows[];
 };
+
+// Where the impulse of a row is kept.
+int kept_place(int index, int collider, int row) {
+    int rank = bitCount(SURFACE_COLLIDERS & ((1u << uint(collider)) - 1u));
+    return (rank * SURFACE_STORED + index) * SURFACE_ROWS_OF_BODY + row;
+}

@@ -46,6 +46,9 @@ _MOST_SERIAL = 2**24
 # Rounding of positions over the coordinates [1], which counts as no way: ten times that of
 # contact.glsl.
 _ROUNDING = 4e-6
+# Depth of a node in a collider [m] above which contact does not hold, or twice the rounding of
+# contact.glsl where that is more; 1e-6 is what the random scenes allow (test_contact_scenes.py).
+_INSIDE = 1e-6
 # Workgroups along x, y and z, and number, of the blocks and of the nodes that are near.
 _NONE_NEAR = np.array([0, 1, 1, 0, 0, 1, 1, 0], dtype=np.uint32)
 # Place of the number of nodes.
@@ -98,7 +101,10 @@ class Contacts:
         # A read from the record itself would have it moved to the host's memory.
         self._polled = Buffer(_ENTRY_BYTES, is_polled=True) if layout.is_asynchronous else None
         self.clearance = 0.5 * scene['contact.thickness']
-        self.reach = np.array([_reach(collider) for collider in scene.colliders])
+        self.reach = np.array([collider.reach for collider in scene.colliders])
+        self.reach_from_core = np.array([body.reach_from_core for body in scene.colliders])
+        # Half axes of long bodies in their own axes [m], (n, 3).
+        self.cores = np.array([collider.core for collider in scene.colliders])
         # How far a node of an edge or face may be from what touches that [m].
         self.feature_reach = 1.5 * math.hypot(*scene.spacing) if scene.thin_colliders else 0.0
         self._serial = self._decision = 0
@@ -120,7 +126,7 @@ class Contacts:
         """Put the colliders where the scene has them."""
         self._paths = self._paths_of_scene()
         self._forget_touch()
-        self.begin_step()
+        self.forget()
 
     def begin_step(self) -> None:
         """Forget what was done in the step before."""
@@ -129,17 +135,26 @@ class Contacts:
             self._spare = None
         self._record.clear()
 
-    def keep(self) -> Buffer:
+    def keep(self) -> tuple[Buffer, bool]:
         """Return what ``restore`` needs to come back to this moment: what the last step did."""
         if self._kept is not self._record:
             self._spare = self._kept
         self._kept = self._record
-        return self._kept
+        return self._kept, self._surface is not None and self._surface.keep()
 
-    def restore(self, kept: Buffer) -> None:
+    def restore(self, kept: tuple[Buffer, bool]) -> None:
         """Go back to the moment of ``keep``, the latest one; colliders stay on their ways."""
-        if self._record is not kept:
-            self._record, self._spare = kept, self._record
+        record, has_impulses = kept
+        if self._record is not record:
+            self._record, self._spare = record, self._record
+        if self._surface is not None:
+            self._surface.restore(has_impulses)
+
+    def forget(self) -> None:
+        """Drop what was kept of the state of earlier steps."""
+        self.begin_step()
+        if self._surface is not None:
+            self._surface.forget()
 
     def begin_try(self) -> None:
         """Remember what was done so far in the step, for ``undo_try``."""
@@ -345,6 +360,8 @@ class Contacts:
             program.set_vectors('collider_axes', touch.axes)
             program.set_vectors('collider_velocity', touch.velocities)
             program.set_vectors('collider_turn', touch.turns)
+            if np.any(self.cores):
+                program.set_vectors('near_core', touch.cores())
             program.set_floats('near_limit', touch.near_limits(length).tolist())
             program.set_floats('near_share', touch.near_shares(length).tolist())
             self._set[program] = touch, length
@@ -400,9 +417,8 @@ class Contacts:
         """Return ``snapshot``, which is of the end of a step, with what touches in it."""
         positions = snapshot.positions.astype(float)
         kinds = self._read_record()[..., 3]
-        depth = max((
-            -float(np.nanmin(body.distance(positions) - self.clearance))
-            for body in self.present(snapshot.time)), default=0.0)
+        gaps = np.stack([
+            body.distance(positions) - self.clearance for body in self.present(snapshot.time)])
         lost = 0 if self._surface is None else self._surface.warn_of_losses()
         records = snapshot.records
         records['flags'][np.any(kinds > 0.0, axis=0)] |= FLAG_TOUCHING
@@ -410,8 +426,9 @@ class Contacts:
         return replace(
             snapshot, sticking_nodes=int(np.count_nonzero(sticking)),
             sliding_nodes=int(np.count_nonzero(np.any(kinds == SLIDES, axis=0) & ~sticking)),
-            deepest_node=max(depth, 0.0),
-            surface_contact_held=snapshot.surface_contact_held and not lost)
+            deepest_node=max(-float(np.nanmin(gaps)), 0.0),
+            surface_contact_held=snapshot.surface_contact_held and not lost
+            and not _is_inside(gaps, positions))
 
     def delete(self) -> None:
         """Release pass and record."""
@@ -485,7 +502,7 @@ class Contacts:
         shapes = list(SHAPES)
         program.set_floats(
             'collider_shape', [shapes.index(collider.shape) for collider in self.colliders])
-        program.set_vectors('collider_size', [_half_sizes(each) for each in self.colliders])
+        program.set_vectors('collider_size', [each.half_sizes for each in self.colliders])
         program.set_floats(
             'collider_friction', [collider.friction for collider in self.colliders])
         program.set_floats('collider_thickness', [
@@ -519,13 +536,18 @@ class _Touch:
         self.turns = turns
 
     def near_limits(self, length: float) -> np.ndarray:
-        """Return the distances from the centres within which a node at rest is near, (n,) [m]."""
-        reach = self._contacts.reach + self._contacts.clearance
-        largest = np.abs(self.centres).max(axis=-1) + reach
+        """Return the distances from the cores within which a node at rest is near, (n,) [m]."""
+        clearance = self._contacts.clearance
+        largest = np.abs(self.centres).max(axis=-1) + self._contacts.reach + clearance
         # What positions are rounded by, and more.
         return (
-            reach + length * np.linalg.norm(self.velocities, axis=-1) + _ROUNDING * largest + 1e-8
-            + self._contacts.feature_reach)
+            self._contacts.reach_from_core + clearance + self._contacts.feature_reach
+            + length * np.linalg.norm(self.velocities, axis=-1) + _ROUNDING * largest + 1e-8)
+
+    def cores(self) -> np.ndarray:
+        """Return the half axes of long bodies [m], (n, 3); 0 for others, whose centre it is."""
+        axes = self.axes.reshape(-1, 3, 3)
+        return np.einsum('na,nax->nx', self._contacts.cores, axes)
 
     def near_shares(self, length: float) -> np.ndarray:
         """Return the shares of these distances that are left by the rotation, (n,)."""
@@ -581,20 +603,17 @@ class _Touch:
         return self._contacts.is_solve_due(is_exact=is_exact)
 
 
-def _reach(collider: Collider) -> float:
-    """Return how far it is from the centre of a collider to its farthest point; 0 for a plane."""
-    x, y, z = _half_sizes(collider)
-    if collider.shape == 'plane':
-        return 0.0
-    if collider.shape == 'capsule':
-        return x + y
-    return math.hypot(x, y, z)
+def _is_inside(gaps: np.ndarray, positions: np.ndarray) -> bool:
+    """
+    Return whether a node is inside a collider, and no other one leaves it no room beside that.
 
-
-def _half_sizes(collider: Collider) -> tuple[float, float, float]:
-    """Return what the shader takes for sizes: radius and half the length, or half the sides."""
-    if collider.shape == 'box':
-        x, y, z = collider.size
-        return x / 2.0, y / 2.0, z / 2.0
-    radius, length, _ = (*collider.size, 0.0, 0.0, 0.0)[:3]
-    return radius, length / 2.0, 0.0
+    :param gaps: of each collider and node [m], (n, rows, cols)
+    :param positions: (rows, cols, 3) [m]
+    """
+    rounding = 0.2 * _ROUNDING * np.abs(positions).max(axis=-1)
+    inside = -gaps - np.maximum(rounding, _INSIDE)
+    for number, depth in enumerate(inside):
+        others = np.delete(gaps, number, axis=0).min(axis=0, initial=np.inf)
+        if np.any((depth > 0.0) & (gaps[number] + others >= 0.0)):
+            return True
+    return False

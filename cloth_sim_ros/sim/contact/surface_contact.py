@@ -18,10 +18,13 @@ from cloth_sim_ros.sim.model.colliders import surface_defines
 from cloth_sim_ros.sim.scene import Scene
 import numpy as np
 
-# Invocations of the workgroup [1].
-_LOCAL = 16
+# Invocations of the workgroup [1], on software: as many as its vectors have lanes; and on a GPU.
+_LOCAL_OF_SOFTWARE, _LOCAL_OF_GPU = 8, 64
 # Size of an entry of each kind in surface_rows.glsl and surface_nodes.glsl [bytes].
-_ROW_BYTES, _NODE_BYTES, _HEAD_BYTES = 96, 48, 32
+_ROW_BYTES, _NODE_BYTES, _HEAD_BYTES = 96, 48, 48
+# Where the head has what is kept for the next substep, and the length of the last one; and the
+# size of the impulse of a row there [bytes].
+_KEPT_AT, _LENGTH_AT, _KEPT_BYTES = 32, 36, 16
 # Size of what a row has of another collider, where there is one [bytes].
 _FACING_BYTES = 16
 # Size of a node where layers of the cloth touch as well [bytes]: with the sum of its impulses.
@@ -38,7 +41,10 @@ class SurfaceContact:
     def __init__(self, scene: Scene, layout: Layout) -> None:
         """Allocate; the passes are compiled when they are first used."""
         numbers = scene.thin_colliders
-        defines = {'SURFACE_LOCAL': _LOCAL, **surface_defines(scene.colliders, numbers)}
+        local = _LOCAL_OF_SOFTWARE if layout.texture_loads else _LOCAL_OF_GPU
+        defines = {
+            'SURFACE_LOCAL': local, 'SURFACE_STORED': layout.stored,
+            **surface_defines(scene.colliders, numbers)}
         # By whether changes of velocity are noted for the limits of edges.
         self._impulses = {notes: SceneProgram(
             'surface_contact.comp', scene, layout,
@@ -66,8 +72,14 @@ class SurfaceContact:
         self._has_layers: bool = scene['self_contact.enabled']
         node_bytes = _LAYERED_NODE_BYTES if self._has_layers else _NODE_BYTES
         self._nodes = Buffer(np.zeros(layout.stored * node_bytes // 4, dtype=np.float32))
+        kept_bytes = _KEPT_BYTES * layout.stored * len(numbers) * rows
         self._rows = Buffer(np.zeros(
-            (_HEAD_BYTES + self._most_entries * rows * row_bytes) // 4, dtype=np.float32))
+            (_HEAD_BYTES + kept_bytes + self._most_entries * rows * row_bytes) // 4,
+            dtype=np.float32))
+        # Size of what is kept for the next substep [bytes], and a copy of it where there is one.
+        self._kept_bytes = _HEAD_BYTES - _KEPT_AT + kept_bytes
+        self._copy: Buffer | None = None
+        self._has_acted = False
 
     def programs(self, *, notes_changes: bool) -> Iterator[Program]:
         """Yield each pass, in use, to be set to a substep."""
@@ -77,6 +89,28 @@ class SurfaceContact:
     def programs_of_ways(self) -> Iterator[Program]:
         """Yield the passes that move edges and faces out alone, as ``programs``."""
         yield from self._set(self._near_nodes, self._entries, self._ways)
+
+    def forget(self) -> None:
+        """Drop the impulses of the last substep: the next state is another."""
+        if self._has_acted:
+            self._rows.write(np.zeros(1, dtype=np.float32), _LENGTH_AT)
+            self._has_acted = False
+
+    def keep(self) -> bool:
+        """Keep those impulses for ``restore``; return whether there are any."""
+        if self._has_acted:
+            if self._copy is None:
+                self._copy = Buffer(self._kept_bytes)
+            self._rows.copy_to(self._copy, 0, self._kept_bytes, _KEPT_AT)
+        return self._has_acted
+
+    def restore(self, kept: bool) -> None:
+        """Go back to the impulses of the last ``keep``, which has returned ``kept``."""
+        self.forget()
+        if kept:
+            assert self._copy is not None  # keep has made it
+            self._copy.copy_to(self._rows, _KEPT_AT, self._kept_bytes)
+            self._has_acted = True
 
     def bind(self) -> None:
         """Let the passes find their rows and nodes."""
@@ -98,6 +132,7 @@ class SurfaceContact:
         :param groups: offset of the workgroups in the buffer of dispatches [bytes]
         :param held_at: where the entries of held.glsl are, bound by now; below 0: nowhere
         """
+        self._has_acted = True
         program = self._impulses[notes_changes].use()
         if self._has_layers:
             program.set_int('parts', _LISTS | _ACTS | _GIVES)
@@ -115,6 +150,7 @@ class SurfaceContact:
         :param groups: offset of the workgroups in the buffer of dispatches [bytes]
         :param held_at: where the entries of held.glsl are, bound by now; below 0: nowhere
         """
+        self._has_acted = True
         program = self._impulses[notes_changes].use()
         program.set_float('layer_unit', layers.impulse_unit)
         self._nodes.bind_texture(bindings.SURFACE_NODES)
@@ -176,8 +212,9 @@ class SurfaceContact:
                 *self._impulses.values(), *self._others.values(), self._ways, self._entries,
                 self._near_nodes, self._pins):
             program.delete()
-        self._nodes.delete()
-        self._rows.delete()
+        for buffer in (self._nodes, self._rows, self._copy):
+            if buffer is not None:
+                buffer.delete()
 
     def _set(self, *parts: SceneProgram) -> Iterator[Program]:
         for part in parts:

@@ -135,7 +135,7 @@ class Loads:
         if self.air is not None:
             self.air.begin_step(-math.inf)
         if self.contacts is not None:
-            self.contacts.begin_step()
+            self.contacts.forget()
 
     def quiet_until(self, now: float) -> float:
         """Return until when what acts at ``now`` [s] stays so: ``now`` itself, or infinite."""

@@ -86,6 +86,50 @@ class Collider:
         return 2.0 * self.size[0]
 
     @property
+    def half_sizes(self) -> tuple[float, float, float]:
+        """Return radius and half the length, or half the sides, as shaders take them [m]."""
+        if self.shape == 'box':
+            x, y, z = self.size
+            return x / 2.0, y / 2.0, z / 2.0
+        radius, length, _ = (*self.size, 0.0, 0.0, 0.0)[:3]
+        return radius, length / 2.0, 0.0
+
+    @property
+    def reach(self) -> float:
+        """Return how far it is from the centre to the farthest point [m]; 0 for a plane."""
+        x, y, z = self.half_sizes
+        if self.shape == 'plane':
+            return 0.0
+        return x + y if self.shape == 'capsule' else math.hypot(x, y, z)
+
+    @property
+    def core(self) -> tuple[float, float, float]:
+        """
+        Return the half axis, in its own axes [m], that all of a long body is near; else 0, 0, 0.
+
+        Twice as long as thick is long.
+        """
+        if self.shape in ('plane', 'sphere'):
+            return 0.0, 0.0, 0.0
+        sizes = self.half_sizes
+        if self.shape in ('capsule', 'cylinder'):
+            sizes = sizes[0], sizes[0], sizes[1]
+        longest = sizes.index(max(sizes))
+        others = sorted(sizes)[:2]
+        x, y, z = (size if axis == longest and size > 2.0 * others[1] else 0.0
+                   for axis, size in enumerate(sizes))
+        return x, y, z
+
+    @property
+    def reach_from_core(self) -> float:
+        """Return how far its farthest point is from ``core`` [m]."""
+        if not any(self.core):
+            return self.reach
+        if self.shape == 'box':
+            return math.hypot(*sorted(self.half_sizes)[:2])
+        return self.half_sizes[0]
+
+    @property
     def pose(self) -> Pose:
         """Return where it is."""
         return Pose(self.position, self.orientation)
@@ -140,6 +184,7 @@ def collider_defines(colliders: Sequence[Collider]) -> dict[str, int]:
     present = {collider.shape for collider in colliders}
     return {
         'COLLIDERS': len(colliders),
+        'HAS_LONG': int(any(any(collider.core) for collider in colliders)),
         **{f'HAS_{shape.upper()}': int(shape in present) for shape in SHAPES}}
 
 

@@ -5,6 +5,7 @@
 
 from body_distance import distance_to
 from cloth_sim_ros.sim.errors import ClothSimError
+from cloth_sim_ros.sim.model.collider_surface import collider_surface
 from cloth_sim_ros.sim.scene import Scene
 import numpy as np
 import pytest
@@ -59,3 +60,21 @@ def test_distances(shape, size):
         'colliders.body.orientation': [0.3, -0.2, 0.5, 0.7]}).colliders[0]
     points = np.random.default_rng(1).uniform(-1.0, 1.0, (20, 30, 3))
     np.testing.assert_allclose(body.distance(points), distance_to(body, points), atol=1e-12)
+
+
+@pytest.mark.parametrize(('shape', 'size', 'core'), [
+    ('sphere', [0.3], (0.0, 0.0, 0.0)), ('capsule', [0.1, 0.5], (0.0, 0.0, 0.25)),
+    ('capsule', [0.2, 0.5], (0.0, 0.0, 0.0)), ('cylinder', [0.1, 0.5], (0.0, 0.0, 0.25)),
+    ('cylinder', [0.3, 0.1], (0.0, 0.0, 0.0)), ('box', [0.9, 0.2, 0.3], (0.45, 0.0, 0.0))])
+def test_a_body_is_near_its_core(shape, size, core):
+    """Nodes that come to the end of a long body would pass it."""
+    body = Scene({
+        **SPRINGS, 'colliders.names': ['body'], 'colliders.body.shape': shape,
+        'colliders.body.size': size}).colliders[0]
+    assert body.core == pytest.approx(core)
+    points, _ = collider_surface(body, reach=1.0)
+    axis = np.array(body.core)
+    along = points @ axis / max(axis @ axis, 1e-30)
+    away = np.linalg.norm(points - np.clip(along, -1.0, 1.0)[..., None] * axis, axis=-1)
+    assert away.max() == pytest.approx(body.reach_from_core, rel=1e-2)
+    assert away.max() <= body.reach_from_core + 1e-12

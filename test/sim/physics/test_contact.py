@@ -142,12 +142,14 @@ def test_a_cloth_inside_a_body_comes_out_slowly(simulate, within, any_mode):
     simulation = simulate({
         **LYING, **FLOOR, 'mode': any_mode, 'gravity': [0.0, 0.0, 0.0], 'start.z': -0.05})
     simulation.advance(0.02)
+    assert not simulation.snapshot().surface_contact_held
     way = 0.02 * math.sqrt(LYING['height'])
     within('depth after 0.02 s, less that at the speed of moving out [m]',
            np.abs(simulation.positions()[..., 2] + 0.05 - way).max(), 1e-5)
     simulation.advance(0.1)
     within('depth in the end [m]', np.abs(simulation.positions()[..., 2]).max(), 1e-6)
     within('speed in the end [m/s]', np.abs(simulation.velocities()).max(), 1e-4)
+    assert simulation.snapshot().surface_contact_held
 
 
 def test_a_floor_carries_the_weight(simulate, within, any_mode):
