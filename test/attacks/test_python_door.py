@@ -88,7 +88,9 @@ OF_SIMULATION: dict[str, dict[str, Any]] = {
 OF_BATCH: dict[str, dict[str, Any]] = {
     'step': {'count': 1}, 'positions': {}, 'velocities': {},
     'set_state': {'positions': STATE[None], 'velocities': STATE[None], 'cloths': [1]},
-    'reset': {'cloths': [1]}, 'pinned_nodes': {'cloth': 1},
+    'reset': {'cloths': [1]}, 'pinned_nodes': {'cloth': 1}, 'max_strains': {},
+    'cloth': {'number': 1}, 'pin': {'cloths': [0], 'nodes': [(3, 3)]},
+    'release': {'cloths': [0], 'nodes': [(3, 3)]},
     'move_pins': {
         'cloths': [0, 1], 'nodes': [(0, 0), (0, 0)], 'targets': [CENTER] * 2,
         'speeds': [1.0, 1.0]},
