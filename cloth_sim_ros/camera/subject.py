@@ -68,8 +68,8 @@ class Subject:
                 cloth.colliders if given is None else given, cloth.time)
         if not isinstance(cloth, Snapshot):
             raise ClothSimError(
-                f'a camera looks at a Simulation, a Snapshot or Batch.cloth(number), got '
-                f'{shown(cloth)}: give one')
+                f'a camera looks at a Simulation or a Snapshot, got {shown(cloth)}: give one, or '
+                'Batch.cloth(number)')
         rows, cols = cloth.records.shape
         _check_shape((rows, cols))
         cells = present_cells(cloth.flags)
