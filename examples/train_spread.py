@@ -28,11 +28,11 @@ def spread(positions: np.ndarray, velocities: np.ndarray) -> np.ndarray:
 
 
 def play(towels: CarryCloths, plans: np.ndarray, seed: int) -> np.ndarray:
-    """Return the last rewards of ``plans`` (64, 4, 3), of a hand; the other is its mirror image."""
+    """Return the last rewards of ``plans`` (64, 4, 3) of a hand, which the other one mirrors."""
     towels.reset(seed=seed)
     for number in range(20):
         action = np.tanh(plans[:, number // 5])
-        _, rewards, *_ = towels.step(np.stack([action, action * (1.0, -1.0, 1.0)], axis=1))
+        rewards = towels.step(np.stack([action, action * (1.0, -1.0, 1.0)], axis=1))[1]
     return rewards
 
 

@@ -12,7 +12,6 @@ from cloth_sim_ros.gym.carry_task import Outcome
 from cloth_sim_ros.gym.cloths import SingleCloth
 from cloth_sim_ros.gym.observations import Observation
 from cloth_sim_ros.gym.observations import Observer
-from cloth_sim_ros.gym.pictures import checked_render_mode
 from cloth_sim_ros.gym.pictures import Pictures
 from cloth_sim_ros.gym.pictures import RGB_ARRAY
 from cloth_sim_ros.sim.scene import Scene
@@ -57,10 +56,10 @@ class CarryCloth(gymnasium.Env[Observation, np.ndarray]):
             self, scene: Scene | Mapping[str, Any] | None = None, *,
             render_mode: str | None = None, **task: Any) -> None:
         """Make the simulation and the spaces."""
-        self.render_mode = checked_render_mode(render_mode)
         self._task = CarryTask(scene, **task)
         self._observer = Observer(self._task)
-        self._pictures = Pictures(self._task) if self.render_mode else None
+        self._pictures = Pictures(self._task, render_mode)
+        self.render_mode = self._pictures.mode
         self._cloths = SingleCloth(self._task)
         # The node of each hand, of which it may hold more.
         self.pins = np.array([nodes[0] for nodes in self._task.hands])
@@ -98,16 +97,15 @@ class CarryCloth(gymnasium.Env[Observation, np.ndarray]):
             self._look(), float(outcome.rewards[0]), bool(outcome.arrived[0]), bool(problem),
             self._info(outcome, problem))
 
-    def render(self) -> np.ndarray | None:
-        """Return a picture, (height, width, 3) uint8; None without a render_mode."""
-        return self._pictures.take(self._cloths)[0] if self._pictures else None
+    def render(self) -> np.ndarray:
+        """Return a picture, (height, width, 3) uint8; ClothSimError without a render_mode."""
+        return self._pictures.take(self._cloths)[0]
 
     def close(self) -> None:
         """Release the device."""
         self._cloths.close()
         self._observer.close()
-        if self._pictures:
-            self._pictures.close()
+        self._pictures.close()
 
     def _look(self) -> Observation:
         return self._observer.look_at_one(self._cloths)

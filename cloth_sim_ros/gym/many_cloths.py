@@ -13,7 +13,6 @@ from cloth_sim_ros.gym.carry_task import Outcome
 from cloth_sim_ros.gym.cloths import BatchedCloths
 from cloth_sim_ros.gym.observations import Observation
 from cloth_sim_ros.gym.observations import Observer
-from cloth_sim_ros.gym.pictures import checked_render_mode
 from cloth_sim_ros.gym.pictures import Pictures
 from cloth_sim_ros.gym.pictures import RGB_ARRAY
 from cloth_sim_ros.sim.arguments import booleans
@@ -67,10 +66,10 @@ class CarryCloths(VectorEnv[Observation, np.ndarray, np.ndarray]):
         self.num_envs = _checked_count(num_envs, 'num_envs', 'environments')
         self._max_steps = (
             np.inf if max_steps is None else _checked_count(max_steps, 'max_steps', 'actions'))
-        self.render_mode = checked_render_mode(render_mode)
         self._task = CarryTask(scene, **task)
         self._observer = Observer(self._task)
-        self._pictures = Pictures(self._task) if self.render_mode else None
+        self._pictures = Pictures(self._task, render_mode)
+        self.render_mode = self._pictures.mode
         self._cloths = BatchedCloths(self._task, self.num_envs)
         self.metadata = {**self.metadata, 'render_fps': self._task.frames_per_second}
         self.single_action_space = spaces.Box(
@@ -139,16 +138,15 @@ class CarryCloths(VectorEnv[Observation, np.ndarray, np.ndarray]):
             self._observer.look(self._cloths), rewards, terminations, truncations,
             self._infos(outcome, problems))
 
-    def render(self) -> tuple[np.ndarray, ...] | None:
-        """Return a picture of each cloth, (height, width, 3) uint8; None without render_mode."""
-        return self._pictures.take(self._cloths) if self._pictures else None
+    def render(self) -> tuple[np.ndarray, ...]:
+        """Return pictures, (height, width, 3) uint8; ClothSimError without a render_mode."""
+        return self._pictures.take(self._cloths)
 
     def close_extras(self, **kwargs: Any) -> None:
         """Release the device."""
         self._cloths.close()
         self._observer.close()
-        if self._pictures:
-            self._pictures.close()
+        self._pictures.close()
 
     def _begin(self, mask: np.ndarray) -> None:
         """Begin the next episode of some cloths."""

@@ -121,7 +121,7 @@ class Own(Part):
     What a function of the user's returns, as float32.
 
     :param function: gets positions and velocities of n cloths, and returns (n, ...) numbers
-    :param at_start: these of some cloths, which tell the shape
+    :param at_start: these of some cloths, for the shape
     """
 
     def __init__(self, function: OwnFunction, at_start: tuple[np.ndarray, np.ndarray]) -> None:

@@ -52,16 +52,22 @@ class Pictures:
     """
     Takes pictures of the cloths of a task, each by itself, in colour.
 
-    :raises ClothSimError: when the camera or the size is wrong
+    :param mode: rgb_array; None for no pictures
+    :raises ClothSimError: when the mode, the camera or the size is wrong
     """
 
-    def __init__(self, task: Posed) -> None:
+    def __init__(self, task: Posed, mode: str | None) -> None:
         """Place the camera."""
-        self._camera = camera_for(
+        self.mode = _checked_mode(mode)
+        self._camera = None if self.mode is None else camera_for(
             checked_angles(task.camera), task, checked_size(task.render_size))
 
     def take(self, cloths: Viewed) -> tuple[np.ndarray, ...]:
         """Return a picture of each cloth, (height, width, 3) uint8."""
+        if self._camera is None:
+            raise ClothSimError(
+                'render needs a render_mode, got None: make the environment with '
+                f"render_mode='{RGB_ARRAY}'")
         pictures = [
             self._camera.capture(
                 cloth, depth=False, labels=False, normals=False, visible=False).color
@@ -70,7 +76,8 @@ class Pictures:
 
     def close(self) -> None:
         """Free its memory on the device."""
-        self._camera.close()
+        if self._camera is not None:
+            self._camera.close()
 
 
 def camera_for(
@@ -94,8 +101,7 @@ def camera_for(
     return Camera(Place(**angles).looking_at(task.seen, width, height).pinhole())
 
 
-def checked_render_mode(mode: str | None) -> str | None:
-    """Return ``mode``, or raise ClothSimError when there is no such one."""
+def _checked_mode(mode: str | None) -> str | None:
     if mode is not None and (not isinstance(mode, str) or mode != RGB_ARRAY):
         raise ClothSimError(
             f'a render_mode must be {RGB_ARRAY} or None, got {shown(mode)}: give one of them')

@@ -490,7 +490,8 @@ def _check(scene: Scene) -> None:
     for name in _TIMED:
         if scene[name]:
             raise ClothSimError(
-                f'a batch has nothing timed, and {name} is not empty: move pins with move_pins')
+                f'a batch has nothing timed, and {name} is not empty: hold and move nodes with '
+                'pin and move_pins')
     if scene['self_contact.enabled']:
         raise ClothSimError(
             'a batch lets layers of a cloth pass, and self_contact.enabled is true: set it to '

@@ -208,4 +208,5 @@ def test_a_picture_of_each_cloth(make_many):
     np.testing.assert_array_equal(pictures[0], alone.render())
     assert np.mean(pictures[0] != pictures[1]) > 0.1
     alone.close()
-    assert make_many(2).render() is None
+    with pytest.raises(ClothSimError, match="render_mode='rgb_array'"):
+        make_many(2).render()
