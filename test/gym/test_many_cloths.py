@@ -78,6 +78,11 @@ def test_gymnasium_makes_them_by_name():
     assert many.metadata['autoreset_mode'] is AutoresetMode.NEXT_STEP
     assert many.observation_space == batch_space(many.single_observation_space, 3)
     many.close()
+    many = gymnasium.make_vec(
+        'cloth_sim_ros/CarryCloth-v0', num_envs=2, scene=SMALL, max_episode_steps=1)
+    many.reset(seed=1)
+    assert many.step(np.zeros((2, 2, 3), np.float32))[3].all()
+    many.close()
 
 
 def test_a_mode_that_does_not_batch_has_a_way_out(make_many):
