@@ -44,7 +44,7 @@ def run_example(name, folder, *arguments):
 
 def test_each_is_short_says_how_to_run_it_and_is_run_here():
     """An example would be too long to read, or rot."""
-    assert len(EXAMPLES) == 12
+    assert len(EXAMPLES) == 13
     tests = Path(__file__).read_text(encoding='utf-8')
     for path in EXAMPLES:
         text = path.read_text(encoding='utf-8')
@@ -189,6 +189,14 @@ def test_two_stiffnesses_share_a_plot(tmp_path):
     soft, stiff = (float(strain) for strain in re.findall(r'strain (.*) %', shown))
     assert soft > stiff
     assert imread(tmp_path / 'stiffness.png').shape[:2] == (660, 880)
+
+
+def test_a_folded_towel_is_spread_by_what_is_learned(tmp_path):
+    """The program that shows how to train would learn nothing."""
+    shown = run_example('train_spread', tmp_path)
+    before, after = map(float, re.search(r'by (.*) mm before, (.*) mm after', shown).groups())
+    assert before > 60.0 and after < 0.4 * before, shown
+    assert imread(tmp_path / 'spread.png').shape[:2] == (240, 640)
 
 
 @pytest.mark.parametrize('seconds', [2.3, pytest.param(7.0, marks=pytest.mark.long)])

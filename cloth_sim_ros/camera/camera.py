@@ -12,6 +12,7 @@ from cloth_sim_ros.camera.depth_noise import measured_depth
 from cloth_sim_ros.camera.drawn_cloth import DrawnCloth
 from cloth_sim_ros.camera.lens import Lens
 from cloth_sim_ros.camera.picture import CameraPicture
+from cloth_sim_ros.camera.subject import RUNNING
 from cloth_sim_ros.camera.subject import Subject
 from cloth_sim_ros.camera.value_drawing import ValueDrawing
 from cloth_sim_ros.camera.visibility import visible_nodes
@@ -20,6 +21,7 @@ from cloth_sim_ros.gl.context import Context
 from cloth_sim_ros.gl.errors import DeviceError
 from cloth_sim_ros.sim.arguments import flag
 from cloth_sim_ros.sim.arguments import instance
+from cloth_sim_ros.sim.batch_cloth import ClothOfBatch
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.model.cameras import CameraModel
 from cloth_sim_ros.sim.model.colliders import Collider
@@ -61,16 +63,18 @@ class Camera(AbstractContextManager['Camera']):
         self.close()
 
     def capture(
-            self, cloth: Simulation | Snapshot, *, colliders: Sequence[Collider] | None = None,
-            frame: Pose = WORLD, color: bool = True, depth: bool = True, labels: bool = True,
-            normals: bool = True, visible: bool = True,
+            self, cloth: Simulation | ClothOfBatch | Snapshot, *,
+            colliders: Sequence[Collider] | None = None, frame: Pose = WORLD, color: bool = True,
+            depth: bool = True, labels: bool = True, normals: bool = True, visible: bool = True,
             look: Look | None = None) -> CameraPicture:
         """
         Return a picture of ``cloth`` as it is now.
 
-        The nodes of a Simulation are drawn from where it has them on the device.
+        The nodes of a Simulation, and of a cloth of a Batch, are drawn from where it has them on
+        the device.
 
-        :param colliders: where they are; by default those of a Simulation, and none beside a
+        :param cloth: a Simulation, a Snapshot, or ``Batch.cloth(number)``
+        :param colliders: where they are; by default those of the scene, and none beside a
             Snapshot
         :param frame: where the tf frame of the camera is in the world, if it has one
         :param color: False leaves out the colours, which take longest
@@ -78,7 +82,7 @@ class Camera(AbstractContextManager['Camera']):
         :param labels: False leaves out the labels
         :param normals: False leaves out the normals
         :param visible: False leaves out which nodes are seen
-        :param look: colours, fabric and sun; by default those of the scene of a Simulation
+        :param look: colours, fabric and sun; by default those of the scene
         :raises ClothSimError: when ``cloth`` is none, or a chain, or for another wrong value
         :raises DeviceError: when there is no GL device for it
         """
@@ -102,7 +106,7 @@ class Camera(AbstractContextManager['Camera']):
             studio.close()
 
     def _studio_for(self, subject: Subject) -> '_Studio':
-        beside = subject.cloth if isinstance(subject.cloth, Simulation) else None
+        beside = _context_of(subject)
         if self._studio is None or not self._studio.serves(beside):
             self.close()
             self._studio = _Studio(self.model, beside)
@@ -113,13 +117,13 @@ class _Studio:
     """
     The device side of a camera, in its own GL context.
 
-    :param beside: whose buffers it draws from; None for one that draws snapshots alone
+    :param beside: the context whose buffers it draws from; None for one that draws snapshots alone
     """
 
-    def __init__(self, model: CameraModel, beside: Simulation | None) -> None:
+    def __init__(self, model: CameraModel, beside: Context | None) -> None:
         """Make the context."""
-        self._simulation = beside
-        self._context = Context(beside=None if beside is None else beside.engines.context)
+        self._beside = beside
+        self._context = Context(beside=beside)
         try:
             if not self._context.max_texture_texels:
                 raise DeviceError(
@@ -132,9 +136,9 @@ class _Studio:
             self._context.close()
             raise
 
-    def serves(self, simulation: Simulation | None) -> bool:
-        """Return whether it has the buffers of ``simulation``, or needs none."""
-        return simulation is None or simulation is self._simulation
+    def serves(self, beside: Context | None) -> bool:
+        """Return whether it has the buffers of the context ``beside``, or needs none."""
+        return beside is None or beside is self._beside
 
     def take(
             self, subject: Subject, lens: Lens, look: Look | None, *, depth: bool, labels: bool,
@@ -144,8 +148,8 @@ class _Studio:
 
         :param look: None for a picture without colours
         """
-        simulation = subject.cloth if isinstance(subject.cloth, Simulation) else None
-        stored = None if simulation is None else simulation.stored_positions()
+        cloth = subject.cloth
+        stored = cloth.stored_positions() if isinstance(cloth, RUNNING) else None
         self._context.make_current()
         self._cloth.load(subject, stored)
         values = None
@@ -159,7 +163,7 @@ class _Studio:
                 seen = visible_nodes(
                     lens.pose.seen_from(nodes), values.depth, values.facets, lens.model)
             if look is not None:
-                # Reading the nodes of a Simulation has made its own context current.
+                # Reading nodes from the device has made the context of the cloth current.
                 self._context.make_current()
                 image = self._colors.draw(subject, self._cloth, lens, look, nodes)
         return CameraPicture(
@@ -173,3 +177,11 @@ class _Studio:
     def close(self) -> None:
         """Release the context."""
         self._context.close()
+
+
+def _context_of(subject: Subject) -> Context | None:
+    """Return the context that has the nodes of ``subject``; None for a Snapshot."""
+    cloth = subject.cloth
+    if isinstance(cloth, Simulation):
+        return cloth.engines.context
+    return cloth.context if isinstance(cloth, ClothOfBatch) else None

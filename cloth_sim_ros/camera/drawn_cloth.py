@@ -4,11 +4,11 @@
 """The nodes of a cloth on the device, for the shaders that draw its surface."""
 
 from cloth_sim_ros.camera.lens import Lens
+from cloth_sim_ros.camera.subject import RUNNING
 from cloth_sim_ros.camera.subject import Subject
 from cloth_sim_ros.gl.buffer import Buffer
 from cloth_sim_ros.gl.errors import DeviceError
 from cloth_sim_ros.gl.program import RenderProgram
-from cloth_sim_ros.sim.simulation import Simulation
 from cloth_sim_ros.sim.state import StoredPositions
 import numpy as np
 
@@ -21,7 +21,7 @@ class DrawnCloth:
     """
     Holds the drawing data of one subject at a time.
 
-    The positions of a Simulation stay in its own buffers; those of a Snapshot are uploaded.
+    The positions of a running cloth stay in its own buffers; those of a Snapshot are uploaded.
 
     :param most_texels: that a texture of the device has
     """
@@ -48,7 +48,7 @@ class DrawnCloth:
         :raises DeviceError: when the cloth is too large for the device
         """
         if stored is None:
-            assert not isinstance(subject.cloth, Simulation)
+            assert not isinstance(subject.cloth, RUNNING)
             stored = self._upload(subject.cloth.positions)
         if stored.buffer.bytes // (4 * _TEXEL) > self._most_texels:
             raise DeviceError(

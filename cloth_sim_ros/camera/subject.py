@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from cloth_sim_ros.files.errors import shown
 from cloth_sim_ros.sim.arguments import instance
 from cloth_sim_ros.sim.arguments import iterable
+from cloth_sim_ros.sim.batch_cloth import ClothOfBatch
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.model.colliders import Collider
 from cloth_sim_ros.sim.model.look import Look
@@ -21,6 +22,8 @@ import numpy as np
 
 # Thickness of a cloth whose scene is not known [m]: the default of contact.thickness.
 _THICKNESS = 1e-3
+# Cloths whose nodes are on the device, with a scene.
+RUNNING = (Simulation, ClothOfBatch)
 
 
 @dataclass(frozen=True)
@@ -37,7 +40,7 @@ class Subject:
     :param time: simulated [s]
     """
 
-    cloth: Simulation | Snapshot
+    cloth: Simulation | ClothOfBatch | Snapshot
     shape: tuple[int, int]
     cells: np.ndarray | None
     cell: tuple[float, float]
@@ -47,16 +50,16 @@ class Subject:
 
     @classmethod
     def of(
-            cls, cloth: Simulation | Snapshot,
+            cls, cloth: Simulation | ClothOfBatch | Snapshot,
             colliders: Sequence[Collider] | None = None) -> Subject:
         """
         Return what there is to see of ``cloth``.
 
-        :param colliders: None for those of a Simulation, and none beside a Snapshot
+        :param colliders: None for those of a running cloth, and none beside a Snapshot
         :raises ClothSimError: when it is neither, or a chain, which has no surface
         """
         given = None if colliders is None else _checked(colliders)
-        if isinstance(cloth, Simulation):
+        if isinstance(cloth, RUNNING):
             scene = cloth.scene
             _check_shape((scene.rows, scene.cols))
             return cls(
@@ -65,7 +68,8 @@ class Subject:
                 cloth.colliders if given is None else given, cloth.time)
         if not isinstance(cloth, Snapshot):
             raise ClothSimError(
-                f'a camera looks at a Simulation or a Snapshot, got {shown(cloth)}: give one')
+                f'a camera looks at a Simulation or a Snapshot, got {shown(cloth)}: give one, or '
+                'Batch.cloth(number)')
         rows, cols = cloth.records.shape
         _check_shape((rows, cols))
         cells = present_cells(cloth.flags)
@@ -79,12 +83,12 @@ class Subject:
     @property
     def look(self) -> Look:
         """Return how it looks: as its scene says, where that is known."""
-        return self.cloth.scene.look if isinstance(self.cloth, Simulation) else Look()
+        return self.cloth.scene.look if isinstance(self.cloth, RUNNING) else Look()
 
     def nodes(self) -> np.ndarray:
         """Return where its nodes are, (rows, cols, 3) float64 [m]; NaN where there is none."""
         cloth = self.cloth
-        positions = cloth.positions() if isinstance(cloth, Simulation) else cloth.positions
+        positions = cloth.positions() if isinstance(cloth, RUNNING) else cloth.positions
         return positions.astype(float)
 
 

@@ -20,6 +20,7 @@ from cloth_sim_ros.sim.arguments import integer
 from cloth_sim_ros.sim.arguments import integers
 from cloth_sim_ros.sim.arguments import iterable
 from cloth_sim_ros.sim.arguments import real_number
+from cloth_sim_ros.sim.batch_cloth import ClothOfBatch
 from cloth_sim_ros.sim.device.layout import choose_layout
 from cloth_sim_ros.sim.device.low_parts import largest_coordinate
 from cloth_sim_ros.sim.device.low_parts import needs_low_parts
@@ -28,6 +29,8 @@ from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.guarded_steps import BoundsCheck
 from cloth_sim_ros.sim.held.stacked_pins import StackedPins
 from cloth_sim_ros.sim.loads.loads import Loads
+from cloth_sim_ros.sim.model.cells import edge_shares
+from cloth_sim_ros.sim.model.edge_kinds import EDGE_KINDS
 from cloth_sim_ros.sim.model.pins import PinMove
 from cloth_sim_ros.sim.modes.mass_spring import MassSpring
 from cloth_sim_ros.sim.scene import GIVE_SCENE
@@ -37,6 +40,7 @@ from cloth_sim_ros.sim.simulation_arguments import check_context
 from cloth_sim_ros.sim.state import checked_vectors
 from cloth_sim_ros.sim.state import MOST_MAGNITUDE
 from cloth_sim_ros.sim.state import State
+from cloth_sim_ros.sim.state import StoredPositions
 from cloth_sim_ros.sim.stepping import checked_steps
 import numpy as np
 
@@ -48,7 +52,7 @@ _COMMON = ('rows', 'cols', 'dt')
 # Max. cloths of a batch [1]: so many of the smallest ones fit in no buffer.
 _MOST_CLOTHS = 1_000_000
 # What none of them may have.
-_TIMED = ('pushes.start', 'pin_moves.start', 'grasps.start')
+_TIMED = ('pushes.start', 'pin_moves.start', 'grasps.start', 'collider_moves.start')
 
 
 class Stack:
@@ -124,9 +128,38 @@ class Stack:
         start = scene.start_positions()
         self.write(cloth, start, np.zeros_like(start))
 
+    def hold(self, cloths: np.ndarray, nodes: np.ndarray) -> None:
+        """Pin ``nodes`` (n, 2), each of one of ``cloths`` (n,), where they are."""
+        self.pins.hold(self.at(cloths, nodes))
+
+    def release(self, cloths: np.ndarray, nodes: np.ndarray) -> None:
+        """Let ``nodes`` (n, 2), each of one of ``cloths`` (n,), go."""
+        self.pins.release(self.at(cloths, nodes))
+
     def pinned(self, cloth: int) -> np.ndarray:
         """Return which nodes of a cloth are held, (rows, cols) bool."""
         return self._state.pinned[self._rows[cloth]]
+
+    def strains(self) -> np.ndarray:
+        """Return the largest abs(l / L0 - 1) of structural and shear edges, (cloths,)."""
+        scene, positions = self.scenes[0], self.positions().astype(float)
+        largest = np.zeros(len(self.scenes))
+        for kind in EDGE_KINDS:
+            if kind.family == 'bend' or kind.family not in scene.families:
+                continue
+            starts, ends = kind.everywhere(scene.rows, scene.cols)
+            lengths = np.linalg.norm(
+                positions[(slice(None), *ends)] - positions[(slice(None), *starts)], axis=-1)
+            strain = np.abs(lengths / kind.rest_length(scene) - 1.0)
+            has_edge = np.broadcast_to(edge_shares(scene.cells, kind), strain.shape) > 0.0
+            largest = np.maximum(
+                largest, strain.max(axis=(1, 2), initial=0.0, where=has_edge))
+        return largest
+
+    def stored_positions(self, cloth: int) -> StoredPositions:
+        """Return where the device has the positions of one cloth."""
+        stored = self._state.stored_positions
+        return stored._replace(first=self.layout.index(int(self._rows[cloth, 0]), 0))
 
     def at(self, cloths: np.ndarray, nodes: np.ndarray) -> np.ndarray:
         """Return row in the stack and col of ``nodes`` (n, 2), each of one of ``cloths`` (n,)."""
@@ -145,10 +178,10 @@ class Stack:
                 self._state, self._loads.forcing(self._state, begin, end), most)
             if made:
                 return made
-        self.pins.begin_step(begin, end)
+        self.pins.begin_step(number)
         self._loads.begin_step(begin, end)
         self._mode.step(self._state, begin, self._loads)
-        self.pins.end_step(begin, end)
+        self.pins.end_step(number)
         return 1
 
 
@@ -159,7 +192,8 @@ class Batch(AbstractContextManager['Batch']):
     Cloths that differ in nothing but their start and their pins step in one dispatch; of others,
     each kind in one. All have the same rows, cols and dt. Air is in all of them where their scenes
     have some; the bits are those of a Simulation there while all cloths of a kind are held, or
-    none. There are neither pushes nor grasps nor colliders.
+    none. Colliders act on nodes, and are where the scene has them. There are neither pushes nor
+    grasps nor self-contact.
 
     A cloth whose state is lost stays where it was before the call in which that happened, and is
     ``lost`` until it is reset; the others go on.
@@ -180,6 +214,8 @@ class Batch(AbstractContextManager['Batch']):
         self.count = len(self.scenes)
         self.dt: float = self.scenes[0]['dt']
         self.steps = 0
+        # The number of the first step of each cloth since its start.
+        self._firsts = np.zeros(self.count, dtype=int)
         self._shape = self.scenes[0].rows, self.scenes[0].cols
         self._owns_context = context is None
         nodes = sum(scene.node_count for scene in self.scenes)
@@ -213,6 +249,11 @@ class Batch(AbstractContextManager['Batch']):
         """Return the simulated time since the start [s]."""
         return self.steps * self.dt
 
+    @property
+    def times(self) -> np.ndarray:
+        """Return the simulated time since the start of each cloth or its reset [s], (count,)."""
+        return (self.steps - self._firsts) * self.dt
+
     def step(self, count: int = 1) -> None:
         """Make ``count`` steps of dt of every cloth."""
         count = checked_steps(count, self.steps, self.dt)
@@ -228,6 +269,20 @@ class Batch(AbstractContextManager['Batch']):
     def velocities(self) -> np.ndarray:
         """Return all velocities [m/s], (count, rows, cols, 3) float32; a pin has its own."""
         return self._gathered([stack.velocities for stack in self._stacks])
+
+    def max_strains(self) -> np.ndarray:
+        """Return the largest abs(l / L0 - 1) of structural and shear edges, (count,)."""
+        self._context.make_current()
+        strains = np.empty(self.count)
+        for stack, members in zip(self._stacks, self._members):
+            strains[members] = stack.strains()
+        return strains
+
+    def cloth(self, number: int) -> ClothOfBatch:
+        """Return one of the cloths, for a Camera to look at."""
+        number = int(self._checked_cloths([integer(number, 'the number of a cloth')])[0])
+        stack, place = self._places[number]
+        return ClothOfBatch(self, number, self._stacks[stack], int(place), self._context)
 
     def set_state(
             self, positions: np.ndarray, velocities: np.ndarray,
@@ -254,7 +309,9 @@ class Batch(AbstractContextManager['Batch']):
 
     def reset(self, cloths: Iterable[int] | None = None) -> None:
         """
-        Put some cloths back to their start: pose and pins; time goes on.
+        Put some cloths back to their start: pose, pins and time of their own.
+
+        The ``time`` of the batch goes on, and gusts with it.
 
         :param cloths: their numbers; None for all
         """
@@ -262,7 +319,28 @@ class Batch(AbstractContextManager['Batch']):
         self._context.make_current()
         for stack, place in self._places[numbers]:
             self._stacks[stack].reset(place)
+        self._firsts[numbers] = self.steps
         self.lost[numbers] = False
+
+    def pin(self, cloths: np.ndarray, nodes: np.ndarray) -> None:
+        """
+        Pin nodes where they are; moving pins stop.
+
+        :param cloths: the number of the cloth of each, (n,)
+        :param nodes: row and col of each, (n, 2)
+        :raises ClothSimError: when there is no such cloth or node; then none is pinned
+        """
+        self._change_pins(Stack.hold, cloths, nodes)
+
+    def release(self, cloths: np.ndarray, nodes: np.ndarray) -> None:
+        """
+        Release nodes, with the velocities of their pins.
+
+        :param cloths: the number of the cloth of each, (n,)
+        :param nodes: row and col of each, (n, 2)
+        :raises ClothSimError: when there is no such cloth or node; then none is released
+        """
+        self._change_pins(Stack.release, cloths, nodes)
 
     def pinned_nodes(self, cloth: int) -> np.ndarray:
         """Return which nodes of a cloth are held, (rows, cols) bool."""
@@ -282,14 +360,9 @@ class Batch(AbstractContextManager['Batch']):
         :param speeds: [m/s] in simulated time, (n,) or one for all
         :raises ClothSimError: when a node is not pinned or a value is wrong; then none moves
         """
-        numbers = self._checked_cloths(cloths)
-        nodes = integers(nodes, 'the nodes', 'give [row, col] of each pin')
+        numbers, nodes = self._checked_nodes(cloths, nodes)
         targets = array(
             targets, 'the targets', (len(numbers), 3), 'give x, y and z for each pin')
-        if nodes.shape != (len(numbers), 2):
-            raise ClothSimError(
-                f'{len(numbers)} pins need ({len(numbers)}, 2) nodes, got {nodes.shape}: give '
-                '[row, col] of each pin')
         if getattr(speeds, 'shape', None) == () or not hasattr(speeds, '__len__'):
             one = real_number(speeds, 'the speed', 'give it in m/s')
             speeds = np.full(len(numbers), one)
@@ -306,7 +379,8 @@ class Batch(AbstractContextManager['Batch']):
             here = places[:, 0] == number
             if here.any():
                 stack.pins.move(
-                    stack.at(places[here, 1], nodes[here]), targets[here], speed[here], self.time)
+                    stack.at(places[here, 1], nodes[here]), targets[here], speed[here],
+                    self._firsts[numbers[here]], self.steps)
 
     def finish(self) -> None:
         """Wait until the device has finished all work; for timing."""
@@ -345,6 +419,29 @@ class Batch(AbstractContextManager['Batch']):
                 f'there is no cloth {numbers.min() if numbers.min() < 0 else numbers.max()} in a '
                 f'batch of {self.count}: give numbers from 0 to {self.count - 1}')
         return numbers
+
+    def _checked_nodes(
+            self, cloths: np.ndarray, nodes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Return numbers of cloths (n,) and nodes (n, 2); ClothSimError for another shape."""
+        numbers = self._checked_cloths(cloths)
+        nodes = integers(nodes, 'the nodes', 'give [row, col] of each pin')
+        if nodes.shape != (len(numbers), 2):
+            raise ClothSimError(
+                f'{len(numbers)} pins need ({len(numbers)}, 2) nodes, got {nodes.shape}: give '
+                '[row, col] of each pin')
+        return numbers, nodes
+
+    def _change_pins(
+            self, change: Callable[[Stack, np.ndarray, np.ndarray], None], cloths: np.ndarray,
+            nodes: np.ndarray) -> None:
+        numbers, nodes = self._checked_nodes(cloths, nodes)
+        for cloth, (row, col) in zip(numbers.tolist(), nodes.tolist()):
+            self.scenes[cloth].checked_node(row, col)
+        self._context.make_current()
+        places = self._places[numbers]
+        for number, stack in enumerate(self._stacks):
+            here = places[:, 0] == number
+            change(stack, places[here, 1], nodes[here])
 
     def _check_pin(self, cloth: int, row: int, col: int) -> None:
         self.scenes[cloth].checked_node(row, col)
@@ -393,14 +490,21 @@ def _check(scene: Scene) -> None:
     for name in _TIMED:
         if scene[name]:
             raise ClothSimError(
-                f'a batch has nothing timed, and {name} is not empty: move pins with move_pins')
+                f'a batch has nothing timed, and {name} is not empty: hold and move nodes with '
+                'pin and move_pins')
     if scene['self_contact.enabled']:
         raise ClothSimError(
             'a batch lets layers of a cloth pass, and self_contact.enabled is true: set it to '
             'false')
-    if scene.has_contact:
+    if scene.thin_colliders:
+        name = scene.colliders[scene.thin_colliders[0]].name
         raise ClothSimError(
-            'a batch has no contact, and colliders.names is not empty: remove the colliders')
+            f'in a batch colliders act on nodes alone, and collider {name} is thinner than 1.4 '
+            'cells: make it thicker, or set contact.features to false')
+    if scene['pin.max_force'] > 0.0:
+        raise ClothSimError(
+            f'a batch moves pins against any force, and pin.max_force is '
+            f'{scene["pin.max_force"]:g} N: set it to 0, or run each cloth by itself')
 
 
 def _kind(scene: Scene) -> Hashable:

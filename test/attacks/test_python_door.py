@@ -29,6 +29,8 @@ from cloth_sim_ros import SimulationRecorder
 from cloth_sim_ros import write_mesh
 from cloth_sim_ros.gl.context import Context
 from cloth_sim_ros.gym import CarryCloth
+from cloth_sim_ros.gym import CarryCloths
+from cloth_sim_ros.gym import make_vec
 from cloth_sim_ros.sim.held.force_window import ForceWindow
 from cloth_sim_ros.sim.inputs import Pin
 from cloth_sim_ros.sim.mesh import mesh_of_nodes
@@ -88,7 +90,9 @@ OF_SIMULATION: dict[str, dict[str, Any]] = {
 OF_BATCH: dict[str, dict[str, Any]] = {
     'step': {'count': 1}, 'positions': {}, 'velocities': {},
     'set_state': {'positions': STATE[None], 'velocities': STATE[None], 'cloths': [1]},
-    'reset': {'cloths': [1]}, 'pinned_nodes': {'cloth': 1},
+    'reset': {'cloths': [1]}, 'pinned_nodes': {'cloth': 1}, 'max_strains': {},
+    'cloth': {'number': 1}, 'pin': {'cloths': [0], 'nodes': [(3, 3)]},
+    'release': {'cloths': [0], 'nodes': [(3, 3)]},
     'move_pins': {
         'cloths': [0, 1], 'nodes': [(0, 0), (0, 0)], 'targets': [CENTER] * 2,
         'speeds': [1.0, 1.0]},
@@ -117,9 +121,17 @@ OF_RECORDING: dict[str, dict[str, Any]] = {
 OF_RECORDER: dict[str, dict[str, Any]] = {
     'advance': {'seconds': 0.01}, 'write': {'step_wall_time': 0.0, 'real_time_factor': 0.0}}
 OF_ENVIRONMENT: dict[str, dict[str, Any]] = {
-    'reset': {'seed': 1, 'options': None}, 'step': {'action': np.zeros((2, 3), np.float32)}}
+    'reset': {'seed': 1, 'options': None}, 'step': {'action': np.zeros((2, 3), np.float32)},
+    'render': {}}
+OF_ENVIRONMENTS: dict[str, dict[str, Any]] = {
+    'reset': {'seed': 1, 'options': {'reset_mask': np.array([True, False])}},
+    'step': {'actions': np.zeros((2, 2, 3), np.float32)}, 'render': {}}
+# What makes an environment, or many.
+_OF_TASK = (
+    'scene', 'goal', 'frame', 'speed', 'observation', 'jitter', 'tolerance', 'camera',
+    'picture_size', 'hands', 'start', 'reward', 'render_size', 'render_mode')
 # Ends what the others are called on; it takes no argument.
-_CLOSE = {'close'}
+_CLOSE = {'close', 'close_extras'}
 
 
 def methods_of(kind: type) -> set[str]:
@@ -351,26 +363,54 @@ def test_environment_takes_or_refuses_anything():
     environment = CarryCloth(SMALL)
 
     def look() -> list[Any]:
-        return look_at(environment._simulation)
+        return look_at(environment._cloths.views()[0])
 
     environment.reset(seed=1)
     print(attack(environment, OF_ENVIRONMENT, look, lambda: environment.reset(seed=1)))
     environment.close()
 
 
+def test_environments_take_or_refuse_anything():
+    """Wrong actions would move some cloths, or a wrong mask reset others."""
+    assert set(OF_ENVIRONMENTS) == methods_of(CarryCloths)
+    environments = make_vec(2, BATCHED)
+
+    def look() -> list[Any]:
+        cloths = environments._cloths
+        return [cloths.positions().tobytes(), cloths.velocities().tobytes(),
+                cloths.times().tobytes()]
+
+    environments.reset(seed=1)
+    print(attack(environments, OF_ENVIRONMENTS, look, lambda: environments.reset(seed=1)))
+    environments.close()
+
+
 @pytest.mark.parametrize('name', HOSTILE)
 def test_environment_of_anything(name):
     """A frame of text was a TypeError."""
-    for argument in ('scene', 'goal', 'frame', 'speed', 'observation', 'jitter', 'tolerance',
-                     'camera', 'picture_size'):
+    for argument in _OF_TASK:
         given = {'scene': SMALL, 'observation': 'depth', argument: hostile(name)}
         try:
             environment = CarryCloth(**given)
         except ClothSimError as error:
             assert str(error).strip()
         else:
-            assert math.isfinite(environment._simulation.dt)
+            assert math.isfinite(environment._cloths.views()[0].dt)
             environment.close()
+
+
+@pytest.mark.parametrize('name', HOSTILE)
+def test_environments_of_anything(name):
+    """A number of cloths beyond memory would end the process."""
+    for argument in ('num_envs', 'max_steps', *_OF_TASK):
+        given = {'num_envs': 2, 'scene': BATCHED, argument: hostile(name)}
+        try:
+            environments = make_vec(**given)
+        except (ClothSimError, DeviceError) as error:
+            assert str(error).strip()
+        else:
+            assert environments.num_envs >= 1
+            environments.close()
 
 
 def test_camera_takes_or_refuses_anything(context):

@@ -83,9 +83,10 @@ def test_it_is_made_by_name():
 
 
 @pytest.mark.parametrize('options, said', [
-    ({'observation': 'picture'}, "positions, state or depth, or a list of them, got 'picture'"),
-    ({'observation': []}, 'or a list of them'),
-    ({'observation': ['depth', 'depth']}, 'or a list of them'),
+    ({'observation': 'picture'},
+     "positions, state or depth, a list of them, or a function, got 'picture'"),
+    ({'observation': []}, 'a list of them'),
+    ({'observation': ['depth', 'depth']}, 'a list of them'),
     ({'observation': 'depth', 'camera': {'height': 3.0}}, 'give azimuth, elevation'),
     ({'observation': 'depth', 'camera': {'azimuth': 'left'}}, 'give azimuth, elevation'),
     ({'observation': 'depth', 'camera': {'field_of_view': 0.0}}, 'above 0 degrees'),

@@ -8,6 +8,7 @@ from contextlib import ExitStack
 from pathlib import Path
 import re
 
+from cloth_sim_ros.camera.camera import Camera
 from cloth_sim_ros.sim.batch import Batch
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.scene import Scene
@@ -19,6 +20,10 @@ from springs import SPRINGS
 
 _SMALL = {'rows': 11, 'cols': 9, 'dt': 0.002, 'start.jitter': 0.05}
 _PINS = (['top_left', 'top_right'], ['bottom_left'], ['top_edge'])
+_BODIES = {
+    'colliders.names': ['table', 'ball'], 'colliders.table.shape': 'plane',
+    'colliders.ball.shape': 'sphere', 'colliders.ball.size': [0.3],
+    'colliders.ball.position': [0.1, 0.0, 0.2], 'colliders.ball.friction': 0.6, 'start.z': 0.55}
 
 
 def _scenes(values: dict, unlike: tuple[dict, ...] = ({},)) -> list[Scene]:
@@ -41,8 +46,10 @@ def batch() -> Iterator[Batch]:
     (SPRINGS, ({},)), ({}, ({},)),
     (SPRINGS, ({'stiffness.structural': 50.0}, {'areal_density': 0.4})),
     ({**SPRINGS, 'bending.rigidity': 1e-4, 'bending.damping': 0.01}, ({},)),
-    ({**SPRINGS, 'loads': 'storage', 'block': 1}, ({},))],
-    ids=['springs', 'fabric in air', 'unlike', 'damped bending', 'layout of a GPU'])
+    ({**SPRINGS, 'loads': 'storage', 'block': 1}, ({},)), ({**SPRINGS, **_BODIES}, ({},)),
+    (_BODIES, ({}, {'colliders.ball.size': [0.2]}))],
+    ids=['springs', 'fabric in air', 'unlike', 'damped bending', 'layout of a GPU', 'colliders',
+         'unlike colliders'])
 def test_each_cloth_has_the_bits_of_its_own_run(values, unlike):
     """A policy would be trained on another cloth than it is tried on."""
     scenes = _scenes(values, unlike)
@@ -67,6 +74,9 @@ def test_each_cloth_has_the_bits_of_its_own_run(values, unlike):
             np.testing.assert_array_equal(
                 batch.velocities(), [simulation.velocities() for simulation in alone])
         assert np.abs(batch.velocities()).max() > 0.1 and not batch.lost.any()
+        touching = sum(
+            force.sticking + force.sliding for each in alone for force in each.contact_forces())
+        assert (touching > 0) == ('colliders.names' in values)
 
 
 def test_a_lost_cloth_leaves_the_others_alone():
@@ -101,11 +111,95 @@ def test_reset_begins_one_cloth_anew(batch: Batch):
     moved = batch.positions()[:, 0, 0] - start[:, 0, 0]
     np.testing.assert_allclose(moved, [(0.02, 0.0, 0.0), (0.0, 0.0, 0.0)], atol=1e-6)
     assert batch.time == pytest.approx(0.4)
+    np.testing.assert_allclose(batch.times, (0.4, 0.2))
+
+
+def test_a_reset_cloth_has_the_bits_of_its_own_run(batch: Batch):
+    """An episode would have other bits for what was done in those before."""
+    with Simulation(batch.scenes[0]) as alone:
+        target = alone.positions()[0, 0] + np.float32([0.03, 0.01, 0.07])
+        batch.step(137)
+        batch.reset([1])
+        batch.move_pins([1], [(0, 0)], [target], 0.313)
+        alone.move_pin(0, 0, target.tolist(), speed=0.313)
+        for steps in (40, 90):
+            batch.step(steps)
+            alone.step(steps)
+            np.testing.assert_array_equal(batch.positions()[1], alone.positions())
+            np.testing.assert_array_equal(batch.velocities()[1], alone.velocities())
+        assert batch.times[1] == alone.time
+
+
+def test_pinned_and_released_nodes_as_in_a_single_run(batch: Batch):
+    """A gripper would hold another cloth than the one it closes on."""
+    held, free = np.array([(5, 4), (5, 5)]), (0, 8)
+    with Simulation(batch.scenes[0]) as alone:
+        def step_both() -> None:
+            batch.step(40)
+            alone.step(40)
+            np.testing.assert_array_equal(batch.positions()[1], alone.positions())
+            np.testing.assert_array_equal(batch.velocities()[1], alone.velocities())
+
+        step_both()
+        batch.pin([1, 1], held)
+        batch.release([1], [free])
+        alone.release(*free)
+        target = alone.positions()[5, 4] + np.float32([0.0, 0.05, 0.2])
+        for row, col in held.tolist():
+            alone.pin(row, col)
+        batch.move_pins([1], held[:1], [target], 0.5)
+        alone.move_pin(5, 4, target.tolist(), speed=0.5)
+        step_both()
+        # One stops on its way, the other is let go with its velocity.
+        batch.pin([1], held[:1])
+        alone.pin(5, 4)
+        step_both()
+        batch.move_pins([1], held[1:], [target], 0.5)
+        alone.move_pin(5, 5, target.tolist(), speed=0.5)
+        step_both()
+        batch.release([1], held[1:])
+        alone.release(5, 5)
+        step_both()
+        np.testing.assert_array_equal(batch.pinned_nodes(1), alone.pinned_nodes())
+        assert batch.pinned_nodes(0)[free] and not batch.pinned_nodes(0)[5, 4]
+
+
+@pytest.mark.parametrize('scenes', [
+    [Scene({**_SMALL, **SPRINGS})] * 2,
+    [Scene({**CUT, 'pin_points.positions': (0.0, 0.17, 1.0), 'shape.disc': disc})
+     for disc in (0.37, 0.3)]], ids=['sheets', 'discs'])
+def test_strains_are_those_of_single_runs(scenes):
+    """A penalty on stretch would be that of another cloth."""
+    with Batch(scenes) as batch, Simulation(scenes[1]) as alone:
+        batch.step(60)
+        alone.step(60)
+        assert batch.max_strains()[1] == pytest.approx(alone.measure().max_strain, rel=1e-5)
+        assert batch.max_strains()[1] > 1e-4
+
+
+def test_a_camera_sees_one_cloth_of_a_batch():
+    """A policy would look at its neighbour."""
+    camera = {'position': [0.0, -2.0, 1.0], 'target': [0.0, 0.0, 0.8], 'width': 40, 'height': 30}
+    scenes = _scenes({**SPRINGS, **_BODIES})[:3]
+    with Batch(scenes) as batch, Camera(**camera) as of_batch:
+        batch.step(50)
+        for number, scene in enumerate(scenes):
+            seen = of_batch.capture(batch.cloth(number))
+            with Simulation(scene) as alone, Camera(**camera) as of_one:
+                alone.step(50)
+                expected = of_one.capture(alone)
+            assert seen.time == expected.time and seen.label_names == expected.label_names
+            for part in ('color', 'depth', 'labels', 'normals', 'visible'):
+                np.testing.assert_array_equal(getattr(seen, part), getattr(expected, part))
 
 
 @pytest.mark.parametrize('change, rule', [
     ({'mode': 'constraint'}, 'mass_spring'), ({'layout': 'paper'}, 'fused'),
-    ({'colliders.names': ['a'], 'colliders.a.shape': 'plane'}, 'no contact'),
+    ({'colliders.names': ['a'], 'colliders.a.shape': 'sphere', 'colliders.a.size': [0.01]},
+     'collider a is thinner'),
+    ({**_BODIES, 'collider_moves.start': [0.0], 'collider_moves.name': ['ball'],
+      'collider_moves.target': [0.0, 0.0, 0.0]}, 'timed'),
+    ({'pin.max_force': 1.0}, 'pin.max_force is 1 N: set it to 0'),
     ({'self_contact.enabled': True}, 'set it to false'),
     ({'pushes.start': [0.0], 'pushes.duration': [1.0], 'pushes.force': [0.0, 0.0, 1.0]}, 'timed')])
 def test_what_no_batch_can_do_is_refused(change, rule):
@@ -139,6 +233,18 @@ def test_a_bad_move_changes_nothing(batch: Batch, cloths, nodes, targets, speed,
                                                          *targets], speed)
     batch.step(5)
     np.testing.assert_array_equal(batch.positions()[:, 0, 8], before[:, 0, 8])
+
+
+@pytest.mark.parametrize('cloths, nodes, rule', [
+    ([0, 2], [(0, 0), (0, 0)], 'no cloth 2'), ([0, 1], [(0, 0), (11, 0)], 'there is no node'),
+    ([0, 1], [(0, 0)], r'need \(2, 2\) nodes'), ([0, 1], [(0, 0), (0.0, 0.5)], 'whole numbers')])
+def test_bad_nodes_are_neither_pinned_nor_released(batch: Batch, cloths, nodes, rule):
+    """A wrong number would change some of the pins."""
+    before = [batch.pinned_nodes(number) for number in range(2)]
+    for change in (batch.pin, batch.release):
+        with pytest.raises(ClothSimError, match=rule):
+            change(cloths, nodes)
+    np.testing.assert_array_equal([batch.pinned_nodes(number) for number in range(2)], before)
 
 
 def test_a_bad_state_is_refused(batch: Batch):

@@ -113,7 +113,7 @@ class Contacts:
         self._near_nodes = SceneProgram('near_nodes.comp', scene, layout)
         self._near_blocks = SceneProgram('near_blocks.comp', scene, layout)
         self._near = Buffer(
-            _NONE_NEAR.nbytes + _NEAR_BYTES * (layout.block_count + scene.node_count))
+            _NONE_NEAR.nbytes + _NEAR_BYTES * (layout.block_count + layout.rows * layout.cols))
         self._clear_near = self._near.write_calls(_NONE_NEAR)
         self._foresight = SceneProgram('foresee_contact.comp', scene, layout)
         self._surface = (
