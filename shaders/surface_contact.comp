@@ -189,6 +189,10 @@ void add_row(Entry entry, int row, SurfaceRow found) {
 #endif
 #if FINDS_IMPULSES && !WAYS_OUT
         found.impulse.xyz = kept_impulse(kept_place(entry.index, entry.collider, row));
+#if COLLIDERS > 1
+        // Two that face each other could keep pressing on each other with any force.
+        found.impulse.xyz *= facing_of(found) >= 0 ? 0.0 : 1.0;
+#endif
 #endif
         surface_rows[slot].row = found;
         atomicOr(surface_rows[entry.first_row].spare.y, 1u << uint(row));
