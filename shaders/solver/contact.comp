@@ -147,7 +147,6 @@ vec3 towards(int at, int index, vec3 v) {
 bool may_touch(int at, int index, vec4 x, vec4 v) {
     store_vector(cloth_entry(BEGIN_POSITION, index), x.xyz);
     store_vector(cloth_entry(BEGIN_VELOCITY, index), v.xyz);
-    store_left_over(index, vec3(0.0));
     bool is_near = is_near_body(x.xyz, towards(at, index, v.xyz));
     if (v.w > 0.0 && !is_near) {
         if (guess == 0.0) {
@@ -335,9 +334,8 @@ void decide(int at, int index, inout vec4 x, inout vec4 v) {
         v.xyz = to;
     }
     if (touched_count == 1) {
-        // With friction at rest. A reaction counts what solves leave to later ones as given, and
-        // what they find of earlier ones. Of several surfaces the law shares it out.
-        given[0] = reaction + (to - before) + load_left_over(index);
+        // With friction at rest. Of several surfaces the law shares it out.
+        given[0] = reaction + (to - before);
     }
     x.xyz = moved_out(x.xyz, substep);
     vectors[cloth_entry(REACTION, index)].w = sticks ? STUCK : 0.0;
