@@ -15,8 +15,7 @@
 #define END 2
 
 // State of a node, stored in w of its reaction: it stuck at the end of the last substep, or was
-// released in this one. Positive numbers count its changes in this substep: with hard edges a node
-// can alternate.
+// released in this one.
 #define STUCK 1.0
 #define LET_GO 16.0
 // The last friction counts as near to the one needed at the last speed if their ratio is between
@@ -198,7 +197,7 @@ void decide(int at, int index, inout vec4 x, inout vec4 v) {
 #elif STAGE == AGAIN
 // Decide whether friction makes a node stick or slide, by its velocity v after a solve.
 void apply_friction(inout Hold hold, Contact contact, vec3 v, vec3 x, vec3 reaction, int was,
-                    float was_grip, inout float turns) {
+                    float was_grip) {
     vec3 slid = sliding(hold, v);
     vec3 done = along_surface(hold, reaction);
     float most = most_friction();
@@ -207,18 +206,18 @@ void apply_friction(inout Hold hold, Contact contact, vec3 v, vec3 x, vec3 react
     // A step of Newton's method that ends the substep could drive a node.
     bool is_near = !ends_turns && is_fast(speed) && share > NEARLY && share * NEARLY < 1.0;
     bool slides = contact.kind != STICKS;
-    bool sticks_again = was > STICKS && !slides && turns > 0.0;
-    if (was_grip > 0.0 || sticks_again || slides && (ends_turns || is_near)) {
-        hold_fast(hold, most, max(speed, slowest(x)), slid, done);
-        hold.line = is_near ? slid / speed : vec3(0.0);
-        return;
-    }
-    if (contact.kind == STICKS) {
+    if (was == STICKS && !slides) {
         hold.change -= slid;
         hold.kind = STICKS;
         return;
     }
-    turns += was == STICKS ? 1.0 : 0.0;
+    // What has begun to slide is not tied again in this substep: the law judges a node by its own
+    // mass, and hard edges would pull at one that is tied with any force.
+    if (was_grip > 0.0 || !slides || ends_turns || is_near) {
+        hold_fast(hold, most, max(speed, slowest(x)), slid, done);
+        hold.line = is_near ? slid / speed : vec3(0.0);
+        return;
+    }
     hold.impulse = along_surface(hold, contact.velocity - (v - hold.change - reaction)) - done;
 }
 
@@ -239,27 +238,28 @@ void decide(int at, int index, inout vec4 x, inout vec4 v) {
     float was_grip = system_data[cloth_entry(GRIP, index)].w;
     vec3 begin = load_vector(cloth_entry(BEGIN_POSITION, index));
     vec3 reaction = load_vector(cloth_entry(REACTION, index));
-    float turns = vectors[cloth_entry(REACTION, index)].w;
+    bool was_let_go = vectors[cloth_entry(REACTION, index)].w == LET_GO;
     Contact contact = contact_at(begin, v.xyz, v.xyz - reaction, substep);
     if (was == FREE && contact.kind == FREE) {
         store_vector(cloth_entry(GIVEN, index), vec3(0.0));
         return;
     }
     Hold hold = hold_of(contact, v.xyz);
-    if (contact.kind == FREE && turns >= LET_GO) {
+    if (contact.kind == FREE && was_let_go) {
         // A node that was released once stays in contact, so that the turns end.
         hold.kind = was;
         hold.normal = system_data[cloth_entry(CONTACT, index)].xyz;
         hold.grip = was_grip;
     } else if (contact.kind == FREE) {
         hold.impulse = -reaction;
-        turns = LET_GO;
+        vectors[cloth_entry(REACTION, index)].w = LET_GO;
     } else if (hold.kind != STICKS) {
         apply_friction(
-            hold, contact, v.xyz + hold.change, begin, reaction, was, was_grip, turns);
+            hold, contact, v.xyz + hold.change, begin, reaction, was, was_grip);
     }
-    vectors[cloth_entry(REACTION, index)].w = turns;
-    if (substep * max(length(hold.change), length(hold.impulse)) > most_unsolved) {
+    // What a node that stays in its state lacks moves it as if its neighbours stayed.
+    vec3 moved = hold.kind == was ? times(load_cloth_inverse(index), hold.impulse) : hold.impulse;
+    if (substep * max(length(hold.change), length(moved)) > most_unsolved) {
         note_change();
     }
     if (hold.kind != was) {
