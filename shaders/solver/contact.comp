@@ -27,16 +27,31 @@
 #include "solver/vectors.glsl"
 #include "solver/system.glsl"
 #include "solver/state_index.glsl"
+#include "cells.glsl"
+#if STAGE == BEGIN
 #include "state_in.glsl"
 #include "state_out.glsl"
-#include "low_parts.glsl"
-#if STAGE == BEGIN
 #include "applied_acceleration.glsl"
+#else
+// Changed in place, at the nodes that near.comp lists.
+layout(std430, binding = POSITION_OUT) buffer PositionOut { vec4 position_out[]; };
+layout(std430, binding = VELOCITY_OUT) buffer VelocityOut { vec4 velocity_out[]; };
+
+vec4 load_position(int index) { return position_out[index]; }
+
+vec4 load_velocity(int index) { return velocity_out[index]; }
+
+#include "solver/near_list.glsl"
 #endif
+#include "low_parts.glsl"
 #include "contact.glsl"
 #include "contact_record.glsl"
 
+#if STAGE == BEGIN
 layout(local_size_x = LOCAL_X, local_size_y = LOCAL_Y) in;
+#else
+layout(local_size_x = NEAR_LOCAL) in;
+#endif
 
 uniform float substep;        // [s]
 #if STAGE == BEGIN
@@ -344,11 +359,19 @@ void decide(int at, int index, inout vec4 x, inout vec4 v) {
 #endif
 
 void main() {
+#if STAGE == BEGIN
     int row = int(gl_GlobalInvocationID.y);
     int col = int(gl_GlobalInvocationID.x);
     if (row >= ROWS || col >= COLS) {
         return;
     }
+#else
+    if (gl_GlobalInvocationID.x >= near_count) {
+        return;
+    }
+    int row = int(near_nodes[gl_GlobalInvocationID.x]) / COLS;
+    int col = int(near_nodes[gl_GlobalInvocationID.x]) % COLS;
+#endif
     int at = state_index(row, col);
     vec4 x = load_position(at);
     vec4 v = load_velocity(at);
