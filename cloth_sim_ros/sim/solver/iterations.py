@@ -3,7 +3,7 @@
 
 """The iterations of conjugate gradients, of which the device decides when to stop."""
 
-from cloth_sim_ros.gl.buffer import DISPATCHES_VISIBLE
+from cloth_sim_ros.gl.buffer import dispatches_visible_call
 from cloth_sim_ros.gl.buffer import shader_dispatches_visible
 from cloth_sim_ros.gl.quick_calls import make
 from cloth_sim_ros.sim.device.layout import Layout
@@ -146,7 +146,7 @@ class _Passes:
         self._further = [update, *cycle, reduce]
         self.further_calls = [
             call for each in self._further for call in each.calls_if_going()]
-        self.further_calls.append(DISPATCHES_VISIBLE)
+        self.further_calls.append(dispatches_visible_call())
         # None until all passes have run: the driver compiles each as it first does.
         self._first_go: PassList | None = None
 

@@ -8,7 +8,7 @@ from collections.abc import Iterable
 from collections.abc import Sequence
 
 from cloth_sim_ros.gl.buffer import shader_writes_visible
-from cloth_sim_ros.gl.buffer import WRITES_VISIBLE
+from cloth_sim_ros.gl.buffer import writes_visible_call
 from cloth_sim_ros.gl.program import Program
 from cloth_sim_ros.gl.quick_calls import Call
 from cloth_sim_ros.gl.quick_calls import make
@@ -192,11 +192,12 @@ class SolverPass:
 
     def calls(self) -> list[Call]:
         """Return what runs the pass."""
-        return [*self._program.calls(*self.groups, **self._uniforms), WRITES_VISIBLE]
+        return [*self._program.calls(*self.groups, **self._uniforms), writes_visible_call()]
 
     def calls_if_going(self) -> list[Call]:
         """Return what runs the pass unless the device has decided to stop."""
-        return [*self._program.indirect_calls(self._offset, **self._uniforms), WRITES_VISIBLE]
+        return [
+            *self._program.indirect_calls(self._offset, **self._uniforms), writes_visible_call()]
 
     def submitted(self, count: int) -> None:
         """Count ``count`` times that ``calls`` or ``calls_if_going`` were made."""
