@@ -36,6 +36,8 @@ class Iterations:
     """
     Finds the solution of the system and right side that stand in ``buffers``.
 
+    ``made`` are the iterations of the last solve.
+
     :param state: how the state is stored
     :param most: iterations of a solve
     :param surface: contacts of edges and faces; None where there can be none
@@ -71,10 +73,11 @@ class Iterations:
             _Passes(begin, cycle, self._update, SolverPass(
                 reduce, (1, 1), sum_count=self.buffers.sum_count + more))
             for more, (begin, cycle) in enumerate(zip(begins, cycles))]
+        self.made = 0
         self._most = most
         self._reduce = reduce
         self._batch = 1 if state.texture_loads else _BATCH
-        self._first_batch = self._batch
+        self._first_batch = 0 if self._batch == 1 else self._batch
 
     def start_from(self, start: Start, left_share: float) -> None:
         """
@@ -118,17 +121,20 @@ class Iterations:
 
     def _go_on(self, passes: '_Passes', stop: Stop) -> None:
         # To ask whether the device goes on costs little where that is this processor, and a wait
-        # elsewhere: there, as many are submitted at once as the last solve took.
-        made, batch = 1, self._first_batch
-        while made < self._most and self.buffers.is_going():
-            leave_if(stop)
+        # elsewhere: there, as many are submitted at once as the last solve took, before asking.
+        made, batch, is_going = 1, self._first_batch, True
+        while is_going:
             batch = min(batch, self._most - made)
+            if batch > 0:
+                leave_if(stop)
             for _ in range(batch):
                 make(passes.further_calls)
             made += batch
+            self.made, is_going = self.buffers.progress()
+            is_going = is_going and made < self._most
             batch = self._batch
         if self._batch > 1:
-            self._first_batch = max(self.buffers.iterations() - 1, 1)
+            self._first_batch = max(self.made - 1, 0)
         passes.submitted(made - 1)
 
 
@@ -156,7 +162,7 @@ class _Passes:
             for each in self._first:
                 each.run()
                 leave_if(stop)
-            self._first_go = PassList(self._first)
+            self._first_go = PassList([each] for each in self._first)
         else:
             self._first_go.run()
 
