@@ -41,6 +41,7 @@ from gpu import read_back
 from gpu import shaders
 from gpu import springs
 from gpu import states
+from gpu import submissions
 from gpu import surface
 from gpu import tuning
 from gpu.page import page
@@ -54,7 +55,7 @@ SECTIONS = (
     device.SECTION, buffer_order.SECTION, states.SECTION, shaders.SECTION, barriers.SECTION,
     asynchronous.SECTION, springs.SECTION, modes.SECTION, surface.SECTION, cameras.SECTION,
     tuning.SECTION, passes.SECTION, paper.SECTION, batches.SECTION, fused_substeps.SECTION,
-    dispatches.SECTION, read_back.SECTION)
+    dispatches.SECTION, submissions.SECTION, read_back.SECTION)
 # Wall time of all sections together [s].
 TIME_LIMIT = 470.0
 _ROOT = Path(__file__).resolve().parents[1]

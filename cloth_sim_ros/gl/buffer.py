@@ -36,9 +36,7 @@ _COPIED, _COPY = int(GL.GL_COPY_READ_BUFFER), int(GL.GL_COPY_WRITE_BUFFER)
 _FIRST_UNIT = int(GL.GL_TEXTURE0)
 _READS = int(GL.GL_BUFFER_UPDATE_BARRIER_BIT)
 _WRITES = GL.GL_SHADER_STORAGE_BARRIER_BIT | GL.GL_TEXTURE_FETCH_BARRIER_BIT
-# What shader_writes_visible and shader_dispatches_visible do.
-WRITES_VISIBLE: Call = (memory_barrier, (_WRITES,))
-DISPATCHES_VISIBLE: Call = (memory_barrier, (_WRITES | GL.GL_COMMAND_BARRIER_BIT,))
+_DISPATCHED = _WRITES | GL.GL_COMMAND_BARRIER_BIT
 
 _TEXEL_BYTES = 16
 # Larger ones may be as large as a storage block can be.
@@ -277,4 +275,14 @@ def shader_writes_visible() -> None:
 
 def shader_dispatches_visible() -> None:
     """Order all indirect dispatches to come after the writes of earlier ones, too."""
-    memory_barrier(_WRITES | GL.GL_COMMAND_BARRIER_BIT)
+    memory_barrier(_DISPATCHED)
+
+
+def writes_visible_call() -> Call:
+    """Return the call that ``shader_writes_visible`` makes."""
+    return memory_barrier, (_WRITES,)
+
+
+def dispatches_visible_call() -> Call:
+    """Return the call that ``shader_dispatches_visible`` makes."""
+    return memory_barrier, (_DISPATCHED,)

@@ -2,8 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 
 #version 430 core
-// Nearly solve the coarsest level: Chebyshev iteration in one workgroup, a node an invocation.
-// Levels smaller than the workgroup leave invocations idle; all pass every barrier.
+// Nearly solve the coarsest level in one workgroup, where other levels have passes of their own.
 
 #include "solver/levels.glsl"
 #include "solver/vectors.glsl"
@@ -12,53 +11,15 @@
 
 layout(local_size_x = COARSEST_SIDE, local_size_y = COARSEST_SIDE) in;
 
-// Middle and half width of the eigenvalues it damps.
-uniform float middle;
-uniform float half_width;
-
-// With a border, whose values weigh nothing, but must be finite.
-shared vec3 values[COARSEST_SIDE + 2][COARSEST_SIDE + 2];
+#define COARSEST_GROUP (COARSEST_SIDE * COARSEST_SIDE)
+#include "solver/coarsest_level.glsl"
 
 void main() {
     ivec2 at = ivec2(gl_LocalInvocationID.yx);
     bool is_node = inside(level, at.x, at.y);
     int index = is_node ? level_index(level, at.x, at.y) : 0;
-    for (int i = int(gl_LocalInvocationIndex); i < (COARSEST_SIDE + 2) * (COARSEST_SIDE + 2);
-            i += COARSEST_SIDE * COARSEST_SIDE) {
-        values[i / (COARSEST_SIDE + 2)][i % (COARSEST_SIDE + 2)] = vec3(0.0);
-    }
-    Symmetric ahead[DIRECTIONS];
-    Symmetric behind[DIRECTIONS];
-    Symmetric diagonal = load_symmetric(level, GROUND, index);
-    for (int i = 0; i < DIRECTIONS; ++i) {
-        ahead[i] = load_edge(level, index, i);
-        behind[i] = load_edge(level, is_node
-            ? level_index(level, at.x - TOWARDS[i].x, at.y - TOWARDS[i].y) : 0, i);
-        diagonal += ahead[i] + behind[i];
-    }
-    Symmetric inverse_block = load_symmetric(level, INVERSE, index);
-    vec3 residual = load_vector(vector_entry(level, RESIDUAL, index));
-    vec3 change = times(inverse_block, residual) / middle;
-    vec3 value = change;
-    float ratio = half_width / middle;
-    barrier();
-    for (int step = 1; step < COARSEST_STEPS; ++step) {
-        if (is_node) {
-            values[at.x + 1][at.y + 1] = value;
-        }
-        barrier();
-        vec3 left = residual - times(diagonal, value);
-        for (int i = 0; i < DIRECTIONS; ++i) {
-            ivec2 to = at + 1 + TOWARDS[i];
-            ivec2 from = at + 1 - TOWARDS[i];
-            left += times(ahead[i], values[to.x][to.y]) + times(behind[i], values[from.x][from.y]);
-        }
-        barrier();
-        float next = 1.0 / (2.0 * middle / half_width - ratio);
-        change = next * ratio * change + (2.0 * next / half_width) * times(inverse_block, left);
-        value += change;
-        ratio = next;
-    }
+    vec3 value =
+        nearly_solve(at, is_node, load_vector(vector_entry(level, RESIDUAL, index)));
     if (is_node) {
         store_vector(vector_entry(level, PRECONDITIONED, index), value);
     }

@@ -6,26 +6,14 @@
 
 #include "solver/levels.glsl"
 #include "solver/system.glsl"
-#include "solver/edge_tensors.glsl"
+#include "solver/invert_level.glsl"
 
 layout(local_size_x = LOCAL_X, local_size_y = LOCAL_Y) in;
 
 void main() {
     int row = int(gl_GlobalInvocationID.y);
     int col = int(gl_GlobalInvocationID.x);
-    if (!inside(level, row, col)) {
-        return;
+    if (inside(level, row, col)) {
+        invert_node(row, col);
     }
-    int index = level_index(level, row, col);
-    Symmetric diagonal = load_symmetric(level, GROUND, index);
-    for (int i = 0; i < DIRECTIONS; ++i) {
-        int behind = level_index(level, row - TOWARDS[i].x, col - TOWARDS[i].y);
-        diagonal += load_edge(level, index, i) + load_edge(level, behind, i);
-    }
-    // No coarse node with a node of the cloth holds less than a quarter of a cell's mass.
-#if HAS_CELLS
-    store_symmetric(level, INVERSE, index, inverse_above(diagonal, 0.25));
-#else
-    store_symmetric(level, INVERSE, index, inverse_above(diagonal, 1.0));
-#endif
 }

@@ -70,6 +70,7 @@ void decide(float now, float curvature, float size) {
     }
     allowed = max(allowed, early_square * start);
     uint another = sound && measure_after > allowed ? 1u : 0u;
+    is_going = float(another);
     for (int i = 0; i < groups_count; ++i) {
         dispatches[3 * i] = another * uint(groups_of_each[i].x);
         dispatches[3 * i + 1] = uint(groups_of_each[i].y);

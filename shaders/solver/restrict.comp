@@ -2,25 +2,18 @@
 // SPDX-License-Identifier: Apache-2.0
 
 #version 430 core
-// The residual of a coarse level from the defect of the level above, by the transpose of what
-// solver/correction.glsl does, and its first smoothing.
+// The residual of a coarse level from the defect of the level above, and its first smoothing.
 
 #include "solver/levels.glsl"
 #include "solver/vectors.glsl"
 #include "solver/system.glsl"
 #include "solver/smoothing_steps.glsl"
+#include "solver/restriction.glsl"
 
 layout(local_size_x = LOCAL_X, local_size_y = LOCAL_Y) in;
 
 #define COARSE_BLOCK 2  // nodes along each side of an invocation
 #define FINER_TILE (2 * COARSE_BLOCK + 2)
-
-// Weights of the four finer nodes around a coarse one along a side of the level.
-vec4 shares(int at, int count) {
-    return vec4(
-        at > 0 ? 0.25 : 0.0, at > 0 ? 0.75 : 1.0,
-        at + 1 < count ? 0.75 : 1.0, at + 1 < count ? 0.25 : 0.0);
-}
 
 void main() {
     ivec2 first = ivec2(gl_GlobalInvocationID.yx) * COARSE_BLOCK;

@@ -17,7 +17,9 @@ from cloth_sim_ros.sim.device.scene_program import scene_defines
 from cloth_sim_ros.sim.scene import FAMILIES
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.solver.solver_buffers import Levels
+from cloth_sim_ros.sim.solver.solver_buffers import MOST_TOGETHER
 from cloth_sim_ros.sim.solver.solver_programs import solver_defines
+from cloth_sim_ros.sim.solver.solver_programs import TOGETHER_LOCAL
 from cloth_sim_ros.study.timed_solvers import paper_solver_defines
 import pytest
 from springs import SPRINGS
@@ -186,6 +188,10 @@ _FORMS = {
         'constraint', 'direction', 'dot', 'scalars', 'spmm', 'spmv', 'update')},
     'rigid_sums.comp': {'STRIP': 16},
     'solver/coarsest.comp': {'COARSEST_SIDE': 8, 'COARSEST_STEPS': 6},
+    'solver/coarse_levels.comp': {
+        'COARSEST_SIDE': 8, 'COARSEST_STEPS': 6, 'TOGETHER_LOCAL': TOGETHER_LOCAL,
+        'MOST_TOGETHER': MOST_TOGETHER},
+    'solver/coarse_systems.comp': {'TOGETHER_LOCAL': TOGETHER_LOCAL, 'LOADS_TEXTURE': 0},
     'solver/contact.comp': {'STAGE': 'BEGIN'},
     'solver/contact.comp, again': {'STAGE': 'AGAIN'},
     'solver/contact.comp, end': {'STAGE': 'END'},

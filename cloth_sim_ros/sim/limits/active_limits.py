@@ -7,10 +7,10 @@ from dataclasses import dataclass
 from dataclasses import replace
 
 from cloth_sim_ros.gl.buffer import Buffer
-from cloth_sim_ros.gl.buffer import DISPATCHES_VISIBLE
+from cloth_sim_ros.gl.buffer import dispatches_visible_call
 from cloth_sim_ros.gl.buffer import shader_dispatches_visible
 from cloth_sim_ros.gl.buffer import shader_writes_visible
-from cloth_sim_ros.gl.buffer import WRITES_VISIBLE
+from cloth_sim_ros.gl.buffer import writes_visible_call
 from cloth_sim_ros.gl.program import Program
 from cloth_sim_ros.gl.quick_calls import Call
 from cloth_sim_ros.sim.device.layout import Layout
@@ -183,13 +183,15 @@ class ActiveLimits:
         """Return the calls that mark blocks again, in a substep that was written."""
         return [
             *self._out_calls(state), *self._lists.mark_none_calls(),
-            *self._look.made.calls(*self._strips), DISPATCHES_VISIBLE]
+            *self._look.made.calls(*self._strips), dispatches_visible_call()]
 
     def calls(self, state: State) -> list[Call]:
         """Return the calls that hold edges in a substep that was written."""
         listing = [] if self._is_one_pass else [
-            *self._list.made.indirect_calls(0), WRITES_VISIBLE]
-        return [*self._out_calls(state), *listing, *self._solve.made.calls(1, 1), WRITES_VISIBLE]
+            *self._list.made.indirect_calls(0), writes_visible_call()]
+        return [
+            *self._out_calls(state), *listing, *self._solve.made.calls(1, 1),
+            writes_visible_call()]
 
     def end_first(self) -> None:
         """Add to the tally of the step from now on; the first of the ``calls`` have begun it."""

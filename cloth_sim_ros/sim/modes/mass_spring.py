@@ -10,7 +10,7 @@ from typing import Protocol
 
 from cloth_sim_ros.gl.buffer import Buffer
 from cloth_sim_ros.gl.buffer import shader_writes_visible
-from cloth_sim_ros.gl.buffer import WRITES_VISIBLE
+from cloth_sim_ros.gl.buffer import writes_visible_call
 from cloth_sim_ros.gl.program import Program
 from cloth_sim_ros.gl.quick_calls import Call
 from cloth_sim_ros.sim.device.layout import Layout
@@ -125,7 +125,7 @@ class OnePass:
 
     def calls(self, state: State, step: Program) -> list[Call]:
         """Return the calls that make a substep with what ``begin`` has returned."""
-        return [*state.step_calls(), *step.calls(*self._groups), WRITES_VISIBLE]
+        return [*state.step_calls(), *step.calls(*self._groups), writes_visible_call()]
 
     def made(self, step: Program, count: int, last_entry: int) -> None:
         """Count ``count`` times that ``calls`` were made, at last with ``last_entry`` held."""

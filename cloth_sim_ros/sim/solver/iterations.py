@@ -3,7 +3,7 @@
 
 """The iterations of conjugate gradients, of which the device decides when to stop."""
 
-from cloth_sim_ros.gl.buffer import DISPATCHES_VISIBLE
+from cloth_sim_ros.gl.buffer import dispatches_visible_call
 from cloth_sim_ros.gl.buffer import shader_dispatches_visible
 from cloth_sim_ros.gl.quick_calls import make
 from cloth_sim_ros.sim.device.layout import Layout
@@ -35,6 +35,8 @@ _MOST_GROUPS_COUNTS = 3 * MOST_LEVELS
 class Iterations:
     """
     Finds the solution of the system and right side that stand in ``buffers``.
+
+    ``made`` are the iterations of the last solve.
 
     :param state: how the state is stored
     :param most: iterations of a solve
@@ -71,10 +73,11 @@ class Iterations:
             _Passes(begin, cycle, self._update, SolverPass(
                 reduce, (1, 1), sum_count=self.buffers.sum_count + more))
             for more, (begin, cycle) in enumerate(zip(begins, cycles))]
+        self.made = 0
         self._most = most
         self._reduce = reduce
         self._batch = 1 if state.texture_loads else _BATCH
-        self._first_batch = self._batch
+        self._first_batch = 0 if self._batch == 1 else self._batch
 
     def start_from(self, start: Start, left_share: float) -> None:
         """
@@ -118,17 +121,20 @@ class Iterations:
 
     def _go_on(self, passes: '_Passes', stop: Stop) -> None:
         # To ask whether the device goes on costs little where that is this processor, and a wait
-        # elsewhere: there, as many are submitted at once as the last solve took.
-        made, batch = 1, self._first_batch
-        while made < self._most and self.buffers.is_going():
-            leave_if(stop)
+        # elsewhere: there, as many are submitted at once as the last solve took, before asking.
+        made, batch, is_going = 1, self._first_batch, True
+        while is_going:
             batch = min(batch, self._most - made)
+            if batch > 0:
+                leave_if(stop)
             for _ in range(batch):
                 make(passes.further_calls)
             made += batch
+            self.made, is_going = self.buffers.progress()
+            is_going = is_going and made < self._most
             batch = self._batch
         if self._batch > 1:
-            self._first_batch = max(self.buffers.iterations() - 1, 1)
+            self._first_batch = max(self.made - 1, 0)
         passes.submitted(made - 1)
 
 
@@ -146,7 +152,7 @@ class _Passes:
         self._further = [update, *cycle, reduce]
         self.further_calls = [
             call for each in self._further for call in each.calls_if_going()]
-        self.further_calls.append(DISPATCHES_VISIBLE)
+        self.further_calls.append(dispatches_visible_call())
         # None until all passes have run: the driver compiles each as it first does.
         self._first_go: PassList | None = None
 
@@ -156,7 +162,7 @@ class _Passes:
             for each in self._first:
                 each.run()
                 leave_if(stop)
-            self._first_go = PassList(self._first)
+            self._first_go = PassList([each] for each in self._first)
         else:
             self._first_go.run()
 

@@ -9,11 +9,13 @@ from cloth_sim_ros.sim.device.layout import Layout
 from cloth_sim_ros.sim.solver.edge_law import EdgeLaw
 from cloth_sim_ros.sim.solver.solver_buffers import COARSEST_SIDE
 from cloth_sim_ros.sim.solver.solver_buffers import Levels
+from cloth_sim_ros.sim.solver.solver_buffers import MOST_TOGETHER
 from cloth_sim_ros.sim.solver.solver_buffers import PRECONDITIONED
 from cloth_sim_ros.sim.solver.solver_buffers import PRODUCT
 from cloth_sim_ros.sim.solver.solver_buffers import SURFACE_VALUE
 from cloth_sim_ros.sim.solver.solver_programs import SolverPass
 from cloth_sim_ros.sim.solver.solver_programs import SolverPrograms
+from cloth_sim_ros.sim.solver.solver_programs import TOGETHER_LOCAL
 from cloth_sim_ros.sim.solver.surface_contacts import DEFECT
 from cloth_sim_ros.sim.solver.surface_contacts import SMOOTHED
 from cloth_sim_ros.sim.solver.surface_contacts import SolverSurface
@@ -21,6 +23,7 @@ from cloth_sim_ros.sim.solver.surface_contacts import SolverSurface
 # Chebyshev steps on the coarsest level [1]; chosen: 5 and 20 change iterations by +3 and 0 %
 # (constants.py --only _COARSEST_STEPS).
 _COARSEST_STEPS = 10
+_OF_COARSEST = {'COARSEST_SIDE': COARSEST_SIDE, 'COARSEST_STEPS': _COARSEST_STEPS}
 # Spread of the eigenvalues there [1] by the weight of the heaviest edge, over the mass of a coarse
 # node; chosen: iterations change by 1 % from 2.5 to 40 (constants.py --only _SPREAD_OF_WEIGHT).
 _SPREAD_OF_WEIGHT = 10.0
@@ -37,13 +40,14 @@ class Preconditioner(Protocol):
     """
     Makes PRECONDITIONED from RESIDUAL; begin.comp and update.comp make the first smoothing.
 
-    :param assembly: run once for each system, after the blocks of the cloth are inverted
+    :param assembly: run once for each system, in stages of passes that do not need each other;
+        the first needs no inverse of a block
     :param cycle: run in each iteration
     :param cycle_in_contact: the same where edges or faces are in contact
     """
 
     is_multigrid: bool
-    assembly: list[SolverPass]
+    assembly: list[list[SolverPass]]
     cycle: list[SolverPass]
     cycle_in_contact: list[SolverPass]
 
@@ -65,7 +69,7 @@ class BlockJacobi:
             self, programs: SolverPrograms, levels: Levels,
             surface: SolverSurface | None = None) -> None:
         """Leave it all to the update."""
-        self.assembly: list[SolverPass] = []
+        self.assembly: list[list[SolverPass]] = []
         self.cycle: list[SolverPass] = []
         self.cycle_in_contact: list[SolverPass] = []
 
@@ -77,7 +81,12 @@ class BlockJacobi:
 
 
 class Multigrid:
-    """A V-cycle with two Chebyshev steps of block-Jacobi before and after each coarser level."""
+    """
+    A V-cycle with two Chebyshev steps of block-Jacobi before and after each coarser level.
+
+    Levels that together fit one workgroup have one pass where a dispatch costs more than it
+    computes (a GPU).
+    """
 
     is_multigrid = True
 
@@ -86,8 +95,11 @@ class Multigrid:
             surface: SolverSurface | None = None) -> None:
         """Compile the passes of all levels; one program serves all coarse levels."""
         self._levels = levels
-        self._coarsest = programs.make(
-            'coarsest.comp', COARSEST_SIDE=COARSEST_SIDE, COARSEST_STEPS=_COARSEST_STEPS)
+        self._together = _Together(programs, levels) if programs.has_levels_together else None
+        self._coarsest = self._together.cycle_program if self._together else programs.make(
+            'coarsest.comp', **_OF_COARSEST)
+        # Levels from here on have no passes of their own.
+        self._end = levels.first_together if self._together else levels.coarsest + 1
         self.assembly = self._assembly(programs)
         down, coarse, up = self._cycle(programs)
         self.cycle = [*down, *coarse, *up]
@@ -105,16 +117,21 @@ class Multigrid:
         self._coarsest.set_float('middle', (_LARGEST_EIGENVALUE + least) / 2.0)
         self._coarsest.set_float('half_width', (_LARGEST_EIGENVALUE - least) / 2.0)
 
-    def _assembly(self, programs: SolverPrograms) -> list[SolverPass]:
-        coarsen_cloth = programs.make('coarsen_cloth.comp')
-        coarsen = programs.make('coarsen.comp')
-        invert = programs.make('invert.comp')
-        passes = []
-        for level, layout in list(enumerate(self._levels.layouts))[1:]:
-            program = coarsen_cloth if level == 1 else coarsen
-            passes.append(SolverPass(program, layout.node_groups, level=level))
-            passes.append(SolverPass(invert, layout.node_groups, level=level))
-        return passes
+    def _assembly(self, programs: SolverPrograms) -> list[list[SolverPass]]:
+        layouts = self._levels.layouts
+        stages = [[SolverPass(
+            programs.make('coarsen_cloth.comp'), layouts[1].node_groups, level=1)]]
+        coarsen, invert = programs.make('coarsen.comp'), programs.make('invert.comp')
+        for level in range(1, self._end):
+            stages.append([SolverPass(invert, layouts[level].node_groups, level=level)])
+            if level + 1 < self._end:
+                stages[-1].append(
+                    SolverPass(coarsen, layouts[level + 1].node_groups, level=level + 1))
+        if self._together:
+            if self._end == 1:
+                stages.append([])
+            stages[-1].append(self._together.assembly)
+        return stages
 
     def _cycle(
             self, programs: SolverPrograms,
@@ -125,17 +142,37 @@ class Multigrid:
         of_cloth, of_level = _Smoothing(programs, 'cloth_'), _Smoothing(programs, '')
         down: list[SolverPass] = []
         up: list[SolverPass] = []
-        passes = [SolverPass(self._coarsest, (1, 1), level=last)]
-        for level in reversed(range(last)):
+        passes = [
+            self._together.cycle if self._together
+            else SolverPass(self._coarsest, (1, 1), level=last)]
+        for level in reversed(range(min(self._end, last))):
             smoothing = of_level if level else of_cloth
-            passes = [
-                SolverPass(restrict, _restrict_groups(layouts[level + 1]), level=level + 1),
-                *passes]
+            if level + 1 < self._end:
+                passes.insert(0, SolverPass(
+                    restrict, _restrict_groups(layouts[level + 1]), level=level + 1))
             down = smoothing.down(level, layouts[level].groups)
             up = smoothing.up(level, layouts[level].groups)
             if level:
                 passes = [*down, *passes, *up]
         return down, passes, up
+
+
+class _Together:
+    """
+    The passes over all levels that fit one workgroup.
+
+    ``cycle_program`` is that of ``cycle``, with what coarsest.comp has to be told.
+    """
+
+    def __init__(self, programs: SolverPrograms, levels: Levels) -> None:
+        """Compile both."""
+        defines = {'TOGETHER_LOCAL': TOGETHER_LOCAL, 'MOST_TOGETHER': MOST_TOGETHER}
+        ends = {'first_level': levels.first_together, 'coarsest': levels.coarsest}
+        # It reads what other invocations of it have written, which textures need not show.
+        systems = programs.make('coarse_systems.comp', **defines, LOADS_TEXTURE=0)
+        self.cycle_program = programs.make('coarse_levels.comp', **defines, **_OF_COARSEST)
+        self.assembly, self.cycle = (
+            SolverPass(program, (1, 1), **ends) for program in (systems, self.cycle_program))
 
 
 # What the passes over the cloth multiply, and where they leave what: by solver_fields.py SMOOTHED,

@@ -382,7 +382,7 @@ class Solver:
 
     def had_nothing_to_do(self) -> bool:
         """Return whether the last solve, the first of its pass, began within the tolerance."""
-        return not self._is_again and self._buffers.iterations() <= 1
+        return not self._is_again and self._iterations.made <= 1
 
     def measured_residual(self) -> float:
         """Return the residual as it was before the last iteration of the last solve."""
@@ -419,8 +419,10 @@ class Solver:
     def _compile(self, levels: Levels) -> None:
         cloth, programs = levels.cloth, self._programs
         nodes = cloth.node_groups
+        # What follows does not need the blocks of the cloth inverted.
+        first, *others = self._preconditioner.assembly or [[]]
         self._assembly = PassList((
-            SolverPass(programs.make('assemble.comp'), nodes), *self._preconditioner.assembly))
+            [SolverPass(programs.make('assemble.comp'), nodes), *first], *others))
         if self._damps_bending:
             self._damp = SolverPass(programs.make('damp_bending.comp'), nodes)
         self._find = SolverPass(programs.make('find_tension.comp'), cloth.groups)

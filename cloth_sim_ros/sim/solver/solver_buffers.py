@@ -31,6 +31,9 @@ import numpy as np
 
 # Max. nodes a side of the coarsest level [1]: 64 nodes fit one workgroup, which solves them.
 COARSEST_SIDE = 8
+# Max. nodes of the levels that one workgroup goes through [1]: with 16 bytes for each and 1,600
+# for the coarsest, they fit into the 32 KiB of shared memory that GL 4.3 grants.
+MOST_TOGETHER = 1900
 # Max. levels [1]: enough for any cloth that buffers can hold, each has half the side of the one
 # before.
 MOST_LEVELS = 16
@@ -106,6 +109,12 @@ class Levels:
         """Return the number of the last level."""
         return len(self.layouts) - 1
 
+    @property
+    def first_together(self) -> int:
+        """Return the first coarse level that fits one workgroup with all that are coarser."""
+        nodes = np.cumsum([layout.rows * layout.cols for layout in reversed(self.layouts[1:])])
+        return len(self.layouts) - int(np.count_nonzero(nodes <= MOST_TOGETHER))
+
     def defines(self) -> dict[str, object]:
         """Return what levels.glsl compiles in, without the lattice of the cloth."""
         return {'MOST_LEVELS': MOST_LEVELS, **self._fields}
@@ -159,11 +168,13 @@ class Scalars(NamedTuple):
     measure_start: float
     measure_after: float
     iterations: float
+    is_going: float
     is_off: float
     scale: float
 
 
 _SCALARS = len(Scalars._fields)
+_ITERATIONS_AT = Scalars._fields.index('iterations') * np.dtype(np.float32).itemsize
 
 
 class _Large(NamedTuple):
@@ -195,10 +206,9 @@ class SolverBuffers:
         self._large: _Large | None = None
         self._bind_calls: list[Call] | None = None
         self._scalars = Buffer(np.zeros(_SCALARS, dtype=np.float32), is_polled=True)
-        self._dispatches = Buffer(
-            np.zeros((dispatch_count, 3), dtype=np.uint32), is_polled=True)
-        # Workgroups of the first dispatch, along x.
-        self._going = np.zeros(1, dtype=np.uint32)
+        self._dispatches = Buffer(np.zeros((dispatch_count, 3), dtype=np.uint32))
+        # How many iterations were made, and whether the device wants another one.
+        self._progress = np.zeros(2, dtype=np.float32)
 
     def bind(self) -> None:
         """Let the passes of the solver reach everything."""
@@ -237,14 +247,11 @@ class SolverBuffers:
         """Return whether lengths are off by more than rounding, before a further solve."""
         return self.scalars().is_off != 0.0
 
-    def is_going(self) -> bool:
-        """Return whether the device wants another iteration."""
-        self._dispatches.read_into(self._going)
-        return bool(self._going[0])
-
-    def iterations(self) -> int:
-        """Return how many iterations the last solve has made."""
-        return int(self.scalars().iterations)
+    def progress(self) -> tuple[int, bool]:
+        """Return how many iterations were made, and whether the device wants another one."""
+        self._scalars.read_into(self._progress, _ITERATIONS_AT)
+        iterations, is_going = self._progress.tolist()
+        return int(iterations), is_going > 0.0
 
     def copy(self, field: int, into: int) -> None:
         """Copy a vector of the cloth into another one."""

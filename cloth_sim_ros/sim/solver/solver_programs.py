@@ -8,7 +8,7 @@ from collections.abc import Iterable
 from collections.abc import Sequence
 
 from cloth_sim_ros.gl.buffer import shader_writes_visible
-from cloth_sim_ros.gl.buffer import WRITES_VISIBLE
+from cloth_sim_ros.gl.buffer import writes_visible_call
 from cloth_sim_ros.gl.program import Program
 from cloth_sim_ros.gl.quick_calls import Call
 from cloth_sim_ros.gl.quick_calls import make
@@ -32,6 +32,9 @@ POINT_LOCAL = 32
 POINTS = 8
 # Invocations of the workgroup of reduce.comp [1].
 REDUCE_LOCAL = 16
+# Invocations of the workgroup that goes through several levels [1], at least the nodes of the
+# coarsest; not measured on a GPU yet: with so many, each can have 128 registers.
+TOGETHER_LOCAL = 512
 # Size of the workgroup counts of one dispatch [bytes]: three uint32.
 _BYTES_PER_DISPATCH = 12
 
@@ -89,6 +92,16 @@ class SolverPrograms:
         self._levels = levels
         self._is_multigrid = is_multigrid
         self._compiled: list[Program] = []
+
+    @property
+    def has_levels_together(self) -> bool:
+        """
+        Return whether one workgroup goes through all levels that fit it.
+
+        On llvmpipe, where barriers cost much and dispatches little, a step of 64 x 64 nodes would
+        take 2.4 times as long (docs/notes/performance.md).
+        """
+        return self._state.is_asynchronous
 
     def make(self, name: str, **defines: object) -> Program:
         """Return shaders/solver/``name``, compiled, in use and with its levels set."""
@@ -186,17 +199,22 @@ class SolverPass:
 
     def run(self) -> None:
         """Run the pass and order what follows after it."""
-        self._use()
-        self._program.dispatch(*self.groups)
+        self.run_beside()
         shader_writes_visible()
 
+    def run_beside(self) -> None:
+        """Run the pass beside those that follow until a barrier."""
+        self._use()
+        self._program.dispatch(*self.groups)
+
     def calls(self) -> list[Call]:
-        """Return what runs the pass."""
-        return [*self._program.calls(*self.groups, **self._uniforms), WRITES_VISIBLE]
+        """Return what runs the pass, without the barrier after it."""
+        return self._program.calls(*self.groups, **self._uniforms)
 
     def calls_if_going(self) -> list[Call]:
-        """Return what runs the pass unless the device has decided to stop."""
-        return [*self._program.indirect_calls(self._offset, **self._uniforms), WRITES_VISIBLE]
+        """Return what runs the pass unless the device has decided to stop, and the barrier."""
+        return [
+            *self._program.indirect_calls(self._offset, **self._uniforms), writes_visible_call()]
 
     def submitted(self, count: int) -> None:
         """Count ``count`` times that ``calls`` or ``calls_if_going`` were made."""
@@ -209,12 +227,18 @@ class SolverPass:
 
 
 class PassList:
-    """Passes that always follow one another, with nothing in between."""
+    """
+    Passes that always follow one another, with nothing in between.
 
-    def __init__(self, passes: Iterable[SolverPass]) -> None:
+    :param stages: of passes that do not need each other, so that one barrier is after all of them
+    """
+
+    def __init__(self, stages: Iterable[Sequence[SolverPass]]) -> None:
         """Prepare their calls."""
-        self._passes = tuple(passes)
-        self._calls = [call for each in self._passes for call in each.calls()]
+        stages = tuple(stages)
+        self._passes = tuple(each for stage in stages for each in stage)
+        self._calls = [call for stage in stages for call in (
+            *(call for each in stage for call in each.calls()), writes_visible_call())]
 
     def run(self) -> None:
         """Run all of them."""

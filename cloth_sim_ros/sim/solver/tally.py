@@ -88,7 +88,7 @@ class Tally:
 
     def add(self, tolerance: float, *, is_final: bool) -> None:
         """
-        Count the solve whose scalars are bound.
+        Count the solve whose scalars are bound, beside the passes that follow.
 
         :param tolerance: that it was to stop at
         :param is_final: False where another one starts from its solution
@@ -96,7 +96,7 @@ class Tally:
         self._buffer.bind_storage(bindings.SOLVER_TALLY)
         self._pass.set_float('tolerance_square', tolerance**2)
         self._pass.set_int('is_final', int(is_final))
-        self._pass.run()
+        self._pass.run_beside()
 
     def clear(self) -> None:
         """Forget all solves."""

@@ -10,7 +10,11 @@
 
 uniform ivec4 level_shape[MOST_LEVELS];  // rows, cols, entries in a stored row, entries in all
 uniform ivec2 level_begin[MOST_LEVELS];  // where its vectors begin, where its system begins
+#ifdef LEVEL_VARIES
+int level;
+#else
 uniform int level;
+#endif
 
 int level_index(int which, int row, int col) {
     return (row + HALO) * level_shape[which].z + col + HALO;

@@ -5,7 +5,10 @@
 
 #include "symmetric.glsl"
 
-layout(std430, binding = SOLVER_SYSTEM) buffer System { vec4 system_data[]; };
+#ifndef SYSTEM_ACCESS
+#define SYSTEM_ACCESS
+#endif
+layout(std430, binding = SOLVER_SYSTEM) SYSTEM_ACCESS buffer System { vec4 system_data[]; };
 
 #if LOADS_TEXTURE
 layout(binding = SOLVER_SYSTEM) uniform samplerBuffer system_in;

@@ -9,6 +9,7 @@ from cloth_sim_ros.gl.errors import DeviceError
 from cloth_sim_ros.sim.device.layout import Layout
 from cloth_sim_ros.sim.solver.solver_buffers import COARSEST_SIDE
 from cloth_sim_ros.sim.solver.solver_buffers import Levels
+from cloth_sim_ros.sim.solver.solver_buffers import MOST_TOGETHER
 from cloth_sim_ros.sim.solver.solver_buffers import refuse_too_large
 import pytest
 
@@ -40,6 +41,17 @@ def test_each_level_has_half_the_nodes_along_a_side(shape, sizes):
 def test_without_coarsening_there_is_the_cloth_alone():
     """Block-Jacobi would pay for levels it does not use."""
     assert len(levels_of(64, 64, coarsen=False).layouts) == 1
+
+
+@pytest.mark.parametrize(('shape', 'first'), [
+    ((8, 8), 1), ((64, 64), 1), ((65, 65), 1), ((128, 128), 2), ((300, 40), 2), ((1024, 1024), 5)])
+def test_levels_of_one_workgroup_fit_its_memory(shape, first):
+    """A GPU would refuse the shader, or dispatch passes over a handful of nodes."""
+    levels = levels_of(*shape)
+    nodes = [layout.rows * layout.cols for layout in levels.layouts]
+    assert levels.first_together == first
+    assert sum(nodes[first:]) <= MOST_TOGETHER
+    assert first == 1 or sum(nodes[first - 1:]) > MOST_TOGETHER
 
 
 def fields_bytes(levels: Levels, of_cloth: int, of_coarse: int) -> int:
