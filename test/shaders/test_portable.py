@@ -72,6 +72,8 @@ _COUNTING = {
         'atomicAdd(surface_missed, 1u)', 'atomicAdd(surface_lost, 1u)',
         'atomicAdd(surface_entries, count)', 'atomicAdd(acting_rows, 1u)',
         'atomicAdd(held_nodes, 1u)', 'atomicAdd(listed_rows, uint(count))',
+        'atomicAdd(listed_rows, 1u)',
+        'atomicOr(surface_rows[entry.first_row].spare.y, 1u << uint(row))',
         'atomicMax(largest, floatBitsToUint(length(impulse)))',
         'atomicMax(largest_change, floatBitsToUint(length(impulse - before)))'],
     # Only whether there are any counts.
@@ -125,7 +127,8 @@ _COUNTING = {
         'atomicAdd(node_groups_x, entry % NEAR_LOCAL == 0u ? 1u : 0u)'],
 }
 _SURFACE = {
-    'SURFACE_TIPS': 8, 'SURFACE_LOCAL': 64, 'SURFACE_COLLIDERS': '2u', 'THIN_COLLIDERS': 1}
+    'SURFACE_TIPS': 8, 'SURFACE_LOCAL': 64, 'SURFACE_COLLIDERS': '2u', 'THIN_COLLIDERS': 1,
+    'SURFACE_STORED': 400}
 # What each shader is compiled with besides; a comma sets further forms of one apart.
 _FORMS = {
     'bounds_check.comp': {'STRIP': 16},
