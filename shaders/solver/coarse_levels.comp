@@ -22,7 +22,7 @@ layout(local_size_x = TOGETHER_LOCAL) in;
 uniform int first_level;
 uniform int coarsest;
 
-// Of all nodes of these levels, level by level.
+// Values of the nodes of these levels, level by level.
 shared vec3 of_nodes[MOST_TOGETHER];
 
 // Where the nodes of the present level, and of that above, begin there.
@@ -32,7 +32,7 @@ int begin_above = 0;
 #define FOR_NODES \
     for (int i = int(gl_LocalInvocationIndex), cols = level_shape[level].y, \
             nodes = level_shape[level].x * cols; i < nodes; i += TOGETHER_LOCAL)
-// Of node i of the present level.
+// Row and column of node i of the current level, and the place of a field of it.
 #define AT ivec2(i / cols, i % cols)
 #define ENTRY(FIELD) vector_entry(level, FIELD, level_index(level, i / cols, i % cols))
 
@@ -78,7 +78,7 @@ void smooth_values(int into, float step_size) {
     }
 }
 
-// What smoothing has left at a node of the level above; nothing beyond it.
+// Defect of a node of the level above after smoothing; 0 outside that level.
 vec3 finer_defect(ivec2 at) {
     ivec2 shape = level_shape[level - 1].xy;
     if (level == first_level) {

@@ -161,7 +161,7 @@ class _Together:
     """
     The passes over all levels that fit one workgroup.
 
-    ``cycle_program`` is that of ``cycle``, with what coarsest.comp has to be told.
+    ``cycle_program`` is the program of ``cycle``; it takes the uniforms of coarsest.comp as well.
     """
 
     def __init__(self, programs: SolverPrograms, levels: Levels) -> None:
