@@ -4,8 +4,12 @@
 """
 Learn to spread a folded towel, by random search over 64 plans at once. Needs no ROS.
 
-    python examples/train_spread.py        takes half a minute, and writes spread.png
+    python examples/train_spread.py --out spread.png
+
+Takes half a minute, and writes a picture of a towel before and after.
 """
+
+from argparse import ArgumentParser
 
 from cloth_sim_ros import Scene
 from cloth_sim_ros.gym import CarryCloths
@@ -36,6 +40,9 @@ def play(towels: CarryCloths, plans: np.ndarray, seed: int) -> np.ndarray:
     return rewards
 
 
+parser = ArgumentParser(description='Learn to spread a folded towel.')
+parser.add_argument('--out', default='spread.png', help='picture to write')
+out = parser.parse_args().out
 towels = make_vec(
     64, TOWEL, start=FOLDED, hands=[[(0, 0)], [(8, 0)]], goal=None, reward=spread,
     render_mode='rgb_array', camera={
@@ -49,5 +56,5 @@ for number in range(10):
     mean, width = best.mean(axis=0), best.std(axis=0) + 0.05
     print(f'round {number + 1}: mean {rewards.mean():.3f}, best {rewards.max():.3f}')
 after = play(towels, np.repeat(mean[None], 64, axis=0), seed=1000).mean()
-Image.fromarray(np.hstack([*pictures, towels.render()[0]])).save('spread.png')
+Image.fromarray(np.hstack([*pictures, towels.render()[0]])).save(out)
 print(f'nodes are off by {-1e3 * before:.0f} mm before, {-1e3 * after:.0f} mm after')
