@@ -14,9 +14,12 @@
     BENT_SHARE(NODE, ROW, COL, DROW, DCOL), \
     OF[ROW - DROW][COL - DCOL].xyz, OF[ROW][COL].xyz, OF[ROW + DROW][COL + DCOL].xyz)
 
+// Over all of a tile, for the reason at FOR_BLOCK in block_edges.glsl.
 #define FOR_BENT(DROW, DCOL) \
-    for (int row = 2 - DROW; row < BLOCK + 2 + DROW; ++row) \
-        for (int col = 2 - DCOL; col < BLOCK + 2 + DCOL; ++col)
+    for (int row = 0; row < BLOCK + 4; ++row) \
+        for (int col = 0; col < BLOCK + 4; ++col) \
+            if (row >= 2 - DROW && row < BLOCK + 2 + DROW \
+                    && col >= 2 - DCOL && col < BLOCK + 2 + DCOL)
 
 // Bending forces on the nodes of the block, into RESISTED; C: c along a row and along a column.
 // Second differences are stored, as each is used by three nodes.

@@ -21,6 +21,8 @@
     for (int row = 0; row < TILE; ++row) \
         for (int col = 0; col < TILE; ++col)
 
+// Mesa unrolls a loop of any length if it runs over all of an array, and else up to a limit. Where
+// one is left, llvmpipe keeps the tiles in memory and compiles a shader for minutes.
 #define FOR_BLOCK \
-    for (int row = REACH; row < REACH + BLOCK; ++row) \
-        for (int col = REACH; col < REACH + BLOCK; ++col)
+    FOR_TILE \
+        if (row >= REACH && row < REACH + BLOCK && col >= REACH && col < REACH + BLOCK)
