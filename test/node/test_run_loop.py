@@ -269,7 +269,8 @@ def test_a_run_stops_where_stamps_end(client, tmp_path):
     with NodeProcess(tmp_path, SCENE, '-r', '__ns:=/late', start=start) as node:
         cloth = ClothUnderTest(client, SCENE, '/late/cloth_sim')
         cloth.wait_for('state', lambda state: state.run_state == 'stopped')
-        assert 'simulated time ends at 0.1 s' in node.output
+        client.spin_until(
+            lambda: 'simulated time ends at 0.1 s' in node.output, 'the reason in the log')
         cloth.wait_for('stats', lambda stats: cloth.steps_of(stats) == 20)
         assert all(cloth.steps_of(stats) <= 20 for stats in cloth['stats'])
         for _ in range(2):
