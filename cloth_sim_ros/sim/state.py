@@ -305,6 +305,11 @@ class State:
         first, some, apart = self.impulses.reserve(count)
         return range(first, first + some * apart, apart)
 
+    def carry_over(self) -> None:
+        """Copy the present state to the one to come, for a pass that changes few nodes of it."""
+        for buffers in (self._positions, self._velocities):
+            buffers[self._now].copy_to(buffers[self._next], 0, buffers[self._now].bytes)
+
     def swap(self) -> None:
         """Make the written state the present one."""
         self._now = self._next

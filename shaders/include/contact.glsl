@@ -126,10 +126,14 @@ void find_surfaces(uint bodies, vec3 x, vec3 towards, vec3 v, float h) {
     // one that could pass through a thin collider is.
     if (touched_count == 1) {
         int collider = touched[0];
-        vec3 w = v - carried[0];
+        // Edges pull a node that sticks along the surface with any force: without what holds it
+        // there it would pass by any body.
+        vec3 n = surface[0].xyz;
+        vec3 passing = towards + dot(n, v - towards) * n;
+        vec3 w = passing - carried[0];
         bool is_short = 2.0 * h * length(w) < collider_thickness[collider];
         if (surface[0].w > rounding(x, collider) && is_short
-                && gap_at_end(collider, x + h * v, h).w >= 0.0) {
+                && gap_at_end(collider, x + h * passing, h).w >= 0.0) {
             touched_count = 0;
         }
     }

@@ -15,8 +15,7 @@
 #define END 2
 
 // State of a node, stored in w of its reaction: it stuck at the end of the last substep, or was
-// released in this one. Positive numbers count its changes in this substep: with hard edges a node
-// can alternate.
+// released in this one.
 #define STUCK 1.0
 #define LET_GO 16.0
 // The last friction counts as near to the one needed at the last speed if their ratio is between
@@ -28,16 +27,31 @@
 #include "solver/vectors.glsl"
 #include "solver/system.glsl"
 #include "solver/state_index.glsl"
+#include "cells.glsl"
+#if STAGE == BEGIN
 #include "state_in.glsl"
 #include "state_out.glsl"
-#include "low_parts.glsl"
-#if STAGE == BEGIN
 #include "applied_acceleration.glsl"
+#else
+// Changed in place, at the nodes that near.comp lists.
+layout(std430, binding = POSITION_OUT) buffer PositionOut { vec4 position_out[]; };
+layout(std430, binding = VELOCITY_OUT) buffer VelocityOut { vec4 velocity_out[]; };
+
+vec4 load_position(int index) { return position_out[index]; }
+
+vec4 load_velocity(int index) { return velocity_out[index]; }
+
+#include "solver/near_list.glsl"
 #endif
+#include "low_parts.glsl"
 #include "contact.glsl"
 #include "contact_record.glsl"
 
+#if STAGE == BEGIN
 layout(local_size_x = LOCAL_X, local_size_y = LOCAL_Y) in;
+#else
+layout(local_size_x = NEAR_LOCAL) in;
+#endif
 
 uniform float substep;        // [s]
 #if STAGE == BEGIN
@@ -147,7 +161,6 @@ vec3 towards(int at, int index, vec3 v) {
 bool may_touch(int at, int index, vec4 x, vec4 v) {
     store_vector(cloth_entry(BEGIN_POSITION, index), x.xyz);
     store_vector(cloth_entry(BEGIN_VELOCITY, index), v.xyz);
-    store_left_over(index, vec3(0.0));
     bool is_near = is_near_body(x.xyz, towards(at, index, v.xyz));
     if (v.w > 0.0 && !is_near) {
         if (guess == 0.0) {
@@ -199,7 +212,7 @@ void decide(int at, int index, inout vec4 x, inout vec4 v) {
 #elif STAGE == AGAIN
 // Decide whether friction makes a node stick or slide, by its velocity v after a solve.
 void apply_friction(inout Hold hold, Contact contact, vec3 v, vec3 x, vec3 reaction, int was,
-                    float was_grip, inout float turns) {
+                    float was_grip) {
     vec3 slid = sliding(hold, v);
     vec3 done = along_surface(hold, reaction);
     float most = most_friction();
@@ -208,18 +221,18 @@ void apply_friction(inout Hold hold, Contact contact, vec3 v, vec3 x, vec3 react
     // A step of Newton's method that ends the substep could drive a node.
     bool is_near = !ends_turns && is_fast(speed) && share > NEARLY && share * NEARLY < 1.0;
     bool slides = contact.kind != STICKS;
-    bool sticks_again = was > STICKS && !slides && turns > 0.0;
-    if (was_grip > 0.0 || sticks_again || slides && (ends_turns || is_near)) {
-        hold_fast(hold, most, max(speed, slowest(x)), slid, done);
-        hold.line = is_near ? slid / speed : vec3(0.0);
-        return;
-    }
-    if (contact.kind == STICKS) {
+    if (was == STICKS && !slides) {
         hold.change -= slid;
         hold.kind = STICKS;
         return;
     }
-    turns += was == STICKS ? 1.0 : 0.0;
+    // What has begun to slide is not tied again in this substep: the law judges a node by its own
+    // mass, and hard edges would pull at one that is tied with any force.
+    if (was_grip > 0.0 || !slides || ends_turns || is_near) {
+        hold_fast(hold, most, max(speed, slowest(x)), slid, done);
+        hold.line = is_near ? slid / speed : vec3(0.0);
+        return;
+    }
     hold.impulse = along_surface(hold, contact.velocity - (v - hold.change - reaction)) - done;
 }
 
@@ -240,27 +253,28 @@ void decide(int at, int index, inout vec4 x, inout vec4 v) {
     float was_grip = system_data[cloth_entry(GRIP, index)].w;
     vec3 begin = load_vector(cloth_entry(BEGIN_POSITION, index));
     vec3 reaction = load_vector(cloth_entry(REACTION, index));
-    float turns = vectors[cloth_entry(REACTION, index)].w;
+    bool was_let_go = vectors[cloth_entry(REACTION, index)].w == LET_GO;
     Contact contact = contact_at(begin, v.xyz, v.xyz - reaction, substep);
     if (was == FREE && contact.kind == FREE) {
         store_vector(cloth_entry(GIVEN, index), vec3(0.0));
         return;
     }
     Hold hold = hold_of(contact, v.xyz);
-    if (contact.kind == FREE && turns >= LET_GO) {
+    if (contact.kind == FREE && was_let_go) {
         // A node that was released once stays in contact, so that the turns end.
         hold.kind = was;
         hold.normal = system_data[cloth_entry(CONTACT, index)].xyz;
         hold.grip = was_grip;
     } else if (contact.kind == FREE) {
         hold.impulse = -reaction;
-        turns = LET_GO;
+        vectors[cloth_entry(REACTION, index)].w = LET_GO;
     } else if (hold.kind != STICKS) {
         apply_friction(
-            hold, contact, v.xyz + hold.change, begin, reaction, was, was_grip, turns);
+            hold, contact, v.xyz + hold.change, begin, reaction, was, was_grip);
     }
-    vectors[cloth_entry(REACTION, index)].w = turns;
-    if (substep * max(length(hold.change), length(hold.impulse)) > most_unsolved) {
+    // What a node that stays in its state lacks moves it as if its neighbours stayed.
+    vec3 moved = hold.kind == was ? times(load_cloth_inverse(index), hold.impulse) : hold.impulse;
+    if (substep * max(length(hold.change), length(moved)) > most_unsolved) {
         note_change();
     }
     if (hold.kind != was) {
@@ -335,9 +349,8 @@ void decide(int at, int index, inout vec4 x, inout vec4 v) {
         v.xyz = to;
     }
     if (touched_count == 1) {
-        // With friction at rest. A reaction counts what solves leave to later ones as given, and
-        // what they find of earlier ones. Of several surfaces the law shares it out.
-        given[0] = reaction + (to - before) + load_left_over(index);
+        // With friction at rest. Of several surfaces the law shares it out.
+        given[0] = reaction + (to - before);
     }
     x.xyz = moved_out(x.xyz, substep);
     vectors[cloth_entry(REACTION, index)].w = sticks ? STUCK : 0.0;
@@ -346,11 +359,19 @@ void decide(int at, int index, inout vec4 x, inout vec4 v) {
 #endif
 
 void main() {
+#if STAGE == BEGIN
     int row = int(gl_GlobalInvocationID.y);
     int col = int(gl_GlobalInvocationID.x);
     if (row >= ROWS || col >= COLS) {
         return;
     }
+#else
+    if (gl_GlobalInvocationID.x >= near_count) {
+        return;
+    }
+    int row = int(near_nodes[gl_GlobalInvocationID.x]) / COLS;
+    int col = int(near_nodes[gl_GlobalInvocationID.x]) % COLS;
+#endif
     int at = state_index(row, col);
     vec4 x = load_position(at);
     vec4 v = load_velocity(at);

@@ -33,17 +33,14 @@ void main() {
         int index = tile_index(first, row, col);
         if (load_contact(index).w > 0.0) {
             vec3 reaction = load_vector(cloth_entry(REACTION, index));
-            vec3 right = load_vector(cloth_entry(RIGHT, index));
+            vec3 right = load_vector(cloth_entry(RIGHT, index))
+                + left_share * load_vector(cloth_entry(LEFT, index))
+                - load_vector(cloth_entry(RESIDUAL, index));
             // As a change of the velocity.
             float inverse_share = 1.0 / mass_share(node[row][col]);
             store_vector(
                 cloth_entry(REACTION, index),
-                reaction + inverse_share * product[row][col] - inverse_share * right);
-            vec3 left_over = load_left_over(index)
-                + inverse_share * load_vector(cloth_entry(RESIDUAL, index));
-            store_left_over(
-                index,
-                left_over - inverse_share * left_share * load_vector(cloth_entry(LEFT, index)));
+                reaction + inverse_share * (product[row][col] - right));
         }
     }
 }

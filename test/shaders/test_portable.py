@@ -51,7 +51,7 @@ _OF_CONTACT = (
     'solver/contact.comp', 'solver/surface_find.comp', 'solver/surface_give.comp',
     'solver/surface_list.comp', 'solver/surface_product.comp', 'solver/surface_record.comp',
     'solver/surface_search.comp', 'solver/surface_weigh.comp',
-    'solver/hold.comp', 'solver/reaction.comp')
+    'solver/hold.comp', 'solver/near.comp', 'solver/reaction.comp')
 # Where integers are counted by atomics, and no result depends on the order.
 _COUNTING = {
     # The paper's solver, which only a benchmark runs, counts entries as the paper does.
@@ -119,6 +119,9 @@ _COUNTING = {
         'atomicMax(largest_cut, floatBitsToUint(most_cut))', 'atomicAdd(cut_nodes, cuts)',
         'atomicAdd(cut_pins, pins)'],
     'self_contact/drive.comp': ['atomicMax(largest_drive, floatBitsToUint(largest))'],
+    'solver/near.comp': [
+        'atomicAdd(near_count, 1u)',
+        'atomicAdd(near_groups_x, place % NEAR_LOCAL == 0u ? 1u : 0u)'],
     'near_nodes.comp': [
         'atomicAdd(near_node_count, 1u)',
         'atomicAdd(node_groups_x, entry % NEAR_LOCAL == 0u ? 1u : 0u)'],

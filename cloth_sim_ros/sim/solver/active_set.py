@@ -6,8 +6,11 @@
 from dataclasses import dataclass
 from dataclasses import replace
 
+from cloth_sim_ros.gl.buffer import Buffer
+from cloth_sim_ros.gl.buffer import shader_dispatches_visible
 from cloth_sim_ros.gl.buffer import shader_writes_visible
 from cloth_sim_ros.gl.program import Program
+from cloth_sim_ros.gl.quick_calls import make
 from cloth_sim_ros.sim.device import bindings
 from cloth_sim_ros.sim.device.layout import Layout
 from cloth_sim_ros.sim.device.scene_program import SceneProgram
@@ -25,6 +28,7 @@ from cloth_sim_ros.sim.solver.solver_programs import SolverPrograms
 from cloth_sim_ros.sim.solver.start import Start
 from cloth_sim_ros.sim.solver.surface_contacts import SolverSurface
 from cloth_sim_ros.sim.state import State
+import numpy as np
 
 # Looks of a line search [1], by false position, not nearer than a tenth to the ends of what is
 # left; chosen: same bits from 6 to 12, 1 moves nodes by 1 % (constants.py --only _LOOKS).
@@ -36,6 +40,10 @@ _FLAT = 0.05
 # to 1e-2 less changes than by half the tolerance, 1e-6 costs 35 % more solves
 # (constants.py --only _MOST_UNSOLVED).
 _MOST_UNSOLVED = 1e-4
+# Workgroups along x, y and z, and number, of the nodes that near.comp lists.
+_NONE_LISTED = np.array([0, 1, 1, 0], dtype=np.uint32)
+# Room for each node in the list [bytes].
+_LISTED_BYTES = 4
 
 
 class RightSide:
@@ -292,6 +300,10 @@ class SolverContacts:
             stage: SceneProgram('solver/contact.comp', scene, state, {
                 **programs.defines, **others, 'STAGE': stage})
             for stage in ('BEGIN', 'AGAIN', 'END')}
+        # Lists those that AGAIN and END decide about.
+        self._near = SceneProgram('solver/near.comp', scene, state, programs.defines)
+        self._listed = Buffer(_NONE_LISTED.nbytes + _LISTED_BYTES * scene.node_count)
+        self._clear_listed = self._listed.write_calls(_NONE_LISTED)
         self._hold = SolverPass(programs.make('hold.comp'), groups)
         self._react = SolverPass(programs.make('reaction.comp'), block_groups)
 
@@ -309,6 +321,11 @@ class SolverContacts:
         self._run(program, state)
         if self._surface is not None:
             self._surface.begin(state, forcing, length, kick, guess)
+
+    def is_touched(self, forcing: Forcing) -> bool:
+        """Return whether a node, edge or face has touched a collider in the substep."""
+        return (self._surface is not None and self._surface.has_contacts) or (
+            touch_of(forcing).is_touched())
 
     def hold(self) -> None:
         """Take from a right side what nodes that touch a collider can't follow."""
@@ -329,9 +346,10 @@ class SolverContacts:
         touch_of(forcing).begin_decision()
         if self._surface is not None and not is_last:
             self._surface.give(state, forcing, length)
+        self._list_near(state, forcing, length)
         program = self._use('END' if is_last else 'AGAIN', forcing, length, length)
         program.set_int('ends_turns', int(ends_turns))
-        self._write(program, state)
+        self._write_listed(program, state)
         if is_last and self._surface is not None and self._surface.has_contacts:
             self._surface.record(state, forcing, length, held_at)
             touch_of(forcing).move_out(state, length)
@@ -341,22 +359,41 @@ class SolverContacts:
 
     def delete(self) -> None:
         """Release the passes."""
-        for program in self._decide.values():
+        for program in (*self._decide.values(), self._near):
             program.delete()
+        self._listed.delete()
 
     def _use(self, stage: str, forcing: Forcing, length: float, kick: float) -> Program:
         program = self._decide[stage].use_for_step(forcing, length, kick)
+        self._set(program, forcing, length)
+        return program
+
+    def _set(self, program: Program, forcing: Forcing, length: float) -> None:
         self._programs.set_sizes(program)
         program.set_float('most_unsolved', self._most_unsolved)
         touch_of(forcing).set_in(program, length)
-        return program
 
     def _run(self, program: Program, state: State) -> None:
-        self._write(program, state)
-        state.swap()
-
-    def _write(self, program: Program, state: State) -> None:
         state.bind_in()
         state.bind_out()
         program.dispatch(*self._groups)
+        shader_writes_visible()
+        state.swap()
+
+    def _list_near(self, state: State, forcing: Forcing, length: float) -> None:
+        make(self._clear_listed)
+        program = self._near.use()
+        self._set(program, forcing, length)
+        program.set_float('substep', length)
+        self._listed.bind_storage(bindings.SOLVER_NEAR)
+        state.bind_in()
+        program.dispatch(*self._groups)
+        shader_dispatches_visible()
+
+    def _write_listed(self, program: Program, state: State) -> None:
+        state.carry_over()
+        state.bind_in()
+        state.bind_out()
+        self._listed.bind_dispatches()
+        program.dispatch_indirect(0)
         shader_writes_visible()

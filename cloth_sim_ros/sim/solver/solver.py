@@ -216,13 +216,14 @@ class Solver:
             self._find_first_tensions(forcing, kick)
         self._right_side.run(
             self._law, forcing, kick, self._start, is_further=is_further, is_driven=is_driven)
+        if is_further and not (
+                is_again or is_driven or self._is_touched(forcing) or self._buffers.is_off()):
+            self._left_in = LEFT if self._left_share else None
+            return False
         if self._contacts is not None:
             self._contacts.hold()
             if self._surface is not None:
                 self._surface.weigh(state, forcing, self._law, self._start)
-        elif is_further and not (is_again or is_driven or self._buffers.is_off()):
-            self._left_in = LEFT if self._left_share else None
-            return False
         if self._damps_bending and not is_further:
             self._damp.run()
         self._assembly.run()
@@ -237,6 +238,9 @@ class Solver:
             early=_EARLY if self._may_stop_early else 0.0)
         self._is_again = is_again
         return True
+
+    def _is_touched(self, forcing: Forcing) -> bool:
+        return self._contacts is not None and self._contacts.is_touched(forcing)
 
     def set_right_side(self, values: np.ndarray) -> None:
         """

@@ -1,0 +1,14 @@
+// SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
+// SPDX-License-Identifier: Apache-2.0
+
+// The nodes that contact.comp decides about after a solve, in no order, with the workgroups for it.
+
+#define NEAR_LOCAL 32u
+
+layout(std430, binding = SOLVER_NEAR) buffer NearList {
+    uint near_groups_x;
+    uint near_groups_y;
+    uint near_groups_z;
+    uint near_count;
+    uint near_nodes[];  // row * COLS + col
+};
