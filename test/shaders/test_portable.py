@@ -58,6 +58,8 @@ _COUNTING = {
     'paper/solver/spmm.comp': ['atomicAdd(row_count[i], 1u)'],
     # One flag, which any edge raises.
     'solver/right_side.comp': ['atomicOr(is_off, floatBitsToUint(1.0))'],
+    # Tells the last workgroup, which does what any other would do in its place.
+    'solver/product.comp': ['atomicAdd(finished_groups, 1u)'],
     # Lists of blocks and of their nodes, each of which is treated by itself.
     'include/block_bound.glsl': [
         'atomicAdd(near_block_count, 1u)',
@@ -206,6 +208,8 @@ _FORMS = {
     'solver/contact.comp, beside the surface': {'STAGE': 'AGAIN', 'NODE_COLLIDERS': '1u'},
     'solver/limit_search.comp': {'FORESEES_TURN': 1},
     'solver/limit_search.comp, turn not foreseen': {'FORESEES_TURN': 0},
+    'solver/product.comp, with the reduction': {
+        'REDUCES': 1, 'MOST_GROUPS_COUNTS': 48, 'LOADS_TEXTURE': 0, 'SUMS_BY_GROUP': 1},
     'solver/reduce.comp': {'MOST_GROUPS_COUNTS': 48},
     'solver/right_side.comp': {'FORESEES_TURN': 1},
     'solver/right_side.comp, turn not foreseen': {'FORESEES_TURN': 0},

@@ -53,7 +53,11 @@ class Iterations:
         self._begin = SolverPass(programs.make('begin.comp'), cloth.groups)
         self._update = SolverPass(
             programs.make('update.comp'), (-(-cloth.stored // (POINTS * POINT_LOCAL)), 1))
-        self.multiply = SolverPass(programs.make('product.comp'), cloth.groups)
+        # With contacts of edges and faces, another pass adds to the sums.
+        reduces = programs.has_few_dispatches and surface is None
+        product = programs.make(
+            'product.comp', REDUCES=int(reduces), MOST_GROUPS_COUNTS=_MOST_GROUPS_COUNTS)
+        self.multiply = SolverPass(product, cloth.groups)
         dispatches = [(1, 1)]
         cycles = [[*preconditioner.cycle, self.multiply]]
         begins = [[self._begin]]
@@ -65,13 +69,16 @@ class Iterations:
         for each in (*(each for cycle in cycles for each in cycle), self._update):
             each.switch(dispatches)
         self.buffers = SolverBuffers(levels, len(dispatches))
-        reduce = programs.make('reduce.comp', MOST_GROUPS_COUNTS=_MOST_GROUPS_COUNTS)
+        reduce = product if reduces else programs.make(
+            'reduce.comp', MOST_GROUPS_COUNTS=_MOST_GROUPS_COUNTS)
+        reduce.use()
         reduce.set_int('groups_count', len(dispatches))
         reduce.set_int_vectors('groups_of_each', np.array(dispatches))
+        reduce.set_int('sum_count', self.buffers.sum_count)
         # With contact there is one sum more.
         self._passes = [
-            _Passes(begin, cycle, self._update, SolverPass(
-                reduce, (1, 1), sum_count=self.buffers.sum_count + more))
+            _Passes(begin, cycle, self._update, [] if reduces else [SolverPass(
+                reduce, (1, 1), sum_count=self.buffers.sum_count + more)])
             for more, (begin, cycle) in enumerate(zip(begins, cycles))]
         self.made = 0
         self._most = most
@@ -143,13 +150,14 @@ class _Passes:
     Those of the first iteration and of further ones.
 
     :param begin: what comes before the first one
+    :param reduce: the pass that adds up sums, where the last of ``cycle`` does not
     """
 
     def __init__(
             self, begin: list[SolverPass], cycle: list[SolverPass], update: SolverPass,
-            reduce: SolverPass) -> None:
-        self._first = [*begin, *cycle, reduce]
-        self._further = [update, *cycle, reduce]
+            reduce: list[SolverPass]) -> None:
+        self._first = [*begin, *cycle, *reduce]
+        self._further = [update, *cycle, *reduce]
         self.further_calls = [
             call for each in self._further for call in each.calls_if_going()]
         self.further_calls.append(dispatches_visible_call())

@@ -95,7 +95,7 @@ class Multigrid:
             surface: SolverSurface | None = None) -> None:
         """Compile the passes of all levels; one program serves all coarse levels."""
         self._levels = levels
-        self._together = _Together(programs, levels) if programs.has_levels_together else None
+        self._together = _Together(programs, levels) if programs.has_few_dispatches else None
         self._coarsest = self._together.cycle_program if self._together else programs.make(
             'coarsest.comp', **_OF_COARSEST)
         # Levels from here on have no passes of their own.

@@ -169,6 +169,7 @@ class Scalars(NamedTuple):
     measure_after: float
     iterations: float
     is_going: float
+    finished_groups: float
     is_off: float
     scale: float
 

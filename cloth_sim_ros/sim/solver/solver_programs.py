@@ -94,9 +94,9 @@ class SolverPrograms:
         self._compiled: list[Program] = []
 
     @property
-    def has_levels_together(self) -> bool:
+    def has_few_dispatches(self) -> bool:
         """
-        Return whether one workgroup goes through all levels that fit it.
+        Return whether workgroups do one after another what could be dispatches of their own.
 
         On llvmpipe, where barriers cost much and dispatches little, a step of 64 x 64 nodes would
         take 2.4 times as long (docs/notes/performance.md).

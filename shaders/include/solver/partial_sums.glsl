@@ -5,7 +5,10 @@
 // SUMS_BY_GROUP: add up each workgroup here. A GPU has too many invocations to leave them all to
 // reduce.comp; llvmpipe has few, and barriers cost it much.
 
-layout(std430, binding = SOLVER_SUMS) writeonly buffer PartialSums { vec4 partial_sums[]; };
+#ifndef SUMS_ACCESS
+#define SUMS_ACCESS writeonly
+#endif
+layout(std430, binding = SOLVER_SUMS) SUMS_ACCESS buffer PartialSums { vec4 partial_sums[]; };
 
 #if SUMS_BY_GROUP
 #define GROUP (LOCAL_X * LOCAL_Y)

@@ -11,6 +11,7 @@ layout(std430, binding = SOLVER_SCALARS) SCALARS_ACCESS buffer Scalars {
     float measure_after;  // expected after the last iteration
     float iterations;   // made so far
     float is_going;     // 1 where there is another iteration
+    uint finished_groups;  // workgroups of product.comp that have ended, while it runs
     uint is_off;        // the bits of 1.0 where lengths are off by more than rounding, before a further solve
     float scale;        // square of the change of velocity that the residual is small beside
 };
