@@ -48,10 +48,12 @@ import sys
 import time
 
 def held(simulation, number, most, stop):
-    if Path('hold').exists():
-        Path('held.new').write_text(str(number))
-        Path('held.new').rename('held')
+    is_told = False
     while Path('hold').exists() and not stop():
+        if not is_told:
+            Path('held.new').write_text(str(number))
+            Path('held.new').rename('held')
+            is_told = True
         time.sleep(1e-3)
     return works(simulation, number, 1, stop)
 
