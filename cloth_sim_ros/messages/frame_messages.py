@@ -131,13 +131,15 @@ class FrameTaker:
 
     def take(
             self, is_read: Callable[[str], bool], pace: Callable[[], Pace],
-            epoch: int = 0) -> FrameContent:
+            epoch: int = 0, *, ends_frame: bool = True) -> FrameContent:
         """
         Return what is read of the present moment.
 
         :param is_read: returns whether anybody reads the topic of a key
         :param pace: returns how fast the frame was made, asked when the device is done
         :param epoch: stamp of simulated time 0 [ns]
+        :param ends_frame: False to look at a frame whose steps may still be under way; forces,
+            which are means over all of them, are then left out
         """
         simulation = self._simulation
         pinned = simulation.pinned_nodes() & ~simulation.grasped_nodes()
@@ -154,8 +156,8 @@ class FrameTaker:
         snapshot = simulation.snapshot() if wanted - {'clock'} else None
         forces = None
         if wanted & _WITH_FORCES:
-            forces = self._forces(snapshot)
-        else:
+            forces = self._forces(snapshot, ends_frame)
+        elif ends_frame:
             self._leave_out_forces()
         # What pictures take is not the time of the steps.
         made = pace()
@@ -188,16 +190,16 @@ class FrameTaker:
                 keys |= {camera_key(model.name, part) for part in parts}
         return frozenset(keys), pictures
 
-    def _forces(self, snapshot: Snapshot | None) -> FrameForces | None:
+    def _forces(self, snapshot: Snapshot | None, ends_frame: bool) -> FrameForces | None:
         """
-        Return the means over the frame.
+        Return the means over the frame; None where they can't be known yet.
 
         The first frame in which they are wanted has those of the last step of dt, if these are
         known.
         """
         if self._window is None:
             self._window = self._simulation.open_force_window()
-        if not self._simulation.knows_forces:
+        if not self._simulation.knows_forces or not ends_frame and self._window.steps:
             return None
         return self._simulation.frame_forces(self._window, snapshot)
 

@@ -108,7 +108,7 @@ class Reports(InputListener):
         self._check_pins()
         frame = self._taker.take(
             lambda key: self._outlet.wanted(key, by_recording=to_recording), pace,
-            self._base.epoch)
+            self._base.epoch, ends_frame=to_recording)
         if not frame.keys:
             return
         self._frames.note(frame)

@@ -87,6 +87,23 @@ def test_forces_are_recorded_while_they_are_read(cloth):
     assert not cloth.knows_forces
 
 
+def test_a_look_into_a_frame_takes_no_forces_from_it(cloth):
+    """Means would be those of the steps since a still picture, or since a recording had none."""
+    taker = FrameTaker(cloth, _ALL)
+    take(taker, 'pins/wrenches')
+    cloth.step(3)
+    seen = taker.take(lambda key: key == 'pins/wrenches', Pace, ends_frame=False)
+    assert seen.keys == {'pins/wrenches'} and seen.forces is None
+    assert made(cloth, seen) == []
+    # Only the recording has readers of forces.
+    taker.take(lambda key: key == 'points', Pace, ends_frame=False)
+    cloth.step(2)
+    forces = take(taker, 'pins/wrenches').forces
+    assert forces.seconds == pytest.approx(5 * cloth.dt)
+    # At the end of a frame, those of the frame are shown once more.
+    assert taker.take(lambda key: key == 'pins/wrenches', Pace, ends_frame=False).forces is forces
+
+
 def test_no_later_step_changes_a_frame(cloth):
     """A frame that waits to be sent would show a later moment."""
     taker = FrameTaker(cloth, _ALL)
