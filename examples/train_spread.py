@@ -4,9 +4,7 @@
 """
 Learn to spread a folded towel, by random search over 64 plans at once. Needs no ROS.
 
-    python examples/train_spread.py --out spread.png
-
-Takes half a minute, and writes a picture of a towel before and after.
+    python examples/train_spread.py --out spread.png        takes half a minute
 """
 
 from argparse import ArgumentParser
@@ -41,7 +39,7 @@ def play(towels: CarryCloths, plans: np.ndarray, seed: int) -> np.ndarray:
 
 
 parser = ArgumentParser(description='Learn to spread a folded towel.')
-parser.add_argument('--out', default='spread.png', help='picture to write')
+parser.add_argument('--out', default='spread.png', help='picture of before and after')
 out = parser.parse_args().out
 towels = make_vec(
     64, TOWEL, start=FOLDED, hands=[[(0, 0)], [(8, 0)]], goal=None, reward=spread,
