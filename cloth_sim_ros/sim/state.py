@@ -306,7 +306,7 @@ class State:
         return range(first, first + some * apart, apart)
 
     def carry_over(self) -> None:
-        """Copy the present state to the one to come, for a pass that changes few nodes of it."""
+        """Copy the present state to the next one, for a pass that changes few of its nodes."""
         for buffers in (self._positions, self._velocities):
             buffers[self._now].copy_to(buffers[self._next], 0, buffers[self._now].bytes)
 
