@@ -35,9 +35,10 @@ layout(std430, binding = LIMIT_CHANGES) buffer Changes { vec4 changes[]; };
 // 200 random bodies are entered by 1e-7 m, and by 7e-6 m with 2 and 8 (test_thin_bodies.py --long).
 #define WAY_SEARCHES 20
 #define WAY_ROUNDS 12
-// Change of an impulse in a round, over the largest impulse [1], at which rounds end. Two layers on a
-// rod end 1.3e-5, 8.6e-6, 6.8e-6, 5.6e-6, 5.9e-6 m from one layer at 2e-2, 1e-2, 5e-3, 2e-3, 1e-4
-// (test_self_contact.py -k do_not_press); a rod under 64 x 64 nodes takes 4 % longer at 5e-3.
+// Change of an impulse in a round, over the largest impulse [1], at which rounds end. Two layers
+// on a rod end 1.3e-5, 8.6e-6, 6.8e-6, 5.6e-6 and 5.9e-6 m from one layer at 2e-2, 1e-2, 5e-3,
+// 2e-3 and 1e-4 (test_self_contact.py -k do_not_press); a rod under 64 x 64 nodes takes 4 % longer
+// at 5e-3 than at 2e-2.
 #define STILL 5e-3
 // The same [1] above which the last round has not settled: between bodies that leave no room, say.
 #define UNSETTLED 0.02

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 
 #version 430 core
-// List the nodes that touch a collider, were let go by one, or may come to one at the velocity that a
-// solve has led to: few of all, and contact.comp does much with each.
+// List the nodes that touch a collider, were let go by one, or may come to one at the velocity that
+// a solve has led to: few of all, and contact.comp does much with each.
 
 #include "solver/levels.glsl"
 #include "solver/vectors.glsl"

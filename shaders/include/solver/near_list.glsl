@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 // SPDX-License-Identifier: Apache-2.0
 
-// The nodes that contact.comp decides about after a solve, in no order, with the workgroups for it.
+// Nodes that contact.comp decides about after a solve, in no order, with the workgroups for it.
 
 #define NEAR_LOCAL 32u
 
