@@ -16,6 +16,10 @@
 // chosen: same bits from 0.5 to 0.99 (benchmarks/constants.py --only FACING).
 #define FACING 0.9
 
+// Where a loop over the surfaces of a node starts. Mesa unrolls a loop over a whole array from a
+// constant on, and llvmpipe then compiles and runs it for surfaces that no node touches.
+#define FROM(first) min(touched_count, first)
+
 #define FREE 0
 #define STICKS 1
 #define SLIDES 2
@@ -152,8 +156,8 @@ vec3 pressing_direction(int i, int j) {
 // thickness: the node stays between them, and both press on it. They share the missing distance and
 // the difference of their velocities along the normal.
 void find_compression(float h) {
-    for (int i = 1; i < touched_count; ++i) {
-        for (int j = 0; j < i; ++j) {
+    for (int i = FROM(1); i < touched_count; ++i) {
+        for (int j = FROM(0); j < i; ++j) {
             vec3 n = normalize(surface[i].xyz - surface[j].xyz);
             vec3 towards = pressing_direction(i, j);
             float closing = dot(n, carried[i] - carried[j]);
@@ -223,7 +227,7 @@ float act_in_turn(vec3 x, float h, inout Contact found) {
     bool sticks = false;
     held_on = 0;
     vec3 before = found.velocity;
-    for (int i = 0; i < touched_count; ++i) {
+    for (int i = FROM(0); i < touched_count; ++i) {
         int kind;
         vec3 without = found.velocity - given[i];
         vec3 with = carried[i] + held_on_surface(
@@ -260,7 +264,7 @@ void slide_on_two(vec3 x, float h, inout Contact found) {
 // Whether the velocity found goes into a surface by more than the rounds leave of the velocity v.
 bool is_any_lacking(vec3 x, vec3 v, vec3 found, float h) {
     float most = -1.0;
-    for (int i = 0; i < touched_count; ++i) {
+    for (int i = FROM(0); i < touched_count; ++i) {
         most = max(most, lacking(i, x, found, h) - 1e-4 * length(v - carried[i]));
     }
     return most > 0.0;
@@ -274,7 +278,7 @@ void slip_out(vec3 x, vec3 v, float h, inout Contact found) {
     found.velocity = is_jammed ? v : found.velocity;
     for (int round = 0; is_jammed && round < MOST_ROUNDS; ++round) {
         held_on = 0;
-        for (int i = 0; i < touched_count; ++i) {
+        for (int i = FROM(0); i < touched_count; ++i) {
             vec3 normal = surface[i].xyz;
             float before = round > 0 ? dot(given[i], normal) : 0.0;
             float impulse = max(before + lacking(i, x, found.velocity, h), 0.0);
@@ -288,19 +292,6 @@ void slip_out(vec3 x, vec3 v, float h, inout Contact found) {
         found.normal = surface[held_on > 0 ? held_by.x : 0].xyz;
     }
 }
-
-#if COLLIDERS > 1
-// Iterate over the surfaces of a node that touches several, as each changes the result of others.
-void act_together(vec3 x, vec3 v, float h, float change, inout Contact found) {
-    for (int round = 1; round < MOST_ROUNDS && change > 1e-6 * length(v); ++round) {
-        change = act_in_turn(x, h, found);
-    }
-    slip_out(x, v, h, found);
-    if (found.kind == SLIDES_ON_TWO) {
-        slide_on_two(x, h, found);
-    }
-}
-#endif
 
 // The velocity of a node at x in the next h seconds, v without these bodies. Contact is decided by
 // the displacement h * towards: the part of v that a surface balances moves the node nowhere.
@@ -318,10 +309,18 @@ Contact contact_with(uint bodies, vec3 x, vec3 towards, vec3 v, float h) {
         find_compression(h);
     }
 #endif
-    float change = act_in_turn(x, h, found);
+    // Each surface changes the result of the others.
+    int rounds = COLLIDERS > 1 && touched_count > 1 ? MOST_ROUNDS : 1;
+    float change = 1e30;
+    for (int round = 0; round < rounds && change > 1e-6 * length(v); ++round) {
+        change = act_in_turn(x, h, found);
+    }
 #if COLLIDERS > 1
     for (uint asks = several; asks != 0u; asks &= asks - 1u) {
-        act_together(x, v, h, change, found);
+        slip_out(x, v, h, found);
+        if (found.kind == SLIDES_ON_TWO) {
+            slide_on_two(x, h, found);
+        }
     }
 #endif
     return found;
@@ -337,7 +336,7 @@ float room_lacking(int i, vec4 near, vec3 x, float h) {
     float lacking = 0.0;
 #if COLLIDERS > 1
     int others = touched_count > 1 ? touched_count : 0;
-    for (int j = 0; j < others; ++j) {
+    for (int j = FROM(0); j < others; ++j) {
         vec4 other = gap_at_end(touched[j], x, h);
         if (j != i && dot(near.xyz, other.xyz) <= -FACING) {
             lacking = max(lacking, -0.5 * (near.w + other.w));
@@ -354,7 +353,7 @@ vec3 moved_out(vec3 x, float h) {
     int rounds = touched_count > 1 ? MOST_ROUNDS_OUT : 1;
     for (int round = 0; round < rounds; ++round) {
         float moved = 0.0;
-        for (int i = 0; i < touched_count; ++i) {
+        for (int i = FROM(0); i < touched_count; ++i) {
             int collider = touched[i];
             vec4 near = gap_at_end(collider, x, h);
             near.w += room_lacking(i, near, x, h);

@@ -28,7 +28,7 @@ void record_impulse(int collider, int index, vec3 change) {
 }
 
 void record_contacts(int index, int kind) {
-    for (int i = 0; i < touched_count; ++i) {
+    for (int i = FROM(0); i < touched_count; ++i) {
         if (given[i] != vec3(0.0) || pressed[i] > 0.0) {
             int entry = touched[i] * record_stride + index;
             vec3 change = mass_share(load_position(index)) * (given[i] + pressing[i]);

@@ -112,7 +112,7 @@ Hold hold_of(Contact contact, vec3 v) {
 // The most that friction changes the velocity by in the substep.
 float most_friction() {
     float most = 0.0;
-    for (int i = 0; i < touched_count; ++i) {
+    for (int i = FROM(0); i < touched_count; ++i) {
         float normal_impulse = max(dot(given[i], surface[i].xyz), 0.0) + pressed[i];
         most += collider_friction[touched[i]] * normal_impulse;
     }
@@ -144,7 +144,7 @@ bool slides_on(inout Hold hold, int index, vec3 v) {
         return false;
     }
     vec3 reaction = load_vector(cloth_entry(REACTION, index));
-    for (int i = 0; i < touched_count; ++i) {
+    for (int i = FROM(0); i < touched_count; ++i) {
         given[i] = guess * reaction;
     }
     hold_fast(hold, most_friction(), speed, slid, vec3(0.0));
@@ -334,7 +334,7 @@ void decide(int at, int index, inout vec4 x, inout vec4 v) {
         sticks = was_grip > 0.0 && length(slid) <= 2.0 * slowest(begin);
         to -= sticks ? slid : vec3(0.0);
     }
-    for (int i = 0; i < touched_count; ++i) {
+    for (int i = FROM(0); i < touched_count; ++i) {
         vec3 change = max(lacking(i, begin, to, substep), 0.0) * surface[i].xyz;
         given[i] += change;
         to += change;
