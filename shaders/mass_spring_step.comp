@@ -33,7 +33,9 @@ uniform float bending_damping;  // [s]
 
 layout(local_size_x = LOCAL_X, local_size_y = LOCAL_Y) in;
 
-#define TILE (BLOCK + 2 * HALO)
+#define REACH HALO
+#define TILE (BLOCK + 2 * REACH)
+#include "block_edges.glsl"
 
 vec4 position[TILE][TILE];
 #if HAS_DAMPING || HAS_BENDING_DAMPING
@@ -74,31 +76,20 @@ vec4 brake[TILE][TILE];
 
 // Every spring of one direction with an end in the block.
 #define ADD_SPRINGS(FIRST, EDGE, DROW, DCOL, FAMILY, REST) \
-    for (int row = 0; row < TILE; ++row) { \
-        for (int col = 0; col < TILE; ++col) { \
-            bool starts = row >= HALO && row < HALO + BLOCK && col >= HALO && col < HALO + BLOCK; \
-            bool ends = row + DROW >= HALO && row + DROW < HALO + BLOCK \
-                && col + DCOL >= HALO && col + DCOL < HALO + BLOCK; \
-            if (starts || ends) { \
-                add_spring(row, col, DROW, DCOL, EDGE, REST); \
-            } \
-        } \
-    }
+    FOR_BLOCK_EDGES(DROW, DCOL, add_spring(row, col, DROW, DCOL, EDGE, REST))
 
 void main() {
     ivec2 first = ivec2(gl_GlobalInvocationID.xy) * BLOCK;
     if (first.x >= COLS || first.y >= ROWS) {
         return;
     }
-    for (int row = 0; row < TILE; ++row) {
-        for (int col = 0; col < TILE; ++col) {
-            int index = node_index(first.y + row - HALO, first.x + col - HALO);
-            position[row][col] = load_position(index);
+    FOR_TILE {
+        int index = node_index(first.y + row - HALO, first.x + col - HALO);
+        position[row][col] = load_position(index);
 #if HAS_DAMPING || HAS_BENDING_DAMPING
-            velocity[row][col] = load_velocity(index).xyz;
+        velocity[row][col] = load_velocity(index).xyz;
 #endif
-            force[row][col] = vec3(0.0);
-        }
+        force[row][col] = vec3(0.0);
     }
     EACH_EDGE(ADD_SPRINGS, first)
 #if HAS_RIGIDITY
@@ -114,32 +105,28 @@ void main() {
 #endif
 #if HAS_CONTACT
     Bound bound = Bound(vec3(1e30), vec3(-1e30), 0.0);
-    for (int row = HALO; row < HALO + BLOCK; ++row) {
-        for (int col = HALO; col < HALO + BLOCK; ++col) {
-            add_place(bound, position[row][col]);
-        }
+    FOR_BLOCK {
+        add_place(bound, position[row][col]);
     }
 #endif
 #if HAS_HELD
     uint pins = 0u;  // a bit for each node of the block
 #endif
-    for (int row = HALO; row < HALO + BLOCK; ++row) {
-        for (int col = HALO; col < HALO + BLOCK; ++col) {
-            int index = node_index(first.y + row - HALO, first.x + col - HALO);
-            vec4 v = load_velocity(index);
+    FOR_BLOCK {
+        int index = node_index(first.y + row - HALO, first.x + col - HALO);
+        vec4 v = load_velocity(index);
 #if HAS_HELD
-            uint bit = 1u << uint((row - HALO) * BLOCK + col - HALO);
-            pins |= is_held_by_pin(position[row][col], v) ? bit : 0u;
+        uint bit = 1u << uint((row - HALO) * BLOCK + col - HALO);
+        pins |= is_held_by_pin(position[row][col], v) ? bit : 0u;
 #endif
-            v.xyz = next_velocity(
-                index, v, force[row][col], applied_acceleration(index));
-            // Both w stand in every pair of buffers; software devices store number by number.
-            velocity_out[index].xyz = v.xyz;
-            position_out[index].xyz = next_position(index, position[row][col].xyz, v.xyz);
+        v.xyz = next_velocity(
+            index, v, force[row][col], applied_acceleration(index));
+        // Both w stand in every pair of buffers; software devices store number by number.
+        velocity_out[index].xyz = v.xyz;
+        position_out[index].xyz = next_position(index, position[row][col].xyz, v.xyz);
 #if HAS_CONTACT
-            add_speed(bound, v.xyz);
+        add_speed(bound, v.xyz);
 #endif
-        }
     }
 #if HAS_CONTACT
     list_if_near(bound, first);
