@@ -589,11 +589,11 @@ void move_held_nodes() {
 
 void let_rows_act() {
     bool is_done = surface_entries == 0u || acting_rows == 0u;
-    if (!is_done) {
-        move_held_nodes();
-    }
-    for (int round = 0; !is_done && round < IMPULSE_ROUNDS; ++round) {
-        is_done = rows_act();
+    for (int round = 0; !is_done && round <= IMPULSE_ROUNDS; ++round) {
+        // Nodes move by the impulses that were kept, before rows see them.
+        if (round > 0) {
+            is_done = rows_act();
+        }
         move_held_nodes();
     }
     bool is_far = uintBitsToFloat(largest_change) > UNSETTLED * uintBitsToFloat(largest);
