@@ -19,8 +19,8 @@
 #define STUCK 1.0
 #define LET_GO 16.0
 // The last friction counts as near to the one needed at the last speed if their ratio is between
-// this and its inverse [1]; chosen: from 0 to 1 about as much changes as by half the tolerance,
-// solves by 6 % (benchmarks/constants.py --only NEARLY).
+// this and its inverse [1]; chosen: nodes move by 3 to 6 % of their way from 0 to 1, by half the
+// tolerance 3 %, and solves change by 8 % (benchmarks/constants.py --only NEARLY).
 #define NEARLY 0.5
 
 #include "solver/levels.glsl"

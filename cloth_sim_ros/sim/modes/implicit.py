@@ -35,12 +35,13 @@ _SETTLING_TIME = 0.3
 # Max. solves of a pass that finds the limits in force [1], beyond which solver_reached is false;
 # chosen: same bits from 8 to 64, and 2 do not suffice (constants.py --only _MOST_SOLVES).
 _MOST_SOLVES = 32
-# Max. solves of a substep that finds what touches colliders [1]; chosen: nodes move by 0.6 % of
-# their way from 8 to 64, by 9 % at 4 and 16 % at 2; solves go from -23 % at 4 to +16 % at 64
-# (constants.py --only _MOST_CONTACT_SOLVES).
+# Max. solves of a substep that finds what touches colliders [1]; chosen: nodes move by 0.3 % of
+# their way from 8 to 64, by 2 % at 4 and 4 % at 2; solves go from -23 % at 2 and -3 % at 4 to
+# +0.3 % at 64 (constants.py --only _MOST_CONTACT_SOLVES).
 _MOST_CONTACT_SOLVES = 8
-# Solves of a substep after which friction only resists, so that turns end [1]; chosen: from 1 to 8
-# less changes than by half the tolerance (constants.py --only _MOST_CONTACT_TURNS).
+# Solves of a substep after which friction only resists, so that turns end [1]; chosen: nodes move
+# by 4 to 6 % of their way from 1 to 8, by half the tolerance 3 %; 1 takes 17 % more solves, 8
+# takes 8 % more (constants.py --only _MOST_CONTACT_TURNS).
 _MOST_CONTACT_TURNS = 4
 # Max. substep margin that is reported [1]; a finite number where edges turn at once.
 _LARGEST_MARGIN = 1e9
