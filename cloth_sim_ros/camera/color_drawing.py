@@ -6,6 +6,7 @@
 from collections.abc import Mapping
 from functools import cached_property
 
+from cloth_sim_ros.camera.dip import dip_of
 from cloth_sim_ros.camera.drawn_cloth import DrawnCloth
 from cloth_sim_ros.camera.lens import Lens
 from cloth_sim_ros.camera.light import DAYLIGHT_DEFINES
@@ -15,7 +16,8 @@ from cloth_sim_ros.camera.light import DEPTH_UNIT
 from cloth_sim_ros.camera.light import NEAREST_DEPTH_UNIT
 from cloth_sim_ros.camera.picture_file import load_picture
 from cloth_sim_ros.camera.subject import Subject
-from cloth_sim_ros.camera.value_drawing import behind_of
+from cloth_sim_ros.camera.traced_body import set_traced_body
+from cloth_sim_ros.camera.traced_body import traced_defines
 from cloth_sim_ros.gl.buffer import Buffer
 from cloth_sim_ros.gl.framebuffer import clamp_depths
 from cloth_sim_ros.gl.framebuffer import DepthTexture
@@ -141,16 +143,23 @@ class ColorDrawing:
         return self._pictures[path]
 
     def _draw_bodies(self, subject: Subject, lens: Lens, look: Look, sun: '_Sun') -> None:
-        program = self._program(
-            'camera/body.vert', 'camera/body_color.frag', DAYLIGHT_DEFINES)
-        program.use()
-        self._light(program, look, sun)
-        lens.set_in(program)
         for collider in subject.colliders:
-            if collider.shape == 'plane' and not _is_above(lens, collider):
+            is_plane = collider.shape == 'plane'
+            if is_plane and not _is_above(lens, collider):
                 continue
+            program = self._program(
+                'camera/body.vert', 'camera/body_color.frag',
+                {**DAYLIGHT_DEFINES, **({} if is_plane else traced_defines(collider.shape))})
+            program.use()
+            self._light(program, look, sun)
+            lens.set_in(program)
             program.set_vectors('body_color', look.of_body(collider.name, collider.shape))
-            program.set_float('behind', behind_of(collider, subject))
+            dip = dip_of(collider, subject)
+            if is_plane:
+                program.set_float('lowered', dip)
+            else:
+                program.set_float('lowered', 0.0)
+                set_traced_body(program, collider, lens, dip)
             self._draw_surface(program, collider, lens)
 
     def _light(self, program: RenderProgram, look: Look, sun: '_Sun') -> None:
@@ -189,7 +198,8 @@ class ColorDrawing:
 
     def _program(
             self, vertex: str, fragment: str, defines: Mapping[str, object]) -> RenderProgram:
-        key = (vertex, fragment, *sorted(defines))
+        key = (
+            vertex, fragment, *(f'{name}={value}' for name, value in sorted(defines.items())))
         if key not in self._programs:
             self._programs[key] = RenderProgram(vertex, fragment, defines)
         return self._programs[key]

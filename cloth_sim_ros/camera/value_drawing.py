@@ -6,9 +6,12 @@
 from collections.abc import Mapping
 import math
 
+from cloth_sim_ros.camera.dip import dip_of
 from cloth_sim_ros.camera.drawn_cloth import DrawnCloth
 from cloth_sim_ros.camera.lens import Lens
 from cloth_sim_ros.camera.subject import Subject
+from cloth_sim_ros.camera.traced_body import set_traced_body
+from cloth_sim_ros.camera.traced_body import traced_defines
 from cloth_sim_ros.gl.framebuffer import clamp_depths
 from cloth_sim_ros.gl.framebuffer import draw_nearest
 from cloth_sim_ros.gl.framebuffer import draw_within
@@ -25,11 +28,6 @@ BACKGROUND, CLOTH = 0, 1
 FIRST_COLLIDER = 2
 _DEPTH, _LABEL, _NORMAL, _FACET = range(4)
 _NORMALS = {'HAS_NORMALS': 1}
-# Share of a body's thickness within which cloth is seen in front of it at most [1]: cloth on its
-# other side stays hidden.
-_MOST_BEHIND = 0.25
-# Numbers of size[3] in camera/ray.glsl.
-_LENGTHS = 3
 
 
 class Values:
@@ -83,7 +81,7 @@ class ValueDrawing:
         cloth.draw(program, lens)
         for number, collider in enumerate(subject.colliders):
             self._draw_body(
-                collider, FIRST_COLLIDER + number, lens, behind_of(collider, subject), defines)
+                collider, FIRST_COLLIDER + number, lens, dip_of(collider, subject), defines)
         clamp_depths(False)
         values = Values(
             images.read(_DEPTH), images.read(_LABEL),
@@ -100,23 +98,19 @@ class ValueDrawing:
         return images
 
     def _draw_body(
-            self, collider: Collider, label: int, lens: Lens, behind: float,
+            self, collider: Collider, label: int, lens: Lens, dip: float,
             defines: Mapping[str, object]) -> None:
         rectangle = _rectangle(collider, lens)
         if rectangle is None:
             return
         program = self._program(
             'camera/screen.vert', 'camera/body_values.frag',
-            {**defines, 'MEETS': f'meets_{collider.shape}'})
+            {**defines, **traced_defines(collider.shape)})
         program.use()
         lens.set_in(program)
-        eye = collider.pose.seen_from(np.array([lens.pose.position]))
         program.set_int('label', label)
         program.set_vectors('body_axes', collider.axes @ lens.pose.axes.T)
-        program.set_vectors('body_eye', eye)
-        program.set_floats(
-            'size', (*collider.size, *(_LENGTHS - len(collider.size)) * (0.0,)))
-        program.set_float('behind', behind)
+        set_traced_body(program, collider, lens, dip)
         with draw_within(*rectangle):
             program.draw_strips(4)
 
@@ -126,22 +120,6 @@ class ValueDrawing:
         if key not in self._programs:
             self._programs[key] = RenderProgram(vertex, fragment, defines)
         return self._programs[key]
-
-
-def behind_of(collider: Collider, subject: Subject) -> float:
-    """
-    Return how much nearer than cloth a body may be and yet be hidden by it [m].
-
-    Faces dip into a body between nodes that touch it, and cloth is drawn without its thickness.
-    """
-    if collider.shape == 'plane':
-        return subject.thickness
-    cell = math.hypot(*subject.cell)
-    # A chord over a curve, or half of one across an edge.
-    dip = (
-        cell * cell / (8.0 * collider.size[0]) if collider.shape in ('sphere', 'capsule')
-        else cell / 2.0)
-    return min(dip + subject.thickness, _MOST_BEHIND * collider.thickness)
 
 
 def _rectangle(collider: Collider, lens: Lens) -> tuple[int, int, int, int] | None:

@@ -7,17 +7,17 @@
 #include "camera/pinhole.glsl"
 #include "camera/solid.glsl"
 
-uniform float behind;  // cloth is seen in front of what is nearer by less [m]
-out vec3 away;         // from the eye, in the world [m]
-out vec3 normal;       // in the world
+uniform float lowered;  // how far below its surface a plane hides cloth [m]
+out vec3 away;          // from the eye, in the world [m]
+out vec3 normal;        // in the world
 
 void main() {
     away = surface_place();
     normal = surface_normal();
-    vec4 here = picture_matrix * vec4(away, 1.0);
-    vec4 farther = picture_matrix * vec4(away + behind * optical_axes[2], 1.0);
-    gl_Position = vec4(here.xy, farther.z / farther.w * here.w, here.w);
-    if (here.w <= 0.0) {
-        gl_Position = here;
+    gl_Position = picture_matrix * vec4(away, 1.0);
+    if (lowered > 0.0 && gl_Position.w > 0.0) {
+        // At the same place of the picture, the depth of the plane that is lower.
+        vec4 below = picture_matrix * vec4(away * (1.0 - lowered / dot(normal, away)), 1.0);
+        gl_Position.z = below.z / below.w * gl_Position.w;
     }
 }

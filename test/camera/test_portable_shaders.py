@@ -8,6 +8,7 @@ from pathlib import Path
 from cloth_sim_ros.camera.color_drawing import FABRIC_DEFINES
 from cloth_sim_ros.camera.color_drawing import PRINT_DEFINES
 from cloth_sim_ros.camera.light import DAYLIGHT_DEFINES
+from cloth_sim_ros.camera.traced_body import traced_defines
 from cloth_sim_ros.gl.shared_directory import shader_directory
 from cloth_sim_ros.sim.model.colliders import SHAPES
 from portable import assert_accepted
@@ -18,10 +19,11 @@ _NORMALS = [{}, {'HAS_NORMALS': 1}]
 _FORMS = {
     'backdrop.frag': [{}],
     'body.vert': [{}],
-    'body_color.frag': [DAYLIGHT_DEFINES],
+    'body_color.frag': [
+        DAYLIGHT_DEFINES, *({**DAYLIGHT_DEFINES, **traced_defines(shape)} for shape in SHAPES)],
     'body_depth.vert': [{}],
     'body_values.frag': [
-        {**normals, 'MEETS': f'meets_{shape}'} for normals in _NORMALS for shape in SHAPES],
+        {**normals, **traced_defines(shape)} for normals in _NORMALS for shape in SHAPES],
     'cloth.vert': _GAPS,
     'cloth_color.frag': [
         {**DAYLIGHT_DEFINES, **fabric} for fabric in (*FABRIC_DEFINES.values(), PRINT_DEFINES)],
