@@ -145,6 +145,7 @@ class Controls:
         with self._gui.add_folder('What a camera sees'):
             self._camera: Any = self._gui.add_dropdown(
                 'Camera', (_NO_CAMERA, *self._source.cameras))
+            self._shown_camera = _NO_CAMERA
             self._part: Any = self._gui.add_dropdown('Picture', tuple(_PARTS))
             self._picture = self._gui.add_image(_NO_PICTURE, label='Seen', visible=False)
         for choice in (self._camera, self._part):
@@ -152,7 +153,13 @@ class Controls:
 
     def _choose_camera(self) -> None:
         name = self._camera.value
-        self._source.show_camera('' if name == _NO_CAMERA else name, _PARTS[self._part.value])
+        try:
+            self._source.show_camera(
+                '' if name == _NO_CAMERA else name, _PARTS[self._part.value])
+        except ClothSimError:
+            self._camera.value = self._shown_camera
+            raise
+        self._shown_camera = name
 
     def _add_actions(self) -> None:
         with self._gui.add_folder('A click on the cloth'):

@@ -17,6 +17,7 @@ from cloth_sim_ros.analysis.frame import Frame
 from cloth_sim_ros.camera.depth_shades import depth_shades
 from cloth_sim_ros.camera.rig import CameraRig
 from cloth_sim_ros.camera.rig import COLOR
+from cloth_sim_ros.files.errors import shown
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.errors import NonFiniteStateError
 from cloth_sim_ros.sim.model.cameras import CameraModel
@@ -52,8 +53,7 @@ class SceneSource(Source):
         """Start the simulation, and return when its first moment is there."""
         self.name = name
         self.modes = tuple(AVAILABLE)
-        # There is no tf here that one could be attached to.
-        self.cameras = tuple(camera.name for camera in scene.cameras if not camera.frame)
+        self.cameras = tuple(camera.name for camera in scene.cameras)
         self._scene = scene
         self._rig: CameraRig | None = None
         self._camera: CameraModel | None = None
@@ -94,6 +94,11 @@ class SceneSource(Source):
                 self._camera = self._picture = None
                 return
             camera = next(each for each in self._scene.cameras if each.name == name)
+            if camera.frame:
+                raise ClothSimError(
+                    f'camera {name} is attached to the tf frame {shown(camera.frame)}, and a '
+                    'scene in the view has no tf: run the scene as a node and read '
+                    f'~/cameras/{name}/image, or give the camera no frame')
             # Errors of the camera go to the page that has chosen it.
             self._picture = self._taken(simulation, camera, part)
             self._camera, self._part = camera, part

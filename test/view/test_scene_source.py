@@ -120,3 +120,19 @@ def test_a_scene_that_cannot_be_run_is_refused_at_once():
     with pytest.raises(ClothSimError, match='auto_substeps: true'):
         SceneSource(
             Scene({**SPRINGS, 'dt': 0.5, 'auto_substeps': False}), 'unstable', frame_seconds=0.5)
+
+
+def test_a_camera_on_a_tf_frame_is_refused():
+    """A camera in a hand would show the cloth from the origin, or be missing without a word."""
+    scene = Scene({
+        **SPRINGS, 'rows': 6, 'cols': 7, 'cameras.names': ['front', 'hand'],
+        'cameras.front.position': [0.3, -1.0, 1.4], 'cameras.front.target': [0.3, 0.3, 1.0],
+        'cameras.front.width': 16, 'cameras.front.height': 12, 'cameras.hand.frame': 'tool0'})
+    source = SceneSource(scene, 'small', frame_seconds=0.02, is_paused=True)
+    source.show_camera('front', 'color')
+    with pytest.raises(ClothSimError, match="tf frame 'tool0', and a scene in the view") as told:
+        source.show_camera('hand', 'color')
+    assert '\n' not in str(told.value)
+    source.step(1)
+    assert source.latest().picture.shape == (12, 16, 3)
+    source.close()

@@ -182,7 +182,7 @@ def test_the_page_shows_what_a_camera_sees():
 
     with served(source) as address, ViewPage(address) as page:
         page.wait_for(lambda: page.text, 'a cloth')
-        assert list(page.controls['Camera']['options']) == ['no camera', 'front']
+        assert list(page.controls['Camera']['options']) == ['no camera', 'front', 'hand']
         assert not page.controls['Seen']['visible']
         page.give('Camera', 'front')
         page.wait_for(lambda: shows(first.color), 'a picture')
@@ -190,5 +190,11 @@ def test_the_page_shows_what_a_camera_sees():
         page.wait_for(lambda: shows(depth_shades(first.depth)), 'its depth')
         source.step(40)
         page.wait_for(lambda: shows(depth_shades(later.depth)), 'the depth after a motion')
+        page.give('Camera', 'hand')
+        page.wait_for(lambda: page.told, 'a notification')
+        assert "camera hand is attached to the tf frame 'tool0', and" in (
+            page.told[0]['props']['body'])
+        page.wait_for(lambda: page.controls['Camera']['value'] == 'front', 'the old choice')
+        assert shows(depth_shades(later.depth))
         page.give('Camera', 'no camera')
         page.wait_for(lambda: not page.controls['Seen']['visible'], 'an end')
