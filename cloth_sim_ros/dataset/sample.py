@@ -13,6 +13,7 @@ from typing import Any
 
 from cloth_sim_ros.camera.camera import Camera
 from cloth_sim_ros.camera.picture import CameraPicture
+from cloth_sim_ros.camera.picture_file import check_pictures
 from cloth_sim_ros.camera.randomise import randomise
 from cloth_sim_ros.dataset.coco import keypoints
 from cloth_sim_ros.dataset.coco import mask_annotations
@@ -43,6 +44,11 @@ _LEAST_LIFT = 0.02  # of the width of the cloth [1]: below, there is no hand
 def path_of(folder: Path, kind: str, number: int) -> Path:
     """Return the file of the sample ``number`` in one of FOLDERS."""
     return folder / kind / f'{number:06d}.{FOLDERS[kind]}'
+
+
+def check_look(scene: Scene) -> None:
+    """Raise ClothSimError when a picture that the look of ``scene`` names is not there."""
+    check_pictures(scene.look)
 
 
 def make_sample(

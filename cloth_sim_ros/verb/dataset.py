@@ -23,6 +23,7 @@ from typing import Any
 
 from cloth_sim_ros.dataset.folder import ANNOTATIONS
 from cloth_sim_ros.dataset.folder import DatasetFolder
+from cloth_sim_ros.dataset.sample import check_look
 from cloth_sim_ros.dataset.sample import make_sample
 from cloth_sim_ros.dataset.sheet import write_sheet
 from cloth_sim_ros.dataset.variation import Bounds
@@ -111,7 +112,8 @@ def main(args: Namespace) -> int:
 
 def _given(args: Namespace) -> dict[str, Any]:
     """Return the values of the scene as they are given, once they are known to be right."""
-    read_scene(args)
+    scene, _ = read_scene(args)
+    check_look(scene)
     given = load_parameters(args.scene)
     for path in args.params:
         given.update(load_parameters(path))

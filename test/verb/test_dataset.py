@@ -119,6 +119,10 @@ def test_a_sheet_shows_the_samples(scene, made, tmp_path, capsys):
     (['--count', '1', '--elevation', '0', '90'], '--elevation 0 90 must be two values'),
     (['--count', '1', '--seed', '6'], 'has a data set with other values of seed'),
     (['--count', '1', '--set', 'rows=0'], 'rows 0 is outside its range'),
+    (['--count', '1', '--set', 'cameras.eye.intrinsics=[0.0, 9.0, 4.0, 3.0]'], 'has fx 0: give'),
+    (['--count', '1', '--set', 'cameras.eye.rate=1e9'], 'from 0.001 to 1000 Hz'),
+    (['--count', '1', '--set', 'cameras.eye.width=1000000'], 'from 1 to 4096 pixel'),
+    (['--count', '1', '--set', 'look.texture=no.png'], 'look.texture: there is no file no.png'),
 ])
 def test_wrong_values_are_refused(scene, made, wrong, rule, capsys):
     """A set would be mixed with another, or fail in each of its samples."""
