@@ -262,7 +262,10 @@ def test_a_frame_that_fails_is_left_out(client, tmp_path, method):
     start = with_fault('node.reports', 'Reports', method, '(4,)')
     with NodeProcess(tmp_path, SCENE, '-r', '__ns:=/frame', start=start) as node:
         cloth = ClothUnderTest(client, SCENE, '/frame/cloth_sim')
-        cloth.wait_for('stats', lambda stats: stats.steps > 60)
+        client.spin_until(lambda: 'unexpected error in a frame' in node.output, 'the fault')
+        begin = cloth.wait_for('stats', lambda stats: stats.steps > 10).steps
+        cloth.clear()
+        cloth.wait_for('stats', lambda stats: stats.steps > begin + 60)
         assert node.output.count('unexpected error in a frame') == 1
 
 
