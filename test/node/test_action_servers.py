@@ -171,9 +171,11 @@ def test_what_else_ends_a_move(moving):
              ResultCode.INTERRUPTED),
             (lambda: moving.call(Release, 'release', name='hand'), ResultCode.NOT_FOUND),
             (lambda: moving.call(Trigger, 'reset'), ResultCode.INTERRUPTED)):
-        # The last move may have taken the corner away.
+        # The last move may have taken the corner away, and one that is free falls out of reach.
+        assert moving.call(SetBool, 'pause', data=True).success
         assert moving.call(Trigger, 'reset').success
         assert moving.call(Grasp, 'grasp', name='hand', pose=CORNER).success
+        assert moving.call(SetBool, 'pause', data=False).success
         goal = Goal(moving, MoveFrame, 'move_grasp', speed=0.1, **FAR['move_grasp'])
         goal.hear()
         assert end().success
