@@ -24,6 +24,8 @@ layout(local_size_x = NEAR_LOCAL) in;
 layout(std430, binding = POSITION_OUT) buffer PositionOut { vec4 position_out[]; };
 layout(std430, binding = VELOCITY_OUT) buffer VelocityOut { vec4 velocity_out[]; };
 
+#include "next_state.glsl"
+#define RECORD_TEXELS LOADS_TEXTURE
 #include "contact_record.glsl"
 #if NOTES_CHANGES
 layout(std430, binding = LIMIT_CHANGES) buffer Changes { vec4 changes[]; };
@@ -33,14 +35,14 @@ uniform float substep;    // [s]
 uniform int block_count;  // in all
 
 void main() {
-    if (gl_GlobalInvocationID.x >= near_node_count) {
+    if (gl_GlobalInvocationID.x >= listed_nodes()) {
         return;
     }
-    Near node = near[block_count + gl_GlobalInvocationID.x];
+    Near node = listed_at_place(uint(block_count) + gl_GlobalInvocationID.x);
     int index = int(node.index);
 #if HAS_SURFACE
     // surface_contact.comp has done it, or it is pinned.
-    if (surface_nodes[index].is_held == 1 || velocity_out[index].w == 0.0) {
+    if (surface_nodes[index].is_held == 1 || load_next_velocity(index).w == 0.0) {
         return;
     }
 #endif
@@ -50,16 +52,16 @@ void main() {
         return;
     }
 #endif
-    vec3 v = velocity_out[index].xyz;
+    vec3 v = load_next_velocity(index).xyz;
     vec3 x = load_position(index).xyz;
     Contact contact = contact_with(node.bodies, x, v, v, substep);
     if (touched_count == 0) {
         return;
     }
-    vec3 to = position_out[index].xyz;
+    vec3 to = load_next_position(index).xyz;
     if (contact.kind != FREE) {
 #if HAS_LOW_PARTS
-        to = changed_position(index, to, substep * (contact.velocity - velocity_out[index].xyz));
+        to = changed_position(index, to, substep * (contact.velocity - v));
 #else
         to = x + substep * contact.velocity;
 #endif

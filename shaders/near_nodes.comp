@@ -16,20 +16,26 @@
 
 layout(local_size_x = NEAR_LOCAL) in;
 
+#if LOADS_TEXTURE
+layout(binding = VELOCITY_OUT) uniform samplerBuffer velocity_out;
+vec4 load_next_velocity(int index) { return texelFetch(velocity_out, index); }
+#else
 layout(std430, binding = VELOCITY_OUT) readonly buffer VelocityOut { vec4 velocity_out[]; };
+vec4 load_next_velocity(int index) { return velocity_out[index]; }
+#endif
 
 uniform float substep;    // [s]
 uniform int block_count;  // in all
 
 void main() {
     uint place = gl_GlobalInvocationID.x / uint(BLOCK * BLOCK);
-    if (place >= near_block_count) {
+    if (place >= listed_blocks()) {
         return;
     }
-    Near block = near[place];
+    Near block = listed_at_place(place);
     int inside = int(gl_GlobalInvocationID.x % uint(BLOCK * BLOCK));
     int index = int(block.index) + inside / BLOCK * PITCH + inside % BLOCK;
-    vec4 v = velocity_out[index];
+    vec4 v = load_next_velocity(index);
     // NaN fails the comparison and counts as fast, so that the node is listed.
     float square = dot(v.xyz, v.xyz);
     float way = substep * sqrt(square < 1e30 ? square : 1e30);

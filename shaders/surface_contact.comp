@@ -487,7 +487,7 @@ float lacking_room(int collider, vec4 near, vec3 x) {
 // Where a node at x is when the colliders have moved it out, as the substep ends.
 vec3 out_of(uint bodies, vec3 x) {
     for (; bodies != 0u; bodies &= bodies - 1u) {
-        int collider = findLSB(bodies);
+        int collider = first_of(bodies);
         vec4 near = gap_at_end(collider, x, substep);
         near.w += lacking_room(collider, near, x);
         x += max(-near.w - rounding(x, collider), 0.0) * near.xyz;

@@ -20,6 +20,10 @@ uniform float near_share[COLLIDERS];        // of that distance, with what it tu
 uniform vec3 near_core[COLLIDERS];          // half axis of a long one [m], or 0: the centre
 #endif
 
+// The first of some bodies: a constant where there is one, as llvmpipe reads an array of uniforms
+// lane by lane otherwise.
+int first_of(uint bodies) { return COLLIDERS > 1 ? findLSB(bodies) : 0; }
+
 // Min. distance that a point within radius of x has to travel to come near to a collider [m].
 float least_way(int collider, vec3 x, float radius) {
     vec3 arm = x - collider_centre[collider];
@@ -51,7 +55,7 @@ uint near_bodies(vec3 x, float radius, float way) {
 uint near_among(uint bodies, vec3 x, float way) {
     uint near = 0u;
     for (; bodies != 0u; bodies &= bodies - 1u) {
-        int collider = findLSB(bodies);
+        int collider = first_of(bodies);
         near |= least_way(collider, x, 0.0) > way ? 0u : 1u << uint(collider);
     }
     return near;

@@ -16,9 +16,16 @@
 // chosen: same bits from 0.5 to 0.99 (benchmarks/constants.py --only FACING).
 #define FACING 0.9
 
-// Where a loop over the surfaces of a node starts. Mesa unrolls a loop over a whole array from a
-// constant on, and llvmpipe then compiles and runs it for surfaces that no node touches.
+// Each surface of a node. Mesa unrolls a loop over a whole array from a constant on, and llvmpipe
+// then compiles and runs it for surfaces that no node touches. A loop over one at most is no loop.
+#if COLLIDERS > 1
 #define FROM(first) min(touched_count, first)
+#define FOR_TOUCHED(i) for (int i = FROM(0); i < touched_count; ++i)
+#else
+#define FOR_TOUCHED(i) for (int i = 0; i < min(touched_count, 1); ++i)
+#endif
+// The collider of such a surface.
+#define TOUCHED(i) (COLLIDERS > 1 ? touched[i] : 0)
 
 #define FREE 0
 #define STICKS 1
@@ -54,7 +61,11 @@ vec3 carried[MOST_TOUCHED];   // velocity of the surface at the node [m/s]
 float pressed[MOST_TOUCHED];  // change of velocity that a compressed cloth presses with [m/s]
 vec3 pressing[MOST_TOUCHED];  // the same with its direction
 int held_on;                  // how many, not parallel to each other, act on it
+#if COLLIDERS > 1
 ivec2 held_by;                // the first two of them
+#else
+const ivec2 held_by = ivec2(0);
+#endif
 float spare_way = 0.0;        // [m] that surfaces may be farther away than a node comes
 
 // Rounding of positions [m]; a surface within it is in contact.
@@ -101,13 +112,13 @@ uint bodies_towards(vec3 x, vec3 towards, float h) {
 void find_surfaces(uint bodies, vec3 x, vec3 towards, vec3 v, float h) {
     touched_count = 0;
     for (; bodies != 0u; bodies &= bodies - 1u) {
-        int collider = COLLIDERS > 1 ? findLSB(bodies) : 0;
+        int collider = first_of(bodies);
         vec4 near = gap_at(collider, x);
         float way = h * length(towards - surface_velocity(collider, x)) + spare_way;
         if (!(near.w < way + rounding(x, collider))) {
             continue;
         }
-        int place = touched_count;
+        int place = COLLIDERS > 1 ? touched_count : 0;
         if (touched_count == MOST_TOUCHED) {
             place = 0;
             for (int i = 1; i < MOST_TOUCHED; ++i) {
@@ -129,7 +140,7 @@ void find_surfaces(uint bodies, vec3 x, vec3 towards, vec3 v, float h) {
     // The plane along a curved surface reaches beyond it. A node that passes by is not held there;
     // one that could pass through a thin collider is.
     if (touched_count == 1) {
-        int collider = touched[0];
+        int collider = TOUCHED(0);
         // Edges pull a node that sticks along the surface with any force: without what holds it
         // there it would pass by any body.
         vec3 n = surface[0].xyz;
@@ -143,11 +154,12 @@ void find_surfaces(uint bodies, vec3 x, vec3 towards, vec3 v, float h) {
     }
 }
 
+#if COLLIDERS > 1
 // A surface without friction presses along its normal. The component that drives the node out is
 // left to the friction of the other surface; two equal surfaces take half of it each.
 vec3 pressing_direction(int i, int j) {
-    float other = collider_friction[touched[i]];
-    float own = collider_friction[touched[j]];
+    float other = collider_friction[TOUCHED(i)];
+    float own = collider_friction[TOUCHED(j)];
     vec2 share = own + other > 0.0 ? vec2(own, other) : vec2(1.0);
     return normalize(share.x * surface[i].xyz - share.y * surface[j].xyz);
 }
@@ -178,17 +190,18 @@ void find_compression(float h) {
         }
     }
 }
+#endif
 
 // Speed along its normal that the velocity v of a node at x lacks for ending at the surface i.
 float lacking(int i, vec3 x, vec3 v, float h) {
-    float least = -max(surface[i].w - rounding(x, touched[i]), 0.0) / h;
+    float least = -max(surface[i].w - rounding(x, TOUCHED(i)), 0.0) / h;
     return least - dot(surface[i].xyz, v - carried[i]);
 }
 
 // The velocity w relative to the surface i after contact and friction.
 vec3 held_on_surface(int i, vec3 w, float closest, float h, out int kind) {
     vec4 near = surface[i];
-    float friction = collider_friction[touched[i]];
+    float friction = collider_friction[TOUCHED(i)];
     float least = -max(near.w - closest, 0.0) / h;
     float along_normal = dot(near.xyz, w);
     float impulse = max(least - along_normal, 0.0) + pressed[i];
@@ -209,11 +222,15 @@ bool are_parallel(int i, int j) {
 
 // Parallel surfaces, facing each other or the same way, take one direction.
 void note_held(int i, bool is_held) {
+#if COLLIDERS > 1
     if (is_held && (held_on < 1 || !are_parallel(i, held_by.x))
             && (held_on < 2 || !are_parallel(i, held_by.y))) {
         held_by = held_on == 0 ? ivec2(i) : held_on == 1 ? ivec2(held_by.x, i) : held_by;
         ++held_on;
     }
+#else
+    held_on = is_held ? 1 : 0;
+#endif
 }
 
 // A node in contact with three surfaces has no free direction: it sticks for the substep.
@@ -227,11 +244,11 @@ float act_in_turn(vec3 x, float h, inout Contact found) {
     bool sticks = false;
     held_on = 0;
     vec3 before = found.velocity;
-    for (int i = FROM(0); i < touched_count; ++i) {
+    FOR_TOUCHED(i) {
         int kind;
         vec3 without = found.velocity - given[i];
         vec3 with = carried[i] + held_on_surface(
-            i, without - carried[i], rounding(x, touched[i]), h, kind);
+            i, without - carried[i], rounding(x, TOUCHED(i)), h, kind);
         given[i] = kind == FREE ? vec3(0.0) : with - without;
         found.velocity = kind == FREE ? without : with;
         sticks = sticks || kind == STICKS;
@@ -264,7 +281,7 @@ void slide_on_two(vec3 x, float h, inout Contact found) {
 // Whether the velocity found goes into a surface by more than the rounds leave of the velocity v.
 bool is_any_lacking(vec3 x, vec3 v, vec3 found, float h) {
     float most = -1.0;
-    for (int i = FROM(0); i < touched_count; ++i) {
+    FOR_TOUCHED(i) {
         most = max(most, lacking(i, x, found, h) - 1e-4 * length(v - carried[i]));
     }
     return most > 0.0;
@@ -278,7 +295,7 @@ void slip_out(vec3 x, vec3 v, float h, inout Contact found) {
     found.velocity = is_jammed ? v : found.velocity;
     for (int round = 0; is_jammed && round < MOST_ROUNDS; ++round) {
         held_on = 0;
-        for (int i = FROM(0); i < touched_count; ++i) {
+        FOR_TOUCHED(i) {
             vec3 normal = surface[i].xyz;
             float before = round > 0 ? dot(given[i], normal) : 0.0;
             float impulse = max(before + lacking(i, x, found.velocity, h), 0.0);
@@ -337,7 +354,7 @@ float room_lacking(int i, vec4 near, vec3 x, float h) {
 #if COLLIDERS > 1
     int others = touched_count > 1 ? touched_count : 0;
     for (int j = FROM(0); j < others; ++j) {
-        vec4 other = gap_at_end(touched[j], x, h);
+        vec4 other = gap_at_end(TOUCHED(j), x, h);
         if (j != i && dot(near.xyz, other.xyz) <= -FACING) {
             lacking = max(lacking, -0.5 * (near.w + other.w));
         }
@@ -350,11 +367,11 @@ float room_lacking(int i, vec4 near, vec3 x, float h) {
 // be into another: they take turns, within a way that all of them share.
 vec3 moved_out(vec3 x, float h) {
     float way = h * way_out_speed;
-    int rounds = touched_count > 1 ? MOST_ROUNDS_OUT : 1;
+    int rounds = COLLIDERS > 1 && touched_count > 1 ? MOST_ROUNDS_OUT : 1;
     for (int round = 0; round < rounds; ++round) {
         float moved = 0.0;
-        for (int i = FROM(0); i < touched_count; ++i) {
-            int collider = touched[i];
+        FOR_TOUCHED(i) {
+            int collider = TOUCHED(i);
             vec4 near = gap_at_end(collider, x, h);
             near.w += room_lacking(i, near, x, h);
             float out_of = near.w < -rounding(x, collider) ? min(-near.w, way) : 0.0;

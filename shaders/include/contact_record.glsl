@@ -12,6 +12,14 @@ uniform int record_stride;  // entries of a collider
 
 layout(std430, binding = CONTACTS) buffer Contacts { vec4 contacts[]; };
 
+// RECORD_TEXELS 1: a pass that adds to an entry once, and so can load it by its texel.
+#if RECORD_TEXELS
+layout(binding = CONTACTS) uniform samplerBuffer contact_record;
+vec3 recorded(int entry) { return texelFetch(contact_record, entry).xyz; }
+#else
+vec3 recorded(int entry) { return contacts[entry].xyz; }
+#endif
+
 // Leave a mark that another solve is due.
 void note_change() { contacts[COLLIDERS * record_stride].y = decision; }
 
@@ -28,11 +36,11 @@ void record_impulse(int collider, int index, vec3 change) {
 }
 
 void record_contacts(int index, int kind) {
-    for (int i = FROM(0); i < touched_count; ++i) {
+    FOR_TOUCHED(i) {
         if (given[i] != vec3(0.0) || pressed[i] > 0.0) {
-            int entry = touched[i] * record_stride + index;
+            int entry = TOUCHED(i) * record_stride + index;
             vec3 change = mass_share(load_position(index)) * (given[i] + pressing[i]);
-            contacts[entry] = vec4(contacts[entry].xyz + change, float(min(kind, SLIDES)));
+            contacts[entry] = vec4(recorded(entry) + change, float(min(kind, SLIDES)));
         }
     }
 }

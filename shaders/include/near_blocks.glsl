@@ -25,3 +25,24 @@ layout(std430, binding = NEAR_BLOCKS) buffer NearBlocks {
     uint near_node_count;
     Near near[];  // blocks, and nodes after them
 };
+
+// What another pass has listed, by the texels that software loads faster (state_in.glsl): two of
+// the counts, and one for each two entries.
+#if LOADS_TEXTURE
+layout(binding = NEAR_BLOCKS) uniform samplerBuffer near_texels;
+
+uint listed_blocks() { return floatBitsToUint(texelFetch(near_texels, 0).w); }
+
+uint listed_nodes() { return floatBitsToUint(texelFetch(near_texels, 1).w); }
+
+Near listed_at_place(uint place) {
+    uvec4 two = floatBitsToUint(texelFetch(near_texels, 2 + int(place / 2u)));
+    return place % 2u == 0u ? Near(two.x, two.y) : Near(two.z, two.w);
+}
+#else
+uint listed_blocks() { return near_block_count; }
+
+uint listed_nodes() { return near_node_count; }
+
+Near listed_at_place(uint place) { return near[place]; }
+#endif

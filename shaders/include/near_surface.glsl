@@ -10,7 +10,7 @@ uniform float feature_reach;  // [m] that a node may be from where an edge or fa
 uint near_surface(uint bodies, vec3 x, vec3 v, float h) {
     uint near = bodies & ~SURFACE_COLLIDERS;
     for (bodies &= SURFACE_COLLIDERS; bodies != 0u; bodies &= bodies - 1u) {
-        int collider = findLSB(bodies);
+        int collider = first_of(bodies);
         float reach = feature_reach + clearance + h * length(v - surface_velocity(collider, x))
             + 2.0 * rounding(x, collider);
         // NaN counts as near.

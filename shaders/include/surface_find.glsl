@@ -234,7 +234,7 @@ uint colliders_near_cell(int index, uint bodies) {
     }
     uint near = 0u;
     for (bodies &= SURFACE_COLLIDERS; bodies != 0u; bodies &= bodies - 1u) {
-        int collider = findLSB(bodies);
+        int collider = first_of(bodies);
         float way = length(load_speed(index) - surface_velocity(collider, x));
         for (int i = 0; i < 3; ++i) {
             vec4 other = load_begin(others[i]);

@@ -101,7 +101,7 @@ Hold hold_of(Contact contact, vec3 v) {
     }
     hold.kind = held_on == 1 ? SLIDES : held_on == 2 ? SLIDES_ON_TWO : STICKS;
     hold.normal = surface[held_by.x].xyz;
-    if (held_on == 2) {
+    if (COLLIDERS > 1 && held_on == 2) {
         hold.normal = normalize(cross(hold.normal, surface[held_by.y].xyz));
     }
     hold.change = contact.velocity - v;
@@ -112,9 +112,9 @@ Hold hold_of(Contact contact, vec3 v) {
 // The most that friction changes the velocity by in the substep.
 float most_friction() {
     float most = 0.0;
-    for (int i = FROM(0); i < touched_count; ++i) {
+    FOR_TOUCHED(i) {
         float normal_impulse = max(dot(given[i], surface[i].xyz), 0.0) + pressed[i];
-        most += collider_friction[touched[i]] * normal_impulse;
+        most += collider_friction[TOUCHED(i)] * normal_impulse;
     }
     return most;
 }
@@ -123,7 +123,7 @@ float most_friction() {
 vec3 sliding(Hold hold, vec3 v) { return along_surface(hold, v - carried[held_by.x]); }
 
 // Up to this speed [m/s] a node does not slide: positions are rounded by as much.
-float slowest(vec3 x) { return rounding(x, touched[0]) / substep; }
+float slowest(vec3 x) { return rounding(x, TOUCHED(0)) / substep; }
 
 // Whether what slides goes farther than a node may without another solve.
 bool is_fast(float speed) { return substep * speed > most_unsolved; }
@@ -144,7 +144,7 @@ bool slides_on(inout Hold hold, int index, vec3 v) {
         return false;
     }
     vec3 reaction = load_vector(cloth_entry(REACTION, index));
-    for (int i = FROM(0); i < touched_count; ++i) {
+    FOR_TOUCHED(i) {
         given[i] = guess * reaction;
     }
     hold_fast(hold, most_friction(), speed, slid, vec3(0.0));
@@ -312,7 +312,7 @@ void decide(int at, int index, inout vec4 x, inout vec4 v) {
     touched[0] = -1;
     contact_at(begin, v.xyz, v.xyz - reaction, substep);
     if (touched[0] >= 0 && kept != vec3(0.0)) {
-        record_impulse(touched[0], at, kept);
+        record_impulse(TOUCHED(0), at, kept);
     }
     if (touched_count == 0 && reaction != vec3(0.0)) {
         // A node that passes by without its reaction may penetrate with it.
@@ -334,7 +334,7 @@ void decide(int at, int index, inout vec4 x, inout vec4 v) {
         sticks = was_grip > 0.0 && length(slid) <= 2.0 * slowest(begin);
         to -= sticks ? slid : vec3(0.0);
     }
-    for (int i = FROM(0); i < touched_count; ++i) {
+    FOR_TOUCHED(i) {
         vec3 change = max(lacking(i, begin, to, substep), 0.0) * surface[i].xyz;
         given[i] += change;
         to += change;

@@ -112,8 +112,9 @@ class Contacts:
         self._noting_program = SceneProgram('contact.comp', scene, layout, {'NOTES_CHANGES': 1})
         self._near_nodes = SceneProgram('near_nodes.comp', scene, layout)
         self._near_blocks = SceneProgram('near_blocks.comp', scene, layout)
-        self._near = Buffer(
-            _NONE_NEAR.nbytes + _NEAR_BYTES * (layout.block_count + layout.rows * layout.cols))
+        entries = layout.block_count + layout.rows * layout.cols
+        # An even number, as a texel has two of them.
+        self._near = Buffer(_NONE_NEAR.nbytes + _NEAR_BYTES * (entries + entries % 2))
         self._clear_near = self._near.write_calls(_NONE_NEAR)
         self._foresight = SceneProgram('foresee_contact.comp', scene, layout)
         self._surface = (
@@ -216,7 +217,7 @@ class Contacts:
             self.set_in(program, touch, length)
         if on_surface:
             self._begin_surface(touch, length, notes_changes=False)
-        self._near.bind_storage(bindings.NEAR_BLOCKS)
+        self._bind_near()
 
     def _begin_surface(self, touch: '_Touch', length: float, *, notes_changes: bool) -> None:
         if self._surface is None:
@@ -230,6 +231,13 @@ class Contacts:
             program.set_float('substep', length)
             program.set_int('block_count', self._layout.block_count)
             self.set_in(program, touch, length)
+
+    def _bind_near(self) -> None:
+        """Bind the lists of an explicit substep, and what its passes add to."""
+        self._near.bind_storage(bindings.NEAR_BLOCKS)
+        if self._layout.texture_loads:
+            self._near.bind_texture(bindings.NEAR_BLOCKS)
+            self._record.bind_texture(bindings.CONTACTS)
 
     def list_none(self) -> None:
         """Empty the lists of an explicit substep that is about to be made."""
@@ -268,7 +276,7 @@ class Contacts:
         self._list_blocks(touch, state, length)
         self._set_surface(self._surface.programs_of_ways(), touch, length)
         self._surface.bind()
-        self._near.bind_storage(bindings.NEAR_BLOCKS)
+        self._bind_near()
         self._near.bind_dispatches()
         shader_dispatches_visible()
         self._surface.list_nodes(0)
@@ -282,7 +290,7 @@ class Contacts:
         program = self._near_blocks.use()
         program.set_float('substep', length)
         self.set_in(program, touch, length)
-        self._near.bind_storage(bindings.NEAR_BLOCKS)
+        self._bind_near()
         state.bind_in()
         if self._layout.texture_loads:
             state.bind_out_textures()

@@ -60,6 +60,8 @@ class OnePass:
         # Leaves entries of held.glsl, and costs more. Both make the same state, to the bit.
         self._recording_step = SceneProgram(self.shader, scene, layout, {'HAS_HELD': 1})
         self._groups = layout.groups
+        # Whether what acts on colliders reads the state that is written through textures.
+        self._reads_next = layout.texture_loads
         # First entry of held.glsl that the last substep wrote; below 0: none.
         self.held_at = -1
         self._held_set: int | None = None
@@ -150,6 +152,8 @@ class OnePass:
         state.bind_out()
         touch = forcing.touch
         if touch is not None:
+            if self._reads_next:
+                state.bind_out_textures()
             touch.list_none()
             step.use()
         # A uniform costs as much as a small dispatch.
