@@ -24,6 +24,7 @@ layout(local_size_x = NEAR_LOCAL) in;
 layout(std430, binding = POSITION_OUT) buffer PositionOut { vec4 position_out[]; };
 layout(std430, binding = VELOCITY_OUT) buffer VelocityOut { vec4 velocity_out[]; };
 
+#define WRITES_NEXT 1
 #include "next_state.glsl"
 #define RECORD_TEXELS LOADS_TEXTURE
 #include "contact_record.glsl"

@@ -14,13 +14,7 @@ uniform float substep;  // [s]
 
 layout(local_size_x = LOCAL_X, local_size_y = LOCAL_Y) in;
 
-#if LOADS_TEXTURE
-layout(binding = VELOCITY_OUT) uniform samplerBuffer velocity_out;
-vec3 load_next_velocity(int index) { return texelFetch(velocity_out, index).xyz; }
-#else
-layout(std430, binding = VELOCITY_OUT) readonly buffer VelocityOut { vec4 velocity_out[]; };
-vec3 load_next_velocity(int index) { return velocity_out[index].xyz; }
-#endif
+#include "next_state.glsl"
 
 void main() {
     ivec2 first = ivec2(gl_GlobalInvocationID.xy) * BLOCK;
@@ -32,7 +26,7 @@ void main() {
         for (int col = 0; col < BLOCK; ++col) {
             int index = node_index(first.y + row, first.x + col);
             add_place(bound, load_position(index));
-            add_speed(bound, load_next_velocity(index));
+            add_speed(bound, load_next_velocity(index).xyz);
         }
     }
     list_if_near(bound, first);

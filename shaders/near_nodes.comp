@@ -16,13 +16,7 @@
 
 layout(local_size_x = NEAR_LOCAL) in;
 
-#if LOADS_TEXTURE
-layout(binding = VELOCITY_OUT) uniform samplerBuffer velocity_out;
-vec4 load_next_velocity(int index) { return texelFetch(velocity_out, index); }
-#else
-layout(std430, binding = VELOCITY_OUT) readonly buffer VelocityOut { vec4 velocity_out[]; };
-vec4 load_next_velocity(int index) { return velocity_out[index]; }
-#endif
+#include "next_state.glsl"
 
 uniform float substep;    // [s]
 uniform int block_count;  // in all

@@ -4,18 +4,16 @@
 // What the passes over the lattice read in a round: velocities that the springs have written, and
 // impulses as in limit_impulses.glsl, three texels a node.
 
+#include "next_state.glsl"
+
 #if LOADS_TEXTURE
-layout(binding = VELOCITY_OUT) uniform samplerBuffer velocity_out;
 layout(binding = LIMIT_IMPULSES) uniform samplerBuffer impulse_texels;
 layout(binding = LIMIT_PREVIOUS) uniform samplerBuffer previous_texels;
-vec4 load_next_velocity(int index) { return texelFetch(velocity_out, index); }
 vec4 load_impulses(int texel) { return texelFetch(impulse_texels, texel); }
 vec4 load_previous(int texel) { return texelFetch(previous_texels, texel); }
 #else
-layout(std430, binding = VELOCITY_OUT) readonly buffer VelocityOut { vec4 velocity_out[]; };
 layout(std430, binding = LIMIT_IMPULSES) readonly buffer Impulses { vec4 impulse_texels[]; };
 layout(std430, binding = LIMIT_PREVIOUS) readonly buffer Previous { vec4 previous_texels[]; };
-vec4 load_next_velocity(int index) { return velocity_out[index]; }
 vec4 load_impulses(int texel) { return impulse_texels[texel]; }
 vec4 load_previous(int texel) { return previous_texels[texel]; }
 #endif

@@ -11,15 +11,13 @@
 
 layout(local_size_x = LIST_LOCAL) in;
 
+#include "next_state.glsl"
+
 #if LOADS_TEXTURE
-layout(binding = POSITION_OUT) uniform samplerBuffer position_out;
 layout(binding = LIMIT_CHANGES) uniform samplerBuffer changes;
-vec4 load_next_position(int index) { return texelFetch(position_out, index); }
 vec4 load_change(int index) { return texelFetch(changes, index); }
 #else
-layout(std430, binding = POSITION_OUT) readonly buffer PositionOut { vec4 position_out[]; };
 layout(std430, binding = LIMIT_CHANGES) readonly buffer Changes { vec4 changes[]; };
-vec4 load_next_position(int index) { return position_out[index]; }
 vec4 load_change(int index) { return changes[index]; }
 #endif
 

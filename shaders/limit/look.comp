@@ -13,19 +13,13 @@
 
 layout(local_size_x = LOCAL_X, local_size_y = LOCAL_Y) in;
 
+#include "next_state.glsl"
+
 #if LOADS_TEXTURE
-layout(binding = POSITION_OUT) uniform samplerBuffer position_out;
-layout(binding = VELOCITY_OUT) uniform samplerBuffer velocity_out;
-vec4 load_next_position(int index) { return texelFetch(position_out, index); }
 layout(binding = LIMIT_CHANGES) uniform samplerBuffer changes;
-vec3 load_next_velocity(int index) { return texelFetch(velocity_out, index).xyz; }
 vec3 load_change(int index) { return texelFetch(changes, index).xyz; }
 #else
-layout(std430, binding = POSITION_OUT) readonly buffer PositionOut { vec4 position_out[]; };
-layout(std430, binding = VELOCITY_OUT) readonly buffer VelocityOut { vec4 velocity_out[]; };
-vec4 load_next_position(int index) { return position_out[index]; }
 layout(std430, binding = LIMIT_CHANGES) readonly buffer Changes { vec4 changes[]; };
-vec3 load_next_velocity(int index) { return velocity_out[index].xyz; }
 vec3 load_change(int index) { return changes[index].xyz; }
 #endif
 
@@ -41,7 +35,7 @@ struct Node {
 Node load_node(int row, int col) {
     int index = node_index(row, col);
     vec4 x = load_next_position(index);
-    vec3 v = load_next_velocity(index);
+    vec3 v = load_next_velocity(index).xyz;
 #if HAS_CONTACT
     // What colliders stopped in the previous substep, they stop in this one.
     vec3 change = load_change(index);

@@ -37,13 +37,13 @@ layout(std430, binding = LIMIT_TALLY) buffer Tallies { Tally tallies[2]; };
 #include "limit_tolerance.glsl"
 
 #if LISTS
+#define WRITES_NEXT 1
+#include "next_state.glsl"
+
 #if LOADS_TEXTURE
-layout(binding = POSITION_OUT) uniform samplerBuffer next_position;
 layout(binding = LIMIT_CHANGES) uniform samplerBuffer changes_before;
-vec4 load_next_position(int index) { return texelFetch(next_position, index); }
 vec4 load_change(int index) { return texelFetch(changes_before, index); }
 #else
-vec4 load_next_position(int index) { return position_out[index]; }
 vec4 load_change(int index) { return changes[index]; }
 #endif
 uniform bool lists_first;
