@@ -15,8 +15,8 @@
 #include "surface_nodes.glsl"
 #endif
 #if HAS_SELF
-#include "self_contact/head.glsl"
-#include "self_contact/contacts.glsl"
+// Nodes of self_contact/contacts.glsl, three texels each.
+layout(binding = SELF_NODES) uniform samplerBuffer self_texels;
 #endif
 
 layout(local_size_x = NEAR_LOCAL) in;
@@ -49,7 +49,7 @@ void main() {
 #endif
 #if HAS_SELF
     // self_contact/nodes.comp does it.
-    if (self_nodes[index].contacts > 0u) {
+    if (floatBitsToUint(texelFetch(self_texels, 3 * index + 2).y) > 0u) {
         return;
     }
 #endif

@@ -38,7 +38,8 @@ _READS = int(GL.GL_BUFFER_UPDATE_BARRIER_BIT)
 _WRITES = GL.GL_SHADER_STORAGE_BARRIER_BIT | GL.GL_TEXTURE_FETCH_BARRIER_BIT
 _DISPATCHED = _WRITES | GL.GL_COMMAND_BARRIER_BIT
 
-_TEXEL_BYTES = 16
+# By 17 texels a size leaves both kinds that _allocated avoids [bytes].
+_PADDING_BYTES = 272
 # Larger ones may be as large as a storage block can be.
 _LARGEST_PADDED = 2**26
 
@@ -196,14 +197,15 @@ class Buffer:
 
 def _allocated(size: int) -> int:
     """
-    Return the bytes to allocate for ``size``: a power of two gets one texel more.
+    Return the bytes to allocate for ``size``: some sizes get a few texels more.
 
-    llvmpipe recompiles a shader where the size of a buffer that it reads as a texture turns
-    into a power of two, or is none any more: for each such combination of its buffers.
+    llvmpipe compiles a shader anew, in the midst of a run, where a buffer that it reads as a
+    texture turns into one of a size that is a power of two, or whose bits 8 to 15 are zero (Mesa
+    takes them for the last level of an image), or is none of these any more.
     """
-    is_power_of_two = size & (size - 1) == 0
-    is_padded = is_power_of_two and _TEXEL_BYTES < size <= _LARGEST_PADDED
-    return size + _TEXEL_BYTES if is_padded else size
+    while size <= _LARGEST_PADDED and (size & (size - 1) == 0 or size & 0xFF00 == 0):
+        size += _PADDING_BYTES
+    return size
 
 
 class BufferRow:

@@ -14,6 +14,7 @@
 
 layout(local_size_x = SELF_LOCAL) in;
 
+layout(std430, binding = SELF_BOXES) writeonly buffer SelfBoxes { Box boxes[]; };
 layout(std430, binding = SELF_BUILT) writeonly buffer SelfBuilt { vec4 built[]; };
 
 uniform int level;
@@ -24,7 +25,7 @@ Box box_of_node(int row, int col) {
     vec4 x = load_position(index);
     built[index] = x;
     cell_ways[index].x = 0.0;
-    uint own = owned[index];
+    uint own = owned(index);
     if ((own & OWNS_NODE) == 0u) {
         return box;
     }
@@ -57,7 +58,7 @@ void main() {
     for (int i = 0; i < 4; ++i) {
         ivec2 at = 2 * ivec2(row, col) + ivec2(i >> 1, i & 1);
         if (at.x < below.x && at.y < below.y) {
-            Box part = boxes[below.z + at.x * below.y + at.y];
+            Box part = load_box(below.z + at.x * below.y + at.y);
             box.least = min(box.least, part.least);
             box.most = max(box.most, part.most);
         }

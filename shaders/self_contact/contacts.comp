@@ -29,6 +29,12 @@ layout(binding = VELOCITY_OUT) uniform samplerBuffer velocity_out;
 #define EDGE_THICKNESS 0.998
 // Gap over the thickness [1] up to which a pair is looked at that moves slowly.
 #define SPARE 0.002
+// Gap within which a contact is found, over what it may close by while it serves [1]; chosen: from 1
+// to 2 layers of a heap overlap by 16 to 17 um, with 0.5 by 27 um.
+#define AHEAD 1.25
+// Fraction of the relative speed of nodes that may turn towards the normal meanwhile [1]; chosen:
+// from 0.1 to 1 they overlap by 16 um, with 0 by 18 um (constants.py --only AHEAD PART_OF_SPEED).
+#define PART_OF_SPEED 0.1
 // Least square of the sine between two edges that touch [1].
 #define LEAST_SQUARE 1e-6
 
@@ -41,12 +47,16 @@ uniform float least_speed_unit;  // [m/s] that gravity gives in a substep
 
 vec3 place_of(int index) { return load_position(index).xyz; }
 
-// Largest speed of the nodes of a pair against the first of them, without contact [m/s].
-float speed_among(ivec4 nodes) {
+// Speed at which two features may approach while their contact serves, without contact [m/s]: that
+// along the normal, part of the relative speed of their nodes, as velocities turn, and that of gravity.
+float closing_speed(ivec4 nodes, vec3 weights, vec3 normal) {
     vec3 v = texelFetch(velocity_out, nodes.x).xyz;
-    return max(length(texelFetch(velocity_out, nodes.y).xyz - v), max(
-        length(texelFetch(velocity_out, nodes.z).xyz - v),
-        length(texelFetch(velocity_out, nodes.w).xyz - v))) + least_speed_unit;
+    vec3 a = texelFetch(velocity_out, nodes.y).xyz - v;
+    vec3 b = texelFetch(velocity_out, nodes.z).xyz - v;
+    vec3 c = texelFetch(velocity_out, nodes.w).xyz - v;
+    vec3 u = weights.y * a + weights.z * b + last_weight(weights) * c;
+    return max(-dot(u, normal), 0.0) + PART_OF_SPEED * max(length(a), max(length(b), length(c)))
+        + least_speed_unit;
 }
 
 // Whether the triangle beyond an edge from a to b agrees that d, from a point of the edge, is
@@ -147,10 +157,9 @@ void add_contact(uint pair, ivec4 nodes, vec3 weights, vec3 d, float distance, f
         kept[pair] = vec4(0.0);
         return;
     }
-    list_acting(at);
+    list_acting(at, nodes, all);
     for (int i = 0; i < 4; ++i) {
         int node = nodes[i];
-        atomicAdd(self_nodes[node].shares, in_shares(all[i]));
         ivec3 part = in_units(all[i], impulse);
         for (int k = 0; k < 3; ++k) {
             if (part[k] != 0) {
@@ -184,7 +193,8 @@ void look(uint i, uint own, uint other, float reach, float least, float gone) {
     acts = acts && distance <= reach;
     if (acts) {
         acts = distance <= least + max(
-            SPARE * thickness, 2.0 * window * substep * speed_among(nodes));
+            SPARE * thickness,
+            AHEAD * window * substep * closing_speed(nodes, weights, d / max(distance, 1e-30)));
     }
 #if !OF_EDGES
     if (acts && place <= AT_C) {
@@ -206,11 +216,11 @@ void main() {
     bool is_there = has_pair();
     uint i = is_there ? pair_place() : 0u;
     Pair pair = load_pair(i);
-    // Those that can come to the thickness meanwhile, if cells go twice as far as in the last substep.
+    // Pairs that may touch while contacts serve, by how far their cells moved in the last substep.
     vec2 ways = ways_of(pair);
     float least = OF_EDGES == 1 ? EDGE_THICKNESS * thickness : thickness;
     float reach = least + max(
-        SPARE * thickness, 2.0 * window * (ways.y + substep * least_speed_unit));
+        SPARE * thickness, 1.2 * AHEAD * window * (ways.y + substep * least_speed_unit));
     if (is_there && pair.distance - ways.x <= reach) {
         look(i, pair.own, pair.other, reach, least, ways.x);
     }

@@ -61,7 +61,7 @@ void main() {
         return;
     }
     Owned one = owned_by(node_index(place / COLS, place % COLS));
-    Box own = boxes[place];
+    Box own = load_box(place);
     Walk walk = Walk((one.features & OWNS_NODE) != 0u ? level_count - 1 : level_count, ivec2(0));
     while (walk.level < level_count) {
         bool is_near = is_box_near(walk, own);

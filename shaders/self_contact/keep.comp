@@ -2,40 +2,41 @@
 // SPDX-License-Identifier: Apache-2.0
 
 #version 430 core
-// Let pairs that were listed before keep their impulses, one of those an invocation.
+// Copy the impulses of the contacts that acted last to the new list of pairs, one contact an
+// invocation.
 
-#include "self_contact/head.glsl"
 #include "lattice.glsl"
-#include "self_contact/features.glsl"
+#include "self_contact/head.glsl"
 #include "self_contact/pairs.glsl"
+#include "self_contact/contacts.glsl"
+#include "self_contact/found_contact.glsl"
 
 layout(local_size_x = SELF_LOCAL) in;
 
-layout(std430, binding = SELF_FIRST) readonly buffer SelfFirst { uint first_pair[]; };
-layout(std430, binding = SELF_PAIRS) readonly buffer SelfPairs { Pair pairs[]; };
-layout(std430, binding = SELF_KEPT) buffer SelfKept { vec4 kept[]; };
-layout(std430, binding = SELF_PAIRS_BEFORE) readonly buffer SelfPairsBefore { Pair pairs_before[]; };
-layout(std430, binding = SELF_KEPT_BEFORE) readonly buffer SelfKeptBefore { vec4 kept_before[]; };
+layout(binding = SELF_FIRST) uniform samplerBuffer first_texels;
+layout(binding = SELF_PAIRS_BEFORE) uniform samplerBuffer before_texels;
+layout(std430, binding = SELF_KEPT) writeonly buffer SelfKept { vec4 kept[]; };
 
-uniform ivec4 before;  // pairs of nodes and of edges, and room, as there were
+// First of the chain of pairs of a node, one more than its place.
+uint first_pair(uint node) {
+    return floatBitsToUint(texelFetch(first_texels, int(node >> 2))[node & 3u]);
+}
 
 void main() {
-    int i = int(pair_number());
-    if (i >= before.x + before.y) {
+    uint number = gl_GlobalInvocationID.x;
+    if (number >= acting_count) {
         return;
     }
-    i = i < before.x ? i : before.z - 1 - (i - before.x);
-    vec4 impulse = kept_before[i];
-    if (impulse.xyz == vec3(0.0)) {
-        return;
-    }
-    uint own = pairs_before[i].own, other = pairs_before[i].other;
-    uint next = first_pair[own >> 2];
+    SelfContact found = load_contact(int(acting_place(number)));
+    Pair before = pair_of(texelFetch(before_texels, floatBitsToInt(found.impulse.w)));
+    uint next = first_pair(before.own >> 2);
     while (next != 0u) {
         uint place = next - 1u;
-        if (pairs[place].own == own && pairs[place].other == other) {
-            kept[place] = impulse;
+        Pair pair = load_pair(place);
+        bool is_same = pair.own == before.own && pair.other == before.other;
+        if (is_same) {
+            kept[place] = vec4(found.impulse.xyz, 0.0);
         }
-        next = pairs[place].next;
+        next = is_same ? 0u : pair.next;
     }
 }

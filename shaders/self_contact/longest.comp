@@ -15,10 +15,15 @@ layout(local_size_x = LOCAL_X, local_size_y = LOCAL_Y) in;
 
 layout(binding = POSITION_OUT) uniform samplerBuffer position_out;
 layout(binding = SELF_BUILT) uniform samplerBuffer built;
+layout(binding = SELF_WAYS) uniform samplerBuffer way_texels;
 
 uniform float room;          // [m] that nodes may move since lists were made
 uniform vec3 common_way;     // [m] of all nodes in the substep
 uniform vec3 common_moved;   // [m] of all nodes since lists were made
+
+void add_cell_way(int index, float way) {
+    cell_ways[index].xy = vec2(texelFetch(way_texels, index).x + way, way);
+}
 
 // Displacement of a node in the substep, and since lists were made until its begin [m].
 vec2 way_of(int index) {

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 
 #version 430 core
-// The velocity of each node that touches the cloth after a round, with what colliders do to it.
-// IS_LAST 1: write the state to come instead. IS_IMPLICIT 1: solves give nodes their velocities, and
+// The velocity of each node with contacts that act after a round, with what colliders do to it.
+// IS_LAST 1: write the state to come instead, of each node with contacts. IS_IMPLICIT 1: solves give nodes their velocities, and
 // include impulses of layers; layers that are too near are moved apart last.
 
 #define POSITIONS_ALONE 1
@@ -21,6 +21,7 @@ layout(local_size_x = SELF_LOCAL) in;
 #if IS_LAST
 layout(std430, binding = POSITION_OUT) buffer PositionOut { vec4 position_out[]; };
 layout(std430, binding = VELOCITY_OUT) buffer VelocityOut { vec4 velocity_out[]; };
+layout(binding = POSITION_OUT) uniform samplerBuffer position_texels;
 #endif
 // Software reads texels much faster than numbers.
 layout(binding = VELOCITY_OUT) uniform samplerBuffer velocity_texels;
@@ -52,10 +53,17 @@ vec3 of_numbers(vec4 texel, float unit) { return unit * vec3(floatBitsToInt(texe
 
 void main() {
     uint i = gl_GlobalInvocationID.x;
+#if IS_LAST
     if (i >= self_node_count) {
         return;
     }
     int index = floatBitsToInt(texelFetch(node_texels, 3 * int(i) + 2).x);
+#else
+    if (i >= acting_node_count) {
+        return;
+    }
+    int index = floatBitsToInt(texelFetch(node_texels, 3 * int(i) + 2).z);
+#endif
     vec4 node = texelFetch(node_texels, 3 * index);
     vec4 free = texelFetch(velocity_texels, index);
     vec3 x = load_position(index).xyz;
@@ -106,7 +114,7 @@ void main() {
 #if !IS_IMPLICIT
         way += substep * (v - free.xyz);
 #endif
-        vec3 to = changed_position(index, position_out[index].xyz, way);
+        vec3 to = changed_position(index, texelFetch(position_texels, index).xyz, way);
 #if HAS_CONTACT
         if (touched_count > 0) {
             to = moved_out(to, substep);
@@ -116,7 +124,7 @@ void main() {
         }
 #endif
 #if NOTES_CHANGES
-        changes[index].xyz += v - velocity_out[index].xyz;
+        changes[index].xyz += v - texelFetch(velocity_texels, index).xyz;
 #endif
 #if !IS_IMPLICIT
         velocity_out[index].xyz = v;

@@ -18,7 +18,6 @@ layout(local_size_x = SELF_LOCAL) in;
 
 layout(std430, binding = SELF_FIRST) buffer SelfFirst { uint first_pair[]; };
 layout(std430, binding = SELF_PAIRS) buffer SelfPairs { Pair pairs[]; };
-layout(std430, binding = SELF_KEPT) buffer SelfKept { vec4 kept[]; };
 
 // Nodes between two tests [1].
 #define MOST_LISTED 64
@@ -30,34 +29,43 @@ uint chain;
 void add_pair(uint at, uint own, uint other, float distance) {
     if (at < uint(most_pairs)) {
         pairs[at] = Pair(own, other, distance, chain);
-        kept[at] = vec4(0.0);
         chain = at + 1u;
     }
 }
 
+// Pairs are tested first, then those listed that are near: software stores for all of its lanes
+// where one has a pair to store.
+
 void add_edges(Owned one, Owned other) {
-    for (int kind = RIGHT; kind <= ACROSS; ++kind) {
-        for (int other_kind = RIGHT; other_kind <= ACROSS; ++other_kind) {
-            ivec2 own = edge_nodes(4 * one.index + kind);
-            ivec2 nodes = edge_nodes(4 * other.index + other_kind);
-            // Each pair once, and none that hangs together.
-            bool counts = owns_edge(one, kind) && owns_edge(other, other_kind)
-                && (other.index > one.index || other_kind > kind)
-                && own.x != nodes.x && own.x != nodes.y && own.y != nodes.x && own.y != nodes.y;
-            ivec2 ends = edge_corners(kind), other_ends = edge_corners(other_kind);
-            vec3 x = one.corner[ends.x], d = one.corner[ends.y] - x;
-            vec3 y = other.corner[other_ends.x], e = other.corner[other_ends.y] - y;
-            vec3 near = nearest_on_segments(x, d, y, e);
-            float distance = length(x + near.x * d - y - near.y * e);
-            if (counts && distance <= reach) {
-                add_pair(uint(most_pairs) - 1u - atomicAdd(edge_pairs, 1u), uint(4 * one.index + kind),
-                    uint(4 * other.index + other_kind), distance);
-            }
-        }
+    float distances[9];
+    uint near = 0u;
+    for (int i = 0; i < 9; ++i) {
+        int kind = RIGHT + i / 3, other_kind = RIGHT + i % 3;
+        ivec2 own = edge_nodes(4 * one.index + kind);
+        ivec2 nodes = edge_nodes(4 * other.index + other_kind);
+        // Each pair once, and none that hangs together.
+        bool counts = owns_edge(one, kind) && owns_edge(other, other_kind)
+            && (other.index > one.index || other_kind > kind)
+            && own.x != nodes.x && own.x != nodes.y && own.y != nodes.x && own.y != nodes.y;
+        ivec2 ends = edge_corners(kind), other_ends = edge_corners(other_kind);
+        vec3 x = one.corner[ends.x], d = one.corner[ends.y] - x;
+        vec3 y = other.corner[other_ends.x], e = other.corner[other_ends.y] - y;
+        vec3 found = nearest_on_segments(x, d, y, e);
+        distances[i] = length(x + found.x * d - y - found.y * e);
+        near |= counts && distances[i] <= reach ? 1u << i : 0u;
+    }
+    while (near != 0u) {
+        int i = findLSB(near);
+        near &= near - 1u;
+        add_pair(
+            uint(most_pairs) - 1u - atomicAdd(edge_pairs, 1u), uint(4 * one.index + RIGHT + i / 3),
+            uint(4 * other.index + RIGHT + i % 3), distances[i]);
     }
 }
 
 void add_faces(Owned one, Owned other) {
+    float distances[2];
+    uint near = 0u;
     for (int face = 0; face < 2; ++face) {
         ivec3 nodes = face_nodes(2 * other.index + face);
         vec3 x = one.corner[0];
@@ -65,11 +73,15 @@ void add_faces(Owned one, Owned other) {
         vec3 c = other.corner[face == 0 ? 1 : 3] - x;
         int place;
         vec3 weights = nearest_in_triangle(a, b, c, place);
-        float distance = length(weights.x * a + weights.y * b + weights.z * c);
-        if (distance <= reach && !any(equal(nodes, ivec3(one.index)))) {
-            add_pair(atomicAdd(vertex_pairs, 1u), uint(4 * one.index),
-                uint(2 * other.index + face), distance);
-        }
+        distances[face] = length(weights.x * a + weights.y * b + weights.z * c);
+        bool is_near = distances[face] <= reach && !any(equal(nodes, ivec3(one.index)));
+        near |= is_near ? 1u << face : 0u;
+    }
+    while (near != 0u) {
+        int face = findLSB(near);
+        near &= near - 1u;
+        add_pair(atomicAdd(vertex_pairs, 1u), uint(4 * one.index),
+            uint(2 * other.index + face), distances[face]);
     }
 }
 
@@ -79,7 +91,7 @@ void main() {
         return;
     }
     Owned one = owned_by(node_index(place / COLS, place % COLS));
-    Box own = boxes[place];
+    Box own = load_box(place);
     own.least -= reach;
     own.most += reach;
     chain = 0u;

@@ -17,7 +17,6 @@ layout(std430, binding = SELF_KEPT) buffer SelfKept { vec4 kept[]; };
 layout(std430, binding = SELF_CONTACTS) buffer SelfContacts { SelfContact contacts_found[]; };
 // Velocity of a node [m/s], and its inverse mass times its weights in contacts that act.
 layout(binding = SELF_VELOCITIES) uniform samplerBuffer velocities;
-layout(binding = SELF_ACTING) uniform samplerBuffer acting_texels;
 
 uniform float substep;   // [s]
 uniform float friction;  // [1]
@@ -53,7 +52,7 @@ void main() {
     if (number >= acting_count) {
         return;
     }
-    uint i = floatBitsToUint(texelFetch(acting_texels, int(number >> 2))[number & 3u]);
+    uint i = acting_place(number);
     SelfContact found = load_contact(int(i));
     vec4 weights = all_weights(found.weights);
     // Velocity of the first side against the second, and what an impulse of 1 changes of it at most.

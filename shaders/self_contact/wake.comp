@@ -68,9 +68,6 @@ void main() {
     float along_normal = dot(u, found.normal.xyz);
     if (gap <= 0.0 || along_normal + gap / substep < 0.0) {
         contacts_found[i].least = -found.least;
-        list_acting(i);
-        for (int k = 0; k < 4; ++k) {
-            atomicAdd(self_nodes[found.nodes[k]].shares, in_shares(weights[k]));
-        }
+        list_acting(i, found.nodes, weights);
     }
 }

@@ -25,12 +25,13 @@ def allocated(buffer):
     return int(GL.glGetBufferParameteriv(GL.GL_SHADER_STORAGE_BUFFER, GL.GL_BUFFER_SIZE))
 
 
-@pytest.mark.parametrize('size', [32, 4096, 4112, 65536, 2**26])
-def test_no_size_is_a_power_of_two(size):
-    """A driver that tells such textures from others would compile each size of cloth anew."""
+@pytest.mark.parametrize('size', [4, 32, 240, 4096, 4112, 65536, 65552, 2**20, 2**20 + 16, 2**26])
+def test_no_size_needs_another_shader(size):
+    """A buffer that grows in a run would make llvmpipe compile its readers anew: 0.3 s each."""
     buffer = Buffer(size)
-    assert allocated(buffer) & (allocated(buffer) - 1) != 0
-    assert buffer.bytes == size <= allocated(buffer) <= size + 16
+    found = allocated(buffer)
+    assert found & (found - 1) != 0 and found & 0xFF00 != 0
+    assert buffer.bytes == size <= found <= size + 2 * 272
     buffer.delete()
 
 

@@ -94,15 +94,15 @@ _COUNTING = {
         'atomicAdd(edge_pairs, 1u)', 'atomicAdd(vertex_pairs, 1u)', 'atomicAdd(unfinished, 1u)'],
     'include/self_contact/contacts.glsl': [
         'atomicAdd(acting_count, 1u)',
-        'atomicAdd(acting_groups[0], at % SELF_LOCAL == 0u ? 1u : 0u)'],
+        'atomicAdd(acting_groups[0], at % SELF_LOCAL == 0u ? 1u : 0u)',
+        'atomicAdd(self_nodes[nodes[k]].shares, share)', 'atomicAdd(acting_node_count, 1u)',
+        'atomicAdd(acting_node_groups[0], node_at % SELF_LOCAL == 0u ? 1u : 0u)'],
     'self_contact/wake.comp': [
-        'atomicMin(least_distance, floatBitsToUint(max(gap + abs(found.least), 0.0)))',
-        'atomicAdd(self_nodes[found.nodes[k]].shares, in_shares(weights[k]))'],
+        'atomicMin(least_distance, floatBitsToUint(max(gap + abs(found.least), 0.0)))'],
     'self_contact/contacts.comp': [
         'atomicAdd(contact_count, 1u)',
         'atomicAdd(contact_groups[0], at % SELF_LOCAL == 0u ? 1u : 0u)',
         'atomicAdd(self_nodes[node].contacts, 1u)', 'atomicAdd(self_node_count, 1u)',
-        'atomicAdd(self_nodes[node].shares, in_shares(all[i]))',
         'atomicAdd(node_groups[0], place % SELF_LOCAL == 0u ? 1u : 0u)',
         'atomicAdd(self_nodes[node].impulse[k], part[k])',
         'atomicMin(least_distance, floatBitsToUint(distance))'],

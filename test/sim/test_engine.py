@@ -202,6 +202,10 @@ def _programs() -> int:
     return sum(bool(GL.glIsProgram(name)) for name in _NAMES)
 
 
+_LAYERS = {
+    'self_contact.enabled': True, 'start.z': 0.0, 'colliders.names': ['floor'],
+    'colliders.floor.shape': 'plane', 'colliders.floor.position': [0.0, 0.0, -0.01]}
+
 # Each part in a process of its own, forked before there is a device: it need not import again.
 # What the folder of the cache has after each is printed.
 _IN_PROCESSES = """
@@ -211,6 +215,7 @@ from pathlib import Path
 import sys
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.simulation import Simulation
+import numpy as np
 
 def use(mode, values, part):
     with Simulation(Scene({'rows': 12, 'cols': 12, 'mode': mode, **values})) as run:
@@ -225,6 +230,14 @@ def use(mode, values, part):
             run.set_state(1.2 * run.positions(), 0.0 * run.velocities())
             run.step(3)
             run.snapshot(tension=True, pin_forces=True)
+            if run.scene['self_contact.enabled']:
+                # Two layers, a thickness apart, pressed together.
+                flat = run.scene.start_positions()
+                upper = flat[::-1][6:] + (0.0, 0.0, run.scene['self_contact.thickness'])
+                run.set_state(np.concatenate([flat[:6], upper]), np.concatenate([
+                    0.0 * flat[:6], 0.0 * upper - (0.0, 0.0, 1.0)]))
+                run.step(3)
+                assert run.snapshot(tension=True, pin_forces=True).self_contacts > 0
 
 kept = []
 for part in sys.argv[3:]:
@@ -248,7 +261,7 @@ def shader_cache(tmp_path_factory) -> Path:
 
 @pytest.mark.parametrize(('mode', 'values'), [
     ('mass_spring', {}), ('mass_spring', {'material.preset': 'none'}), ('constraint', {}),
-    ('adaptive', {})])
+    ('adaptive', {}), ('mass_spring', _LAYERS), ('constraint', _LAYERS)])
 def test_the_driver_has_nothing_left_to_compile(context, shader_cache, mode, values):
     """A first step, push on a region or limit in force would keep a node busy for seconds."""
     if not context.is_software or 'Mesa' not in context.version:

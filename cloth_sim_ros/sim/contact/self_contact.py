@@ -3,6 +3,7 @@
 
 """Contact of the cloth with itself in a substep, docs/explanation/self_contact.md."""
 
+from collections.abc import Callable
 from collections.abc import Iterator
 from dataclasses import dataclass
 import math
@@ -11,9 +12,11 @@ import warnings
 from cloth_sim_ros.gl.buffer import Buffer
 from cloth_sim_ros.gl.buffer import shader_dispatches_visible
 from cloth_sim_ros.gl.buffer import shader_writes_visible
+from cloth_sim_ros.gl.buffer import writes_visible_call
 from cloth_sim_ros.gl.errors import DeviceError
 from cloth_sim_ros.gl.program import MOST_GROUPS
 from cloth_sim_ros.gl.program import Program
+from cloth_sim_ros.gl.quick_calls import Call
 from cloth_sim_ros.gl.quick_calls import make
 from cloth_sim_ros.sim.device import bindings
 from cloth_sim_ros.sim.device.layout import HALO
@@ -91,6 +94,7 @@ _LEAST = 0xFFFFFFFF
 _HEAD = np.dtype([
     ('contact_groups', '3u4'), ('contact_count', 'u4'), ('node_groups', '3u4'),
     ('self_node_count', 'u4'), ('acting_groups', '3u4'), ('acting_count', 'u4'),
+    ('acting_node_groups', '3u4'), ('acting_node_count', 'u4'),
     ('least_distance', 'f4'),
     ('least_moved', '3u4'), ('most_moved', '3u4'), ('least_speed', '3u4'),
     ('most_speed', '3u4'), ('vertex_pairs', 'u4'), ('edge_pairs', 'u4'), ('cut_nodes', 'u4'),
@@ -108,10 +112,12 @@ def _place(name: str) -> int:
     return fields[name][1]
 
 
-_CONTACT_GROUPS, _NODE_GROUPS, _ACTING_GROUPS = (
-    _place('contact_groups'), _place('node_groups'), _place('acting_groups'))
-# Where the figures of one substep begin in the head, behind those of the contacts [bytes].
+_CONTACT_GROUPS, _NODE_GROUPS, _ACTING_GROUPS, _ACTING_NODE_GROUPS = (
+    _place(f'{name}_groups') for name in ('contact', 'node', 'acting', 'acting_node'))
+# Where the figures of one substep begin in the head, behind those of the contacts [bytes], and
+# those of displacements and velocities.
 _OF_SUBSTEP = _place('least_moved')
+_SPANS = slice(_OF_SUBSTEP, _place('vertex_pairs'))
 
 
 @dataclass
@@ -153,9 +159,12 @@ class SelfContact:
     from the velocities that solves have led to.
 
     :param is_implicit: whether substeps are implicit
+    :param may_note: whether ``give`` may be called with ``notes_changes``
     """
 
-    def __init__(self, scene: Scene, layout: Layout, *, is_implicit: bool = False) -> None:
+    def __init__(
+            self, scene: Scene, layout: Layout, *, is_implicit: bool = False,
+            may_note: bool = False) -> None:
         """Allocate; passes are compiled when they are first used."""
         self._scene, self._layout = scene, layout
         self._gravity = float(np.linalg.norm(scene['gravity']))
@@ -163,7 +172,7 @@ class SelfContact:
         self._most_gone = min(
             _WINDOW_OF_CELL * min(scene.spacing), _WINDOW_OF_THICKNESS * self._thickness)
         self._levels = _levels(layout.rows, layout.cols)
-        self._programs = _programs(scene, layout, is_implicit=is_implicit)
+        self._programs = _programs(scene, layout, is_implicit=is_implicit, may_note=may_note)
         self._rounds = (
             (_ROUNDS_OF_SOLVE, _MOST_ROUNDS_OF_SOLVE) if is_implicit else (_ROUNDS, _MOST_ROUNDS))
         self._is_implicit = is_implicit
@@ -190,12 +199,21 @@ class SelfContact:
         self._pairs = [Buffer(self._most_pairs * _PAIR_BYTES) for _ in range(2)]
         self._contacts = Buffer(self._most_pairs * _CONTACT_BYTES)
         self._acting = Buffer(self._most_pairs * 4)
-        self._kept = [Buffer(self._most_pairs * _PAIR_BYTES) for _ in range(2)]
+        self._kept = Buffer(self._most_pairs * _PAIR_BYTES)
         # Impulses on nodes: all that solves have included, and what the next one is to.
         self._applied, self._driven = (
             Buffer(nothing if is_implicit else nothing[:1]) for _ in range(2))
         self._length = 0.0
-        self._told_room = 0
+        # Uniforms of all passes, a number for their present values, and that of each pass.
+        self._uniforms: dict[str, float] = {
+            'thickness': self._thickness, 'friction': scene['self_contact.friction']}
+        self._version = 0
+        self._set_for: dict[str, int] = {}
+        self._set_colliders_in: Callable[[Program], None] | None = None
+        # The calls that bind its buffers, by the name of that of the pairs.
+        self._binds: dict[int, list[Call]] = {}
+        # The calls of rounds, by whether they are the first of a substep.
+        self._rounds_made: dict[bool, list[Call]] = {}
         # Whether there are contacts on the device.
         self._has_found = False
         self._read = np.zeros(1, dtype=_HEAD)
@@ -238,25 +256,33 @@ class SelfContact:
         """Return the unit of the impulses of nodes [m/s], as contacts.glsl has it."""
         return self._impulse_unit
 
-    def run_all_passes(self, state: SubstepEnds) -> None:
-        """Run each pass on a substep that nobody needs."""
+    def run_all_passes(self, state: SubstepEnds, held_at: int) -> None:
+        """Run each pass on a substep that nobody needs; ``held_at`` as of ``give``."""
         self.find(state, self._scene['dt'])
         self._build(state, self._thickness)
+        # Passes over both kinds of pairs, though there may be none.
+        self._counts = 1, 1
         self._find_contacts(state)
+        self._copy_kept()
         self.begin(state)
         self.let_act()
         if self._is_implicit:
             self.drive(state)
-        self.give(-1)
+        for notes_changes in (False, True):
+            if _last_pass(held_at, notes_changes) in self._programs:
+                self.give(held_at, notes_changes=notes_changes)
         self.guard(state)
+        self._cut(state, 0.0)
         self._clear_contacts()
         self.forget()
 
-    def programs_with_colliders(self) -> Iterator[Program]:
-        """Yield the passes in which colliders act, each in use."""
-        for name, program in self._programs.items():
-            if name.startswith('nodes'):
-                yield program.use()
+    def let_colliders_act(self, set_in: Callable[[Program], None] | None) -> None:
+        """
+        Let colliders act on nodes in the next substep.
+
+        :param set_in: sets the colliders in a pass that is in use; None for no colliders
+        """
+        self._set_colliders_in = set_in
 
     def begin_substep(self, length: float) -> None:
         """Have the first solve of a substep of ``length`` [s] include the impulses of the last."""
@@ -285,7 +311,7 @@ class SelfContact:
                 (self._head, bindings.SELF_HEAD), (self._nodes, bindings.SELF_NODES),
                 (self._applied, bindings.SELF_APPLIED), (self._driven, bindings.SELF_DRIVEN)):
             buffer.bind_storage(place)
-        program = self._programs['drive'].use()
+        program = self._use('drive')
         program.set_int('begins', int(begins))
         program.set_float('share', self._share_to_keep)
         program.dispatch(*self._strips)
@@ -300,22 +326,21 @@ class SelfContact:
         if self._unlooked > 0:
             self._unlooked -= 1
             # Passes over colliders ask it which nodes are touched.
-            self._nodes.bind_storage(bindings.SELF_NODES)
+            self._nodes.bind_texture(bindings.SELF_NODES)
             return
         self._set_length(length)
         self._bind()
         make(self._reset)
-        ways = self._programs['ways'].use()
+        ways = self._use('ways')
         state.bind_in_textures()
         state.bind_out_textures()
         self._built.bind_texture(bindings.SELF_BUILT)
         ways.dispatch(*self._strips)
         shader_writes_visible()
         head = self._read_head()
-        least, most = _from_order(head['least_moved']), _from_order(head['most_moved'])
-        slowest, fastest = _from_order(head['least_speed']), _from_order(head['most_speed'])
-        moved = 0.5 * float(np.linalg.norm(most - least))
-        way = 0.5 * length * float(np.linalg.norm(fastest - slowest))
+        least, most, slowest, fastest = _from_order(head.tobytes()[_SPANS])
+        moved = 0.5 * math.dist(most, least)
+        way = 0.5 * length * math.dist(fastest, slowest)
         room = 0.5 * _USED * (self._reach - self._thickness)
         if self._reach and not self.has_pairs and moved + way > 0.5 * _ROOM * self._reach:
             # Nodes may have gone farther than the lists allow for, unguarded.
@@ -357,9 +382,6 @@ class SelfContact:
         if not self._is_implicit:
             window = int(min(_MOST_WINDOW, max(1.0, self._most_gone / max(way, 1e-30))))
         self._window, self._gone = window - 1, 0.0
-        for of_edges, count in enumerate(self._counts):
-            if count:
-                self._programs[f'contacts {of_edges}'].use().set_float('window', float(window))
 
     def _set_impulse_unit(self, speed: float) -> None:
         """Choose the least power of two that sums of impulses have room with."""
@@ -367,11 +389,8 @@ class SelfContact:
             # What checks the state finds that.
             speed = _LEAST_SPEED
         unit = 2.0**math.ceil(math.log2(speed * _SUM_RANGE / 2.0**31))
-        if unit != self._impulse_unit:
-            self._impulse_unit = unit
-            for name, program in self._programs.items():
-                if name.split()[0] in ('contacts', 'drive', 'nodes', 'round', 'wake'):
-                    program.use().set_float('impulse_unit', unit)
+        self._impulse_unit = unit
+        self._set('impulse_unit', unit)
 
     def begin(self, state: SubstepEnds) -> None:
         """Begin to act: the impulses of the last substep."""
@@ -385,7 +404,6 @@ class SelfContact:
         state.bind_out()
         self._velocities.bind_storage(bindings.SELF_VELOCITIES)
         self._velocities.bind_texture(bindings.SELF_VELOCITIES)
-        self._nodes.bind_texture(bindings.SELF_NODES)
         if self._is_implicit:
             self._bind()
             self._applied.bind_texture(bindings.SELF_APPLIED)
@@ -396,20 +414,11 @@ class SelfContact:
         shader_dispatches_visible()
         rounds, (some, most) = 0, self._rounds
         while True:
-            wake = self._programs['wake'].use()
+            wake = self._use('wake')
             wake.set_int('again', int(self._is_first and self._serves_again))
             wake.dispatch_indirect(_CONTACT_GROUPS)
             shader_dispatches_visible()
-            self._let_nodes_move()
-            for number in range(some):
-                program = self._programs['round'].use()
-                program.set_int('part', (
-                    _FIRST_ROUND * self._is_first + _LAST_ROUND * (number == some - 1)))
-                program.dispatch_indirect(_ACTING_GROUPS)
-                shader_writes_visible()
-                self._is_first = False
-                if number < some - 1:
-                    self._let_nodes_move()
+            self._make_rounds(some)
             rounds += some
             head = self._read_head()
             _refuse_too_many(head)
@@ -427,8 +436,7 @@ class SelfContact:
             are bound
         """
         self._head.bind_dispatches()
-        name = f'nodes last{" held" * (held_at >= 0)}{" noting" * notes_changes}'
-        program = self._programs[name].use()
+        program = self._use(_last_pass(held_at, notes_changes))
         if held_at >= 0:
             program.set_int('held_at', held_at)
         program.dispatch_indirect(_NODE_GROUPS)
@@ -449,12 +457,7 @@ class SelfContact:
         self._gone += longest
         rounding = _ROUNDING * float(head['largest']) + 1e-9
         if head['cut_nodes'] or (1.0 - _LEFT) * nearest <= 2.0 * (longest + rounding):
-            for guard in self._each_kind_of('guard'):
-                guard.set_float('rounding', 2.0 * rounding)
-                guard.set_vectors('common_way', self._common_way)
-            self._head.write(np.zeros(1, dtype=np.uint32), _place('cut_nodes'))
-            state.bind_out()
-            self._run_over_nodes('cut')
+            self._cut(state, rounding)
             head = self._read_head()
         least = float(head['least_distance'])
         if least < _DOUBTFUL * self._thickness:
@@ -464,27 +467,69 @@ class SelfContact:
             int(head['contact_count']), least, int(head['cut_nodes']),
             float(head['largest_cut']), int(head['undivided']), int(head['cut_pins']))
 
+    def _cut(self, state: SubstepEnds, rounding: float) -> None:
+        """Shorten the ways of nodes; ``rounding`` of a displacement [m]."""
+        for guard in self._each_kind_of('guard'):
+            guard.set_float('rounding', 2.0 * rounding)
+            guard.set_vectors('common_way', self._common_way)
+        self._head.write(np.zeros(1, dtype=np.uint32), _place('cut_nodes'))
+        state.bind_out()
+        self._run_over_nodes('cut')
+
     def delete(self) -> None:
         """Release everything."""
         for program in self._programs.values():
             program.delete()
         for buffer in (
                 self._head, self._features, self._built, self._velocities, self._cell_ways,
-                self._boxes, self._first, *self._pairs, *self._kept, self._nodes,
+                self._boxes, self._first, *self._pairs, self._kept, self._nodes,
                 self._contacts, self._acting, self._applied, self._driven):
             buffer.delete()
 
-    def _run_over_nodes(self, name: str) -> None:
+    def _use(self, name: str) -> Program:
+        """Return a pass, in use, with the uniforms that it has in common with others."""
         program = self._programs[name].use()
+        if self._set_for.get(name) != self._version:
+            self._set_for[name] = self._version
+            for uniform, value in self._uniforms.items():
+                program.set_float(uniform, value)
+            program.set_int('most_pairs', self._most_pairs)
+            if name in ('boxes', 'crossings', 'pairs'):
+                program.set_int('level_count', len(self._levels))
+                program.set_int_vectors('levels', self._levels)
+        if name.startswith('nodes') and self._set_colliders_in is not None:
+            self._set_colliders_in(program)
+        return program
+
+    def _set(self, uniform: str, value: float) -> None:
+        """Set a uniform in all passes, each at its next use."""
+        if self._uniforms.get(uniform) != value:
+            self._uniforms[uniform] = value
+            self._version += 1
+
+    def _run_over_nodes(self, name: str) -> None:
+        program = self._use(name)
         program.set_float('room', 0.5 * _ROOM * self._reach)
         program.set_vectors('common_way', self._common_way)
         program.set_vectors('common_moved', self._common_moved)
         program.dispatch(*self._strips)
         shader_writes_visible()
 
-    def _let_nodes_move(self) -> None:
-        self._programs['nodes'].use().dispatch_indirect(_NODE_GROUPS)
-        shader_writes_visible()
+    def _make_rounds(self, count: int) -> None:
+        """Make rounds of impulses, the nodes with their velocities before each."""
+        nodes, impulses = self._use('nodes'), self._use('round')
+        is_first, self._is_first = self._is_first, False
+        if is_first not in self._rounds_made:
+            self._rounds_made[is_first] = [
+                call for number in range(count) for call in (
+                    *nodes.indirect_calls(_ACTING_NODE_GROUPS), writes_visible_call(),
+                    *impulses.indirect_calls(_ACTING_GROUPS, part=(
+                        _FIRST_ROUND * (is_first and number == 0)
+                        + _LAST_ROUND * (number == count - 1))),
+                    writes_visible_call())]
+        make(self._rounds_made[is_first])
+        nodes.submitted(count)
+        impulses.submitted(count)
 
     def _find_contacts(self, state: SubstepEnds) -> None:
         self._clear_contacts()
@@ -493,6 +538,7 @@ class SelfContact:
         self._has_found = True
         for program in self._each_kind_of('contacts'):
             program.set_float('kept_share', self._share_to_keep)
+            program.set_float('window', float(self._window + 1))
 
     def _clear_contacts(self) -> None:
         """Forget the contacts that were found, if there are some."""
@@ -501,14 +547,14 @@ class SelfContact:
         self._has_found = False
         self._head.bind_dispatches()
         shader_dispatches_visible()
-        self._programs['clear'].use().dispatch_indirect(_NODE_GROUPS)
+        self._use('clear').dispatch_indirect(_NODE_GROUPS)
         self._head.write(self._fresh_contacts)
 
     def _each_kind_of(self, name: str) -> Iterator[Program]:
         """Yield the pass over each kind of pairs to be set, and run it."""
         for of_edges, count in enumerate(self._counts):
             if count:
-                program = self._programs[f'{name} {of_edges}'].use()
+                program = self._use(f'{name} {of_edges}')
                 yield program
                 _dispatch_pairs(program, count)
         shader_writes_visible()
@@ -517,7 +563,7 @@ class SelfContact:
         """List the pairs within ``reach`` [m]; room grows until it suffices."""
         self._reach = reach
         self._window = 0
-        boxes = self._programs['boxes'].use()
+        boxes = self._use('boxes')
         state.bind_in_textures()
         self._built.bind_storage(bindings.SELF_BUILT)
         for level, (rows, cols, *_) in enumerate(self._levels):
@@ -526,18 +572,16 @@ class SelfContact:
             shader_writes_visible()
         if self._crossings or self._has_doubts:
             self._count_crossings()
-        before = (*self._counts, self._most_pairs, 0)
         self._pairs.reverse()
-        self._kept.reverse()
         if self._pairs[0].bytes < self._most_pairs * _PAIR_BYTES:
             self._make_room(self._most_pairs)
-        pairs = self._programs['pairs']
-        pairs.use().set_float('reach', reach)
         while True:
             self._head.write(np.zeros(2, dtype=np.uint32), _place('vertex_pairs'))
-            self._bind_lists()
-            self._tell_room()
-            pairs.use().dispatch(-(-self._scene.node_count // _LOCAL))
+            self._bind()
+            self._kept.clear()
+            pairs = self._use('pairs')
+            pairs.set_float('reach', reach)
+            pairs.dispatch(-(-self._scene.node_count // _LOCAL))
             shader_writes_visible()
             head = self._read_head()
             self._counts = int(head['vertex_pairs']), int(head['edge_pairs'])
@@ -545,14 +589,19 @@ class SelfContact:
             if sum(self._counts) <= self._most_pairs:
                 break
             self._make_room(2 * sum(self._counts))
-        if self.has_pairs and before[0] + before[1]:
-            keep = self._programs['keep'].use()
-            keep.set_int_vectors('before', np.array([before]))
-            _dispatch_pairs(keep, before[0] + before[1])
-            shader_writes_visible()
+        if self._has_found and self.has_pairs:
+            self._copy_kept()
+        if self._contacts.bytes < self._most_pairs * _CONTACT_BYTES:
+            self._make_room_for_contacts()
+
+    def _copy_kept(self) -> None:
+        """Copy the impulses of the contacts that act to their pairs."""
+        self._head.bind_dispatches()
+        self._use('keep').dispatch_indirect(_ACTING_GROUPS)
+        shader_writes_visible()
 
     def _count_crossings(self) -> None:
-        self._programs['crossings'].use().dispatch(-(-self._scene.node_count // _LOCAL))
+        self._use('crossings').dispatch(-(-self._scene.node_count // _LOCAL))
         shader_writes_visible()
         head = self._read_head()
         _refuse_unfinished(head)
@@ -567,46 +616,44 @@ class SelfContact:
 
     def _make_room(self, pairs: int) -> None:
         self._most_pairs = pairs
-        # The list before has the impulses; it grows when it is written next.
-        for lists in (self._pairs, self._kept):
-            lists[0].delete()
-            lists[0] = Buffer(pairs * _PAIR_BYTES)
+        self._version += 1
+        # The list before is still to be read; it grows when it is written next.
+        self._pairs[0].delete()
+        self._kept.delete()
+        self._pairs[0] = Buffer(pairs * _PAIR_BYTES)
+        self._kept = Buffer(pairs * _PAIR_BYTES)
+        self._binds.clear()
+
+    def _make_room_for_contacts(self) -> None:
+        """Have room for a contact of each pair; those there are forgotten."""
+        self._clear_contacts()
         self._contacts.delete()
         self._acting.delete()
-        self._contacts = Buffer(pairs * _CONTACT_BYTES)
-        self._acting = Buffer(pairs * 4)
-        self._bind_contacts()
-
-    def _bind_contacts(self) -> None:
-        for buffer, place in (
-                (self._contacts, bindings.SELF_CONTACTS), (self._acting, bindings.SELF_ACTING)):
-            buffer.bind_storage(place)
-            buffer.bind_texture(place)
-
-    def _tell_room(self) -> None:
-        if self._told_room != self._most_pairs:
-            self._told_room = self._most_pairs
-            for name, part in self._programs.items():
-                if name.split()[0] in ('pairs', 'keep', 'round', 'contacts', 'guard'):
-                    part.use().set_int('most_pairs', self._most_pairs)
+        self._contacts = Buffer(self._most_pairs * _CONTACT_BYTES)
+        self._acting = Buffer(self._most_pairs * 4)
+        self._binds.clear()
+        self._bind()
 
     def _bind(self) -> None:
-        for buffer, place in (
-                (self._head, bindings.SELF_HEAD), (self._features, bindings.SELF_FEATURES),
-                (self._boxes, bindings.SELF_BOXES), (self._nodes, bindings.SELF_NODES),
-                (self._cell_ways, bindings.SELF_WAYS)):
-            buffer.bind_storage(place)
-        self._cell_ways.bind_texture(bindings.SELF_WAYS)
-        self._bind_contacts()
-        self._bind_lists()
+        pairs = self._pairs[0].name
+        if pairs not in self._binds:
+            self._binds[pairs] = self._bind_calls()
+        make(self._binds[pairs])
 
-    def _bind_lists(self) -> None:
-        self._first.bind_storage(bindings.SELF_FIRST)
-        self._pairs[0].bind_storage(bindings.SELF_PAIRS)
-        self._pairs[0].bind_texture(bindings.SELF_PAIRS)
-        self._kept[0].bind_storage(bindings.SELF_KEPT)
-        self._kept[1].bind_storage(bindings.SELF_KEPT_BEFORE)
-        self._pairs[1].bind_storage(bindings.SELF_PAIRS_BEFORE)
+    def _bind_calls(self) -> list[Call]:
+        as_both = (
+            (self._boxes, bindings.SELF_BOXES), (self._cell_ways, bindings.SELF_WAYS),
+            (self._contacts, bindings.SELF_CONTACTS), (self._acting, bindings.SELF_ACTING),
+            (self._first, bindings.SELF_FIRST), (self._pairs[0], bindings.SELF_PAIRS),
+            (self._nodes, bindings.SELF_NODES))
+        as_texture = (
+            (self._features, bindings.SELF_FEATURES),
+            (self._pairs[1], bindings.SELF_PAIRS_BEFORE))
+        as_storage = ((self._head, bindings.SELF_HEAD), (self._kept, bindings.SELF_KEPT))
+        return [
+            *(buffer.storage_call(place) for buffer, place in (*as_both, *as_storage)),
+            *(call for buffer, place in (*as_both, *as_texture)
+              for call in buffer.texture_calls(place))]
 
     def _set_length(self, length: float) -> None:
         self._fresh['vertex_pairs'], self._fresh['edge_pairs'] = self._counts
@@ -614,16 +661,9 @@ class SelfContact:
             return
         self._length = length
         self._window = 0
-        for name, part in self._programs.items():
-            program = part.use()
-            program.set_float('substep', length)
-            program.set_float('least_speed_unit', self._gravity * length + _LEAST_SPEED)
-            program.set_float('thickness', self._thickness)
-            program.set_float('friction', self._scene['self_contact.friction'])
-            program.set_float('way_unit', length * _WAY_RANGE)
-            if name in ('boxes', 'crossings', 'pairs'):
-                program.set_int('level_count', len(self._levels))
-                program.set_int_vectors('levels', self._levels)
+        self._set('substep', length)
+        self._set('least_speed_unit', self._gravity * length + _LEAST_SPEED)
+        self._set('way_unit', length * _WAY_RANGE)
 
     def _read_head(self) -> np.void:
         self._head.read_into(self._read)
@@ -631,7 +671,8 @@ class SelfContact:
 
 
 def _programs(
-        scene: Scene, layout: Layout, *, is_implicit: bool) -> dict[str, SceneProgram]:
+        scene: Scene, layout: Layout, *, is_implicit: bool,
+        may_note: bool) -> dict[str, SceneProgram]:
     """Return the passes by name; of those over pairs, one for each kind: 0 and 1, of edges."""
     strips = Strips.defines()
     of_items: dict[str, object] = {'SELF_LOCAL': _LOCAL, 'MOST_GROUPS': MOST_GROUPS}
@@ -645,9 +686,9 @@ def _programs(
         # of velocity noted for the limits of edges.
         'wake': {**of_items, 'IS_IMPLICIT': int(is_implicit)},
         'nodes': {**of_nodes, 'IS_LAST': 0, 'HAS_HELD': 0, 'NOTES_CHANGES': 0},
-        **{f'nodes last{" held" * held}{" noting" * notes}': {
+        **{_last_pass(held - 1, notes): {
             **of_nodes, 'IS_LAST': 1, 'HAS_HELD': held, 'NOTES_CHANGES': notes}
-           for held in (0, 1) for notes in ((0,) if is_implicit else (0, 1))},
+           for held in (0, 1) for notes in range(1 + may_note)},
         **{f'{name} {of_edges}': {
             **of_items, 'OF_EDGES': of_edges, 'IS_IMPLICIT': int(is_implicit)}
            for name in ('contacts', 'guard') for of_edges in (0, 1)},
@@ -656,6 +697,11 @@ def _programs(
         name: SceneProgram(
             f'self_contact/{name.split()[0]}.comp', scene, layout, {**_READS, **defines})
         for name, defines in forms.items()}
+
+
+def _last_pass(held_at: int, notes_changes: bool | int) -> str:
+    """Return the name of the pass that writes the state to come; arguments as of ``give``."""
+    return f'nodes last{" held" * (held_at >= 0)}{" noting" * notes_changes}'
 
 
 def _dispatch_pairs(program: Program, count: int) -> None:
@@ -680,18 +726,18 @@ def _refuse_unfinished(head: np.void) -> None:
 def _fresh_head() -> np.ndarray:
     head = np.zeros(1, dtype=_HEAD)
     head['least_moved'] = head['least_speed'] = _LEAST
-    for name in ('contact_groups', 'node_groups', 'acting_groups'):
+    for name in ('contact_groups', 'node_groups', 'acting_groups', 'acting_node_groups'):
         head[name][0, 1:] = 1
     head['least_distance'] = np.inf
     head['first_crossing'] = _LEAST
     return head
 
 
-def _from_order(bits: np.ndarray) -> np.ndarray:
-    """Return the floats of ``in_order`` in head.glsl, float64."""
-    is_negative = bits & 0x80000000 == 0
-    plain = np.where(is_negative, ~bits, bits & 0x7FFFFFFF).astype(np.uint32)
-    return plain.view(np.float32).astype(float)
+def _from_order(data: bytes) -> np.ndarray:
+    """Return the vectors of ``in_order`` in head.glsl, (vectors, 3) float64."""
+    bits = np.frombuffer(data, dtype=np.uint32)
+    plain = np.where(bits & 0x80000000 == 0, ~bits, bits & 0x7FFFFFFF)
+    return plain.view(np.float32).reshape(-1, 3).astype(float)
 
 
 def _levels(rows: int, cols: int) -> np.ndarray:

@@ -31,7 +31,7 @@ class LayeredAdaptive(WrittenSubsteps, Adaptive):
 
     def __init__(self, scene: Scene, layout: Layout, *, check_stability: bool = True) -> None:
         """Choose the substeps and compile the passes."""
-        self._layers = LayeredSubsteps(scene, layout)
+        self._layers = LayeredSubsteps(scene, layout, may_note=True)
         # Whether edges are held in the present substep.
         self._holds_edges = False
         super().__init__(scene, layout, check_stability=check_stability)

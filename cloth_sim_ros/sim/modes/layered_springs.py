@@ -62,8 +62,10 @@ class LayeredSprings(WrittenSubsteps, MassSpring):
 
     def run_all_passes(self, state: State, loads: Loads, stop: Stop = never) -> None:
         """Make a substep of a scratch ``state``."""
-        super().run_all_passes(state, loads, stop)
+        # First: contact.comp reads which nodes layers touch.
         self._layers.run_all_passes(state, loads, self._length, self)
+        leave_if(stop)
+        super().run_all_passes(state, loads, stop)
 
     def forget(self) -> None:
         """Drop impulses and lists of pairs: the next state is another."""

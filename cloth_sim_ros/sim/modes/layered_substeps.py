@@ -95,11 +95,14 @@ class LayeredSubsteps:
 
     contact: SelfContact
 
-    def __init__(self, scene: Scene, layout: Layout, *, is_implicit: bool = False) -> None:
+    def __init__(
+            self, scene: Scene, layout: Layout, *, is_implicit: bool = False,
+            may_note: bool = False) -> None:
         """Allocate; passes are compiled when they are first used."""
         self._thickness: float = scene['self_contact.thickness']
         self._most_cut = _MOST_CUT * min(scene.spacing)
-        self.contact = SelfContact(scene, layout, is_implicit=is_implicit)
+        self.contact = SelfContact(
+            scene, layout, is_implicit=is_implicit, may_note=may_note)
         self.forget()
 
     @property
@@ -123,13 +126,14 @@ class LayeredSubsteps:
         """Make a substep of a scratch ``state``."""
         motion.write(state, loads.still, loads, length, length)
         self.begin_contact(loads.still, length)
-        self.contact.run_all_passes(motion.ends(state))
+        is_recording = state.impulses is not None and state.impulses.is_recording
+        self.contact.run_all_passes(motion.ends(state), 0 if is_recording else -1)
 
     def begin_contact(self, forcing: Forcing, length: float) -> None:
         """Let colliders act in the rounds of a substep of ``length`` [s], where there are some."""
-        if forcing.touch is not None:
-            for program in self.contact.programs_with_colliders():
-                forcing.touch.set_in(program, length)
+        touch = forcing.touch
+        self.contact.let_colliders_act(
+            None if touch is None else lambda program: touch.set_in(program, length))
 
     def forget(self) -> None:
         """Drop impulses and lists of pairs: the next state is another."""

@@ -10,7 +10,12 @@ struct Box {
     vec4 most;
 };
 
-layout(std430, binding = SELF_BOXES) buffer SelfBoxes { Box boxes[]; };
+// Software reads two texels much faster than eight numbers.
+layout(binding = SELF_BOXES) uniform samplerBuffer box_texels;
+
+Box load_box(int place) {
+    return Box(texelFetch(box_texels, 2 * place), texelFetch(box_texels, 2 * place + 1));
+}
 
 uniform ivec4 levels[MOST_LEVELS];  // rows, columns, place of the first box; the lowest level first
 uniform int level_count;
@@ -37,7 +42,7 @@ struct Walk {
 bool is_box_near(Walk walk, Box own) {
     ivec4 size = levels[walk.level];
     return walk.at.x < size.x && walk.at.y < size.y
-        && overlap(own, boxes[size.z + walk.at.x * size.y + walk.at.y]);
+        && overlap(own, load_box(size.z + walk.at.x * size.y + walk.at.y));
 }
 
 void walk_on(inout Walk walk, bool is_near) {

@@ -7,4 +7,3 @@
 
 layout(std430, binding = SELF_WAYS) buffer SelfWays { vec4 cell_ways[]; };
 
-void add_cell_way(int index, float way) { cell_ways[index].xy = vec2(cell_ways[index].x + way, way); }

@@ -19,21 +19,11 @@ struct SelfNode {
     uint cut;        // bits of the share of its way that it may go
     uint listed;     // of the list of nodes with contacts, which stands here: a node
     uint contacts;   // of it, whether they act or not
-    uint spare[2];   // so that it is three texels
+    uint acting;     // of the list of nodes with contacts that act, which stands here: a node
+    uint spare;      // so that it is three texels
 };
 
 #define SHARE_PARTS 1048576.0
-
-#if LISTS_ACTING
-// Places of the contacts that act, in no order.
-layout(std430, binding = SELF_ACTING) writeonly buffer SelfActing { uint acting[]; };
-
-void list_acting(uint place) {
-    uint at = atomicAdd(acting_count, 1u);
-    acting[at] = place;
-    atomicAdd(acting_groups[0], at % SELF_LOCAL == 0u ? 1u : 0u);
-}
-#endif
 
 layout(std430, binding = SELF_NODES) buffer SelfNodes { SelfNode self_nodes[]; };
 
@@ -61,3 +51,23 @@ ivec3 in_units(float weight, vec3 impulse) {
 }
 
 uint in_shares(float weight) { return uint(ceil(abs(weight) * SHARE_PARTS)); }
+
+#if LISTS_ACTING
+// Places of the contacts that act, in no order.
+layout(std430, binding = SELF_ACTING) writeonly buffer SelfActing { uint acting[]; };
+
+// List a contact among those that act, and its nodes among theirs.
+void list_acting(uint place, ivec4 nodes, vec4 weights) {
+    uint at = atomicAdd(acting_count, 1u);
+    acting[at] = place;
+    atomicAdd(acting_groups[0], at % SELF_LOCAL == 0u ? 1u : 0u);
+    for (int k = 0; k < 4; ++k) {
+        uint share = in_shares(weights[k]);
+        if (share > 0u && atomicAdd(self_nodes[nodes[k]].shares, share) == 0u) {
+            uint node_at = atomicAdd(acting_node_count, 1u);
+            self_nodes[node_at].acting = uint(nodes[k]);
+            atomicAdd(acting_node_groups[0], node_at % SELF_LOCAL == 0u ? 1u : 0u);
+        }
+    }
+}
+#endif

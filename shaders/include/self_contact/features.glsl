@@ -15,9 +15,12 @@
 #define OWNS_CELL 4u
 #define OWNS_NODE 8u
 
-layout(std430, binding = SELF_FEATURES) readonly buffer SelfFeatures { uint owned[]; };
+layout(binding = SELF_FEATURES) uniform samplerBuffer feature_texels;
 
-bool has_cell(int index) { return (owned[index] & OWNS_CELL) != 0u; }
+// What a node owns; software reads texels much faster than numbers.
+uint owned(int index) { return floatBitsToUint(texelFetch(feature_texels, index >> 2)[index & 3]); }
+
+bool has_cell(int index) { return (owned(index) & OWNS_CELL) != 0u; }
 
 // The ends of an edge, which is 4 times the index of its owner plus its kind.
 ivec2 edge_nodes(int feature) {

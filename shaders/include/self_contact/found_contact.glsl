@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 // SPDX-License-Identifier: Apache-2.0
 
-// A contact that was found.
+// A contact that was found, and those that act.
 
 layout(binding = SELF_CONTACTS) uniform samplerBuffer contact_texels;
+layout(binding = SELF_ACTING) uniform samplerBuffer acting_texels;
 
 // Software reads four texels much faster than sixteen numbers.
 SelfContact load_contact(int place) {
@@ -12,4 +13,9 @@ SelfContact load_contact(int place) {
         floatBitsToInt(texelFetch(contact_texels, 4 * place)),
         texelFetch(contact_texels, 4 * place + 1), texelFetch(contact_texels, 4 * place + 2),
         last.xyz, last.w);
+}
+
+// Place of a contact that acts.
+uint acting_place(uint number) {
+    return floatBitsToUint(texelFetch(acting_texels, int(number >> 2))[number & 3u]);
 }

@@ -11,7 +11,7 @@ struct Owned {
 };
 
 Owned owned_by(int index) {
-    return Owned(index, owned[index], vec3[4](
+    return Owned(index, owned(index), vec3[4](
         load_position(index).xyz, load_position(index + 1).xyz,
         load_position(index + PITCH).xyz, load_position(index + PITCH + 1).xyz));
 }

@@ -20,16 +20,17 @@ uint pair_number() {
     return gl_GlobalInvocationID.x + gl_GlobalInvocationID.y * uint(MOST_GROUPS * SELF_LOCAL);
 }
 
-#ifdef OF_EDGES
 layout(binding = SELF_PAIRS) uniform samplerBuffer pair_texels;
 
 // Software reads one texel much faster than four numbers.
-Pair load_pair(uint place) {
-    vec4 found = texelFetch(pair_texels, int(place));
+Pair pair_of(vec4 texel) {
     return Pair(
-        floatBitsToUint(found.x), floatBitsToUint(found.y), found.z, floatBitsToUint(found.w));
+        floatBitsToUint(texel.x), floatBitsToUint(texel.y), texel.z, floatBitsToUint(texel.w));
 }
 
+Pair load_pair(uint place) { return pair_of(texelFetch(pair_texels, int(place))); }
+
+#ifdef OF_EDGES
 // The pair of an invocation; all are of one kind, as software evaluates all branches that some take.
 uint pair_place() {
     uint i = pair_number();
