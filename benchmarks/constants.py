@@ -16,8 +16,8 @@ overlap of layers, of a dt, mean over the run [um], solves and iterations per dt
 edges at their limit in the substep of a dt that took most, processor time over that of the
 default, switches of limits per dt, and the number of dt in which a solve did not reach its
 tolerance. Differences and the strain are the largest of the scenes, the others are means. The row
-"tolerance / 2" is a yardstick: what half the ``solver.tolerance`` of the scenes changes, with the default of the
-constant.
+"tolerance / 2" is a yardstick: what half the ``solver.tolerance`` of the scenes changes, with the
+default of the constant.
 
 For example:
   python benchmarks/constants.py
