@@ -51,7 +51,19 @@ vec4 load_begin(int index) { return load_position(index); }
 
 vec3 load_end(int index) { return position_out[index].xyz; }
 
+#if FINDS_IMPULSES && !WAYS_OUT
+#define WRITES_NEXT 1
+#include "next_state.glsl"
+
+// Rows are found before velocities are written; masses stay.
+vec3 load_speed(int index) { return load_next_velocity(index).xyz; }
+
+float inverse_mass(int index) { return load_next_velocity(index).w; }
+#else
 vec3 load_speed(int index) { return velocity_out[index].xyz; }
+
+float inverse_mass(int index) { return velocity_out[index].w; }
+#endif
 
 #include "surface_find.glsl"
 #if COLLIDERS > 1
@@ -295,8 +307,6 @@ void note_round(vec3 impulse, vec3 before) {
     atomicMax(largest, floatBitsToUint(length(impulse)));
     atomicMax(largest_change, floatBitsToUint(length(impulse - before)));
 }
-
-float inverse_mass(int index) { return velocity_out[index].w; }
 
 #if !WAYS_OUT
 vec3 across(vec3 v, vec3 normal) { return v - dot(v, normal) * normal; }
