@@ -174,7 +174,9 @@ class NodeClient:
         kind = f'{SetMode.__module__.split(".")[0]}/srv/{SetMode.__name__}'
         found = sorted(
             name.rpartition('/')[0]
-            for name, kinds in self._node.get_service_names_and_types() if kind in kinds)
+            for name, kinds in self._node.get_service_names_and_types()
+            # A name without a server is that of a client, such as this one.
+            if kind in kinds and self._node.count_services(name))
         if self._target in found:
             return 'it may be busy, so raise --timeout'
         if found:

@@ -97,6 +97,13 @@ def test_says_that_no_node_answers():
     assert '--node' in result.stderr
 
 
+def test_mode_does_not_find_its_own_client():
+    """Without a node, it would be told to wait longer for one."""
+    result = cloth_sim('mode', 'adaptive', '--node', '/nobody/there', '--timeout', '2')
+    assert result.returncode == 1
+    assert 'busy' not in result.stderr and '--node' in result.stderr
+
+
 def test_names_the_nodes_that_are_there(cloth):
     """A user of a node with a namespace would not learn its name."""
     # How soon the node is found depends on what else the machine does.
