@@ -250,10 +250,18 @@ def run_plots(run: Run) -> Iterator[tuple[str, Figure]]:
     for name, (title, panels) in _PLOTS.items():
         if all(any(run.has(line.column) for line in panel.lines) for panel in panels) and (
                 _has_part(run, name)):
-            yield name, time_plot(run, f'{title}: {_heading(run)}', panels)
+            shown = [panel for panel in panels if _has_values(run, panel)]
+            yield name, time_plot(run, f'{title}: {_heading(run)}', shown)
     if run.has('mean_strain'):
         yield 'strain_histogram', strain_histogram_plot(
             run, f'Strain of the nodes: {_heading(run)}')
+
+
+def _has_values(run: Run, panel: Panel) -> bool:
+    # A node that only stepped while paused has no real-time factor.
+    return any(
+        run.has(line.column) and (not line.above_zero or (run.columns[line.column] > 0.0).any())
+        for line in panel.lines)
 
 
 def _has_part(run: Run, name: str) -> bool:

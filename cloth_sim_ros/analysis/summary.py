@@ -292,7 +292,9 @@ def summary_lines(summary: Summary) -> dict[str, str]:
         'device': summary.device or 'not recorded',
         'time': f'{summary.begin:.6g} to {summary.end:.6g} s, {summary.frames} frames',
         'dt': f'{figure(summary.dt, ".6g")} s in {figure(summary.substeps, ".6g")} substeps',
-        'real-time factor': f'{summary.real_time_factor:.3g}, median while running',
+        'real-time factor': (
+            f'{summary.real_time_factor:.3g}, median while running' if summary.real_time_factor
+            else 'none recorded while running'),
         'step time': f'{figure(1e3 * summary.step_wall_time)} ms per time step, median',
         'inputs': f'pushes: {summary.pushes}, nodes released: {summary.releases}, '
                   f'pinned: {summary.pins}, resets: {summary.resets}',

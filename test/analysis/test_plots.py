@@ -133,3 +133,17 @@ def test_parts_that_a_run_has_not_are_left_out(known):
     """A plot of zeros would show a solver that the run did not use."""
     assert {name for name, _ in run_plots(Run(Recording(known.folder)))} == {
         'energies', 'strain', 'pace', 'strain_histogram'}
+
+
+@pytest.mark.filterwarnings('error')
+def test_a_stepped_run_has_no_empty_panel(tmp_path):
+    """A pause would be drawn as a panel without a line, with a warning on the terminal."""
+    recorder = Recorder(tmp_path, 'stepped')
+    for time in (0.0, 0.02, 0.04):
+        snapshot = make_snapshot(4, 4, time=time)
+        recorder.write('points', PointsMessage(4, 4, 'world').serialise(snapshot), time)
+        recorder.write('stats', serialize_message(stats_message(
+            snapshot, 'world', step_wall_time=2e-3, real_time_factor=0.0)), time)
+    recorder.close()
+    pace = dict(run_plots(Run(Recording(recorder.path))))['pace']
+    assert [axes.get_ylabel() for axes in pace.axes] == ['wall time of a step [ms]']

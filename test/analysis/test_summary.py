@@ -67,6 +67,12 @@ def test_frames_that_stood_still_do_not_slow_the_pace(known):
     assert summarise(Recording(known.folder)).real_time_factor == 0.5
 
 
+def test_a_run_stepped_while_paused_has_no_pace(known):
+    """The cloth would seem to have run at 0 times real time."""
+    summary = replace(summarise(Recording(known.folder)), real_time_factor=0.0)
+    assert summary_lines(summary)['real-time factor'] == 'none recorded while running'
+
+
 def test_a_run_that_blew_up_is_told(tmp_path):
     """The figures of a broken run would look like a good one's."""
     recorder = Recorder(tmp_path, 'bag', 'cloth_sim')
