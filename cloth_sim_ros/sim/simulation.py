@@ -16,6 +16,7 @@ from cloth_sim_ros.gl.buffer import shader_writes_visible
 from cloth_sim_ros.gl.context import Context
 from cloth_sim_ros.sim import modes
 from cloth_sim_ros.sim.contact.contacts import ContactForce
+from cloth_sim_ros.sim.contact.start_inside import warn_of_start_inside
 from cloth_sim_ros.sim.contact.thin_bodies import warn_of_thin_bodies
 from cloth_sim_ros.sim.device.layout import choose_layout
 from cloth_sim_ros.sim.engine import Engines
@@ -142,6 +143,7 @@ class Simulation(AbstractContextManager['Simulation']):
         self.loads = Loads(scene, self.layout, self._state)
         self._begin_run()
         warn_of_thin_bodies(scene, scene['mode'])
+        warn_of_start_inside(scene)
 
     def __exit__(self, *_: object) -> None:
         """Close, however the block has ended."""
