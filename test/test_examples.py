@@ -44,7 +44,7 @@ def run_example(name, folder, *arguments):
 
 def test_each_is_short_says_how_to_run_it_and_is_run_here():
     """An example would be too long to read, or rot."""
-    assert len(EXAMPLES) == 13
+    assert len(EXAMPLES) == 14
     tests = Path(__file__).read_text(encoding='utf-8')
     for path in EXAMPLES:
         text = path.read_text(encoding='utf-8')
@@ -125,6 +125,17 @@ def test_a_client_carries_a_towel(tmp_path):
     np.testing.assert_allclose(moved, [[0.2, 0.0, 0.1]] * 2, atol=2e-3)
 
 
+def test_a_client_reads_the_cloth_and_switches_the_mode(tmp_path):
+    """A node of a user's own would find no topics, no positions or no service."""
+    parameters = {'rows': 8, 'cols': 9, 'real_time_factor': 0.0, 'publish.rate': 20.0}
+    with NodeProcess(tmp_path, parameters, '-r', '__ns:=/watched'):
+        shown = run_example(
+            'watch_cloth', tmp_path, '--node', '/watched/cloth_sim', '--mode', 'constraint')
+    assert '/watched/cloth_sim/points' in shown.splitlines()
+    before, after = shown.split('mode constraint, was mass_spring')
+    assert before.count(' lowest ') >= 5 and after.count(' lowest ') == 5
+
+
 def test_a_client_picks_up_a_corner(tmp_path):
     """A robot program could not grasp, carry and feel a towel."""
     parameters = {
@@ -163,7 +174,7 @@ def test_a_corner_that_a_camera_sees_is_grasped(tmp_path):
     assert re.search(r'grasp hand holds \d+ nodes', shown), shown
 
 
-@pytest.mark.parametrize('name', ['pick_up_a_corner', 'carry_towel'])
+@pytest.mark.parametrize('name', ['pick_up_a_corner', 'carry_towel', 'watch_cloth'])
 def test_a_client_without_a_node_ends(tmp_path, name):
     """pick_up_a_corner.py waited for ever."""
     done = ended(name, tmp_path, '--node', '/nowhere/cloth_sim', '--wait', 1.0)
