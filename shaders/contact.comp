@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 
 #version 430 core
-// Let the colliders act on an explicit substep that has been made, before it is the present state,
-// at the nodes that near_nodes.comp lists. NOTES_CHANGES 1: note what they do to a node, as what edges
-// near their limit do to it is noted.
+// Apply contact with colliders to the new state of an explicit substep, at the nodes listed by
+// near_nodes.comp. NOTES_CHANGES 1: also add the change of velocity of each node to the buffer that
+// strain limits use.
 
 #include "lattice.glsl"
 #include "state_in.glsl"
@@ -42,13 +42,13 @@ void main() {
     Near node = listed_at_place(uint(block_count) + gl_GlobalInvocationID.x);
     int index = int(node.index);
 #if HAS_SURFACE
-    // surface_contact.comp has done it, or it is pinned.
+    // Handled by surface_contact.comp, or pinned.
     if (surface_nodes[index].is_held == 1 || load_next_velocity(index).w == 0.0) {
         return;
     }
 #endif
 #if HAS_SELF
-    // self_contact/nodes.comp does it.
+    // Handled by self_contact/nodes.comp.
     if (floatBitsToUint(texelFetch(self_texels, 3 * index + 2).y) > 0u) {
         return;
     }

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 
 #version 430 core
-// The velocity that each node has on its way through a time ahead, with what is applied and what
-// colliders stop: a node that they stop falls behind its neighbours, which no edge foresees.
+// Predicted mean velocity of each node over the time ahead, with applied forces and contact. A node
+// that a collider stops falls behind its neighbours, which the edges alone do not predict.
 
 #include "lattice.glsl"
 #include "state_in.glsl"
@@ -27,8 +27,8 @@ void main() {
     vec3 x = load_position(index).xyz;
     vec3 without = v.xyz + (v.w > 0.0 ? substep * applied_acceleration(index) : vec3(0.0));
     v.xyz = without;
-    // Software runs the body of a branch for nodes that do not take it, but no loop that ends at
-    // once (solver/contact.comp).
+    // llvmpipe runs the body of a branch for all nodes, but skips a loop without rounds
+    // (solver/contact.comp).
     bool is_near = v.w > 0.0 && near_bodies(x, 0.0, substep * length(without)) != 0u;
     for (uint asks = is_near ? 1u : 0u; asks != 0u; asks &= asks - 1u) {
         v.xyz = contact_at(x, without, without, substep).velocity;

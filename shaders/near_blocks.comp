@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 
 #version 430 core
-// List the blocks that may come to a collider in an explicit substep that has been made, by the
-// velocities that limits have left: BLOCK x BLOCK nodes an invocation.
+// List the blocks that may reach a collider in an explicit substep, by its velocities after strain
+// limits: BLOCK x BLOCK nodes per invocation.
 
 #include "lattice.glsl"
 #include "state_in.glsl"

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 
 #version 430 core
-// List the nodes that may come to a collider in an explicit substep that has been made, of the
-// blocks that mass_spring_step.comp has listed: contact.comp does much with each of them.
+// List the nodes that may reach a collider in an explicit substep, from the blocks listed by
+// mass_spring_step.comp: contact.comp is expensive for each node.
 
 #include "lattice.glsl"
 #include "state_in.glsl"
@@ -35,7 +35,7 @@ void main() {
     float way = substep * sqrt(square < 1e30 ? square : 1e30);
     vec4 x = load_position(index);
 #if HAS_SURFACE
-    // Pinned nodes are ends of edges that others hold.
+    // Pinned nodes are listed too: an edge to a free node may touch.
     bool counts = x.w != 0.0;
 #else
     bool counts = v.w > 0.0;

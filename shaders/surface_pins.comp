@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 
 #version 430 core
-// Add to what pins are driven with what thin colliders do to edges and faces of pinned nodes, after
+// Add the forces of thin colliders on edges and faces of pinned nodes to the forces on the pins, after
 // surface_contact.comp: one workgroup.
 
 #include "lattice.glsl"

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-"""Many small cloths that step together, as policy training wants them."""
+"""Many small cloths stepped together, for policy training."""
 
 from collections.abc import Callable
 from collections.abc import Hashable
@@ -44,23 +44,23 @@ from cloth_sim_ros.sim.state import StoredPositions
 from cloth_sim_ros.sim.stepping import checked_steps
 import numpy as np
 
-# What cloths of one stack may differ in.
+# Parameters in which the cloths of one stack may differ.
 _OWN = ('start.pose', 'start.z', 'start.jitter', 'start.seed', 'pins', 'pin_points.positions',
         'pin_points.max_distance')
-# What all cloths of a batch have in common.
+# Parameters that all cloths of a batch share.
 _COMMON = ('rows', 'cols', 'dt')
-# Max. cloths of a batch [1]: so many of the smallest ones fit in no buffer.
+# Max. cloths of a batch [1]: more than fit into any buffer, even of the smallest size.
 _MOST_CLOTHS = 1_000_000
-# What none of them may have.
+# Parameters that must be empty.
 _TIMED = ('pushes.start', 'pin_moves.start', 'grasps.start', 'collider_moves.start')
 
 
 class Stack:
     """
-    Cloths that differ in nothing but their start and their pins, one below the other on a lattice.
+    Cloths that differ only in their start and pins, stored one below the other on one lattice.
 
-    :param scenes: of each
-    :param context: to use, which is current
+    :param scenes: one for each cloth
+    :param context: GL context, which is current
     """
 
     def __init__(self, scenes: Sequence[Scene], context: Context) -> None:
@@ -87,10 +87,10 @@ class Stack:
 
     def step(self, first: int, count: int) -> np.ndarray:
         """
-        Make ``count`` steps of dt, the first of them number ``first``.
+        Make ``count`` steps of dt, numbered from ``first``.
 
-        :return: which cloths were lost on the way, (cloths,) bool: they are at rest where they
-            were before
+        :return: which cloths became non-finite, (cloths,) bool: they are at rest where they were
+            before
         """
         self._state.keep()
         number, end = first, first + count
@@ -133,7 +133,7 @@ class Stack:
         self.pins.hold(self.at(cloths, nodes))
 
     def release(self, cloths: np.ndarray, nodes: np.ndarray) -> None:
-        """Let ``nodes`` (n, 2), each of one of ``cloths`` (n,), go."""
+        """Release ``nodes`` (n, 2), each of one of ``cloths`` (n,)."""
         self.pins.release(self.at(cloths, nodes))
 
     def pinned(self, cloth: int) -> np.ndarray:
@@ -157,7 +157,7 @@ class Stack:
         return largest
 
     def stored_positions(self, cloth: int) -> StoredPositions:
-        """Return where the device has the positions of one cloth."""
+        """Return the place of the positions of one cloth on the device."""
         stored = self._state.stored_positions
         return stored._replace(first=self.layout.index(int(self._rows[cloth, 0]), 0))
 
@@ -187,22 +187,21 @@ class Stack:
 
 class Batch(AbstractContextManager['Batch']):
     """
-    Cloths in mode mass_spring that step together; each as a Simulation of its scene, to the bit.
+    Many cloths in mode mass_spring, each bitwise identical to a Simulation of its scene.
 
-    Cloths that differ in nothing but their start and their pins step in one dispatch; of others,
-    each kind in one. All have the same rows, cols and dt. Air is in all of them where their scenes
-    have some; the bits are those of a Simulation there while all cloths of a kind are held, or
-    none. Colliders act on nodes, and are where the scene has them. There are neither pushes nor
-    grasps nor self-contact.
+    Cloths that differ only in their start and pins step in one dispatch; otherwise there is one
+    dispatch for each kind. All have the same rows, cols and dt. With air, cloths are bitwise
+    identical to a Simulation only if all cloths of a kind are held, or none is. Colliders act on
+    nodes and do not move. There are no pushes, grasps or self-contact.
 
-    A cloth whose state is lost stays where it was before the call in which that happened, and is
-    ``lost`` until it is reset; the others go on.
+    A cloth whose state becomes non-finite stays as it was before that call, and is marked in
+    ``lost`` until it is reset; the others continue.
 
-    :param scenes: of each cloth, or one for all
-    :param count: how many cloths, where ``scenes`` is one
+    :param scenes: one for each cloth, or one for all
+    :param count: number of cloths, if ``scenes`` is a single scene
     :param context: GL context to use; by default one of its own
-    :raises ClothSimError: when a scene can't be one of a batch
-    :raises DeviceError: when there is no device for it
+    :raises ClothSimError: if a scene cannot be part of a batch
+    :raises DeviceError: if there is no suitable device
     """
 
     def __init__(
@@ -214,7 +213,7 @@ class Batch(AbstractContextManager['Batch']):
         self.count = len(self.scenes)
         self.dt: float = self.scenes[0]['dt']
         self.steps = 0
-        # The number of the first step of each cloth since its start.
+        # Number of the step at which each cloth started.
         self._firsts = np.zeros(self.count, dtype=int)
         self._shape = self.scenes[0].rows, self.scenes[0].cols
         self._owns_context = context is None
@@ -231,7 +230,7 @@ class Batch(AbstractContextManager['Batch']):
             is_far = largest_coordinate(scene) > reaches[values]
             kinds.setdefault((values, is_far), []).append(number)
         self._stacks: list[Stack] = []
-        # The cloths of each stack; and the stack of each cloth with its place there.
+        # Cloths of each stack; and for each cloth its stack and its place there.
         self._members = [np.array(numbers) for numbers in kinds.values()]
         self._places = np.empty((self.count, 2), dtype=int)
         for stack, members in enumerate(self._members):
@@ -267,7 +266,7 @@ class Batch(AbstractContextManager['Batch']):
         return self._gathered([stack.positions for stack in self._stacks])
 
     def velocities(self) -> np.ndarray:
-        """Return all velocities [m/s], (count, rows, cols, 3) float32; a pin has its own."""
+        """Return all velocities [m/s], (count, rows, cols, 3) float32, pins included."""
         return self._gathered([stack.velocities for stack in self._stacks])
 
     def max_strains(self) -> np.ndarray:
@@ -279,7 +278,7 @@ class Batch(AbstractContextManager['Batch']):
         return strains
 
     def cloth(self, number: int) -> ClothOfBatch:
-        """Return one of the cloths, for a Camera to look at."""
+        """Return one of the cloths, for a Camera."""
         number = int(self._checked_cloths([integer(number, 'the number of a cloth')])[0])
         stack, place = self._places[number]
         return ClothOfBatch(self, number, self._stacks[stack], int(place), self._context)
@@ -309,9 +308,9 @@ class Batch(AbstractContextManager['Batch']):
 
     def reset(self, cloths: Iterable[int] | None = None) -> None:
         """
-        Put some cloths back to their start: pose, pins and time of their own.
+        Restore the start of some cloths: pose, pins and their own time.
 
-        The ``time`` of the batch goes on, and gusts with it.
+        The ``time`` of the batch continues, and so do gusts.
 
         :param cloths: their numbers; None for all
         """
@@ -352,7 +351,7 @@ class Batch(AbstractContextManager['Batch']):
             self, cloths: np.ndarray, nodes: np.ndarray, targets: np.ndarray,
             speeds: np.ndarray | float) -> None:
         """
-        Begin to move pins in a straight line, each instead of its move under way.
+        Start moving pins in straight lines; a new move replaces the present one of a pin.
 
         :param cloths: the number of the cloth of each, (n,)
         :param nodes: row and col of each, (n, 2); none of them twice
@@ -508,7 +507,7 @@ def _check(scene: Scene) -> None:
 
 
 def _kind(scene: Scene) -> Hashable:
-    """Return what is equal for cloths of one stack."""
+    """Return the values that cloths of one stack share."""
     values: Mapping[str, Any] = scene.values
     return tuple(
         (name, tuple(value) if isinstance(value, list) else value)

@@ -11,20 +11,21 @@
 #define MOST_TOUCHED (COLLIDERS < 4 ? COLLIDERS : 4)
 #define MOST_ROUNDS 32
 #define MOST_ROUNDS_OUT 16
-// Cosine between normals [1], 26 degrees, above which surfaces are one and below minus which they
-// face each other: 1 / (1 - 0.9^2) = 5 multiplies the rounding of a node held on two of them;
+// Cosine between normals [1], 26 degrees: two surfaces above it count as one, and below minus it
+// they face each other: 1 / (1 - 0.9^2) = 5 multiplies the rounding of a node held on two of them;
 // chosen: same bits from 0.5 to 0.99 (benchmarks/constants.py --only FACING).
 #define FACING 0.9
 
-// Each surface of a node. Mesa unrolls a loop over a whole array from a constant on, and llvmpipe
-// then compiles and runs it for surfaces that no node touches. A loop over one at most is no loop.
+// Loop over the surfaces of a node. Mesa unrolls a loop over a whole array from a constant on, and
+// llvmpipe then compiles and runs it for surfaces that no node touches. With at most one there is no
+// loop.
 #if COLLIDERS > 1
 #define FROM(first) min(touched_count, first)
 #define FOR_TOUCHED(i) for (int i = FROM(0); i < touched_count; ++i)
 #else
 #define FOR_TOUCHED(i) for (int i = 0; i < min(touched_count, 1); ++i)
 #endif
-// The collider of such a surface.
+// The collider of surface i.
 #define TOUCHED(i) (COLLIDERS > 1 ? touched[i] : 0)
 
 #define FREE 0
@@ -32,41 +33,41 @@
 #define SLIDES 2
 #define SLIDES_ON_TWO 3
 
-// The colliders that act on nodes by this law, as bits.
+// The colliders that act on nodes by this law, one bit each.
 #ifndef NODE_COLLIDERS
 #define NODE_COLLIDERS 0xffffffffu
 #endif
 
-uniform vec3 collider_velocity[COLLIDERS];    // [m/s] mean one of the centre in the substep
-uniform vec3 collider_turn[3 * COLLIDERS];    // [1/s] rows of (R - 1) / h, R the rotation in it
+uniform vec3 collider_velocity[COLLIDERS];    // [m/s] mean velocity of the centre in the substep
+uniform vec3 collider_turn[3 * COLLIDERS];    // [1/s] rows of (R - 1) / h, R: rotation in the substep h
 uniform float collider_friction[COLLIDERS];
-uniform float collider_thickness[COLLIDERS];  // [m] of a way through it, at least
+uniform float collider_thickness[COLLIDERS];  // [m] min. length of a path through it
 uniform float clearance;                      // [m] half the thickness of the cloth
-uniform float compression;                    // [m/s2] what compression to nothing presses with
-uniform float way_out_speed;                  // [m/s] at which a node that is inside is moved out
+uniform float compression;                    // [m/s2] acceleration by a compression to nothing
+uniform float way_out_speed;                  // [m/s] speed at which a node inside is moved out
 
 struct Contact {
     vec3 velocity;
-    vec3 normal;  // of the surface that it slides on, or the direction of the line of two
+    vec3 normal;  // of the surface that the node slides on, or direction of the line of two surfaces
     int kind;
 };
 
-// Contacts of the last node passed to find_surfaces: the colliders it touches, and the change of
-// velocity by each of them.
+// Contacts of the last node passed to find_surfaces: the colliders that it touches, and the change
+// of velocity by each.
 int touched_count;
 int touched[MOST_TOUCHED];
-vec4 surface[MOST_TOUCHED];  // normal, and distance less the clearance [m]
+vec4 surface[MOST_TOUCHED];  // normal; w: distance less the clearance [m]
 vec3 given[MOST_TOUCHED];
 vec3 carried[MOST_TOUCHED];   // velocity of the surface at the node [m/s]
-float pressed[MOST_TOUCHED];  // change of velocity that a compressed cloth presses with [m/s]
+float pressed[MOST_TOUCHED];  // change of velocity by the pressure of a compressed cloth [m/s]
 vec3 pressing[MOST_TOUCHED];  // the same with its direction
-int held_on;                  // how many, not parallel to each other, act on it
+int held_on;                  // number of non-parallel surfaces that act on it
 #if COLLIDERS > 1
 ivec2 held_by;                // the first two of them
 #else
 const ivec2 held_by = ivec2(0);
 #endif
-float spare_way = 0.0;        // [m] that surfaces may be farther away than a node comes
+float spare_way = 0.0;        // [m] extra reach beyond the displacement of the node
 
 // Rounding of positions [m]; a surface within it is in contact.
 float rounding(vec3 x, int collider) {
@@ -79,8 +80,8 @@ vec4 gap_at(int collider, vec3 x) {
         - vec4(0.0, 0.0, 0.0, clearance);
 }
 
-// Mean velocity in the substep of the material point of the collider that is at x at its begin. It
-// includes the rotation in full, so that nothing creeps on a turning collider.
+// Mean velocity over the substep of the material point of the collider that is at x at the beginning.
+// It includes the full rotation, so that nothing creeps on a rotating collider.
 vec3 surface_velocity(int collider, vec3 x) {
     vec3 arm = x - collider_centre[collider];
     return collider_velocity[collider] + vec3(
@@ -88,7 +89,7 @@ vec3 surface_velocity(int collider, vec3 x) {
         dot(collider_turn[3 * collider + 2], arm));
 }
 
-// The same as gap_at, as the substep of h seconds ends.
+// As gap_at, at the end of a substep of h seconds.
 vec4 gap_at_end(int collider, vec3 x, float h) {
     vec3 row_x = collider_turn[3 * collider];
     vec3 row_y = collider_turn[3 * collider + 1];
@@ -100,15 +101,15 @@ vec4 gap_at_end(int collider, vec3 x, float h) {
     return near - vec4(0.0, 0.0, 0.0, clearance);
 }
 
-// The bodies that a node at x may come to in the time h at the velocity towards. Software asks each
-// node whatever others need, so most bodies are to be ruled out first.
+// The bodies that a node at x may reach in the time h at the velocity towards. llvmpipe computes for
+// each node what any node of its vector needs, so most bodies are ruled out first.
 uint bodies_towards(vec3 x, vec3 towards, float h) {
     return NODE_COLLIDERS
         & (COLLIDERS > 1 ? near_bodies(x, 0.0, h * length(towards) + spare_way) : 1u);
 }
 
-// Remember the surfaces of bodies that a node at x can come to in the time h at the velocity
-// towards, and act on the velocity v.
+// Store the surfaces of bodies that a node at x can reach in the time h at the velocity towards, and
+// that act on the velocity v.
 void find_surfaces(uint bodies, vec3 x, vec3 towards, vec3 v, float h) {
     touched_count = 0;
     for (; bodies != 0u; bodies &= bodies - 1u) {
@@ -137,12 +138,12 @@ void find_surfaces(uint bodies, vec3 x, vec3 towards, vec3 v, float h) {
         pressed[place] = 0.0;
         pressing[place] = vec3(0.0);
     }
-    // The plane along a curved surface reaches beyond it. A node that passes by is not held there;
+    // The tangent plane of a curved surface extends beyond it. A node that passes by is not held by it;
     // one that could pass through a thin collider is.
     if (touched_count == 1) {
         int collider = TOUCHED(0);
-        // Edges pull a node that sticks along the surface with any force: without what holds it
-        // there it would pass by any body.
+        // Only the normal component of v counts: edges may pull a sticking node along the surface
+        // with any force, and without friction it would seem to pass by.
         vec3 n = surface[0].xyz;
         vec3 passing = towards + dot(n, v - towards) * n;
         vec3 w = passing - carried[0];
@@ -155,8 +156,8 @@ void find_surfaces(uint bodies, vec3 x, vec3 towards, vec3 v, float h) {
 }
 
 #if COLLIDERS > 1
-// A surface without friction presses along its normal. The component that drives the node out is
-// left to the friction of the other surface; two equal surfaces take half of it each.
+// A surface without friction presses along its normal. The friction of the other surface takes the
+// component that drives the node out; two equal surfaces take half of it each.
 vec3 pressing_direction(int i, int j) {
     float other = collider_friction[TOUCHED(i)];
     float own = collider_friction[TOUCHED(j)];
@@ -192,7 +193,7 @@ void find_compression(float h) {
 }
 #endif
 
-// Speed along its normal that the velocity v of a node at x lacks for ending at the surface i.
+// Speed along the normal that v lacks for a node at x to end on the surface i [m/s].
 float lacking(int i, vec3 x, vec3 v, float h) {
     float least = -max(surface[i].w - rounding(x, TOUCHED(i)), 0.0) / h;
     return least - dot(surface[i].xyz, v - carried[i]);
@@ -267,7 +268,7 @@ vec2 lacking_on_two(vec3 x, vec3 v, float h) {
 }
 
 // A node that slides on two surfaces is free along their line only. At a sharp angle between them
-// the rounds converge slowly, so that the velocity across the line is corrected at once.
+// the iteration converges slowly, so the velocity across the line is corrected directly.
 void slide_on_two(vec3 x, float h, inout Contact found) {
     vec3 n = surface[held_by.x].xyz;
     vec3 m = surface[held_by.y].xyz;
@@ -278,7 +279,7 @@ void slide_on_two(vec3 x, float h, inout Contact found) {
     found.normal = normalize(cross(n, m));
 }
 
-// Whether the velocity found goes into a surface by more than the rounds leave of the velocity v.
+// Whether the velocity found enters a surface by more than the tolerance of the iteration.
 bool is_any_lacking(vec3 x, vec3 v, vec3 found, float h) {
     float most = -1.0;
     FOR_TOUCHED(i) {
@@ -287,9 +288,9 @@ bool is_any_lacking(vec3 x, vec3 v, vec3 found, float h) {
     return most > 0.0;
 }
 
-// In a wedge that closes, friction can hold a node against any force that drives it out: then no
-// velocity obeys Coulomb's law on all surfaces, and the rounds have no end. Bodies keep their
-// shape, so friction gives way, and the normals act alone.
+// In a closing wedge, friction can hold a node against any force that drives it out. Then no velocity
+// obeys Coulomb's law on all surfaces, and the iteration does not end. Bodies are rigid, so friction
+// is left out, and only the normals act.
 void slip_out(vec3 x, vec3 v, float h, inout Contact found) {
     bool is_jammed = is_any_lacking(x, v, found.velocity, h);
     found.velocity = is_jammed ? v : found.velocity;
@@ -319,14 +320,13 @@ Contact contact_with(uint bodies, vec3 x, vec3 towards, vec3 v, float h) {
         return found;
     }
 #if COLLIDERS > 1
-    // Software runs the body of a branch for nodes that do not take it, but no loop that ends at
-    // once.
+    // llvmpipe runs the body of a branch for all nodes, but skips a loop without rounds.
     uint several = touched_count > 1 ? 1u : 0u;
     for (uint asks = several; asks != 0u; asks &= asks - 1u) {
         find_compression(h);
     }
 #endif
-    // Each surface changes the result of the others.
+    // Each surface changes the result of the others, so iterate.
     int rounds = COLLIDERS > 1 && touched_count > 1 ? MOST_ROUNDS : 1;
     float change = 1e30;
     for (int round = 0; round < rounds && change > 1e-6 * length(v); ++round) {
@@ -343,12 +343,12 @@ Contact contact_with(uint bodies, vec3 x, vec3 towards, vec3 v, float h) {
     return found;
 }
 
-// The same with all bodies.
+// As contact_with, with all bodies.
 Contact contact_at(vec3 x, vec3 towards, vec3 v, float h) {
     return contact_with(bodies_towards(x, towards, h), x, towards, v, h);
 }
 
-// Part of the surface i in the missing room of a node at x [m]; near: the gap at the substep's end.
+// Share of the surface i in the missing gap of a node at x [m]; near: its gap at the end.
 float room_lacking(int i, vec4 near, vec3 x, float h) {
     float lacking = 0.0;
 #if COLLIDERS > 1
@@ -363,8 +363,8 @@ float room_lacking(int i, vec4 near, vec3 x, float h) {
     return lacking;
 }
 
-// Where a node that has come to x in h seconds is moved to if that is inside. Out of one body can
-// be into another: they take turns, within a way that all of them share.
+// Position to which a node at x after h seconds is moved, if x is inside a body. Leaving one body may
+// mean entering another, so they take turns, within one shared displacement.
 vec3 moved_out(vec3 x, float h) {
     float way = h * way_out_speed;
     int rounds = COLLIDERS > 1 && touched_count > 1 ? MOST_ROUNDS_OUT : 1;

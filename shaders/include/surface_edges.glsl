@@ -1,11 +1,12 @@
 // SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Where an edge of the cloth is nearest to a collider.
+// The point of an edge of the cloth that is nearest to a collider.
 
-// Halvings and cuts of the bracket [1]: 12 find the place to 3e-7 of the edge.
+// Max. bisections and tangent cuts of the bracket [1]: 12 locate the point to 3e-7 of the edge.
 #define EDGE_STEPS 14
-// Slope over the difference of both ends [1] at which the search ends, as exact as by all steps.
+// Slope over the difference of the slopes at both ends [1] at which the search ends; as exact as all
+// steps.
 #define EDGE_LEVEL 3e-7
 
 struct NearEdge {
@@ -14,11 +15,11 @@ struct NearEdge {
     vec3 slope;      // of the distance across the edge; its length is 1 where the surface is smooth
 };
 
-// Spheres and capsules: the points within a radius of a core.
+// Spheres and capsules: all points within a radius of a core.
 bool has_round_core(int collider) { return int(collider_shape[collider]) <= SHAPE_CAPSULE; }
 
-// Slope of the distance along an edge; around a round core of half the square of the distance to
-// it, which is linear but for the ends of a capsule.
+// Slope of the distance along an edge; for a round core that of half the squared distance to the core,
+// which is linear except at the ends of a capsule.
 float slope_along(int collider, vec4 near, vec3 along) {
     float slope = dot(near.xyz, along);
     return has_round_core(collider) ? (near.w + collider_size[collider].x) * slope : slope;
@@ -26,7 +27,7 @@ float slope_along(int collider, vec4 near, vec3 along) {
 
 // a, b: ends of the edge from the centre of the collider [m]; first, last: gradients and distances
 // there. The signed distance is convex along a line, and its gradients at both ends of a bracket
-// bound it from below: cuts of the two tangents alternate with halves.
+// bound it from below: the intersection of both tangents alternates with bisection.
 NearEdge nearest_on_edge(int collider, vec3 a, vec3 b, vec4 first, vec4 last) {
     vec3 along = b - a;
     float slope_first = slope_along(collider, first, along);
@@ -36,8 +37,7 @@ NearEdge nearest_on_edge(int collider, vec3 a, vec3 b, vec4 first, vec4 last) {
     bool is_round = has_round_core(collider);
     float level = EDGE_LEVEL * (slope_last - slope_first);
     float begin = 0.0, end = 1.0;
-    // Software runs the body of a branch for edges that do not take it, but no loop that ends at
-    // once.
+    // llvmpipe runs the body of a branch for all edges, but skips a loop without rounds.
     int steps = is_first || is_last ? 0 : EDGE_STEPS;
     for (int i = 0; i < steps; ++i) {
         float middle = 0.5 * (begin + end);
@@ -64,7 +64,7 @@ NearEdge nearest_on_edge(int collider, vec3 a, vec3 b, vec4 first, vec4 last) {
     if (is_last) {
         return NearEdge(1.0, last.w, last.xyz);
     }
-    // At a rim the gradients of both sides differ: the one across the edge lies between them.
+    // At a rim the gradients of both sides differ; the gradient across the edge lies between them.
     float share = slope_last / max(slope_last - slope_first, 1e-30);
     return NearEdge(
         share * begin + (1.0 - share) * end, min(first.w, last.w),

@@ -1,15 +1,15 @@
 // SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Compression of an edge or a face between a thin collider and another one, as of a node between
-// two (find_compression in contact.glsl): where both leave less room than the thickness of the
-// cloth, its point stays between them, and both press on it. Includer: surface_find.glsl.
+// Compression of an edge or a face between a thin collider and another collider, as of a node between
+// two (find_compression in contact.glsl): where the gap between both is less than the thickness of
+// the cloth, the contact point stays between them, and both press on it. Includer: surface_find.glsl.
 
-// The collider that faces the one of a row, or -1.
+// The collider that faces the collider of a row, or -1.
 int facing_of(SurfaceRow row) { return int(row.impulse.w) - 2; }
 
-// Part of the missing room that a row leaves to the collider that it faces: a thin one has rows of
-// its own, others hold nodes exactly.
+// Fraction of the missing gap that a row leaves to the facing collider: half if that is thin and has
+// rows of its own, otherwise all of it, as other colliders hold nodes exactly.
 float part_of_row(int facing) {
     return (SURFACE_COLLIDERS >> uint(facing) & 1u) != 0u ? 0.5 : 1.0;
 }
@@ -18,16 +18,16 @@ vec4 gap_of(int collider, vec3 x) {
     return is_at_end ? gap_at_end(collider, x, substep) : gap_at(collider, x);
 }
 
-// Room that is left at x between two surfaces, n being the normal of the first [m], as the substep
-// ends if it is not, and now.
+// Gap between two surfaces at x [m]: at the end of the substep, and at the time of the row. normal:
+// that of the first surface.
 vec2 room_between(int collider, int facing, float gaps, vec3 normal, vec3 x) {
     float closing = is_at_end ? 0.0 : substep * dot(
         normal, surface_velocity(collider, x) - surface_velocity(facing, x));
     return vec2(gaps - closing, gaps);
 }
 
-// Let a row at the point x know which collider leaves it the least room, and share that with it;
-// return the room as the substep ends [m], 0 if there is no such collider.
+// Find the facing collider that leaves the smallest gap at x, and adapt the row to it; return the gap
+// at the end of the substep [m], 0 if there is no such collider.
 float find_facing(inout SurfaceRow row, int collider, vec3 x) {
     vec3 normal = row.normal.xyz;
     float gap = row.normal.w;
@@ -49,7 +49,7 @@ float find_facing(inout SurfaceRow row, int collider, vec3 x) {
     return at_end;
 }
 
-// Velocity at x of what a row must not enter: of its collider, or of the middle between two.
+// Velocity at x of the surface of a row: its collider, or a plane between two facing ones.
 vec3 carried_by(SurfaceRow row, vec3 x) {
     vec3 velocity = surface_velocity(int(row.weights.w), x);
     int facing = facing_of(row);
@@ -60,7 +60,7 @@ vec3 carried_by(SurfaceRow row, vec3 x) {
     return velocity;
 }
 
-// What both colliders press on the point with, of the room as the substep ends [m/s].
+// Change of velocity of the point by the pressure of both colliders, for the gap at the end [m/s].
 float pressing_with(float room) {
     float share = clamp(-room / max(2.0 * clearance, 1e-30), 0.0, 1.0);
     return substep * compression * share;

@@ -2,23 +2,23 @@
 // SPDX-License-Identifier: Apache-2.0
 
 // Find the contact of an edge or a face of the cloth with a thin collider. Includer: substep [s],
-// vec4 load_begin(index): where a node is as the substep begins, with w as in state_in.glsl,
-// vec3 load_end(index) and vec3 load_speed(index): where it is at the end, and its velocity.
+// vec4 load_begin(index): position of a node at the beginning of the substep, w as in state_in.glsl,
+// vec3 load_end(index) and vec3 load_speed(index): position at the end, and velocity.
 
 #include "surface_edges.glsl"
 #include "surface_row.glsl"
 
-// Min. weight of a node of a face [1]: what is nearer to its edge is a contact of the edge.
+// Min. weight of a node of a face [1]: a contact nearer to an edge belongs to the edge.
 #define LEAST_WEIGHT 1e-5
 
-bool is_at_end;  // whether rows are of the positions and colliders at the end of the substep
-bool has_held = false;  // whether a row has acted before: what holds it must not let it pass
+bool is_at_end;  // whether rows use positions and colliders at the end of the substep
+bool has_held = false;  // whether a row has acted before: then it cannot pass by the surface
 
 vec3 place_of(int index) {
     return is_at_end ? load_end(index) : load_begin(index).xyz;
 }
 
-// From the centre of the collider, in the axes that it has as the substep begins.
+// Vector from the centre of the collider, rotated back to its axes at the beginning of the substep.
 vec3 arm_of(int collider, vec3 x) {
     vec3 arm = x - collider_centre[collider];
     if (is_at_end) {
@@ -35,7 +35,7 @@ vec3 turned_on(int collider, vec3 normal) {
         dot(collider_turn[3 * collider + 2], normal)) : normal;
 }
 
-// Distance of two ends of an edge as the substep ends, from x at its begin with velocities v.
+// Length of an edge at the end of the substep, from positions x at the beginning and velocities v.
 float distance_at_end(int collider, vec3 a, vec3 b, vec3 va, vec3 vb) {
     bool was_at_end = is_at_end;
     is_at_end = true;
@@ -49,18 +49,18 @@ float distance_at_end(int collider, vec3 a, vec3 b, vec3 va, vec3 vb) {
 
 SurfaceRow no_row() { return SurfaceRow(vec4(0.0), vec4(0.0), vec4(0.0)); }
 
-// Way of a node in the substep relative to a collider [m].
+// Displacement of a node in the substep relative to a collider [m].
 float way_of(int collider, int index) {
     return substep * length(load_speed(index) - surface_velocity(collider, place_of(index)));
 }
 
-// Max. gap of a contact of an edge [m]: what it may come nearer by; at the end, what is left within
-// the collider.
+// Max. gap of a contact of an edge [m]: the distance by which it may approach; at the end, only edges
+// inside the collider count.
 float edge_limit(int collider, int first, int second, float around) {
     return is_at_end ? -2.0 * around : max(way_of(collider, first), way_of(collider, second));
 }
 
-// The end of an edge: place, way as of way_of, and distance to a collider [m].
+// The end of an edge: position, displacement as by way_of, and distance to a collider [m].
 struct EdgeEnd {
     vec3 place;
     float way;
@@ -73,7 +73,7 @@ EdgeEnd edge_end(int collider, int index) {
         distance_to_collider(collider, arm_of(collider, place)).w);
 }
 
-// Whether an edge is near enough to touch: no distance falls by more than the way along it.
+// Whether an edge is near enough to touch: the distance changes by at most the length along it.
 bool may_edge_touch(int collider, EdgeEnd a, EdgeEnd b) {
     float around = rounding(a.place, collider);
     float limit = is_at_end ? -2.0 * around : max(a.way, b.way);
@@ -92,7 +92,7 @@ SurfaceRow edge_row(int collider, int first, int second) {
     NearEdge near = nearest_on_edge(collider, arm_a, arm_b, at_a, at_b);
     float gap = near.distance - clearance;
     bool is_near = near.place > 0.0 && near.place < 1.0 && gap < limit + around;
-    // Its nodes own what is nearest to one of them.
+    // A contact at a node belongs to the node.
     is_near = is_near && near.distance < min(at_a.w, at_b.w) - around;
     float steep = length(near.slope);
     is_near = is_near && steep > 1e-6;
@@ -109,7 +109,7 @@ SurfaceRow edge_row(int collider, int first, int second) {
         vec4(1.0 - near.place, near.place, 0.0, float(collider)));
 }
 
-// The points of a collider that a face can touch, in its axes; normal: of the face towards it.
+// The points of a collider that a face can touch, in its axes; normal: of the face.
 vec3 tip_of(int shape, vec3 size, vec3 normal, int tip) {
     if (shape == SHAPE_CAPSULE) {
         return vec3(0.0, 0.0, tip == 0 ? -size.y : size.y);
@@ -127,13 +127,13 @@ vec3 tip_of(int shape, vec3 size, vec3 normal, int tip) {
     return vec3(0.0);
 }
 
-// Depth below a tip, along each axis, of the point that core_of returns [m].
+// Depth of the point of core_of below a tip, along each axis [m].
 float depth_of_core(int shape, vec3 size) {
     return shape == SHAPE_BOX ? min(size.x, min(size.y, size.z))
         : shape == SHAPE_CYLINDER ? min(size.x, size.y) : 0.0;
 }
 
-// A point within a collider that is as deep below a tip as any can be.
+// A deepest point of a collider below a tip.
 vec3 core_of(int shape, vec3 size, vec3 tip) {
     vec3 outwards = shape == SHAPE_BOX ? sign(tip)
         : vec3(tip.xy / max(length(tip.xy), 1e-30), sign(tip.z));
@@ -153,7 +153,7 @@ float face_limit(int collider, ivec3 nodes, float around) {
 bool may_face_touch(int collider, ivec3 nodes, int tip) {
     int shape = int(collider_shape[collider]);
     vec3 size = collider_size[collider];
-    // All points that a tip can be lie within a radius of the middle of them.
+    // All possible points of a tip are within a radius of their middle.
     vec3 middle = tip_of(shape, size, vec3(0.0), tip);
     float radius = shape == SHAPE_BOX ? 0.0 : size.x;
     middle.xy = shape == SHAPE_CYLINDER ? vec2(0.0) : middle.xy;
@@ -164,7 +164,7 @@ bool may_face_touch(int collider, ivec3 nodes, int tip) {
     vec3 away = middle.x * collider_axes[3 * collider]
         + middle.y * collider_axes[3 * collider + 1] + middle.z * collider_axes[3 * collider + 2] - x0;
     float limit = max(face_limit(collider, nodes, around) + around, 0.0) + clearance;
-    // A tip lies below the face by no more than its core does.
+    // A tip is at most as deep below the face as its core.
     float deepest = 2.0 * depth_of_core(shape, size);
     return tip < tip_count(shape) && length(away) <= reach + radius + max(limit, deepest);
 }
@@ -182,8 +182,8 @@ SurfaceRow face_row(int collider, ivec3 nodes, int tip) {
     vec3 axis_x = collider_axes[3 * collider], axis_y = collider_axes[3 * collider + 1];
     vec3 axis_z = collider_axes[3 * collider + 2];
     vec3 size = collider_size[collider];
-    // Towards the collider: a point deep within it below the tip, which is never passed. For the
-    // points of a cylinder the normal decides which they are, and their opposites are others.
+    // The side of the face is decided by a point deep inside the collider, which the face never
+    // passes. The tips of a cylinder depend on the normal; opposite ones are separate tips.
     vec3 in_axes = vec3(dot(axis_x, normal), dot(axis_y, normal), dot(axis_z, normal));
     vec3 own = tip_of(shape, size, in_axes, tip);
     vec3 core = core_of(shape, size, own);
@@ -208,7 +208,7 @@ SurfaceRow face_row(int collider, ivec3 nodes, int tip) {
         vec4(1.0 - second - third, second, third, float(collider)));
 }
 
-// Whether there is the edge or the face of a row at its node.
+// Whether the edge or face of a row exists at its node.
 bool owns(int index, int row) {
     vec4 here = load_begin(index);
     if (row == 0) {
@@ -220,14 +220,14 @@ bool owns(int index, int row) {
     return edge_share(here, load_begin(index + PITCH + 1), EDGE_DIAGONAL) > 0.0;
 }
 
-// The thin colliders that the cell of a node may come to.
+// The thin colliders that the cell of a node may reach.
 uint colliders_near_cell(int index, uint bodies) {
     vec3 x = load_begin(index).xyz;
     ivec3 others = index + ivec3(1, PITCH, PITCH + 1);
     float reach = 0.0;
     for (int i = 0; i < 3; ++i) {
         vec4 other = load_begin(others[i]);
-        // Ghosts are nowhere.
+        // Ghost nodes have no position.
         if (other.w != 0.0) {
             reach = max(reach, length(other.xyz - x));
         }

@@ -7,13 +7,13 @@
 #define SURFACE_EDGES 3
 #define SURFACE_ROWS_OF_BODY (SURFACE_EDGES + 2 * SURFACE_TIPS)
 
-// What acts on up to three nodes, with weights that add up to 1.
+// A contact of up to three nodes, with weights that add up to 1.
 struct SurfaceRow {
-    vec4 normal;    // away from the collider, and the gap [m] less the clearance
-    // On the cloth [m/s of a node amid it], and whether there is a contact: 0, or 1, or 2 and the
-    // number of a collider that faces its own.
+    vec4 normal;    // away from the collider; w: the gap less the clearance [m]
+    // Impulse on the cloth [m/s of an inner node]; w: 0 for no contact, 1 for a contact, 2 + the
+    // number of the facing collider for a contact between two.
     vec4 impulse;
-    vec4 weights;   // of the three nodes, and the collider
+    vec4 weights;   // of the three nodes; w: the collider
 };
 
 // The offset of the nodes of a row from its owner.

@@ -1,44 +1,43 @@
 // SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Contacts of edges and faces with thin colliders in an explicit substep, and the nodes that they
-// act on.
+// Contacts of edges and faces with thin colliders in an explicit substep, and their nodes.
 
 #include "surface_nodes.glsl"
 #include "surface_row.glsl"
 
-// A row, and some entries of lists, which have as much room as there are rows.
+// A row, and one entry of each list, whose length is at most the number of rows.
 struct SurfacePlace {
     SurfaceRow row;
-    uvec2 acting;   // a row that acts: its place and its owner
-    uvec2 entry;    // at the first row of an entry: its owner and its collider
-    uvec2 of_node[3];  // rows of nodes, one node after another: place, and bits of the weight
+    uvec2 acting;   // list of acting rows: place and owner
+    uvec2 entry;    // at the first row of an entry: owner and collider
+    uvec2 of_node[3];  // rows of each node, node after node: place, and bits of the weight
     uvec2 spare;
 #if COLLIDERS > 1
-    // Of the collider that the row faces: friction of its surface, and what both press with [m/s].
+    // Friction of the facing collider [1], and change of velocity by the pressure of both [m/s].
     vec4 facing;
 #endif
 };
 
 layout(std430, binding = SURFACE_ROWS) coherent buffer SurfaceRows {
     uint surface_entries;
-    uint surface_lost;      // owners for which there was no room
+    uint surface_lost;      // owners that did not fit into the buffer
     uint surface_missed;    // rows with a node that was not listed
     uint acting_rows;
     uint held_nodes;
     uint listed_rows;       // of nodes
-    uint surface_unsettled;  // substeps whose rounds did not settle
+    uint surface_unsettled;  // substeps whose iteration did not converge
     uint surface_spare;
     uint kept_time;     // substeps until now, modulo 2^32
-    float kept_length;  // of the last one in which rows acted [s]; 0: nothing is kept
+    float kept_length;  // length of the last substep with acting rows [s]; 0: nothing is kept
     uvec2 kept_spare;
-    // Impulse of each row when it last acted, without that of the collider that it faces [m/s], and
-    // bits of the time: in the next substep, rounds start from there.
+    // Impulse of each row when it last acted, without that of the facing collider [m/s], and bits of
+    // the time: the iteration of the next substep starts from it.
     vec4 kept[SURFACE_STORED * THIN_COLLIDERS * SURFACE_ROWS_OF_BODY];
     SurfacePlace surface_rows[];
 };
 
-// Where the impulse of a row is kept.
+// Index of the kept impulse of a row.
 int kept_place(int index, int collider, int row) {
     int rank = bitCount(SURFACE_COLLIDERS & ((1u << uint(collider)) - 1u));
     return (rank * SURFACE_STORED + index) * SURFACE_ROWS_OF_BODY + row;

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-"""The colliders of a run on the device: where they are, and what they do to the cloth."""
+"""The colliders of a run on the device: their poses, and their contact with the cloth."""
 
 from collections.abc import Iterable
 from dataclasses import dataclass
@@ -33,36 +33,36 @@ from cloth_sim_ros.sim.state import State
 import numpy as np
 
 STICKS, SLIDES = 1, 2
-# Thickness of a plane, which has no end [m]: larger than any displacement of a node.
+# Thickness of a plane [m]: larger than any displacement of a node.
 _ENDLESS = 1e9
 # Size of an entry of the contact record, a vec4 [bytes].
 _ENTRY_BYTES = 16
-# Speed at which a node inside a body is moved out, over the root of the size of the cloth
-# [sqrt(m) / s]: a third of sqrt(gravity x size); chosen: a squeezed cloth does not change from
-# 0.25 to 4, one that begins inside a body by 1 % (constants.py --only _WAY_OUT_SPEED).
+# Speed at which a node inside a body is moved out, over the square root of the cloth size
+# [sqrt(m) / s]: a third of sqrt(gravity x size); chosen: from 0.25 to 4 a squeezed cloth does not
+# change, one that starts inside a body by 1 % (constants.py --only _WAY_OUT_SPEED).
 _WAY_OUT_SPEED = 1.0
-# Max. number of substeps that are counted [1]: the largest exact integer of float32.
+# Max. serial number of a substep [1]: the largest exact integer of float32.
 _MOST_SERIAL = 2**24
-# Rounding of positions over the coordinates [1], which counts as no way: ten times that of
+# Displacement over the coordinates [1] that is ignored as rounding: ten times that of
 # contact.glsl.
 _ROUNDING = 4e-6
-# Depth of a node in a collider [m] above which contact does not hold, or twice the rounding of
-# contact.glsl where that is more; 1e-6 is what the random scenes allow (test_contact_scenes.py).
+# Depth of a node in a collider [m] above which contact is reported as lost, or twice the rounding
+# of contact.glsl if that is more; the random scenes of test_contact_scenes.py allow 1e-6.
 _INSIDE = 1e-6
-# Workgroups along x, y and z, and number, of the blocks and of the nodes that are near.
+# Workgroups along x, y and z and number of near blocks, then the same of near nodes.
 _NONE_NEAR = np.array([0, 1, 1, 0, 0, 1, 1, 0], dtype=np.uint32)
-# Place of the number of nodes.
+# Index of the number of near nodes.
 _NEAR_NODES = 7
-# Offset of the workgroups of the nodes [bytes].
+# Offset of the workgroups of near nodes [bytes].
 _NODE_GROUPS = 16
-# Room for each block and node in the lists [bytes].
+# Size of a list entry of a block or node [bytes].
 _NEAR_BYTES = 8
 
 
 @dataclass(frozen=True)
 class ContactForce:
     """
-    What the cloth does to one collider in the last step of dt, and how it touches it.
+    Force of the cloth on one collider, mean over the last step of dt, and its contacts.
 
     :param name: of the collider
     :param force: on the collider [N], (3,)
@@ -80,10 +80,10 @@ class ContactForce:
 
 class Contacts:
     """
-    Lets colliders act on the cloth, docs/explanation/contact.md.
+    Apply contact with colliders to the cloth, docs/explanation/contact.md.
 
-    A substep asks ``join`` for its colliders. What they have done in a step of dt stands in a
-    buffer until the next one begins.
+    A substep gets its colliders from ``join``. The impulses of a step of dt stay in a buffer until
+    the next step begins.
     """
 
     def __init__(self, scene: Scene, layout: Layout) -> None:
@@ -91,21 +91,21 @@ class Contacts:
         self.colliders = scene.colliders
         self._scene = scene
         self._layout = layout
-        # Marks of each collider and node; and the last substep in which one was touched.
+        # Marks of each collider and node, and the last substep with a contact.
         self._record = Buffer((len(scene.colliders) * layout.stored + 1) * _ENTRY_BYTES)
-        # The one of the moment of ``keep``, and one that is not in use.
+        # The record at the time of ``keep``, and an unused one.
         self._kept: Buffer | None = None
         self._spare: Buffer | None = None
-        # The one before a substep that may be made again.
+        # The record before a substep that may be repeated.
         self._before_try: Buffer | None = None
-        # A read from the record itself would have it moved to the host's memory.
+        # Reading the record itself would make the driver move it to host memory.
         self._polled = Buffer(_ENTRY_BYTES, is_polled=True) if layout.is_asynchronous else None
         self.clearance = 0.5 * scene['contact.thickness']
         self.reach = np.array([collider.reach for collider in scene.colliders])
         self.reach_from_core = np.array([body.reach_from_core for body in scene.colliders])
-        # Half axes of long bodies in their own axes [m], (n, 3).
+        # Half axes of long bodies in the frame of the body [m], (n, 3).
         self.cores = np.array([collider.core for collider in scene.colliders])
-        # How far a node of an edge or face may be from what touches that [m].
+        # Max. distance of a node from a contact of its edge or face [m].
         self.feature_reach = 1.5 * math.hypot(*scene.spacing) if scene.thin_colliders else 0.0
         self._serial = self._decision = 0
         self._program = SceneProgram('contact.comp', scene, layout, {'NOTES_CHANGES': 0})
@@ -113,7 +113,7 @@ class Contacts:
         self._near_nodes = SceneProgram('near_nodes.comp', scene, layout)
         self._near_blocks = SceneProgram('near_blocks.comp', scene, layout)
         entries = layout.block_count + layout.rows * layout.cols
-        # An even number, as a texel has two of them.
+        # An even number, as a texel holds two entries.
         self._near = Buffer(_NONE_NEAR.nbytes + _NEAR_BYTES * (entries + entries % 2))
         self._clear_near = self._near.write_calls(_NONE_NEAR)
         self._foresight = SceneProgram('foresee_contact.comp', scene, layout)
@@ -124,27 +124,27 @@ class Contacts:
         self.begin_run()
 
     def begin_run(self) -> None:
-        """Put the colliders where the scene has them."""
+        """Put the colliders at their poses of the scene."""
         self._paths = self._paths_of_scene()
         self._forget_touch()
         self.forget()
 
     def begin_step(self) -> None:
-        """Forget what was done in the step before."""
+        """Clear the record of the previous step."""
         if self._record is self._kept:
             self._record = self._spare or Buffer(self._kept.bytes)
             self._spare = None
         self._record.clear()
 
     def keep(self) -> tuple[Buffer, bool]:
-        """Return what ``restore`` needs to come back to this moment: what the last step did."""
+        """Return what ``restore`` needs to return to this moment: the record of the last step."""
         if self._kept is not self._record:
             self._spare = self._kept
         self._kept = self._record
         return self._kept, self._surface is not None and self._surface.keep()
 
     def restore(self, kept: tuple[Buffer, bool]) -> None:
-        """Go back to the moment of ``keep``, the latest one; colliders stay on their ways."""
+        """Return to the moment of the latest ``keep``; the paths of colliders are kept."""
         record, has_impulses = kept
         if self._record is not record:
             self._record, self._spare = record, self._record
@@ -152,31 +152,31 @@ class Contacts:
             self._surface.restore(has_impulses)
 
     def forget(self) -> None:
-        """Drop what was kept of the state of earlier steps."""
+        """Drop the memory of earlier steps."""
         self.begin_step()
         if self._surface is not None:
             self._surface.forget()
 
     def begin_try(self) -> None:
-        """Remember what was done so far in the step, for ``undo_try``."""
+        """Copy the record of the step so far, for ``undo_try``."""
         if self._before_try is None:
             self._before_try = Buffer(self._record.bytes)
         self._record.copy_to(self._before_try, 0, self._record.bytes)
 
     def undo_try(self) -> None:
-        """Forget what was done since ``begin_try``."""
+        """Restore the record of ``begin_try``."""
         assert self._before_try is not None
         self._before_try.copy_to(self._record, 0, self._record.bytes)
 
     def join(self, forcing: Forcing, begin: float, end: float) -> Forcing:
-        """Return ``forcing`` with the colliders of a substep from ``begin`` to ``end`` [s]."""
+        """Return ``forcing`` plus the colliders of a substep from ``begin`` to ``end`` [s]."""
         touch = self._touch_in(begin, end)
         if self._joined is None or self._joined[:2] != (forcing, touch):
             self._joined = forcing, touch, replace(forcing, touch=touch)
         return self._joined[2]
 
     def present(self, time: float) -> tuple[Collider, ...]:
-        """Return the colliders where they are at ``time`` [s]."""
+        """Return the colliders at their poses of ``time`` [s]."""
         return tuple(
             replace(collider, position=pose.position, orientation=pose.orientation)
             for collider, pose in zip(self.colliders, self._poses(time)))
@@ -188,24 +188,24 @@ class Contacts:
         return path
 
     def moved(self, now: float) -> tuple[MovedFrame, ...]:
-        """Return those that are not where the scene alone has them ``now`` [s]."""
+        """Return the colliders that are not at their poses of the scene ``now`` [s]."""
         return self._paths.differing(self._paths_of_scene(), now)
 
     def place(self, name: str, pose: Pose, now: float) -> None:
-        """Have a collider at rest at ``pose`` from ``now`` [s] on, until its next move."""
+        """Put a collider at rest at ``pose`` from ``now`` [s] on, until its next move."""
         self._paths.add(FrameMove(
             name, pose.position, pose.orientation, speed=math.inf, angular_speed=math.inf,
             start=now))
         self._forget_touch()
 
     def quiet_until(self, now: float) -> float:
-        """Return until when no collider moves: ``now`` itself where one does, or infinite."""
+        """Return the time [s] until which no collider moves: ``now`` if one does, or infinity."""
         return self._paths.quiet_until(now)
 
     def begin_explicit(
             self, touch: '_Touch', step: Program, length: float, *, on_surface: bool) -> None:
         """
-        Have ``step``, which is in use, list what ``act`` acts on in substeps of ``length``.
+        Have ``step``, which is in use, list the nodes for ``act`` in substeps of ``length`` [s].
 
         :param on_surface: whether thin colliders act on edges and faces as well
         """
@@ -233,25 +233,25 @@ class Contacts:
             self.set_in(program, touch, length)
 
     def _bind_near(self) -> None:
-        """Bind the lists of an explicit substep, and what its passes add to."""
+        """Bind the lists of an explicit substep, and the record."""
         self._near.bind_storage(bindings.NEAR_BLOCKS)
         if self._layout.texture_loads:
             self._near.bind_texture(bindings.NEAR_BLOCKS)
             self._record.bind_texture(bindings.CONTACTS)
 
     def list_none(self) -> None:
-        """Empty the lists of an explicit substep that is about to be made."""
+        """Empty the lists before an explicit substep."""
         make(self._clear_near)
 
     def act_after_limits(
             self, touch: '_Touch', state: State, length: float, changes: Buffer,
             held_at: int, layers: Layers | None) -> None:
         """
-        Act on an explicit substep whose velocities have been changed since it was made.
+        Apply contact to an explicit substep whose velocities were changed after it was made.
 
-        :param changes: of limit_give.glsl, where what is done to nodes is added
-        :param held_at: where its entries of held.glsl are, bound by now; below 0: nowhere
-        :param layers: of the cloth that touch, as in act_beside; None where none do
+        :param changes: buffer of limit_give.glsl, to which changes of velocity are added
+        :param held_at: first entry of the substep in held.glsl, which is bound; -1 for none
+        :param layers: of the cloth that touch, as in act_beside; None for none
         """
         self._list_blocks(touch, state, length)
         noting = self._noting_program.use()
@@ -269,7 +269,7 @@ class Contacts:
         """
         Move edges and faces out of thin colliders at the end of an implicit substep.
 
-        Both states are bound, and the one that is written is the one at the end.
+        Both states are bound; the state that is written is the one at the end.
         """
         if self._surface is None:
             return
@@ -285,7 +285,7 @@ class Contacts:
         self._surface.move_out()
 
     def _list_blocks(self, touch: '_Touch', state: State, length: float) -> None:
-        """List the blocks near colliders in a substep that is written."""
+        """List the blocks near colliders in a substep whose end state is written."""
         self.list_none()
         program = self._near_blocks.use()
         program.set_float('substep', length)
@@ -297,11 +297,11 @@ class Contacts:
         program.dispatch(*self._layout.groups)
 
     def act(self, held_at: int, *, on_surface: bool) -> None:
-        """Act on an explicit substep that was made, both states of which are bound."""
+        """Apply contact to an explicit substep; both its states are bound."""
         self._act(self._program, self._surface if on_surface else None, held_at)
 
     def act_beside(self, layers: Layers, held_at: int) -> None:
-        """Act on an explicit substep in which ``layers`` of the cloth touch, and let them act."""
+        """Apply contact with bodies and between ``layers`` to an explicit substep."""
         self._act_beside(layers, self._program, held_at)
 
     def _act_beside(
@@ -343,14 +343,14 @@ class Contacts:
             surface.move_out()
 
     def has_acted(self) -> bool:
-        """Wait for ``act``, and return whether a node was so near that it may have acted on it."""
+        """Wait for ``act``; return whether any node was near a collider."""
         head = np.empty_like(_NONE_NEAR)
         self._near.read_into(head)
         return bool(head[_NEAR_NODES])
 
     def foresee(
             self, touch: '_Touch', state: State, forcing: Forcing, ahead: float) -> None:
-        """Write the velocities of the next state of ``state``, as they are expected."""
+        """Write the expected velocities of the state after ``state``."""
         program = self._foresight.use_for_step(forcing, ahead)
         self.set_in(program, touch, ahead)
         state.bind_in()
@@ -375,35 +375,35 @@ class Contacts:
             self._set[program] = touch, length
 
     def set_marks_in(self, program: Program) -> None:
-        """Set what a pass of an implicit step marks that a node touches, or moves, with."""
+        """Set the marks that a pass of an implicit step leaves for a contact or a motion."""
         program.set_float('serial', self._serial)
         program.set_float('decision', self._decision)
 
     def begin_substep(self) -> None:
-        """Begin to ask anew whether anything is touched."""
+        """Start a new substep, without contacts."""
         self._serial = self._serial % _MOST_SERIAL + 1
 
     def is_touched(self) -> bool:
-        """Return whether a node has touched a collider in the substep, of an implicit step."""
+        """Return whether any node has touched a collider in this implicit substep."""
         return bool(self._marks()[0] == self._serial)
 
     def begin_decision(self) -> None:
-        """Begin to ask anew whether another solve is due."""
+        """Start a new decision whether another solve is required."""
         self._decision = self._decision % _MOST_SERIAL + 1
 
     def is_solve_due(self, *, is_exact: bool = False) -> bool:
         """
-        Return whether the last decision has moved nodes by more than a solve leaves.
+        Return whether contact has moved nodes by more than the tolerance of a solve.
 
-        :param is_exact: True where the solve before it had nothing to do: then another one is due
-            only if a node sticks, slides or is let go that did not
+        :param is_exact: True if the previous solve had nothing to do: then another one is required
+            only if a node begins to stick or slide, or is released
         """
         due, turned = self._marks()[1:3] == self._decision
         return bool(due and (turned or not is_exact))
 
     def forces(self, positions: np.ndarray, time: float) -> tuple[ContactForce, ...]:
         """
-        Return the force on each collider, the mean over the last step of dt.
+        Return the force on each collider, mean over the last step of dt.
 
         :param positions: of the nodes now, (rows, cols, 3) [m]
         :param time: simulated, now [s]
@@ -422,7 +422,7 @@ class Contacts:
         return tuple(found)
 
     def with_contacts(self, snapshot: Snapshot) -> Snapshot:
-        """Return ``snapshot``, which is of the end of a step, with what touches in it."""
+        """Return ``snapshot``, taken at the end of a step, with its contacts."""
         positions = snapshot.positions.astype(float)
         kinds = self._read_record()[..., 3]
         gaps = np.stack([
@@ -455,7 +455,7 @@ class Contacts:
             self._surface.delete()
 
     def _marks(self) -> np.ndarray:
-        """Return the last entry of the record, (4,): what decides about substeps and solves."""
+        """Return the last entry of the record, (4,): the marks of substeps and solves."""
         marks = np.empty(4, dtype=np.float32)
         begin = self._record.bytes - _ENTRY_BYTES
         if self._polled is None:
@@ -499,7 +499,7 @@ class Contacts:
             turns=np.concatenate([
                 self._paths.turn(name, begin, end) if moves else np.zeros((3, 3))
                 for name in names]))
-        # Where nothing moves, it serves until something does.
+        # If nothing moves, it is valid until something does.
         if not (np.any(touch.velocities) or np.any(touch.turns)):
             self._same_from, self._same_until = begin, max(end, self.quiet_until(begin))
         else:
@@ -528,10 +528,11 @@ class _Touch:
     """
     The colliders in one substep.
 
-    :param centres: as it begins [m], (n, 3)
-    :param axes: their x, y and z axes as it begins, (3 n, 3)
-    :param velocities: mean ones of the centres [m/s], (n, 3)
-    :param turns: rows of what takes an arm to the mean velocity of its end [1/s], (3 n, 3)
+    :param centres: at the beginning [m], (n, 3)
+    :param axes: x, y and z axes at the beginning, (3 n, 3)
+    :param velocities: mean velocities of the centres [m/s], (n, 3)
+    :param turns: rows of the matrices from a lever arm to the mean velocity of its end [1/s],
+        (3 n, 3)
     """
 
     def __init__(
@@ -544,21 +545,21 @@ class _Touch:
         self.turns = turns
 
     def near_limits(self, length: float) -> np.ndarray:
-        """Return the distances from the cores within which a node at rest is near, (n,) [m]."""
+        """Return the distances from the cores within which a node at rest is near [m], (n,)."""
         clearance = self._contacts.clearance
         largest = np.abs(self.centres).max(axis=-1) + self._contacts.reach + clearance
-        # What positions are rounded by, and more.
+        # More than the rounding of positions.
         return (
             self._contacts.reach_from_core + clearance + self._contacts.feature_reach
             + length * np.linalg.norm(self.velocities, axis=-1) + _ROUNDING * largest + 1e-8)
 
     def cores(self) -> np.ndarray:
-        """Return the half axes of long bodies [m], (n, 3); 0 for others, whose centre it is."""
+        """Return the half axes of long bodies [m], (n, 3); 0 for others, whose core is a point."""
         axes = self.axes.reshape(-1, 3, 3)
         return np.einsum('na,nax->nx', self._contacts.cores, axes)
 
     def near_shares(self, length: float) -> np.ndarray:
-        """Return the shares of these distances that are left by the rotation, (n,)."""
+        """Return the fractions of these distances that remain with the rotation, (n,)."""
         rates = np.linalg.norm(self.turns.reshape(-1, 9), axis=-1)
         return np.maximum(1.0 - length * rates, 0.0)
 
@@ -613,7 +614,7 @@ class _Touch:
 
 def _is_inside(gaps: np.ndarray, positions: np.ndarray) -> bool:
     """
-    Return whether a node is inside a collider, and no other one leaves it no room beside that.
+    Return whether a node is inside a collider although other colliders leave room beside it.
 
     :param gaps: of each collider and node [m], (n, rows, cols)
     :param positions: (rows, cols, 3) [m]

@@ -18,25 +18,25 @@ from cloth_sim_ros.sim.model.colliders import surface_defines
 from cloth_sim_ros.sim.scene import Scene
 import numpy as np
 
-# Invocations of the workgroup [1], on software: as many as its vectors have lanes; and on a GPU.
+# Invocations of the workgroup [1]: on the CPU as many as a vector has lanes; on a GPU.
 _LOCAL_OF_SOFTWARE, _LOCAL_OF_GPU = 8, 64
 # Size of an entry of each kind in surface_rows.glsl and surface_nodes.glsl [bytes].
 _ROW_BYTES, _NODE_BYTES, _HEAD_BYTES = 96, 48, 48
-# Where the head has what is kept for the next substep, and the length of the last one; and the
-# size of the impulse of a row there [bytes].
+# In the head: offset of what the next substep reuses, offset of the length of the last substep,
+# and size of the impulse of a row [bytes].
 _KEPT_AT, _LENGTH_AT, _KEPT_BYTES = 32, 36, 16
-# Size of what a row has of another collider, where there is one [bytes].
+# Additional size of a row in a scene of several colliders [bytes].
 _FACING_BYTES = 16
-# Size of a node where layers of the cloth touch as well [bytes]: with the sum of its impulses.
+# Size of a node with self-contact [bytes]: it includes the sum of its impulses.
 _LAYERED_NODE_BYTES = 64
-# Turns of thin colliders and layers in a substep [1].
+# Alternations between thin colliders and layers in a substep [1].
 _TURNS = 4
-# Parts of surface_contact.comp, between which layers act.
+# Parts of surface_contact.comp, between which layers are handled.
 _LISTS, _ACTS, _GIVES = 1, 2, 4
 
 
 class SurfaceContact:
-    """The passes of surface_contact.comp, and where they keep rows and nodes."""
+    """The passes of surface_contact.comp, and their buffers of rows and nodes."""
 
     def __init__(self, scene: Scene, layout: Layout) -> None:
         """Allocate; the passes are compiled when they are first used."""
@@ -45,7 +45,7 @@ class SurfaceContact:
         defines = {
             'SURFACE_LOCAL': local, 'SURFACE_STORED': layout.stored,
             **surface_defines(scene.colliders, numbers)}
-        # By whether changes of velocity are noted for the limits of edges.
+        # Key: whether changes of velocity are noted for the strain limits.
         self._impulses = {notes: SceneProgram(
             'surface_contact.comp', scene, layout,
             {**defines, 'WAYS_OUT': 0, 'NOTES_CHANGES': int(notes), 'FINDS_IMPULSES': 1})
@@ -64,7 +64,7 @@ class SurfaceContact:
             'near_nodes.comp', scene, layout, {**defines, 'HAS_SURFACE': 1})
         self._layout = layout
         self._has_warned = False
-        # Substeps whose rounds had not settled, when that was asked last.
+        # Substeps whose iteration had not converged, at the last query.
         self._unsettled = 0
         self._most_entries = scene.node_count * len(numbers)
         row_bytes = _ROW_BYTES + (_FACING_BYTES if len(scene.colliders) > 1 else 0)
@@ -76,28 +76,28 @@ class SurfaceContact:
         self._rows = Buffer(np.zeros(
             (_HEAD_BYTES + kept_bytes + self._most_entries * rows * row_bytes) // 4,
             dtype=np.float32))
-        # Size of what is kept for the next substep [bytes], and a copy of it where there is one.
+        # Size of what the next substep reuses [bytes], and a copy of it for ``restore``.
         self._kept_bytes = _HEAD_BYTES - _KEPT_AT + kept_bytes
         self._copy: Buffer | None = None
         self._has_acted = False
 
     def programs(self, *, notes_changes: bool) -> Iterator[Program]:
-        """Yield each pass, in use, to be set to a substep."""
+        """Yield each pass, in use, for setting its uniforms of a substep."""
         yield self._others[notes_changes].use()
         yield from self._set(self._near_nodes, self._impulses[notes_changes], self._ways)
 
     def programs_of_ways(self) -> Iterator[Program]:
-        """Yield the passes that move edges and faces out alone, as ``programs``."""
+        """Yield the passes that only move edges and faces out, as ``programs`` does."""
         yield from self._set(self._near_nodes, self._entries, self._ways)
 
     def forget(self) -> None:
-        """Drop the impulses of the last substep: the next state is another."""
+        """Drop the impulses of the last substep, which do not belong to the next state."""
         if self._has_acted:
             self._rows.write(np.zeros(1, dtype=np.float32), _LENGTH_AT)
             self._has_acted = False
 
     def keep(self) -> bool:
-        """Keep those impulses for ``restore``; return whether there are any."""
+        """Copy the impulses of the last substep for ``restore``; return whether there are any."""
         if self._has_acted:
             if self._copy is None:
                 self._copy = Buffer(self._kept_bytes)
@@ -105,15 +105,15 @@ class SurfaceContact:
         return self._has_acted
 
     def restore(self, kept: bool) -> None:
-        """Go back to the impulses of the last ``keep``, which has returned ``kept``."""
+        """Restore the impulses of the last ``keep``, which returned ``kept``."""
         self.forget()
         if kept:
-            assert self._copy is not None  # keep has made it
+            assert self._copy is not None  # keep made it
             self._copy.copy_to(self._rows, _KEPT_AT, self._kept_bytes)
             self._has_acted = True
 
     def bind(self) -> None:
-        """Let the passes find their rows and nodes."""
+        """Bind the buffers of rows and nodes."""
         self._nodes.bind_storage(bindings.SURFACE_NODES)
         self._rows.bind_storage(bindings.SURFACE_ROWS)
 
@@ -127,10 +127,10 @@ class SurfaceContact:
 
     def act(self, groups: int, held_at: int, *, notes_changes: bool) -> None:
         """
-        Find the contacts and their impulses, change what they act on, and act on other nodes.
+        Find the contacts and their impulses, apply them, and apply contact to all other nodes.
 
         :param groups: offset of the workgroups in the buffer of dispatches [bytes]
-        :param held_at: where the entries of held.glsl are, bound by now; below 0: nowhere
+        :param held_at: first entry of the substep in held.glsl, which is bound; -1 for none
         """
         self._has_acted = True
         program = self._impulses[notes_changes].use()
@@ -145,17 +145,17 @@ class SurfaceContact:
     def act_beside(
             self, layers: Layers, groups: int, held_at: int, *, notes_changes: bool) -> None:
         """
-        Do the same in turns with ``layers``, whose contacts have been found.
+        Do the same in alternation with ``layers``, whose contacts have been found.
 
         :param groups: offset of the workgroups in the buffer of dispatches [bytes]
-        :param held_at: where the entries of held.glsl are, bound by now; below 0: nowhere
+        :param held_at: first entry of the substep in held.glsl, which is bound; -1 for none
         """
         self._has_acted = True
         program = self._impulses[notes_changes].use()
         program.set_float('layer_unit', layers.impulse_unit)
         self._nodes.bind_texture(bindings.SURFACE_NODES)
         self._run_part(_LISTS, program)
-        # Nodes that neither rows nor layers act on.
+        # Nodes without a contact of an edge, face or layer.
         self._others[notes_changes].use().dispatch_indirect(groups)
         shader_writes_visible()
         for _ in range(_TURNS):
@@ -179,12 +179,12 @@ class SurfaceContact:
             pins.dispatch(1)
 
     def move_out(self) -> None:
-        """Move edges and faces out of colliders that they are left within."""
+        """Move edges and faces out of colliders that they are still inside."""
         self._ways.use().dispatch(1)
         shader_writes_visible()
 
     def list_entries(self) -> None:
-        """List for ``move_out`` what ``act`` lists, and move nodes out."""
+        """Make the lists of ``act`` for ``move_out``, and move nodes out."""
         self._entries.use().dispatch(1)
         shader_writes_visible()
 
@@ -192,7 +192,7 @@ class SurfaceContact:
         """
         Wait; return how many contacts could not be held, and warn once.
 
-        Substeps since the last call whose rounds did not settle count as one each.
+        Each substep since the last call whose iteration did not converge counts as one.
         """
         head = np.empty(_HEAD_BYTES // 4, dtype=np.uint32)
         self._rows.read_into(head)

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-"""The implicit step: the tensions that edges have by their law are solved for in each substep."""
+"""The implicit step: each substep solves for the tensions of the edges."""
 
 from abc import ABC
 from abc import abstractmethod
@@ -29,39 +29,41 @@ from cloth_sim_ros.sim.stop import never
 from cloth_sim_ros.sim.stop import Stop
 import numpy as np
 
-# Time in which a limit closes in, over the root of the size of the cloth [s / sqrt(m)]: the far
-# end of one that comes longer by a tenth has at most 6 x 0.1 size / time^2, 0.7 of gravity.
+# Settling time over the square root of the cloth size [s / sqrt(m)]: the far end of a cloth that
+# is stretched by a tenth accelerates by at most 6 x 0.1 size / time^2, 0.7 of gravity.
 _SETTLING_TIME = 0.3
-# Max. solves of a pass that finds the limits in force [1], beyond which solver_reached is false;
-# chosen: same bits from 8 to 64, and 2 do not suffice (constants.py --only _MOST_SOLVES).
+# Max. solves in the search for the active limits [1], beyond which solver_reached is false;
+# chosen: same bits from 8 to 64, and 2 are too few (constants.py --only _MOST_SOLVES).
 _MOST_SOLVES = 32
-# Max. solves of a substep that finds what touches colliders [1]; chosen: nodes move by 0.3 % of
-# their way from 8 to 64, by 2 % at 4 and 4 % at 2; solves go from -23 % at 2 and -3 % at 4 to
-# +0.3 % at 64 (constants.py --only _MOST_CONTACT_SOLVES).
+# Max. solves of a substep with contact [1]; chosen: final positions change by 0.3 % of the
+# displacement from 8 to 64, by 2 % at 4 and 4 % at 2; the number of solves changes by -23 % at 2,
+# -3 % at 4 and +0.3 % at 64 (constants.py --only _MOST_CONTACT_SOLVES).
 _MOST_CONTACT_SOLVES = 8
-# Solves of a substep after which friction only resists, so that turns end [1]; chosen: nodes move
-# by 4 to 6 % of their way from 1 to 8, by half the tolerance 3 %; 1 takes 17 % more solves, 8
-# takes 8 % more (constants.py --only _MOST_CONTACT_TURNS).
+# Solves of a substep after which friction may only slow nodes down, so that the iteration ends
+# [1]; chosen: final positions change by 4 to 6 % of the displacement from 1 to 8, and by 3 % with
+# half the tolerance; 1 takes 17 % more solves, 8 takes 8 % more
+# (constants.py --only _MOST_CONTACT_TURNS).
 _MOST_CONTACT_TURNS = 4
-# Max. substep margin that is reported [1]; a finite number where edges turn at once.
+# Max. reported substep margin [1]; finite even where edges rotate instantly.
 _LARGEST_MARGIN = 1e9
-# Fraction of a substep that is taken for rounding [1]: no further substep is made for it.
+# Fraction of a substep that counts as rounding [1]: it adds no further substep.
 _NOTHING = 1e-9
 _NO_FORCING = Forcing((0.0, 0.0, 0.0))
 
 
 class Settling:
     """
-    The strain within which hard edges are springs yet, for a while.
+    A strain limit that shrinks to zero while a stretched cloth settles.
 
-    ``is_new`` says that no strain has been taken yet.
+    A cloth may arrive stretched, for instance from soft springs. Enforcing hard edges at once
+    would store a large energy in it from one step to the next and throw it together. Instead,
+    edges are springs within the limit, which closes in over the settling time.
 
-    A cloth can come stretched from where nothing limited it. Its energy is that of springs: held
-    at once, it would have that of hard edges from nothing, and be thrown together.
+    ``is_new`` is True until the first strain is taken.
 
-    :param notable: strain up to which it is held at once
-    :param size: of the cloth [m]: the time is that in which a cloth falls a share of its size, so
-        that cloths of all sizes move alike
+    :param notable: strain below which hard edges apply at once
+    :param size: of the cloth [m]; the settling time is proportional to its square root, as is the
+        time of a fall over this length
     """
 
     is_new: bool
@@ -74,27 +76,27 @@ class Settling:
 
     @property
     def limit(self) -> float:
-        """Return the strain limit that holds now; 0 for hard edges."""
+        """Return the present strain limit; 0 for hard edges."""
         left = 1.0 - min(self._age / self._time, 1.0)
         return self._first * left * left * (3.0 - 2.0 * left)
 
     def begin(self, strain: float) -> None:
-        """Take the largest ``strain`` of a cloth; only that of a new one counts."""
+        """Take the largest ``strain`` of a cloth; ignored unless it is new."""
         if self.is_new:
             self._first = self.first(strain)
         self.is_new = False
 
     def begin_anew(self, strain: float) -> None:
-        """Begin with the largest ``strain`` of a cloth that comes from another integrator."""
+        """Restart from the largest ``strain`` of a cloth that another integrator has stepped."""
         self._first, self._age, self.is_new = strain, 0.0, False
 
     def first(self, strain: float) -> float:
-        """Return the limit that a cloth of the largest ``strain`` begins with; 0 for none."""
+        """Return the initial limit of a cloth with the largest ``strain``; 0 for none."""
         # NaN has no limit to settle from; the check of the state finds it.
         return strain if strain > self._notable else 0.0
 
     def advance(self, length: float) -> None:
-        """Go on by ``length`` [s]."""
+        """Advance by ``length`` [s]."""
         if self._first:
             self._age += length
             if self._age >= self._time:
@@ -111,9 +113,9 @@ class Newton:
     """
     How Newton's method is applied in a substep (docs/explanation/implicit_step.md).
 
-    :param solves: linear solves, each with the lengths that the one before has found
-    :param foresees_turn: whether the first one allows for how much longer edges get by turning
-    :param beta: share of the geometric stiffness of an edge [1]
+    :param solves: linear solves, each linearised at the lengths found by the previous one
+    :param foresees_turn: whether the first one accounts for the lengthening of rotating edges
+    :param beta: fraction of the geometric stiffness of an edge [1]
     """
 
     solves: int
@@ -125,14 +127,14 @@ class ImplicitStep(ABC):
     """
     The implicit step of docs/explanation/implicit_step.md, for any edge law; a base class.
 
-    ``substeps`` are those of the last dt, ``last_length`` is that of the last one [s], 0 where
-    none was, ``settling`` is the strain that a new cloth may have for a while.
+    ``substeps`` is the number of substeps of the last dt, ``last_length`` the length of the last
+    substep [s] or 0 before the first, ``settling`` the strain limit of a cloth that is settling.
 
-    :param families: of edges that there are
-    :param notable: as of Settling
+    :param families: of edges in the scene
+    :param notable: strain, as in Settling
     """
 
-    # An implicit step is stable whatever its length.
+    # An implicit step is stable for any length.
     stability_limit = math.inf
     checked_substeps = CHECKED_SUBSTEPS
     last_length: float
@@ -155,9 +157,9 @@ class ImplicitStep(ABC):
         self._energies = Observer(scene, layout, set(families))
         # The law of the last substep, with its arguments.
         self._law: tuple[tuple[float, float], EdgeLaw] | None = None
-        # In the substep under way: first entry of held.glsl that it writes, below 0 for none; the
-        # loads on single nodes; whether the cloth is free, neither pinned nor touched as it
-        # begins; and whether colliders ask for another solve.
+        # Of the current substep: first entry of held.glsl that it writes, or -1; the loads on
+        # single nodes; whether the cloth is free, neither pinned nor touched at the beginning;
+        # and whether contact requires another solve.
         self._held_at = -1
         self._forcing = _NO_FORCING
         self._is_free = self._is_due = False
@@ -170,22 +172,22 @@ class ImplicitStep(ABC):
 
     @staticmethod
     def check(scene: Scene, *, check_stability: bool = True) -> None:
-        """Raise nothing: there is no dt that is too long."""
+        """Accept every dt: an implicit step is always stable."""
 
     @abstractmethod
     def law(self, length: float, settling: float) -> EdgeLaw:
         """
         Return the law of the edges in a substep of ``length`` [s].
 
-        :param settling: strain that a cloth which came stretched may have yet; else 0
+        :param settling: present strain limit of a cloth that is settling; otherwise 0
         """
 
     def energy_law(self, state: State) -> EdgeLaw:
-        """Return the law that holds now, or that the first step of a new ``state`` will have."""
+        """Return the present law, or that of the first step of a new ``state``."""
         settling = self.settling.limit
         if self.settling.is_new:
             settling = self.settling.first(self.largest_strain(state))
-        # The solver has no row for a pin: an edge between two of them is solved for by neither.
+        # The solver has no rows for pins, so edges between two pins are not solved for.
         return replace(self.law(self._dt, settling), acts_between_pins=False)
 
     def largest_strain(self, state: State) -> float:
@@ -193,14 +195,14 @@ class ImplicitStep(ABC):
         return self._watch.look(state, _NO_FORCING, self._dt)[1]
 
     def step(self, state: State, begin: float, loads: Loads, stop: Stop = never) -> None:
-        """Step ``state`` on by one dt."""
+        """Advance ``state`` by one dt."""
         self.clear_tally()
         self.advance(state, begin, self._dt, loads, stop)
 
     def advance(
             self, state: State, begin: float, seconds: float, loads: Loads,
             stop: Stop = never) -> None:
-        """Step ``state`` on by ``seconds``, one dt or what is left of it."""
+        """Advance ``state`` by ``seconds``, one dt or the rest of it."""
         self._choose_substeps(
             state, loads.forcing(state, begin, begin + seconds), seconds,
             loads.air_margin(state, begin, begin + seconds, seconds))
@@ -210,11 +212,11 @@ class ImplicitStep(ABC):
 
     @staticmethod
     def step_ahead(state: State, gravity: Forcing, most: int) -> int:
-        """Return 0: each step goes by what the one before has found."""
+        """Return 0: each step depends on the result of the previous one."""
         return 0
 
     def run_all_passes(self, state: State, loads: Loads, stop: Stop = never) -> None:
-        """Make a substep of a ``state`` that nobody needs, held and free."""
+        """Run every pass once on a ``state`` that is discarded, held and free."""
         still = loads.still
         self._watch.look(state, still, self._dt)
         leave_if(stop)
@@ -228,7 +230,7 @@ class ImplicitStep(ABC):
         self._forcing = still
         self._solve_first(state, self._dt, stop)
         self._solve_further(state, self._dt, stop)
-        # Hard edges of a cloth that comes stretched have limits for a while, too.
+        # Hard edges have limits too, while a stretched cloth settles.
         self._solver.run_search(state)
         leave_if(stop)
         self._free_motion.restore(state, still, self._dt)
@@ -236,11 +238,11 @@ class ImplicitStep(ABC):
         self.forget()
 
     def forget(self) -> None:
-        """Drop what was kept from earlier steps; the next state may be stretched."""
+        """Drop the memory of earlier steps; the next state may be stretched."""
         self.substeps = 1 if self._scene['auto_substeps'] else self._scene['substeps']
         self.substep_margin = 0.0
         self.last_length = 0.0
-        # Passes of the last dt that have not found the limits in force.
+        # Passes of the last dt that did not find the active limits.
         self._unsettled = 0
         self.settling.forget()
         self._settled_from = self._settling_work = 0.0
@@ -249,13 +251,13 @@ class ImplicitStep(ABC):
         self._free_motion.forget()
 
     def resume(self, last_length: float) -> None:
-        """Go on after substeps that another integrator made, the last of ``last_length`` [s]."""
+        """Continue after another integrator whose last substep had ``last_length`` [s]."""
         self.last_length = last_length
         self._solver.expect_nothing()
         self._free_motion.forget()
 
     def clear_tally(self) -> None:
-        """Begin to count solves anew."""
+        """Reset the count of solves."""
         self._solver.clear_tally()
         self._unsettled = 0
         self._began_settling = self.is_settling
@@ -273,20 +275,20 @@ class ImplicitStep(ABC):
         }
 
     def settling_report(self) -> dict[str, Any]:
-        """Return whether a limit has closed in during the last dt, and the work it has done."""
+        """Return whether the cloth was settling in the last dt, and the work of the limit."""
         return {
             'settling': self.is_settling or self._began_settling,
             'settling_work': self._settling_work}
 
     @property
     def is_settling(self) -> bool:
-        """Return whether edges have a wider limit than their own yet."""
+        """Return whether edges still have a wider limit than their own."""
         return self.settling.limit > 0.0
 
     def tension(
             self, positions: np.ndarray, velocities: np.ndarray,
             nodes: np.ndarray | None = None) -> np.ndarray:
-        """Return what each edge pulled with in the last substep [N], as it was solved for."""
+        """Return the tension of each edge in the last substep [N], as solved for."""
         return self._solver.tensions()
 
     def delete(self) -> None:
@@ -297,22 +299,22 @@ class ImplicitStep(ABC):
         self._energies.delete()
 
     def _account_for_settling(self, state: State) -> None:
-        """Add the work of a limit that has closed in by the length of the substep before."""
+        """Add the work of the limit while it closed in over the previous substep."""
         limit = self.settling.limit
         if limit != self._settled_from:
-            # The nodes have not moved since: what edges store changes by the limit alone.
+            # Nodes have not moved since, so the elastic energy changes by the limit alone.
             if self._settled_from:
                 self._settling_work += (
                     self._stored(state, limit) - self._stored(state, self._settled_from))
             self._settled_from = limit
 
     def _stored(self, state: State, settling: float) -> float:
-        """Return what the edges of ``state`` store within the limit ``settling`` [J]."""
+        """Return the elastic energy of ``state`` with the limit ``settling`` [J]."""
         law = replace(self.law(self._dt, settling), acts_between_pins=False)
         return self._energies.measure(state, _NO_FORCING, law).elastic_energy
 
     def _present_law(self, length: float) -> EdgeLaw:
-        """Return the law of a substep of ``length`` [s]; most are like the one before."""
+        """Return the law of a substep of ``length`` [s]; mostly that of the previous one."""
         asked = length, self.settling.limit
         if self._law is None or self._law[0] != asked:
             self._law = asked, self.law(*asked)
@@ -323,11 +325,11 @@ class ImplicitStep(ABC):
         longest, strain = self._watch.look(state, forcing, seconds)
         self.settling.begin(strain)
         if self._scene['auto_substeps']:
-            # Nodes that are pushed absurdly turn their edges at once.
+            # An extreme push rotates edges instantly.
             wanted = seconds / longest - _NOTHING if longest > 0.0 else math.inf
             wanted = max(wanted, air_margin - _NOTHING)
             most = self._scene['constraint.max_substeps']
-            # NaN becomes the maximum, too.
+            # NaN gives the maximum as well.
             self.substeps = most
             if wanted < most:
                 self.substeps = min(self._scene['refine'] * max(1, math.ceil(wanted)), most)
@@ -336,7 +338,7 @@ class ImplicitStep(ABC):
 
     def _make_substep(
             self, state: State, start: float, length: float, loads: Loads, stop: Stop) -> None:
-        """Step ``state`` on by a substep of ``length`` [s]."""
+        """Advance ``state`` by a substep of ``length`` [s]."""
         kick = self._kick(length)
         forcing = loads.forcing(state, start, start + length, kick)
         self._begin_substep(state, forcing, loads, length, kick, stop)
@@ -344,14 +346,14 @@ class ImplicitStep(ABC):
         self._end_substep(state, loads, length)
 
     def _kick(self, length: float) -> float:
-        """Return for how long [s] forces act in a substep of ``length`` [s]."""
+        """Return the time [s] for which forces act in a substep of ``length`` [s]."""
         # A velocity belongs to the middle of its substep, so forces act from there to the next.
         return 0.5 * ((self.last_length or length) + length)
 
     def _begin_substep(
             self, state: State, forcing: Forcing, loads: Loads, length: float, kick: float,
             stop: Stop) -> None:
-        """Find what edges and colliders do in a substep, in a first solve."""
+        """Make the first solve of a substep, for edges and colliders."""
         self._account_for_settling(state)
         self._solver.set_law(self._present_law(length))
         self._held_at = state.next_held_entry()
@@ -359,7 +361,7 @@ class ImplicitStep(ABC):
         if touch is not None:
             touch.begin_substep()
             self._solver.meet_colliders(state, forcing, kick)
-        # What a collider holds has no momentum of its own.
+        # A node held by a collider has no momentum of its own.
         self._is_free = not (
             state.pinned.any() or (touch is not None and touch.is_touched()))
         self._forcing = _uneven(forcing) if self._is_free else forcing
@@ -371,7 +373,7 @@ class ImplicitStep(ABC):
             self._solve_first(state, kick, stop)
 
     def _end_substep(self, state: State, loads: Loads, length: float) -> None:
-        """Go on from a substep that was solved for."""
+        """Finish a substep that has been solved."""
         touch = self._forcing.touch
         if self._is_free:
             if touch is not None and touch.is_touched():
@@ -384,13 +386,13 @@ class ImplicitStep(ABC):
     def _solve_first(
             self, state: State, kick: float, stop: Stop,
             common_change: tuple[float, float, float] = (0.0, 0.0, 0.0)) -> None:
-        """Move the nodes by a first solve of the substep, and let colliders act."""
+        """Move the nodes by the first solve of the substep, and apply contact."""
         self._solve(state, self._forcing, stop, kick=kick)
         self._solver.apply(state, common_change=common_change)
         self._is_due = self._resolve_contacts(state, self._forcing, 1)
 
     def _solve_further(self, state: State, kick: float, stop: Stop) -> None:
-        """Correct what the first solve has led to, until no further one is due."""
+        """Correct the result of the first solve, until no further solve is required."""
         solves = 1
         while self._is_solve_due(state, solves):
             if not self._solve(state, self._forcing, stop, kick=kick, is_further=True):
@@ -403,24 +405,24 @@ class ImplicitStep(ABC):
                 state, self._forcing, is_last=True, held_at=self._held_at)
 
     def _is_solve_due(self, state: State, solves: int) -> bool:
-        """Return whether another solve is to follow on so many."""
+        """Return whether another solve is required after this many."""
         return solves < self._newton.solves or (
             self._is_due and solves < _MOST_CONTACT_SOLVES)
 
     def _resolve_contacts(self, state: State, forcing: Forcing, solves: int) -> bool:
-        """Let colliders act on what was solved; return whether another solve is due for it."""
+        """Apply contact to the solution; return whether that requires another solve."""
         if forcing.touch is None:
             return False
         self._solver.resolve_contacts(
             state, forcing, ends_turns=solves >= _MOST_CONTACT_TURNS)
-        # What began within the tolerance is within it after a solve, unless a node has turned.
+        # A start within the tolerance stays within it after a solve, unless a contact changed.
         return forcing.touch.is_solve_due(
             is_exact=solves > self._newton.solves and self._solver.had_nothing_to_do())
 
     def _solve(
             self, state: State, forcing: Forcing, stop: Stop,
             **how: Any) -> bool:
-        """Find the solution of a pass, and return whether there was anything to solve for."""
+        """Solve once; return whether there was anything to solve for."""
         for count in range(_MOST_SOLVES):
             leave_if(stop)
             if not self._solver.prepare(
@@ -449,6 +451,6 @@ def _uneven(forcing: Forcing) -> Forcing:
 
 
 def _common(forcing: Forcing, kick: float) -> tuple[float, float, float]:
-    """Return what the velocities of all nodes change by [m/s]."""
+    """Return the change of velocity that all nodes have in common [m/s]."""
     x, y, z = forcing.everywhere
     return kick * x, kick * y, kick * z
