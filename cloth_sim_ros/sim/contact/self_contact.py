@@ -106,7 +106,7 @@ _FIRST_ROUND, _LAST_ROUND = 1, 2
 
 
 def _place(name: str) -> int:
-    """Return where a figure stands in the head [bytes]."""
+    """Return the offset of a field of the head [bytes]."""
     fields = _HEAD.fields
     assert fields is not None
     return fields[name][1]
@@ -114,8 +114,8 @@ def _place(name: str) -> int:
 
 _CONTACT_GROUPS, _NODE_GROUPS, _ACTING_GROUPS, _ACTING_NODE_GROUPS = (
     _place(f'{name}_groups') for name in ('contact', 'node', 'acting', 'acting_node'))
-# Where the figures of one substep begin in the head, behind those of the contacts [bytes], and
-# those of displacements and velocities.
+# Offset of the fields of one substep in the head, after those of the contacts [bytes], and the
+# range of the displacements and velocities.
 _OF_SUBSTEP = _place('least_moved')
 _SPANS = slice(_OF_SUBSTEP, _place('vertex_pairs'))
 
@@ -123,13 +123,12 @@ _SPANS = slice(_OF_SUBSTEP, _place('vertex_pairs'))
 @dataclass
 class SelfContactFigures:
     """
-    What the contact of the cloth with itself did in one substep, or in several.
+    Result of self-contact in one substep or several.
 
     :param contacts: pairs that touch or are about to; most of a substep
-    :param least_distance: of pairs that were looked at, from middle to middle [m]; infinite for
-        none
-    :param cut_nodes: nodes whose displacement was shortened so that nothing passed, in all
-    :param largest_cut: of a displacement [m]
+    :param least_distance: of the pairs examined, between mid-surfaces [m]; infinite for none
+    :param cut_nodes: nodes whose displacement was shortened to prevent passing, total
+    :param largest_cut: largest shortening of a displacement [m]
     :param undivided: pairs that had passed through each other before; most of a substep
     :param cut_pins: pinned nodes among ``cut_nodes``
     """
@@ -142,7 +141,7 @@ class SelfContactFigures:
     cut_pins: int = 0
 
     def add(self, other: 'SelfContactFigures') -> None:
-        """Add those of a substep."""
+        """Add the result of a substep."""
         self.contacts = max(self.contacts, other.contacts)
         self.least_distance = min(self.least_distance, other.least_distance)
         self.cut_nodes += other.cut_nodes
@@ -153,10 +152,10 @@ class SelfContactFigures:
 
 class SelfContact:
     """
-    The passes of shaders/self_contact, and what they keep from substep to substep.
+    The passes of shaders/self_contact, and their memory from substep to substep.
 
-    In an implicit substep, solves include the impulses that rounds have found, and rounds go on
-    from the velocities that solves have led to.
+    In an implicit substep, solves include the impulses found by rounds, and rounds continue from
+    the velocities found by solves.
 
     :param is_implicit: whether substeps are implicit
     :param may_note: whether ``give`` may be called with ``notes_changes``
@@ -220,7 +219,7 @@ class SelfContact:
         self.forget()
 
     def forget(self) -> None:
-        """Drop lists and impulses: the next state is not the result of the last substep."""
+        """Drop lists and impulses, which do not belong to the next state."""
         self._reach = 0.0
         self._impulse_unit = 0.0
         # Displacement since contacts were found, in which they may serve, and substeps left.
@@ -243,21 +242,21 @@ class SelfContact:
 
     @property
     def crossings(self) -> int:
-        """Return how many edges passed through triangles when lists were made last."""
+        """Return how many edges pierced triangles when lists were last made."""
         return self._crossings
 
     @property
     def has_pairs(self) -> bool:
-        """Return whether there may be contacts in the substep under way."""
+        """Return whether the current substep may have contacts."""
         return any(self._counts)
 
     @property
     def impulse_unit(self) -> float:
-        """Return the unit of the impulses of nodes [m/s], as contacts.glsl has it."""
+        """Return the unit of the impulses of nodes in contacts.glsl [m/s]."""
         return self._impulse_unit
 
     def run_all_passes(self, state: SubstepEnds, held_at: int) -> None:
-        """Run each pass on a substep that nobody needs; ``held_at`` as of ``give``."""
+        """Run each pass once on a substep that is discarded; ``held_at`` as in ``give``."""
         self.find(state, self._scene['dt'])
         self._build(state, self._thickness)
         # Passes over both kinds of pairs, though there may be none.
@@ -285,7 +284,7 @@ class SelfContact:
         self._set_colliders_in = set_in
 
     def begin_substep(self, length: float) -> None:
-        """Have the first solve of a substep of ``length`` [s] include the impulses of the last."""
+        """Prepare the first solve of a substep of ``length`` [s], with the last impulses."""
         self.drives = self.has_pairs and self._applied_for > 0.0
         if self.drives:
             self._share_to_keep = length / self._applied_for
@@ -295,11 +294,11 @@ class SelfContact:
         self._applied_for = 0.0
 
     def bind_driven(self) -> None:
-        """Let a solve read the impulses that it is to include."""
+        """Bind the impulses that a solve includes."""
         self._driven.bind_texture(bindings.SELF_DRIVEN)
 
     def drive(self, ends: SubstepEnds) -> float:
-        """Have the next solve include what rounds have changed; return the largest [m/s]."""
+        """Pass the changes by rounds to the next solve; return the largest [m/s]."""
         ends.bind_out_textures()
         self._head.write(np.zeros(1, dtype=np.uint32), _place('largest_drive'))
         self._run_drive(begins=False)
@@ -319,9 +318,9 @@ class SelfContact:
 
     def find(self, state: SubstepEnds, length: float) -> None:
         """
-        Find the contacts of a substep of ``length`` [s] that was made.
+        Find the contacts of a substep of ``length`` [s].
 
-        Both states of ``state`` are there; colliders have not acted yet.
+        Both its states are in ``state``; contact with colliders follows later.
         """
         if self._unlooked > 0:
             self._unlooked -= 1
@@ -371,20 +370,20 @@ class SelfContact:
             self._unlooked = int(min(_MOST_UNLOOKED, left / (_FASTER * way)))
 
     def _may_serve_again(self, way: float, speed: float) -> bool:
-        """Return whether the contacts of an earlier substep serve the one under way as well."""
+        """Return whether the contacts of an earlier substep are valid for the current one."""
         return (
             self._gone + way <= self._most_gone
             and speed <= self._impulse_unit * (2.0**31 / _SUM_RANGE))
 
     def _set_window(self, way: float) -> None:
-        """Choose how many substeps the contacts are to serve that are found now."""
+        """Choose for how many substeps the contacts found now are valid."""
         window = 1
         if not self._is_implicit:
             window = int(min(_MOST_WINDOW, max(1.0, self._most_gone / max(way, 1e-30))))
         self._window, self._gone = window - 1, 0.0
 
     def _set_impulse_unit(self, speed: float) -> None:
-        """Choose the least power of two that sums of impulses have room with."""
+        """Choose the smallest power of two for which sums of impulses do not overflow."""
         if not math.isfinite(speed):
             # What checks the state finds that.
             speed = _LEAST_SPEED
@@ -393,12 +392,12 @@ class SelfContact:
         self._set('impulse_unit', unit)
 
     def begin(self, state: SubstepEnds) -> None:
-        """Begin to act: the impulses of the last substep."""
+        """Begin with the impulses of the last substep."""
         self.go_on(state)
         self._is_first = True
 
     def go_on(self, state: SubstepEnds) -> None:
-        """Go on to act, after others have bound their buffers."""
+        """Continue after other passes have bound their buffers."""
         state.bind_in_textures()
         state.bind_out_textures()
         state.bind_out()
@@ -409,7 +408,7 @@ class SelfContact:
             self._applied.bind_texture(bindings.SELF_APPLIED)
 
     def let_act(self) -> None:
-        """Let contacts act on each other, in rounds, and colliders on the nodes that they hold."""
+        """Iterate the impulses in rounds, with colliders on the nodes that they hold."""
         self._head.bind_dispatches()
         shader_dispatches_visible()
         rounds, (some, most) = 0, self._rounds
@@ -429,7 +428,7 @@ class SelfContact:
 
     def give(self, held_at: int, *, notes_changes: bool = False) -> None:
         """
-        Write the state to come of the nodes that touch.
+        Write the next state of the nodes in contact.
 
         :param held_at: first entry of the substep in held.glsl; below 0: none
         :param notes_changes: whether changes of velocity are noted for the limits of edges, which
@@ -443,7 +442,7 @@ class SelfContact:
         shader_writes_visible()
 
     def guard(self, state: SubstepEnds) -> SelfContactFigures:
-        """Shorten the ways of nodes so that nothing passes; wait, and return what was done."""
+        """Shorten displacements so that nothing passes; wait, and return the result."""
         state.bind_in_textures()
         state.bind_out_textures()
         self._built.bind_texture(bindings.SELF_BUILT)
