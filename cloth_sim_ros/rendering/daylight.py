@@ -29,13 +29,16 @@ import numpy as np
 
 # Looks of a cloth: coloured by its strain, or one of the fabrics.
 STRAIN = 'strain'
-FABRICS = ('fabric', 'plain', 'checked')
+FABRICS = ('fabric', 'twill', 'knit', 'plain', 'checked')
 LOOKS = (STRAIN, *FABRICS)
 
 # Colours as a screen has them.
 PLAIN_COLOR = (0.45, 0.60, 0.76)
 WARP_COLOR = (0.26, 0.43, 0.60)   # chambray: dyed threads along columns, light ones along rows
 WEFT_COLOR = (0.58, 0.70, 0.79)
+TWILL_COLOR = (0.20, 0.28, 0.44)   # denim: indigo over white
+TWILL_WEFT = (0.80, 0.82, 0.84)
+KNIT_COLOR = (0.66, 0.40, 0.34)
 CHECK_COLOR = (0.76, 0.15, 0.17)
 CHECK_GROUND = (0.97, 0.96, 0.93)
 BODY_COLOR = (0.66, 0.52, 0.40)   # wood
@@ -44,6 +47,7 @@ FLOOR_COLOR = (0.96, 0.955, 0.945)
 # Across a cloth along its shorter side: checks of 4 cm on a tablecloth of 0.8 m.
 _CHECKS = 20
 _THREADS = 128        # coarser than most cloth, so that pictures of 400 pixels show them
+_STITCHES = 64
 # Right, up and towards the camera: from the side, so that folds shade each other.
 _LAMP = np.array([-0.50, 0.76, 0.42]) / np.linalg.norm([-0.50, 0.76, 0.42])
 _DEPTH_SIDE = 2048    # [pixel]
@@ -58,13 +62,19 @@ _BEHIND = 3e-3
 DAYLIGHT_DEFINES = {**LIGHT_DEFINES, 'DAYLIGHT': 1, 'HEM_SHADE': 0.25, 'LAMP_TAPS': 24}
 CHECKED_DEFINES = {**DAYLIGHT_DEFINES, 'CHECKED': 1}
 # Brightness from thread to thread and from band to band, relative; width of a band [thread].
-WOVEN_DEFINES = {**DAYLIGHT_DEFINES, 'WOVEN': 1, 'SLUB': 0.16, 'UNEVEN': 0.12, 'BAND': 2.5}
+WOVEN_DEFINES = {
+    **DAYLIGHT_DEFINES, 'WOVEN': 1, 'WEAVE': 'PLAIN_WEAVE', 'SLUB': 0.16, 'UNEVEN': 0.12,
+    'BAND': 2.5}
+TWILL_DEFINES = {**WOVEN_DEFINES, 'WEAVE': 'TWILL'}
+KNIT_DEFINES = {**WOVEN_DEFINES, 'WEAVE': 'KNIT', 'SLUB': 0.06, 'UNEVEN': 0.06}
 # A wide edge of a shadow needs more taps, or it has steps.
 FLOOR_DEFINES = {**DAYLIGHT_DEFINES, 'LAMP_TAPS': 128}
 _FABRIC_DEFINES = {
-    'fabric': WOVEN_DEFINES, 'plain': DAYLIGHT_DEFINES, 'checked': CHECKED_DEFINES}
+    'fabric': WOVEN_DEFINES, 'twill': TWILL_DEFINES, 'knit': KNIT_DEFINES,
+    'plain': DAYLIGHT_DEFINES, 'checked': CHECKED_DEFINES}
 _COLORS = {
-    'fabric': (WARP_COLOR, WEFT_COLOR), 'plain': (PLAIN_COLOR, PLAIN_COLOR),
+    'fabric': (WARP_COLOR, WEFT_COLOR), 'twill': (TWILL_COLOR, TWILL_WEFT),
+    'knit': (KNIT_COLOR, KNIT_COLOR), 'plain': (PLAIN_COLOR, PLAIN_COLOR),
     'checked': (CHECK_COLOR, CHECK_GROUND)}
 
 
@@ -84,6 +94,7 @@ class DaylightDrawing:
         """Keep what all frames share."""
         self._defines = _FABRIC_DEFINES[fabric]
         self._color, self._ground = _COLORS[fabric]
+        self._threads = _STITCHES if fabric == 'knit' else _THREADS
         self._nodes = nodes
         self._bodies = bodies
         self._survey = survey
@@ -139,7 +150,7 @@ class DaylightDrawing:
             along, down = cell_sides(frame.positions)
             shorter = min((cols - 1) * along, (rows - 1) * down)
             program.set_int('rows', rows)
-            for name, count in (('check', _CHECKS), ('thread', _THREADS)):
+            for name, count in (('check', _CHECKS), ('thread', self._threads)):
                 program.set_pair(name, (shorter / count / along, shorter / count / down))
             program.set_float('hem_width', HEM_WIDTH * self._detail)
             program.set_vectors('ground_color', self._ground)

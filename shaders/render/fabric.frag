@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 
 #version 430 core
-// Cloth as one sees it: a fabric of one colour, in checks or woven, in daylight, and a hem.
+// Cloth as one sees it: a fabric of one colour, in checks, woven or knitted, in daylight, and a hem.
+// WEAVE: how threads cross.
 
 #include "render/nodes.glsl"
 #include "render/hem.glsl"
@@ -15,7 +16,10 @@ uniform vec2 check;          // sides of a check: columns, rows
 uniform vec3 ground_color;   // of the threads between the coloured ones
 #endif
 #ifdef WOVEN
-uniform vec2 thread;         // distance of threads: columns, rows
+#define PLAIN_WEAVE 0
+#define TWILL 1
+#define KNIT 2
+uniform vec2 thread;         // distance of threads or stitches: columns, rows
 uniform vec3 ground_color;   // of the threads along a row
 #endif
 
@@ -52,14 +56,32 @@ float uneven(float at) {
     return mix(yarn(below), yarn(below + 1), smoothstep(0.0, 1.0, at - float(below)));
 }
 
-// Plain weave: threads along columns and rows are on top of each other in turns.
+#if WEAVE == KNIT
+// How high yarn stands within a cell from -0.5 to 0.5 of a jersey: stitches are Vs of two legs, two
+// rows high, each of which holds the one below.
+float relief_of(ivec2 crossing, vec2 within, out bool is_warp) {
+    is_warp = true;
+    float up = 0.5 * (within.y + 0.5);
+    vec2 legs = (abs(within.x) - mix(vec2(0.04), vec2(0.46), vec2(up, up + 0.5))) / 0.13;
+    return sqrt(max(1.0 - min(legs.x * legs.x, legs.y * legs.y), 0.0));
+}
+#else
+// How high the thread on top of a crossing stands, within it from -0.5 to 0.5. In a plain weave
+// those along columns and rows take turns; in a twill each warp passes over two threads and under one.
+float relief_of(ivec2 crossing, vec2 within, out bool is_warp) {
+    int place = (crossing.x + crossing.y) % (WEAVE == TWILL ? 3 : 2);
+    is_warp = WEAVE == TWILL ? place != 0 : place == 0;
+    float across = is_warp ? within.x : within.y, along = is_warp ? within.y : within.x;
+    along = WEAVE == TWILL && is_warp ? 0.5 * (along + float(place) - 1.5) : along;
+    // A thread is round, and bends down at either end.
+    return cos(PI * across) * (0.7 + 0.3 * cos(2.0 * PI * along));
+}
+#endif
+
 vec3 woven(vec2 threads) {
     ivec2 crossing = ivec2(floor(threads));
-    vec2 within = fract(threads) - 0.5;
-    bool is_warp = ((crossing.x + crossing.y) & 1) == 0;
-    float across = is_warp ? within.x : within.y, along = is_warp ? within.y : within.x;
-    // A thread is round, and bends down at either end of the crossing.
-    float relief = cos(PI * across) * (0.7 + 0.3 * cos(2.0 * PI * along));
+    bool is_warp;
+    float relief = relief_of(crossing, fract(threads) - 0.5, is_warp);
     float slub = yarn(is_warp ? crossing.x : crossing.y + 8192) - 0.5;
     // Threads as small as pixels run together into their mean.
     vec2 width = fwidth(threads);

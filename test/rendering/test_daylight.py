@@ -6,8 +6,10 @@
 from cloth_sim_ros.rendering.camera import Camera
 from cloth_sim_ros.rendering.daylight import BODY_COLOR
 from cloth_sim_ros.rendering.daylight import CHECK_COLOR
+from cloth_sim_ros.rendering.daylight import KNIT_COLOR
 from cloth_sim_ros.rendering.daylight import LOOKS
 from cloth_sim_ros.rendering.daylight import PLAIN_COLOR
+from cloth_sim_ros.rendering.daylight import TWILL_COLOR
 from cloth_sim_ros.rendering.daylight import WARP_COLOR
 from cloth_sim_ros.rendering.look import StrainRange
 from cloth_sim_ros.rendering.look import StrainScale
@@ -40,7 +42,8 @@ def floor_levels(image):
 
 
 @pytest.mark.parametrize(('look', 'color'), [
-    ('fabric', WARP_COLOR), ('plain', PLAIN_COLOR), ('checked', CHECK_COLOR)])
+    ('fabric', WARP_COLOR), ('twill', TWILL_COLOR), ('knit', KNIT_COLOR), ('plain', PLAIN_COLOR),
+    ('checked', CHECK_COLOR)])
 def test_a_fabric_has_its_colour_and_not_its_strain(flat, rendered, look, color):
     """A reader would take the fabric for a strain."""
     image, _ = rendered(flat(strain=0.05), ABOVE, look=look)
@@ -63,12 +66,13 @@ def test_checks_are_squares_whatever_the_grid(flat, rendered, cols):
     assert 18 <= np.count_nonzero(changes) <= 20
 
 
-def test_threads_are_seen_near_and_run_together_from_afar(flat, rendered):
+@pytest.mark.parametrize('look', ['fabric', 'twill', 'knit'])
+def test_threads_are_seen_near_and_run_together_from_afar(flat, rendered, look):
     """A woven cloth would look like cardboard, or flicker where threads are below a pixel."""
     spread = []
     for zoom in (8.0, 0.25):
         image, renderer = rendered(
-            flat(), Camera(-90.0, 90.0, 0.0, zoom), width=320, height=240, look='fabric')
+            flat(), Camera(-90.0, 90.0, 0.0, zoom), width=320, height=240, look=look)
         (across, down), = renderer.view.project(np.zeros((1, 3))).round().astype(int)
         part = image[down - 12:down + 12, across - 12:across + 12].sum(axis=-1)
         spread.append(part.std() / part.mean())

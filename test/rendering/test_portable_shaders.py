@@ -15,6 +15,8 @@ from cloth_sim_ros.rendering.cloth_drawing import LIMIT_DEFINES
 from cloth_sim_ros.rendering.daylight import CHECKED_DEFINES
 from cloth_sim_ros.rendering.daylight import DAYLIGHT_DEFINES
 from cloth_sim_ros.rendering.daylight import FLOOR_DEFINES
+from cloth_sim_ros.rendering.daylight import KNIT_DEFINES
+from cloth_sim_ros.rendering.daylight import TWILL_DEFINES
 from cloth_sim_ros.rendering.daylight import WOVEN_DEFINES
 from cloth_sim_ros.rendering.look import LIGHT_DEFINES
 from cloth_sim_ros.rendering.solid_drawing import ARROW_DEFINES
@@ -33,7 +35,8 @@ _FORMS = {
     'cloth.frag': [CLOTH_DEFINES, LIMIT_DEFINES],
     'cloth.vert': [CLOTH_DEFINES, LIMIT_DEFINES, _SHADOW, DAYLIGHT_DEFINES],
     'collider.vert': [LIGHT_DEFINES, DAYLIGHT_DEFINES],
-    'fabric.frag': [DAYLIGHT_DEFINES, CHECKED_DEFINES, WOVEN_DEFINES],
+    'fabric.frag': [
+        DAYLIGHT_DEFINES, CHECKED_DEFINES, WOVEN_DEFINES, TWILL_DEFINES, KNIT_DEFINES],
     'floor.frag': [{}],
     'floor.vert': [{}, DAYLIGHT_DEFINES],
     'ground.frag': [{}],
