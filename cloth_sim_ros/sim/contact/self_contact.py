@@ -236,6 +236,7 @@ class SelfContact:
         self._is_first = True
         # Length of the last substep whose impulses solves have included [s]; 0: none has.
         self._applied_for = 0.0
+        self._applied.clear()
         self._share_to_keep = 1.0
         # Whether the next solve has impulses to include.
         self.drives = False
@@ -571,6 +572,8 @@ class SelfContact:
             shader_writes_visible()
         if self._crossings or self._has_doubts:
             self._count_crossings()
+        # None of a state that was set, whose impulses belong to another one.
+        keeps = self._has_found and self.has_pairs
         self._pairs.reverse()
         if self._pairs[0].bytes < self._most_pairs * _PAIR_BYTES:
             self._make_room(self._most_pairs)
@@ -588,7 +591,7 @@ class SelfContact:
             if sum(self._counts) <= self._most_pairs:
                 break
             self._make_room(2 * sum(self._counts))
-        if self._has_found and self.has_pairs:
+        if keeps and self.has_pairs:
             self._copy_kept()
         if self._contacts.bytes < self._most_pairs * _CONTACT_BYTES:
             self._make_room_for_contacts()

@@ -348,6 +348,25 @@ def test_same_bits_in_two_runs(layered: dict) -> None:
     assert np.array_equal(*ends)
 
 
+def test_impulses_do_not_outlive_their_state(layered: dict) -> None:
+    """A towel that lies folded is set back: it moves as one in a new process does."""
+    scene = Scene({
+        **SOFT, 'rows': 12, 'cols': 12, 'width': 11 * CELL, 'height': 11 * CELL, 'pins': ['none'],
+        'start.z': 0.0, 'dt': 0.002, 'self_contact.enabled': True,
+        'self_contact.thickness': THICKNESS, 'colliders.names': ['floor'],
+        'colliders.floor.shape': 'plane',
+        'colliders.floor.position': [0.0, 0.0, -THICKNESS], **layered})
+    positions = folded(12, CELL, 0.98 * THICKNESS)
+    ends = []
+    with Simulation(scene) as cloth:
+        for _ in range(2):
+            cloth.set_state(positions, np.zeros_like(positions))
+            cloth.step(5)
+            assert cloth.snapshot().self_contacts > 0
+            ends.append(cloth.positions())
+    np.testing.assert_array_equal(*ends)
+
+
 @pytest.mark.parametrize('body', ['capsule', 'plane'])
 def test_layers_that_do_not_press_change_nothing(body: str) -> None:
     """Contacts that a layer has yet to come to would act, or be lost to bodies below."""
