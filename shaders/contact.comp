@@ -36,10 +36,12 @@ uniform float substep;    // [s]
 uniform int block_count;  // in all
 
 void main() {
+    float h = READ_FIRST(substep);
+    uint nodes_at = uint(READ_FIRST(block_count));
     if (gl_GlobalInvocationID.x >= listed_nodes()) {
         return;
     }
-    Near node = listed_at_place(uint(block_count) + gl_GlobalInvocationID.x);
+    Near node = listed_at_place(nodes_at + gl_GlobalInvocationID.x);
     int index = int(node.index);
 #if HAS_SURFACE
     // Handled by surface_contact.comp, or pinned.
@@ -55,22 +57,22 @@ void main() {
 #endif
     vec3 v = load_next_velocity(index).xyz;
     vec3 x = load_position(index).xyz;
-    Contact contact = contact_with(node.bodies, x, v, v, substep);
+    Contact contact = contact_with(node.bodies, x, v, v, h);
     if (touched_count == 0) {
         return;
     }
     vec3 to = load_next_position(index).xyz;
     if (contact.kind != FREE) {
 #if HAS_LOW_PARTS
-        to = changed_position(index, to, substep * (contact.velocity - v));
+        to = changed_position(index, to, h * (contact.velocity - v));
 #else
-        to = x + substep * contact.velocity;
+        to = x + h * contact.velocity;
 #endif
 #if NOTES_CHANGES
         changes[index].xyz += contact.velocity - v;
 #endif
         velocity_out[index].xyz = contact.velocity;
     }
-    position_out[index].xyz = moved_out(to, substep);
+    position_out[index].xyz = moved_out(to, h);
     record_contacts(index, contact.kind);
 }

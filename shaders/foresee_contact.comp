@@ -17,6 +17,7 @@ layout(std430, binding = VELOCITY_OUT) buffer VelocityOut { vec4 velocity_out[];
 uniform float substep;  // [s] the time ahead
 
 void main() {
+    float h = READ_FIRST(substep);
     int col = int(gl_GlobalInvocationID.x);
     int row = int(gl_GlobalInvocationID.y);
     if (row >= ROWS || col >= COLS) {
@@ -25,13 +26,13 @@ void main() {
     int index = node_index(row, col);
     vec4 v = load_velocity(index);
     vec3 x = load_position(index).xyz;
-    vec3 without = v.xyz + (v.w > 0.0 ? substep * applied_acceleration(index) : vec3(0.0));
+    vec3 without = v.xyz + (v.w > 0.0 ? h * applied_acceleration(index) : vec3(0.0));
     v.xyz = without;
     // llvmpipe runs the body of a branch for all nodes, but skips a loop without rounds
     // (solver/contact.comp).
-    bool is_near = v.w > 0.0 && near_bodies(x, 0.0, substep * length(without)) != 0u;
+    bool is_near = v.w > 0.0 && near_bodies(x, 0.0, h * length(without)) != 0u;
     for (uint asks = is_near ? 1u : 0u; asks != 0u; asks &= asks - 1u) {
-        v.xyz = contact_at(x, without, without, substep).velocity;
+        v.xyz = contact_at(x, without, without, h).velocity;
     }
     velocity_out[index] = v;
 }

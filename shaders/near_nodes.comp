@@ -22,6 +22,8 @@ uniform float substep;    // [s]
 uniform int block_count;  // in all
 
 void main() {
+    float h = READ_FIRST(substep);
+    uint nodes_at = uint(READ_FIRST(block_count));
     uint place = gl_GlobalInvocationID.x / uint(BLOCK * BLOCK);
     if (place >= listed_blocks()) {
         return;
@@ -32,7 +34,7 @@ void main() {
     vec4 v = load_next_velocity(index);
     // NaN fails the comparison and counts as fast, so that the node is listed.
     float square = dot(v.xyz, v.xyz);
-    float way = substep * sqrt(square < 1e30 ? square : 1e30);
+    float way = h * sqrt(square < 1e30 ? square : 1e30);
     vec4 x = load_position(index);
 #if HAS_SURFACE
     // Pinned nodes are listed too: an edge to a free node may touch.
@@ -42,11 +44,11 @@ void main() {
 #endif
     uint bodies = counts ? near_among(block.bodies, x.xyz, way) : 0u;
 #if HAS_SURFACE
-    bodies = near_surface(bodies, x.xyz, v.xyz, substep);
+    bodies = near_surface(bodies, x.xyz, v.xyz, h);
 #endif
     if (bodies != 0u) {
         uint entry = atomicAdd(near_node_count, 1u);
-        near[block_count + entry] = Near(uint(index), bodies);
+        near[nodes_at + entry] = Near(uint(index), bodies);
         atomicAdd(node_groups_x, entry % NEAR_LOCAL == 0u ? 1u : 0u);
     }
 }

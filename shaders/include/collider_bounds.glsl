@@ -4,6 +4,9 @@
 // Which colliders a node may come near to, by a sphere around each, or around the
 // axis of a long one: cheap beside their distances.
 
+#include "choose.glsl"
+#include "read_first.glsl"
+
 #define SHAPE_PLANE 0
 #define SHAPE_SPHERE 1
 #define SHAPE_CAPSULE 2
@@ -20,25 +23,52 @@ uniform float near_share[COLLIDERS];        // of that distance, with what it tu
 uniform vec3 near_core[COLLIDERS];          // half axis of a long one [m], or 0: the centre
 #endif
 
-// The first of some bodies: a constant where there is one, as llvmpipe reads an array of uniforms
-// lane by lane otherwise.
+// The first of some bodies.
 int first_of(uint bodies) { return COLLIDERS > 1 ? findLSB(bodies) : 0; }
+
+// What is read of uniforms of colliders, by body. Uniforms of a few are read before main() begins
+// (read_first.glsl).
+#if COLLIDERS <= 4
+#define OF(READ, I) AT(READ, I)
+#define ROW_OF(READ, ROW, I) CHOOSE(I, READ[ROW], READ[3 + ROW], READ[6 + ROW], READ[9 + ROW])
+#define EACH_BODY(UNIFORM) FIRST_OF(UNIFORM[0], UNIFORM[1], UNIFORM[2], UNIFORM[3])
+#define THREE(UNIFORM, FIRST) UNIFORM[FIRST], UNIFORM[FIRST + 1], UNIFORM[FIRST + 2]
+#define ROWS_OF_EACH_BODY(UNIFORM) \
+    FIRST_OF(THREE(UNIFORM, 0), THREE(UNIFORM, 3), THREE(UNIFORM, 6), THREE(UNIFORM, 9))
+float body_shape[COLLIDERS] = float[](EACH_BODY(collider_shape));
+vec3 body_axes[3 * COLLIDERS] = vec3[](ROWS_OF_EACH_BODY(collider_axes));
+vec3 body_centre[COLLIDERS] = vec3[](EACH_BODY(collider_centre));
+float body_limit[COLLIDERS] = float[](EACH_BODY(near_limit));
+float body_share[COLLIDERS] = float[](EACH_BODY(near_share));
+#if HAS_LONG
+vec3 body_core[COLLIDERS] = vec3[](EACH_BODY(near_core));
+#endif
+#else
+#define OF(READ, I) READ[I]
+#define ROW_OF(READ, ROW, I) READ[3 * (I) + ROW]
+#define body_shape collider_shape
+#define body_axes collider_axes
+#define body_centre collider_centre
+#define body_limit near_limit
+#define body_share near_share
+#define body_core near_core
+#endif
 
 // Min. distance that a point within radius of x has to travel to come near to a collider [m].
 float least_way(int collider, vec3 x, float radius) {
-    vec3 arm = x - collider_centre[collider];
+    vec3 arm = x - OF(body_centre, collider);
     float l = length(arm);
-    float away = near_share[collider] * l;
+    float away = OF(body_share, collider) * l;
 #if HAS_LONG
-    vec3 core = near_core[collider];
+    vec3 core = OF(body_core, collider);
     float place = clamp(dot(arm, core) / max(dot(core, core), 1e-30), -1.0, 1.0);
     away += length(arm - place * core) - l;
 #endif
 #if HAS_PLANE
-    away = int(collider_shape[collider]) == SHAPE_PLANE
-        ? dot(collider_axes[3 * collider + 2], arm) - (l - away) : away;
+    away = int(OF(body_shape, collider)) == SHAPE_PLANE
+        ? dot(ROW_OF(body_axes, 2, collider), arm) - (l - away) : away;
 #endif
-    return away - (2.0 - near_share[collider]) * radius - near_limit[collider];
+    return away - (2.0 - OF(body_share, collider)) * radius - OF(body_limit, collider);
 }
 
 // The colliders that such a point may come near to within the distance way [m], one bit each; all
@@ -51,12 +81,16 @@ uint near_bodies(vec3 x, float radius, float way) {
     return bodies;
 }
 
-// Those among some bodies that a node may come near to.
+// Those among some bodies that a node may come near to: a few are faster looked at than picked.
 uint near_among(uint bodies, vec3 x, float way) {
+#if COLLIDERS <= 4
+    return bodies & near_bodies(x, 0.0, way);
+#else
     uint near = 0u;
     for (; bodies != 0u; bodies &= bodies - 1u) {
         int collider = first_of(bodies);
         near |= least_way(collider, x, 0.0) > way ? 0u : 1u << uint(collider);
     }
     return near;
+#endif
 }

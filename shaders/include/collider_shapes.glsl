@@ -7,6 +7,11 @@
 #include "collider_bounds.glsl"
 
 uniform vec3 collider_size[COLLIDERS];  // [m] radius and half the length, or half the sides
+#if COLLIDERS <= 4
+vec3 body_size[COLLIDERS] = vec3[](EACH_BODY(collider_size));
+#else
+#define body_size collider_size
+#endif
 
 // Gradient and signed distance of the shape within radius of a core; p: vector from the core.
 vec4 distance_to_core(vec3 p, float radius) {
@@ -61,11 +66,11 @@ vec4 distance_to_shape(int shape, vec3 size, vec3 p) {
 
 // Normal and distance of the nearest surface, for a point at d from the centre.
 vec4 distance_to_collider(int collider, vec3 d) {
-    vec3 along_x = collider_axes[3 * collider];
-    vec3 along_y = collider_axes[3 * collider + 1];
-    vec3 along_z = collider_axes[3 * collider + 2];
+    vec3 along_x = ROW_OF(body_axes, 0, collider);
+    vec3 along_y = ROW_OF(body_axes, 1, collider);
+    vec3 along_z = ROW_OF(body_axes, 2, collider);
     vec4 found = distance_to_shape(
-        int(collider_shape[collider]), collider_size[collider],
+        int(OF(body_shape, collider)), OF(body_size, collider),
         vec3(dot(along_x, d), dot(along_y, d), dot(along_z, d)));
     return vec4(found.x * along_x + found.y * along_y + found.z * along_z, found.w);
 }

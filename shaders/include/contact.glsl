@@ -26,7 +26,7 @@
 #define FOR_TOUCHED(i) for (int i = 0; i < min(touched_count, 1); ++i)
 #endif
 // The collider of surface i.
-#define TOUCHED(i) (COLLIDERS > 1 ? touched[i] : 0)
+#define TOUCHED(i) (COLLIDERS > 1 ? AT(touched, i) : 0)
 
 #define FREE 0
 #define STICKS 1
@@ -45,6 +45,20 @@ uniform float collider_thickness[COLLIDERS];  // [m] min. length of a path throu
 uniform float clearance;                      // [m] half the thickness of the cloth
 uniform float compression;                    // [m/s2] acceleration by a compression to nothing
 uniform float way_out_speed;                  // [m/s] speed at which a node inside is moved out
+float half_cloth = READ_FIRST(clearance);
+float out_speed = READ_FIRST(way_out_speed);
+
+#if COLLIDERS <= 4
+vec3 body_velocity[COLLIDERS] = vec3[](EACH_BODY(collider_velocity));
+vec3 body_turn[3 * COLLIDERS] = vec3[](ROWS_OF_EACH_BODY(collider_turn));
+float body_friction[COLLIDERS] = float[](EACH_BODY(collider_friction));
+float body_thickness[COLLIDERS] = float[](EACH_BODY(collider_thickness));
+#else
+#define body_velocity collider_velocity
+#define body_turn collider_turn
+#define body_friction collider_friction
+#define body_thickness collider_thickness
+#endif
 
 struct Contact {
     vec3 velocity;
@@ -71,34 +85,34 @@ float spare_way = 0.0;        // [m] extra reach beyond the displacement of the 
 
 // Rounding of positions [m]; a surface within it is in contact.
 float rounding(vec3 x, int collider) {
-    vec3 most = max(abs(x), abs(collider_centre[collider]));
+    vec3 most = max(abs(x), abs(OF(body_centre, collider)));
     return 4e-7 * max(max(most.x, most.y), most.z) + 1e-9;
 }
 
 vec4 gap_at(int collider, vec3 x) {
-    return distance_to_collider(collider, x - collider_centre[collider])
-        - vec4(0.0, 0.0, 0.0, clearance);
+    return distance_to_collider(collider, x - OF(body_centre, collider))
+        - vec4(0.0, 0.0, 0.0, half_cloth);
 }
 
 // Mean velocity over the substep of the material point of the collider that is at x at the beginning.
 // It includes the full rotation, so that nothing creeps on a rotating collider.
 vec3 surface_velocity(int collider, vec3 x) {
-    vec3 arm = x - collider_centre[collider];
-    return collider_velocity[collider] + vec3(
-        dot(collider_turn[3 * collider], arm), dot(collider_turn[3 * collider + 1], arm),
-        dot(collider_turn[3 * collider + 2], arm));
+    vec3 arm = x - OF(body_centre, collider);
+    return OF(body_velocity, collider) + vec3(
+        dot(ROW_OF(body_turn, 0, collider), arm), dot(ROW_OF(body_turn, 1, collider), arm),
+        dot(ROW_OF(body_turn, 2, collider), arm));
 }
 
 // As gap_at, at the end of a substep of h seconds.
 vec4 gap_at_end(int collider, vec3 x, float h) {
-    vec3 row_x = collider_turn[3 * collider];
-    vec3 row_y = collider_turn[3 * collider + 1];
-    vec3 row_z = collider_turn[3 * collider + 2];
-    vec3 arm = x - collider_centre[collider] - h * collider_velocity[collider];
+    vec3 row_x = ROW_OF(body_turn, 0, collider);
+    vec3 row_y = ROW_OF(body_turn, 1, collider);
+    vec3 row_z = ROW_OF(body_turn, 2, collider);
+    vec3 arm = x - OF(body_centre, collider) - h * OF(body_velocity, collider);
     arm += h * (arm.x * row_x + arm.y * row_y + arm.z * row_z);
     vec4 near = distance_to_collider(collider, arm);
     near.xyz += h * vec3(dot(row_x, near.xyz), dot(row_y, near.xyz), dot(row_z, near.xyz));
-    return near - vec4(0.0, 0.0, 0.0, clearance);
+    return near - vec4(0.0, 0.0, 0.0, half_cloth);
 }
 
 // The bodies that a node at x may reach in the time h at the velocity towards. llvmpipe computes for
@@ -115,28 +129,29 @@ void find_surfaces(uint bodies, vec3 x, vec3 towards, vec3 v, float h) {
     for (; bodies != 0u; bodies &= bodies - 1u) {
         int collider = first_of(bodies);
         vec4 near = gap_at(collider, x);
-        float way = h * length(towards - surface_velocity(collider, x)) + spare_way;
+        vec3 velocity = surface_velocity(collider, x);
+        float way = h * length(towards - velocity) + spare_way;
         if (!(near.w < way + rounding(x, collider))) {
             continue;
         }
         int place = COLLIDERS > 1 ? touched_count : 0;
-        if (touched_count == MOST_TOUCHED) {
+        if (COLLIDERS > MOST_TOUCHED && touched_count == MOST_TOUCHED) {
             place = 0;
             for (int i = 1; i < MOST_TOUCHED; ++i) {
-                place = surface[i].w > surface[place].w ? i : place;
+                place = AT(surface, i).w > AT(surface, place).w ? i : place;
             }
-            if (near.w >= surface[place].w) {
+            if (near.w >= AT(surface, place).w) {
                 continue;
             }
         } else {
             ++touched_count;
         }
-        touched[place] = collider;
-        surface[place] = near;
-        given[place] = vec3(0.0);
-        carried[place] = surface_velocity(collider, x);
-        pressed[place] = 0.0;
-        pressing[place] = vec3(0.0);
+        PUT(touched, place, collider);
+        PUT(surface, place, near);
+        PUT(given, place, vec3(0.0));
+        PUT(carried, place, velocity);
+        PUT(pressed, place, 0.0);
+        PUT(pressing, place, vec3(0.0));
     }
     // The tangent plane of a curved surface extends beyond it. A node that passes by is not held by it;
     // one that could pass through a thin collider is.
@@ -147,10 +162,11 @@ void find_surfaces(uint bodies, vec3 x, vec3 towards, vec3 v, float h) {
         vec3 n = surface[0].xyz;
         vec3 passing = towards + dot(n, v - towards) * n;
         vec3 w = passing - carried[0];
-        bool is_short = 2.0 * h * length(w) < collider_thickness[collider];
-        if (surface[0].w > rounding(x, collider) && is_short
-                && gap_at_end(collider, x + h * passing, h).w >= 0.0) {
-            touched_count = 0;
+        bool is_short = 2.0 * h * length(w) < OF(body_thickness, collider);
+        bool may_pass = surface[0].w > rounding(x, collider) && is_short;
+        // A loop, as few nodes pass by.
+        for (uint asks = may_pass ? 1u : 0u; asks != 0u; asks &= asks - 1u) {
+            touched_count = gap_at_end(collider, x + h * passing, h).w >= 0.0 ? 0 : 1;
         }
     }
 }
@@ -159,10 +175,10 @@ void find_surfaces(uint bodies, vec3 x, vec3 towards, vec3 v, float h) {
 // A surface without friction presses along its normal. The friction of the other surface takes the
 // component that drives the node out; two equal surfaces take half of it each.
 vec3 pressing_direction(int i, int j) {
-    float other = collider_friction[TOUCHED(i)];
-    float own = collider_friction[TOUCHED(j)];
+    float other = OF(body_friction, TOUCHED(i));
+    float own = OF(body_friction, TOUCHED(j));
     vec2 share = own + other > 0.0 ? vec2(own, other) : vec2(1.0);
-    return normalize(share.x * surface[i].xyz - share.y * surface[j].xyz);
+    return normalize(share.x * AT(surface, i).xyz - share.y * AT(surface, j).xyz);
 }
 
 // Two surfaces that face each other compress the cloth where their distance is less than its
@@ -171,23 +187,27 @@ vec3 pressing_direction(int i, int j) {
 void find_compression(float h) {
     for (int i = FROM(1); i < touched_count; ++i) {
         for (int j = FROM(0); j < i; ++j) {
-            vec3 n = normalize(surface[i].xyz - surface[j].xyz);
+            vec3 n = normalize(AT(surface, i).xyz - AT(surface, j).xyz);
             vec3 towards = pressing_direction(i, j);
-            float closing = dot(n, carried[i] - carried[j]);
-            float room = surface[i].w + surface[j].w;
+            float closing = dot(n, AT(carried, i) - AT(carried, j));
+            float room = AT(surface, i).w + AT(surface, j).w;
             float room_at_end = room - h * closing;
-            if (dot(surface[i].xyz, surface[j].xyz) > -FACING || min(room, room_at_end) >= 0.0) {
+            if (dot(AT(surface, i).xyz, AT(surface, j).xyz) > -FACING
+                    || min(room, room_at_end) >= 0.0) {
                 continue;
             }
-            surface[i] = vec4(n, surface[i].w - 0.5 * min(room, 0.0));
-            surface[j] = vec4(-n, surface[j].w - 0.5 * min(room, 0.0));
-            carried[i] -= 0.5 * closing * n;
-            carried[j] += 0.5 * closing * n;
-            float share = clamp(-room_at_end / max(2.0 * clearance, 1e-30), 0.0, 1.0);
-            pressed[i] += h * compression * share;
-            pressed[j] += h * compression * share;
-            pressing[i] += h * compression * share * towards;
-            pressing[j] -= h * compression * share * towards;
+            float half_room = 0.5 * min(room, 0.0);
+            PUT(surface, i, vec4(n, AT(surface, i).w - half_room));
+            PUT(surface, j, vec4(-n, AT(surface, j).w - half_room));
+            vec3 half_closing = 0.5 * closing * n;
+            PUT(carried, i, AT(carried, i) - half_closing);
+            PUT(carried, j, AT(carried, j) + half_closing);
+            float share = clamp(-room_at_end / max(2.0 * half_cloth, 1e-30), 0.0, 1.0);
+            float press = h * compression * share;
+            PUT(pressed, i, AT(pressed, i) + press);
+            PUT(pressed, j, AT(pressed, j) + press);
+            PUT(pressing, i, AT(pressing, i) + press * towards);
+            PUT(pressing, j, AT(pressing, j) - press * towards);
         }
     }
 }
@@ -195,17 +215,17 @@ void find_compression(float h) {
 
 // Speed along the normal that v lacks for a node at x to end on the surface i [m/s].
 float lacking(int i, vec3 x, vec3 v, float h) {
-    float least = -max(surface[i].w - rounding(x, TOUCHED(i)), 0.0) / h;
-    return least - dot(surface[i].xyz, v - carried[i]);
+    float least = -max(AT(surface, i).w - rounding(x, TOUCHED(i)), 0.0) / h;
+    return least - dot(AT(surface, i).xyz, v - AT(carried, i));
 }
 
 // The velocity w relative to the surface i after contact and friction.
 vec3 held_on_surface(int i, vec3 w, float closest, float h, out int kind) {
-    vec4 near = surface[i];
-    float friction = collider_friction[TOUCHED(i)];
+    vec4 near = AT(surface, i);
+    float friction = OF(body_friction, TOUCHED(i));
     float least = -max(near.w - closest, 0.0) / h;
     float along_normal = dot(near.xyz, w);
-    float impulse = max(least - along_normal, 0.0) + pressed[i];
+    float impulse = max(least - along_normal, 0.0) + AT(pressed, i);
     vec3 along = w - along_normal * near.xyz;
     float speed = length(along);
     bool sticks = friction > 0.0 && speed <= friction * impulse;
@@ -218,7 +238,7 @@ vec3 held_on_surface(int i, vec3 w, float closest, float h, out int kind) {
 }
 
 bool are_parallel(int i, int j) {
-    return abs(dot(surface[i].xyz, surface[j].xyz)) > FACING;
+    return abs(dot(AT(surface, i).xyz, AT(surface, j).xyz)) > FACING;
 }
 
 // Parallel surfaces, facing each other or the same way, take one direction.
@@ -247,22 +267,23 @@ float act_in_turn(vec3 x, float h, inout Contact found) {
     vec3 before = found.velocity;
     FOR_TOUCHED(i) {
         int kind;
-        vec3 without = found.velocity - given[i];
-        vec3 with = carried[i] + held_on_surface(
-            i, without - carried[i], rounding(x, TOUCHED(i)), h, kind);
-        given[i] = kind == FREE ? vec3(0.0) : with - without;
+        vec3 without = found.velocity - AT(given, i);
+        vec3 with = AT(carried, i) + held_on_surface(
+            i, without - AT(carried, i), rounding(x, TOUCHED(i)), h, kind);
+        vec3 change = kind == FREE ? vec3(0.0) : with - without;
+        PUT(given, i, change);
         found.velocity = kind == FREE ? without : with;
         sticks = sticks || kind == STICKS;
         note_held(i, kind != FREE);
     }
     found.kind = kind_held(sticks);
-    found.normal = surface[held_on > 0 ? held_by.x : 0].xyz;
+    found.normal = AT(surface, held_on > 0 ? held_by.x : 0).xyz;
     return length(found.velocity - before);
 }
 
 // Missing velocity of a node at x along the normals of two surfaces that hold it, for velocity v.
 vec2 lacking_on_two(vec3 x, vec3 v, float h) {
-    float c = dot(surface[held_by.x].xyz, surface[held_by.y].xyz);
+    float c = dot(AT(surface, held_by.x).xyz, AT(surface, held_by.y).xyz);
     vec2 lacks = vec2(lacking(held_by.x, x, v, h), lacking(held_by.y, x, v, h));
     return (lacks - c * lacks.yx) / (1.0 - c * c);
 }
@@ -270,11 +291,11 @@ vec2 lacking_on_two(vec3 x, vec3 v, float h) {
 // A node that slides on two surfaces is free along their line only. At a sharp angle between them
 // the iteration converges slowly, so the velocity across the line is corrected directly.
 void slide_on_two(vec3 x, float h, inout Contact found) {
-    vec3 n = surface[held_by.x].xyz;
-    vec3 m = surface[held_by.y].xyz;
+    vec3 n = AT(surface, held_by.x).xyz;
+    vec3 m = AT(surface, held_by.y).xyz;
     vec2 lacks = lacking_on_two(x, found.velocity, h);
-    given[held_by.x] += lacks.x * n;
-    given[held_by.y] += lacks.y * m;
+    PUT(given, held_by.x, AT(given, held_by.x) + lacks.x * n);
+    PUT(given, held_by.y, AT(given, held_by.y) + lacks.y * m);
     found.velocity += lacks.x * n + lacks.y * m;
     found.normal = normalize(cross(n, m));
 }
@@ -283,7 +304,7 @@ void slide_on_two(vec3 x, float h, inout Contact found) {
 bool is_any_lacking(vec3 x, vec3 v, vec3 found, float h) {
     float most = -1.0;
     FOR_TOUCHED(i) {
-        most = max(most, lacking(i, x, found, h) - 1e-4 * length(v - carried[i]));
+        most = max(most, lacking(i, x, found, h) - 1e-4 * length(v - AT(carried, i)));
     }
     return most > 0.0;
 }
@@ -297,17 +318,17 @@ void slip_out(vec3 x, vec3 v, float h, inout Contact found) {
     for (int round = 0; is_jammed && round < MOST_ROUNDS; ++round) {
         held_on = 0;
         FOR_TOUCHED(i) {
-            vec3 normal = surface[i].xyz;
-            float before = round > 0 ? dot(given[i], normal) : 0.0;
+            vec3 normal = AT(surface, i).xyz;
+            float before = round > 0 ? dot(AT(given, i), normal) : 0.0;
             float impulse = max(before + lacking(i, x, found.velocity, h), 0.0);
-            given[i] = impulse * normal;
+            PUT(given, i, impulse * normal);
             found.velocity += (impulse - before) * normal;
             note_held(i, impulse > 0.0);
         }
     }
     if (is_jammed) {
         found.kind = kind_held(false);
-        found.normal = surface[held_on > 0 ? held_by.x : 0].xyz;
+        found.normal = AT(surface, held_on > 0 ? held_by.x : 0).xyz;
     }
 }
 
@@ -366,7 +387,7 @@ float room_lacking(int i, vec4 near, vec3 x, float h) {
 // Position to which a node at x after h seconds is moved, if x is inside a body. Leaving one body may
 // mean entering another, so they take turns, within one shared displacement.
 vec3 moved_out(vec3 x, float h) {
-    float way = h * way_out_speed;
+    float way = h * out_speed;
     int rounds = COLLIDERS > 1 && touched_count > 1 ? MOST_ROUNDS_OUT : 1;
     for (int round = 0; round < rounds; ++round) {
         float moved = 0.0;

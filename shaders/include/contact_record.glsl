@@ -10,6 +10,8 @@ uniform float serial;        // of the substep
 uniform float decision;     // number of the decision
 uniform int record_stride;  // entries of a collider
 
+int stride = READ_FIRST(record_stride);
+
 layout(std430, binding = CONTACTS) buffer Contacts { vec4 contacts[]; };
 
 // RECORD_TEXELS 1: a pass that adds to an entry once, and so can load it by its texel.
@@ -37,9 +39,9 @@ void record_impulse(int collider, int index, vec3 change) {
 
 void record_contacts(int index, int kind) {
     FOR_TOUCHED(i) {
-        if (given[i] != vec3(0.0) || pressed[i] > 0.0) {
-            int entry = TOUCHED(i) * record_stride + index;
-            vec3 change = mass_share(load_position(index)) * (given[i] + pressing[i]);
+        if (AT(given, i) != vec3(0.0) || AT(pressed, i) > 0.0) {
+            int entry = TOUCHED(i) * stride + index;
+            vec3 change = mass_share(load_position(index)) * (AT(given, i) + AT(pressing, i));
             contacts[entry] = vec4(recorded(entry) + change, float(min(kind, SLIDES)));
         }
     }

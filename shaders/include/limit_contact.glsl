@@ -7,12 +7,14 @@
 #if HAS_CONTACT
 #include "contact.glsl"
 
+float h = READ_FIRST(substep);
+
 vec3 after_contact(int index, vec3 velocity, bool is_free) {
     vec3 x = load_position(index).xyz;
-    uint near = is_free ? near_bodies(x, 0.0, substep * length(velocity)) : 0u;
+    uint near = is_free ? near_bodies(x, 0.0, h * length(velocity)) : 0u;
     // As in solver/contact.comp, software would run the body of a branch for every node.
     for (uint asks = near != 0u ? 1u : 0u; asks != 0u; asks &= asks - 1u) {
-        velocity = contact_with(near, x, velocity, velocity, substep).velocity;
+        velocity = contact_with(near, x, velocity, velocity, h).velocity;
     }
     return velocity;
 }

@@ -28,19 +28,12 @@
 #include "solver/system.glsl"
 #include "solver/state_index.glsl"
 #include "cells.glsl"
-#if STAGE == BEGIN
 #include "state_in.glsl"
 #include "state_out.glsl"
+#if STAGE == BEGIN
 #include "applied_acceleration.glsl"
 #else
-// Changed in place, at the nodes that near.comp lists.
-layout(std430, binding = POSITION_OUT) buffer PositionOut { vec4 position_out[]; };
-layout(std430, binding = VELOCITY_OUT) buffer VelocityOut { vec4 velocity_out[]; };
-
-vec4 load_position(int index) { return position_out[index]; }
-
-vec4 load_velocity(int index) { return velocity_out[index]; }
-
+// What is written was copied, and is changed at the nodes that near.comp lists.
 #include "solver/near_list.glsl"
 #endif
 #include "low_parts.glsl"
@@ -61,10 +54,16 @@ uniform float guess;          // share of the last change that is expected; 0: n
 uniform bool ends_turns;      // whether friction is to resist only, which throws no node
 #endif
 uniform float most_unsolved;  // [m] that a node may be moved by without another solve
+float h = READ_FIRST(substep);
+float unsolved = READ_FIRST(most_unsolved);
+#if STAGE == BEGIN
+float kicked = READ_FIRST(kick);
+float share = READ_FIRST(guess);
+#endif
 
 // Whether a node at x may come to a collider in the substep, at this velocity.
 bool is_near_body(vec3 x, vec3 v) {
-    return (near_bodies(x, 0.0, substep * length(v) + spare_way) & NODE_COLLIDERS) != 0u;
+    return (near_bodies(x, 0.0, h * length(v) + spare_way) & NODE_COLLIDERS) != 0u;
 }
 
 // Contact of a node; grip and impulse enter the next solve.
@@ -100,9 +99,9 @@ Hold hold_of(Contact contact, vec3 v) {
         return hold;
     }
     hold.kind = held_on == 1 ? SLIDES : held_on == 2 ? SLIDES_ON_TWO : STICKS;
-    hold.normal = surface[held_by.x].xyz;
+    hold.normal = AT(surface, held_by.x).xyz;
     if (COLLIDERS > 1 && held_on == 2) {
-        hold.normal = normalize(cross(hold.normal, surface[held_by.y].xyz));
+        hold.normal = normalize(cross(hold.normal, AT(surface, held_by.y).xyz));
     }
     hold.change = contact.velocity - v;
     hold.change -= along_surface(hold, hold.change);
@@ -113,20 +112,20 @@ Hold hold_of(Contact contact, vec3 v) {
 float most_friction() {
     float most = 0.0;
     FOR_TOUCHED(i) {
-        float normal_impulse = max(dot(given[i], surface[i].xyz), 0.0) + pressed[i];
-        most += collider_friction[TOUCHED(i)] * normal_impulse;
+        float normal_impulse = max(dot(AT(given, i), AT(surface, i).xyz), 0.0) + AT(pressed, i);
+        most += OF(body_friction, TOUCHED(i)) * normal_impulse;
     }
     return most;
 }
 
 // How fast a node of velocity v slides.
-vec3 sliding(Hold hold, vec3 v) { return along_surface(hold, v - carried[held_by.x]); }
+vec3 sliding(Hold hold, vec3 v) { return along_surface(hold, v - AT(carried, held_by.x)); }
 
 // Up to this speed [m/s] a node does not slide: positions are rounded by as much.
-float slowest(vec3 x) { return rounding(x, TOUCHED(0)) / substep; }
+float slowest(vec3 x) { return rounding(x, TOUCHED(0)) / h; }
 
 // Whether what slides goes farther than a node may without another solve.
-bool is_fast(float speed) { return substep * speed > most_unsolved; }
+bool is_fast(float speed) { return h * speed > unsolved; }
 
 // Let friction act in the solve as a drag of coefficient most / speed; done: its impulse so far.
 void hold_fast(inout Hold hold, float most, float speed, vec3 slid, vec3 done) {
@@ -145,7 +144,7 @@ bool slides_on(inout Hold hold, int index, vec3 v) {
     }
     vec3 reaction = load_vector(cloth_entry(REACTION, index));
     FOR_TOUCHED(i) {
-        given[i] = guess * reaction;
+        PUT(given, i, share * reaction);
     }
     hold_fast(hold, most_friction(), speed, slid, vec3(0.0));
     return true;
@@ -154,7 +153,7 @@ bool slides_on(inout Hold hold, int index, vec3 v) {
 // The velocity that takes a node to surfaces.
 vec3 towards(int at, int index, vec3 v) {
     vec3 last = load_vector(cloth_entry(CHANGE, index));
-    return v + guess * last + kick * applied_acceleration(at);
+    return v + share * last + kicked * applied_acceleration(at);
 }
 
 // Begin the substep of a node; return whether it may touch.
@@ -163,7 +162,7 @@ bool may_touch(int at, int index, vec4 x, vec4 v) {
     store_vector(cloth_entry(BEGIN_VELOCITY, index), v.xyz);
     bool is_near = is_near_body(x.xyz, towards(at, index, v.xyz));
     if (v.w > 0.0 && !is_near) {
-        if (guess == 0.0) {
+        if (share == 0.0) {
             store_vector(cloth_entry(CHANGE, index), vec3(0.0));
         }
         keep(index, Hold(FREE, vec3(0.0), vec3(0.0), 0.0, vec3(0.0), vec3(0.0)), vec3(0.0));
@@ -174,14 +173,14 @@ bool may_touch(int at, int index, vec4 x, vec4 v) {
 
 void decide(int at, int index, inout vec4 x, inout vec4 v) {
     vec3 last = load_vector(cloth_entry(CHANGE, index));
-    vec3 expected = guess > 0.0
-        ? guess * (last - load_vector(cloth_entry(REACTION, index)))
-        : kick * applied_acceleration(at);
+    vec3 expected = share > 0.0
+        ? share * (last - load_vector(cloth_entry(REACTION, index)))
+        : kicked * applied_acceleration(at);
     vec3 without = v.xyz + expected;
-    bool touched_before = guess > 0.0 && system_data[cloth_entry(CONTACT, index)].w > 0.0;
-    bool stuck = vectors[cloth_entry(REACTION, index)].w == STUCK;
+    bool touched_before = share > 0.0 && load_system(cloth_entry(CONTACT, index)).w > 0.0;
+    bool stuck = load_entry(cloth_entry(REACTION, index)).w == STUCK;
     vectors[cloth_entry(REACTION, index)].w = 0.0;
-    Contact contact = contact_at(x.xyz, towards(at, index, v.xyz), without, substep);
+    Contact contact = contact_at(x.xyz, towards(at, index, v.xyz), without, h);
     Hold hold = hold_of(contact, v.xyz);
     if (touched_before && !stuck && slides_on(hold, index, v.xyz + hold.change)) {
         v.xyz += hold.change;
@@ -198,13 +197,13 @@ void decide(int at, int index, inout vec4 x, inout vec4 v) {
         // The impulse of the last substep may be none of this one: where edges that are let go
         // have made it large, friction by it would throw the node that it is to stop.
         vec3 friction = along_surface(hold, contact.velocity - without);
-        float most = length(sliding(hold, v.xyz)) + kick * length(applied_acceleration(at));
+        float most = length(sliding(hold, v.xyz)) + kicked * length(applied_acceleration(at));
         hold.impulse = friction * min(most / max(length(friction), 1e-30), 1.0);
     }
     keep(index, hold, hold.change);
     // Initial solution: zero along directions the node can't move in; without a previous change,
     // the contact law applied to the node alone.
-    vec3 start = guess > 0.0 ? last
+    vec3 start = share > 0.0 ? last
         : hold.kind == FREE ? vec3(0.0) : contact.velocity - v.xyz;
     store_vector(
         cloth_entry(CHANGE, index), hold.kind == FREE ? start : along_surface(hold, start));
@@ -217,9 +216,9 @@ void apply_friction(inout Hold hold, Contact contact, vec3 v, vec3 x, vec3 react
     vec3 done = along_surface(hold, reaction);
     float most = most_friction();
     float speed = length(slid);
-    float share = -dot(done, slid) / max(most * speed, 1e-30);
+    float used = -dot(done, slid) / max(most * speed, 1e-30);
     // A step of Newton's method that ends the substep could drive a node.
-    bool is_near = !ends_turns && is_fast(speed) && share > NEARLY && share * NEARLY < 1.0;
+    bool is_near = !ends_turns && is_fast(speed) && used > NEARLY && used * NEARLY < 1.0;
     bool slides = contact.kind != STICKS;
     if (was == STICKS && !slides) {
         hold.change -= slid;
@@ -238,9 +237,9 @@ void apply_friction(inout Hold hold, Contact contact, vec3 v, vec3 x, vec3 react
 
 // Return whether a node touches or may come to.
 bool may_touch(int at, int index, vec4 x, vec4 v) {
-    spare_way = most_unsolved;
+    spare_way = unsolved;
     vec3 begin = load_vector(cloth_entry(BEGIN_POSITION, index));
-    bool touches = system_data[cloth_entry(CONTACT, index)].w > 0.0;
+    bool touches = load_system(cloth_entry(CONTACT, index)).w > 0.0;
     bool is_near = v.w > 0.0 && (touches || is_near_body(begin, v.xyz));
     if (!is_near) {
         store_vector(cloth_entry(GIVEN, index), vec3(0.0));
@@ -249,12 +248,12 @@ bool may_touch(int at, int index, vec4 x, vec4 v) {
 }
 
 void decide(int at, int index, inout vec4 x, inout vec4 v) {
-    int was = int(system_data[cloth_entry(CONTACT, index)].w);
-    float was_grip = system_data[cloth_entry(GRIP, index)].w;
+    int was = int(load_system(cloth_entry(CONTACT, index)).w);
+    float was_grip = load_system(cloth_entry(GRIP, index)).w;
     vec3 begin = load_vector(cloth_entry(BEGIN_POSITION, index));
     vec3 reaction = load_vector(cloth_entry(REACTION, index));
-    bool was_let_go = vectors[cloth_entry(REACTION, index)].w == LET_GO;
-    Contact contact = contact_at(begin, v.xyz, v.xyz - reaction, substep);
+    bool was_let_go = load_entry(cloth_entry(REACTION, index)).w == LET_GO;
+    Contact contact = contact_at(begin, v.xyz, v.xyz - reaction, h);
     if (was == FREE && contact.kind == FREE) {
         store_vector(cloth_entry(GIVEN, index), vec3(0.0));
         return;
@@ -263,7 +262,7 @@ void decide(int at, int index, inout vec4 x, inout vec4 v) {
     if (contact.kind == FREE && was_let_go) {
         // A node that was released once stays in contact, so that the turns end.
         hold.kind = was;
-        hold.normal = system_data[cloth_entry(CONTACT, index)].xyz;
+        hold.normal = load_system(cloth_entry(CONTACT, index)).xyz;
         hold.grip = was_grip;
     } else if (contact.kind == FREE) {
         hold.impulse = -reaction;
@@ -274,7 +273,7 @@ void decide(int at, int index, inout vec4 x, inout vec4 v) {
     }
     // What a node that stays in its state lacks moves it as if its neighbours stayed.
     vec3 moved = hold.kind == was ? times(load_cloth_inverse(index), hold.impulse) : hold.impulse;
-    if (substep * max(length(hold.change), length(moved)) > most_unsolved) {
+    if (h * max(length(hold.change), length(moved)) > unsolved) {
         note_change();
     }
     if (hold.kind != was) {
@@ -285,9 +284,9 @@ void decide(int at, int index, inout vec4 x, inout vec4 v) {
     if (hold.change != vec3(0.0)) {
         v.xyz += hold.change;
 #if HAS_LOW_PARTS
-        x.xyz = changed_position(at, x.xyz, substep * hold.change);
+        x.xyz = changed_position(at, x.xyz, h * hold.change);
 #else
-        x.xyz = begin + substep * v.xyz;
+        x.xyz = begin + h * v.xyz;
 #endif
         store_vector(
             cloth_entry(CHANGE, index), v.xyz - load_vector(cloth_entry(BEGIN_VELOCITY, index)));
@@ -296,28 +295,28 @@ void decide(int at, int index, inout vec4 x, inout vec4 v) {
 #else
 // End the substep of a node that touches nothing; return whether it may.
 bool may_touch(int at, int index, vec4 x, vec4 v) {
-    spare_way = most_unsolved;
+    spare_way = unsolved;
     vectors[cloth_entry(REACTION, index)].w = 0.0;
     return v.w > 0.0
         && is_near_body(load_vector(cloth_entry(BEGIN_POSITION, index)), v.xyz);
 }
 
 void decide(int at, int index, inout vec4 x, inout vec4 v) {
-    vec4 was = system_data[cloth_entry(CONTACT, index)];
-    float was_grip = system_data[cloth_entry(GRIP, index)].w;
+    vec4 was = load_system(cloth_entry(CONTACT, index));
+    float was_grip = load_system(cloth_entry(GRIP, index)).w;
     vec3 begin = load_vector(cloth_entry(BEGIN_POSITION, index));
     vec3 reaction = load_vector(cloth_entry(REACTION, index));
     // A node that was let go last, with no solve after it, still has what it had been given.
     vec3 kept = was.w == float(FREE) ? -load_vector(cloth_entry(GIVEN, index)) : vec3(0.0);
     touched[0] = -1;
-    contact_at(begin, v.xyz, v.xyz - reaction, substep);
+    contact_at(begin, v.xyz, v.xyz - reaction, h);
     if (touched[0] >= 0 && kept != vec3(0.0)) {
         record_impulse(TOUCHED(0), at, kept);
     }
     if (touched_count == 0 && reaction != vec3(0.0)) {
         // A node that passes by without its reaction may penetrate with it.
         find_surfaces(
-            bodies_towards(begin, v.xyz, substep), begin, v.xyz, v.xyz, substep);
+            bodies_towards(begin, v.xyz, h), begin, v.xyz, v.xyz, h);
     }
     if (touched_count == 0) {
         return;
@@ -335,16 +334,16 @@ void decide(int at, int index, inout vec4 x, inout vec4 v) {
         to -= sticks ? slid : vec3(0.0);
     }
     FOR_TOUCHED(i) {
-        vec3 change = max(lacking(i, begin, to, substep), 0.0) * surface[i].xyz;
-        given[i] += change;
+        vec3 change = max(lacking(i, begin, to, h), 0.0) * AT(surface, i).xyz;
+        PUT(given, i, AT(given, i) + change);
         to += change;
     }
     if (to != before) {
         store_vector(cloth_entry(REACTION, index), reaction + (to - before));
 #if HAS_LOW_PARTS
-        x.xyz = changed_position(at, x.xyz, substep * (to - before));
+        x.xyz = changed_position(at, x.xyz, h * (to - before));
 #else
-        x.xyz = begin + substep * to;
+        x.xyz = begin + h * to;
 #endif
         v.xyz = to;
     }
@@ -352,7 +351,7 @@ void decide(int at, int index, inout vec4 x, inout vec4 v) {
         // With friction at rest. Of several surfaces the law shares it out.
         given[0] = reaction + (to - before);
     }
-    x.xyz = moved_out(x.xyz, substep);
+    x.xyz = moved_out(x.xyz, h);
     vectors[cloth_entry(REACTION, index)].w = sticks ? STUCK : 0.0;
     record_contacts(at, sticks ? STICKS : SLIDES);
 }
@@ -369,8 +368,9 @@ void main() {
     if (gl_GlobalInvocationID.x >= near_count) {
         return;
     }
-    int row = int(near_nodes[gl_GlobalInvocationID.x]) / COLS;
-    int col = int(near_nodes[gl_GlobalInvocationID.x]) % COLS;
+    int listed = int(near_nodes[gl_GlobalInvocationID.x]);
+    int row = listed / COLS;
+    int col = listed % COLS;
 #endif
     int at = state_index(row, col);
     vec4 x = load_position(at);

@@ -37,6 +37,11 @@ _SCENES = {
         'stiffness.shear': 0.0, 'stiffness.bend': 0.0, 'damping.structural': 0.0,
         'damping.shear': 0.0, 'damping.bend': 0.0},
     'touching_a_plane': {'colliders.names': ['a'], 'colliders.a.shape': 'plane'},
+    'touching_two': {
+        'colliders.names': ['a', 'b'], 'colliders.a.shape': 'plane', 'colliders.b.size': [1.0]},
+    'touching_four': {
+        'colliders.names': ['a', 'b', 'c', 'd'], 'colliders.a.shape': 'plane',
+        'colliders.b.size': [1.0], 'colliders.c.size': [1.0], 'colliders.d.size': [1.0]},
     'touching_all': {
         'colliders.names': ['a', 'b', 'c', 'd', 'e'], 'colliders.a.shape': 'plane',
         'colliders.b.size': [1.0],
