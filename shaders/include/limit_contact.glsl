@@ -4,10 +4,10 @@
 // Colliders have the last word on an explicit substep (contact.comp), so impulses of the limits
 // are found for the velocities that nodes have after them.
 
+float h = READ_FIRST(substep);
+
 #if HAS_CONTACT
 #include "contact.glsl"
-
-float h = READ_FIRST(substep);
 
 vec3 after_contact(int index, vec3 velocity, bool is_free) {
     vec3 x = load_position(index).xyz;

@@ -34,7 +34,7 @@ vec2 give(int index) {
     if (gives) {
         velocity_out[index].xyz = changed_velocity(index, v.xyz, change);
         position_out[index].xyz = changed_position(
-            index, position_out[index].xyz, substep * change);
+            index, position_out[index].xyz, h * change);
     }
     if (gives && held_at >= 0 && is_held_by_pin(load_position(index), v)) {
         held[held_entry(index)].xyz += given;

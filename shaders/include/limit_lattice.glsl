@@ -20,9 +20,10 @@ vec4 load_previous(int texel) { return previous_texels[texel]; }
 
 // Fractions of the impulses after the last round and before it whose sum the next one starts from.
 uniform vec2 parts;
+vec2 taken = READ_FIRST(parts);
 
 vec4 load_start(int texel) {
-    return parts.x * load_impulses(texel) + parts.y * load_previous(texel);
+    return taken.x * load_impulses(texel) + taken.y * load_previous(texel);
 }
 
 // Impulses of the four edges that start at a node [m/s].

@@ -13,13 +13,16 @@
 // How far an edge passes its limit for each impulse over the mass of a node [s], along a row,
 // along a column and diagonal.
 uniform float compliance[3];
+float compliances[3] = float[](compliance[0], compliance[1], compliance[2]);
 
 float compliance_of(int code) {
     int edge = code & 3;
-    return edge == EDGE_ROW ? compliance[0] : edge == EDGE_COLUMN ? compliance[1] : compliance[2];
+    return edge == EDGE_ROW ? compliances[0]
+        : edge == EDGE_COLUMN ? compliances[1] : compliances[2];
 }
 
 uniform float closing;  // share of an excess that a substep takes away
+float closed = READ_FIRST(closing);
 
 struct Edge {
     vec3 d;        // [m] from start to end, as the substep begins
@@ -32,11 +35,11 @@ struct Edge {
 Edge edge_between(vec4 start, vec4 end, int code) {
     vec3 d = end.xyz - start.xyz;
     float l = length_and_inverse(d).x;
-    float bound = rest_of(code) * (1.0 + (code < SHORTEST ? limit : -limit));
+    float bound = rest_of(code) * (1.0 + (code < SHORTEST ? strain_limit : -strain_limit));
     // The difference of squares keeps the digits.
     float over = (dot(d, d) - bound * bound) / (l + bound);
     bool is_beyond = code < SHORTEST ? over > 0.0 : over < 0.0;
-    over = is_beyond ? closing * over : over;
+    over = is_beyond ? closed * over : over;
     // A limit has the share of a whole line's stiffness that its spring has.
     float give = compliance_of(code) / edge_share(start, end, code & 3);
     return Edge(d, l, l - over, over, give);
@@ -44,8 +47,8 @@ Edge edge_between(vec4 start, vec4 end, int code) {
 
 // Whether an edge is far beyond its limit, and no impulse has held it in the previous substep.
 bool is_missed(Edge edge, int code, vec3 given) {
-    float beyond = (code < SHORTEST ? edge.over : -edge.over) / closing;
-    return beyond > MISSED * limit * rest_of(code) && given == vec3(0.0);
+    float beyond = (code < SHORTEST ? edge.over : -edge.over) / closed;
+    return beyond > MISSED * strain_limit * rest_of(code) && given == vec3(0.0);
 }
 
 // Displacement [m] that puts the end within the limit, where it would come by e [m] without.

@@ -9,26 +9,26 @@
 
 uniform float near;  // strain over the limit from which on an edge is listed
 uniform bool adds;   // to those listed in this substep, not to those with an impulse before
+float listed_strain = READ_FIRST(near) * strain_limit;
 
-#define TILE_COLS (BLOCK + 2)
-#define TILE_ROWS (BLOCK + 1)
+// Expected place [m] of a node, and in w 0 for a ghost; change: of its velocity [m/s].
+vec4 expected_place(int index, vec3 change) {
+    vec4 x = load_next_position(index);
+    return vec4(x.xyz + h * change, x.w);
+}
 
-// Expected place [m], and in w 0 for a ghost.
-vec4 expected[TILE_ROWS][TILE_COLS];
-uint engaged[TILE_ROWS][TILE_COLS];
-
-uint listed(int row, int col, int drow, int dcol, int edge, int rest) {
-    vec4 from = expected[row][col];
-    vec4 to = expected[row + drow][col + dcol];
+uint listed(vec4 from, uint was, int index, int edge, int rest) {
+    int end = index + end_offset(edge);
+    vec4 to = expected_place(end, load_change(end).xyz);
     vec3 d = to.xyz - from.xyz;
     float square = dot(d, d);
     bool is_edge = edge_share(from, to, edge) > 0.0;
-    uint was = engaged[row][col] >> edge;
+    was >>= edge;
     // NaN is not listed; the check of the state finds it.
     bool is_long = is_edge && (
-        square > square_at(rest, near * limit) || (was & 1u) != 0u);
+        square > square_at(rest, listed_strain) || (was & 1u) != 0u);
     bool is_short = is_edge && (
-        square < square_at(rest, -near * limit) || (was & 1u << SHORTEST) != 0u);
+        square < square_at(rest, -listed_strain) || (was & 1u << SHORTEST) != 0u);
     // What has crossed from one limit to the other is at that.
     is_long = is_long && !(is_short && square < square_at(rest, 0.0));
     is_short = is_short && !is_long;
@@ -37,30 +37,24 @@ uint listed(int row, int col, int drow, int dcol, int edge, int rest) {
 
 #define LIST(MASKED, EDGE, DROW, DCOL, FAMILY, REST) \
     if ((FAMILY == SHEAR ? HAS_SHEAR : HAS_STRUCTURAL) == 1) { \
-        MASKED |= listed(row, col, DROW, DCOL, EDGE, REST); \
+        MASKED |= listed(from, was, index, EDGE, REST); \
     }
 
+// One node after another: unrolled, a block takes llvmpipe seconds to compile.
 void list_block(int block) {
     ivec2 first = ivec2(block % BLOCKS_ACROSS, block / BLOCKS_ACROSS) * BLOCK;
-    for (int row = 0; row < TILE_ROWS; ++row) {
-        for (int col = 0; col < TILE_COLS; ++col) {
-            int index = node_index(first.y + row, first.x + col - 1);
-            vec4 x = load_next_position(index);
-            vec4 change = load_change(index);
-            expected[row][col] = vec4(x.xyz + substep * change.xyz, x.w);
-            engaged[row][col] = adds ? MASK(index) : uint(change.w);
-        }
-    }
     uint count = 0u;
     uint added = 0u;
-    for (int row = 0; row < BLOCK; ++row) {
-        for (int col = 1; col <= BLOCK; ++col) {
-            uint mask = 0u;
-            EACH_SHORT_EDGE(LIST, mask)
-            MASK(node_index(first.y + row, first.x + col - 1)) = mask;
-            count += uint(bitCount(mask));
-            added += uint(bitCount(mask & ~engaged[row][col]));
-        }
+    for (int inside = 0; inside < BLOCK * BLOCK; ++inside) {
+        int index = node_index(first.y + inside / BLOCK, first.x + inside % BLOCK);
+        vec4 change = load_change(index);
+        vec4 from = expected_place(index, change.xyz);
+        uint was = adds ? MASK(index) : uint(change.w);
+        uint mask = 0u;
+        EACH_SHORT_EDGE(LIST, mask)
+        MASK(index) = mask;
+        count += uint(bitCount(mask));
+        added += uint(bitCount(mask & ~was));
     }
     lists[COUNTS_AT + block] = count;
     if (adds && added > 0u) {

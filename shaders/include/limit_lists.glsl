@@ -25,11 +25,14 @@ layout(std430, binding = LIMIT_LISTS) buffer LimitLists {
 };
 
 uniform int block_count;
+int blocks = READ_FIRST(block_count);
+float rests[3] = float[](
+    rest_length[REST_ROW], rest_length[REST_COLUMN], rest_length[REST_DIAGONAL]);
 
-#define COUNTS_AT block_count
-#define MASKS_AT (2 * block_count)
+#define COUNTS_AT blocks
+#define MASKS_AT (2 * blocks)
 #define MARKED_AT (MASKS_AT + STORED)
-#define EDGES_AT (MARKED_AT + block_count)
+#define EDGES_AT (MARKED_AT + blocks)
 #define NODES_AT (EDGES_AT + 4 * STORED)
 #define WORK_AT STORED
 #define BLOCKS_ACROSS ((COLS + BLOCK - 1) / BLOCK)
@@ -43,13 +46,13 @@ int end_offset(int code) {
 
 float rest_of(int code) {
     int edge = code & 3;
-    return edge == EDGE_ROW ? rest_length[REST_ROW]
-        : edge == EDGE_COLUMN ? rest_length[REST_COLUMN] : rest_length[REST_DIAGONAL];
+    return edge == EDGE_ROW ? rests[0] : edge == EDGE_COLUMN ? rests[1] : rests[2];
 }
 
 // Square of a length [m2] that differs by a strain from that at rest.
 float square_at(int rest, float strain) {
-    float l = max(1.0 + strain, 0.0) * rest_length[rest];
+    float l = max(1.0 + strain, 0.0)
+        * (rest == REST_ROW ? rests[0] : rest == REST_COLUMN ? rests[1] : rests[2]);
     return l * l;
 }
 

@@ -29,12 +29,7 @@ layout(std430, binding = LIMIT_FIGURES) writeonly buffer Figures { vec2 block_fi
 
 uniform float substep;  // [s]
 uniform bool finds_gain;
-
-#define TILE_COLS (BLOCK + 2)
-#define TILE_ROWS (BLOCK + 1)
-
-vec4 place[TILE_ROWS][TILE_COLS];
-vec4 velocity[TILE_ROWS][TILE_COLS];
+float h = READ_FIRST(substep);
 
 // Impulses of the edges that start at a node, after the last round, and before it.
 Impulses4 last, previous;
@@ -42,35 +37,28 @@ Impulses4 found;
 // How far the round overshoots in the block, and the largest change of a length by it [m].
 vec2 figures;
 
-void act_on(int row, int col, int drow, int dcol, int edge, uint mask) {
-    vec4 from = velocity[row][col];
-    vec4 to = velocity[row + drow][col + dcol];
-    bool is_in = (mask & 17u << edge) != 0u;
+void act_on(int index, vec4 here, vec4 from, uint mask, int edge) {
     int code = edge + ((mask & 16u << edge) != 0u ? SHORTEST : 0);
-    Edge it = edge_between(
-        place[row][col], place[row + drow][col + dcol], code);
+    int end = index + end_offset(edge);
+    vec4 to = load_work(end);
+    Edge it = edge_between(here, load_position(end), code);
     // As in solver/contact.comp, software would run the body of a branch for every edge.
-    for (uint asks = finds_gain && is_in ? 1u : 0u; asks != 0u; asks &= asks - 1u) {
-        figures.x += gain_of(it, code, of_edge(last, edge), to.xyz - from.xyz, substep, parts.x);
+    for (uint asks = finds_gain ? 1u : 0u; asks != 0u; asks &= asks - 1u) {
+        figures.x += gain_of(it, code, of_edge(last, edge), to.xyz - from.xyz, h, taken.x);
         figures.y += is_missed(it, code, of_edge(last, edge)) ? 1.0 : 0.0;
     }
-    is_in = is_in && !finds_gain;
-    vec3 y = parts.x * of_edge(last, edge) + parts.y * of_edge(previous, edge);
-    float per_impulse = substep * (from.w + to.w);
+    bool is_in = !finds_gain;
+    vec3 y = taken.x * of_edge(last, edge) + taken.y * of_edge(previous, edge);
+    float per_impulse = h * (from.w + to.w);
     vec3 z = impulse_for(
-        it, code, substep * (to.xyz - from.xyz) + per_impulse * y, per_impulse);
+        it, code, h * (to.xyz - from.xyz) + per_impulse * y, per_impulse);
     z = is_in ? z : vec3(0.0);
     vec3 step = z - y;
-    vec3 before = (parts.x + parts.y) * of_edge(last, edge);
+    vec3 before = (taken.x + taken.y) * of_edge(last, edge);
     figures.x -= is_in ? (from.w + to.w) * dot(step, z - before) : 0.0;
     figures.y = max(figures.y, is_in ? length(step) * per_impulse : 0.0);
     found = set_edge(found, edge, z);
 }
-
-// For EACH_SHORT_EDGE: edges of bending reach beyond the tile, and llvmpipe drops loads of an array
-// that code which never runs would index beyond its end.
-#define ACT(LISTED, EDGE, DROW, DCOL, FAMILY, REST) \
-    act_on(row, col, DROW, DCOL, EDGE, LISTED);
 
 void main() {
     ivec2 block = ivec2(gl_GlobalInvocationID.xy);
@@ -79,32 +67,27 @@ void main() {
         return;
     }
     figures = vec2(0.0);
-    for (uint asks = has_listed_edges(block) ? 1u : 0u; asks != 0u; asks &= asks - 1u) {
-        for (int row = 0; row < TILE_ROWS; ++row) {
-            for (int col = 0; col < TILE_COLS; ++col) {
-                int index = node_index(first.y + row, first.x + col - 1);
-                place[row][col] = load_position(index);
-                velocity[row][col] = load_work(index);
-            }
+    // One node after another, and one edge: in one copy of the law, which llvmpipe compiles once.
+    int nodes = has_listed_edges(block) ? BLOCK * BLOCK : 0;
+    for (int inside = 0; inside < nodes; ++inside) {
+        int index = node_index(first.y + inside / BLOCK, first.x + inside % BLOCK);
+        uint mask = MASK(index);
+        last = Impulses4(
+            load_impulses(3 * index), load_impulses(3 * index + 1),
+            load_impulses(3 * index + 2));
+        previous = Impulses4(
+            load_previous(3 * index), load_previous(3 * index + 1),
+            load_previous(3 * index + 2));
+        found = Impulses4(vec4(0.0), vec4(0.0), vec4(0.0));
+        vec4 here = load_position(index);
+        vec4 velocity = load_work(index);
+        for (uint edges = (mask | mask >> 4) & 15u; edges != 0u; edges &= edges - 1u) {
+            act_on(index, here, velocity, mask, findLSB(edges));
         }
-        for (int row = 0; row < BLOCK; ++row) {
-            for (int col = 1; col <= BLOCK; ++col) {
-                int index = node_index(first.y + row, first.x + col - 1);
-                uint mask = MASK(index);
-                last = Impulses4(
-                    load_impulses(3 * index), load_impulses(3 * index + 1),
-                    load_impulses(3 * index + 2));
-                previous = Impulses4(
-                    load_previous(3 * index), load_previous(3 * index + 1),
-                    load_previous(3 * index + 2));
-                found = Impulses4(vec4(0.0), vec4(0.0), vec4(0.0));
-                EACH_SHORT_EDGE(ACT, mask)
-                for (uint asks = finds_gain ? 0u : 1u; asks != 0u; asks &= asks - 1u) {
-                    impulses_out[3 * index] = found.first;
-                    impulses_out[3 * index + 1] = found.second;
-                    impulses_out[3 * index + 2] = found.third;
-                }
-            }
+        for (uint asks = finds_gain ? 0u : 1u; asks != 0u; asks &= asks - 1u) {
+            impulses_out[3 * index] = found.first;
+            impulses_out[3 * index + 1] = found.second;
+            impulses_out[3 * index + 2] = found.third;
         }
     }
     block_figures[block.y * BLOCKS_ACROSS + block.x] = figures;

@@ -22,6 +22,7 @@ vec4 load_change(int index) { return changes[index]; }
 #endif
 
 uniform float substep;  // [s]
+float h = READ_FIRST(substep);
 
 #include "limit_list.glsl"
 

@@ -26,6 +26,9 @@ vec3 load_change(int index) { return changes[index].xyz; }
 uniform float substep;  // [s]
 uniform float ahead;  // [s] that the look reaches beyond the substep
 uniform float wide;   // strain over the limit from which on a block is marked
+float h = READ_FIRST(substep);
+float way_ahead = READ_FIRST(ahead);
+float wide_strain = READ_FIRST(wide) * strain_limit;
 
 struct Node {
     vec4 now;   // [m], and in w 0 for a ghost
@@ -39,18 +42,18 @@ Node load_node(int row, int col) {
 #if HAS_CONTACT
     // What colliders stopped in the previous substep, they stop in this one.
     vec3 change = load_change(index);
-    x.xyz += substep * change;
+    x.xyz += h * change;
     v += change;
 #endif
-    return Node(x, x.xyz + ahead * v);
+    return Node(x, x.xyz + way_ahead * v);
 }
 
 bool is_wide(Node from, Node to, int edge, int rest) {
     vec3 now = to.now.xyz - from.now.xyz;
     vec3 then = to.then - from.then;
     vec2 squares = vec2(dot(now, now), dot(then, then));
-    bool is_off = max(squares.x, squares.y) > square_at(rest, wide * limit)
-        || min(squares.x, squares.y) < square_at(rest, -wide * limit);
+    bool is_off = max(squares.x, squares.y) > square_at(rest, wide_strain)
+        || min(squares.x, squares.y) < square_at(rest, -wide_strain);
     return is_off && edge_share(from.now, to.now, edge) > 0.0;
 }
 

@@ -107,9 +107,9 @@ bool lists_end(int index, int kind) {
 
 // Fill the lists of edges and nodes in the order of the lattice; return their lengths.
 ivec2 fill_lists() {
-    int each = (block_count + LOCAL - 1) / LOCAL;
+    int each = (blocks + LOCAL - 1) / LOCAL;
     int begin = LANE * each;
-    int end = min(begin + each, block_count);
+    int end = min(begin + each, blocks);
     uint count = 0u;
     for (int block = begin; block < end; ++block) {
         count += lists[COUNTS_AT + block];
@@ -175,7 +175,7 @@ vec3 impulse_of(int entry) { return impulse(entry / CODES, entry & 3); }
 
 // What the impulse of an edge takes from the energy, for each part of it that is given: limit_law.
 float pull_by(int entry, vec3 dv, float part) {
-    return gain_of(edge_of(entry), entry % CODES, impulse_of(entry), dv, substep, part);
+    return gain_of(edge_of(entry), entry % CODES, impulse_of(entry), dv, h, part);
 }
 
 float pull_on(int entry, float part) {
@@ -259,11 +259,11 @@ void main() {
             int index = entry / CODES, code = entry % CODES;
             vec4 from = changes[WORK_AT + index];
             vec4 to = changes[WORK_AT + index + end_offset(code)];
-            float per_impulse = substep * (from.w + to.w);
+            float per_impulse = h * (from.w + to.w);
             vec3 y = impulse(index, code & 3);
             vec3 z = impulse_for(
                 edge_at(index, code), code,
-                substep * (to.xyz - from.xyz) + per_impulse * y, per_impulse);
+                h * (to.xyz - from.xyz) + per_impulse * y, per_impulse);
             vec3 way = z - changes[PREVIOUS_AT + i].xyz;
             change.x += (from.w + to.w) * dot(y - z, way);
             change.w = max(change.w, length(z - y) * per_impulse);
