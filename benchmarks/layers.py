@@ -63,7 +63,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument('--nodes', type=int, nargs='+', default=[64])
     parser.add_argument('--settle', type=float, default=0.3, help='time before the first [s]')
-    parser.add_argument('--rounds', type=int, default=3)
+    parser.add_argument('--steps', type=int, default=60, help='steps of dt timed of each')
     parser.add_argument('--modes', action='store_true', help='time each mode instead')
     given = parser.parse_args()
     for nodes in given.nodes:
@@ -79,13 +79,16 @@ def main() -> None:
                     cloth.set_state(positions, np.zeros_like(positions))
                 cloth.advance(given.settle)
                 runs.append(cloth)
-            times: list[list[float]] = [[], []]
-            for _ in range(given.rounds):
-                for cloth, its_own in zip(runs, times):
+            times = [0.0, 0.0]
+            # In turns: lists are made in some steps only, and a busy machine is slow for a while.
+            for _ in range(given.steps):
+                for number, cloth in enumerate(runs):
                     begin = process_time()
-                    cloth.step(10)
-                    its_own.append((process_time() - begin) / (10 * cloth.substeps))
-            alone, touching = (1e3 * min(each) for each in times)
+                    cloth.step(1)
+                    times[number] += process_time() - begin
+            alone, touching = (
+                1e3 * taken / (given.steps * cloth.substeps)
+                for taken, cloth in zip(times, runs))
             print(
                 f'{nodes} x {nodes}, {name}: {alone:.3f} ms a substep, {touching:.3f} ms with '
                 f'layers, {touching / alone:.2f}; {runs[1].snapshot().self_contacts} contacts')

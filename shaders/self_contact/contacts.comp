@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 
 #version 430 core
-// Find the contacts of one substep or several, one pair an invocation, at the positions that they begin
-// with. A pair acts where its features own the nearest points, so that layers do not catch on inner
+// Find the contacts of one substep or several, PAIRS_EACH pairs an invocation, at the positions that
+// they begin with. A pair acts where its features own the nearest points, so that layers do not catch on inner
 // edges: a point in a triangle, two points within edges, or a corner or edge that all triangles around
 // it name.
 
@@ -20,7 +20,8 @@
 layout(local_size_x = SELF_LOCAL) in;
 
 layout(std430, binding = SELF_PAIRS) buffer SelfPairs { Pair pairs[]; };
-layout(std430, binding = SELF_KEPT) buffer SelfKept { vec4 kept[]; };
+layout(std430, binding = SELF_KEPT) writeonly buffer SelfKept { vec4 kept[]; };
+layout(binding = SELF_KEPT) uniform samplerBuffer kept_texels;
 layout(std430, binding = SELF_CONTACTS) buffer SelfContacts { SelfContact contacts_found[]; };
 layout(binding = VELOCITY_OUT) uniform samplerBuffer velocity_out;
 
@@ -126,7 +127,7 @@ void add_contact(uint pair, ivec4 nodes, vec3 weights, vec3 d, float distance, f
     vec3 normal = d / max(distance, 1e-30);
     float gap = gap_of(distance - least, place_of(nodes.x));
     // What it had in the last substep, along the normal of this one.
-    vec3 before = kept_share * kept[pair].xyz;
+    vec3 before = kept_share * texelFetch(kept_texels, int(pair)).xyz;
     float pressed = clamp(dot(before, normal), 0.0, most_impulse());
     vec3 along = before - dot(before, normal) * normal;
     float l = length(along);
@@ -169,59 +170,103 @@ void add_contact(uint pair, ivec4 nodes, vec3 weights, vec3 d, float distance, f
     }
 }
 
-// Look at a pair where it is.
-void look(uint i, uint own, uint other, float reach, float least, float gone) {
-    ivec4 nodes = pair_nodes(own, other);
+// The nearest points of a pair.
+struct Nearest {
+    vec3 d;          // from the second feature to the first [m]
+    float distance;  // [m]
+    vec3 weights;    // of the first three nodes
+    int place;       // in the triangle, as nearest.glsl has it
+    bool is_within;  // both edges
+};
+
+Nearest nearest_of(ivec4 nodes) {
     vec3 x = place_of(nodes.x);
     vec3 a = place_of(nodes.y) - x, b = place_of(nodes.z) - x, c = place_of(nodes.w) - x;
-    int place = INSIDE;
+    Nearest found;
+    found.place = INSIDE;
 #if OF_EDGES
     vec3 near = nearest_on_segments(vec3(0.0), a, b, c - b);
-    vec3 d = near.x * a - b - near.y * (c - b);
-    vec3 weights = vec3(1.0 - near.x, near.x, near.y - 1.0);
-    bool acts = near.x > 0.0 && near.x < 1.0 && near.y > 0.0 && near.y < 1.0
+    found.d = near.x * a - b - near.y * (c - b);
+    found.weights = vec3(1.0 - near.x, near.x, near.y - 1.0);
+    found.is_within = near.x > 0.0 && near.x < 1.0 && near.y > 0.0 && near.y < 1.0
         && near.z > LEAST_SQUARE;
 #else
-    vec3 found = nearest_in_triangle(a, b, c, place);
-    vec3 d = -(found.x * a + found.y * b + found.z * c);
-    vec3 weights = vec3(1.0, -found.xy);
-    bool acts = true;
+    vec3 at = nearest_in_triangle(a, b, c, found.place);
+    found.d = -(at.x * a + at.y * b + at.z * c);
+    found.weights = vec3(1.0, -at.xy);
+    found.is_within = true;
 #endif
-    float distance = length(d);
-    pairs[i].distance = distance + gone;
-    atomicMin(least_distance, floatBitsToUint(distance));
-    acts = acts && distance <= reach;
-    if (acts) {
-        acts = distance <= least + max(
-            SPARE * thickness,
-            AHEAD * window * substep * closing_speed(nodes, weights, d / max(distance, 1e-30)));
-    }
-#if !OF_EDGES
-    if (acts && place <= AT_C) {
-        acts = touches_corner(nodes.x, int(other), nodes[1 + place], d);
-    }
-    if (acts && place > AT_C && place != INSIDE) {
-        acts = touches_edge(nodes.x, int(other), place, d);
-    }
-#endif
-    if (acts) {
-        add_contact(i, nodes, weights, d, distance, least);
-    }
-    if (!acts) {
-        kept[i] = vec4(0.0);
-    }
+    found.distance = length(found.d);
+    return found;
 }
 
+// Whether a pair comes to the thickness while contacts serve.
+bool may_touch(Nearest found, ivec4 nodes, float least) {
+    float speed = closing_speed(
+        nodes, found.weights, found.d / max(found.distance, 1e-30));
+    return found.is_within
+        && found.distance <= least + max(SPARE * thickness, AHEAD * window * substep * speed);
+}
+
+// Whether all triangles around the nearest point agree that it is nearest.
+bool is_owned(Nearest found, ivec4 nodes, uint face) {
+#if !OF_EDGES
+    if (found.place <= AT_C) {
+        return touches_corner(nodes.x, int(face), nodes[1 + found.place], found.d);
+    }
+    if (found.place != INSIDE) {
+        return touches_edge(nodes.x, int(face), found.place, found.d);
+    }
+#endif
+    return true;
+}
+
+#define EACH_BIT(BITS) uint rest = BITS; rest != 0u; rest &= rest - 1u
+
+// Software does for all of its lanes what one of them has to do, so each invocation sorts out its pairs
+// by a cheap test before the next one.
 void main() {
-    bool is_there = has_pair();
-    uint i = is_there ? pair_place() : 0u;
-    Pair pair = load_pair(i);
-    // Pairs that may touch while contacts serve, by how far their cells moved in the last substep.
-    vec2 ways = ways_of(pair);
     float least = OF_EDGES == 1 ? EDGE_THICKNESS * thickness : thickness;
-    float reach = least + max(
-        SPARE * thickness, 1.2 * AHEAD * window * (ways.y + substep * least_speed_unit));
-    if (is_there && pair.distance - ways.x <= reach) {
-        look(i, pair.own, pair.other, reach, least, ways.x);
+    uint looked = 0u, touching = 0u, ended = 0u;
+    for (int k = 0; k < PAIRS_EACH; ++k) {
+        bool is_there = has_pair(k);
+        Pair pair = load_pair(is_there ? pair_place(k) : 0u);
+        // Pairs that may touch while contacts serve, by how far their cells moved in the last substep.
+        vec2 ways = ways_of(pair);
+        float reach = least + max(
+            SPARE * thickness, 1.2 * AHEAD * window * (ways.y + substep * least_speed_unit));
+        looked |= is_there && pair.distance - ways.x <= reach ? 1u << k : 0u;
+    }
+    float nearest = 1e30;
+    for (EACH_BIT(looked)) {
+        int k = findLSB(rest);
+        uint i = pair_place(k);
+        Pair pair = load_pair(i);
+        ivec4 nodes = pair_nodes(pair.own, pair.other);
+        Nearest found = nearest_of(nodes);
+        pairs[i].distance = found.distance + ways_of(pair).x;
+        nearest = found.distance < nearest ? found.distance : nearest;
+        bool touches = may_touch(found, nodes, least);
+        touching |= touches ? 1u << k : 0u;
+        bool has_kept = texelFetch(kept_texels, int(i)).xyz != vec3(0.0);
+        ended |= has_kept && !touches ? 1u << k : 0u;
+    }
+    if (looked != 0u) {
+        atomicMin(least_distance, floatBitsToUint(nearest));
+    }
+    for (EACH_BIT(touching)) {
+        int k = findLSB(rest);
+        uint i = pair_place(k);
+        Pair pair = load_pair(i);
+        ivec4 nodes = pair_nodes(pair.own, pair.other);
+        Nearest found = nearest_of(nodes);
+        if (is_owned(found, nodes, pair.other)) {
+            add_contact(i, nodes, found.weights, found.d, found.distance, least);
+        } else {
+            ended |= 1u << k;
+        }
+    }
+    for (EACH_BIT(ended)) {
+        kept[pair_place(findLSB(rest))] = vec4(0.0);
     }
 }

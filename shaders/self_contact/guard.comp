@@ -135,8 +135,8 @@ void guard(uint own, uint other, float least) {
 }
 
 void main() {
-    bool is_there = has_pair();
-    uint i = is_there ? pair_place() : 0u;
+    bool is_there = has_pair(0);
+    uint i = is_there ? pair_place(0) : 0u;
     Pair pair = load_pair(i);
     // Cells have gone that far already, with the present substep.
     vec2 ways = ways_of(pair);

@@ -110,7 +110,7 @@ _COUNTING = {
         'atomicAdd(self_nodes[node].contacts, 1u)', 'atomicAdd(self_node_count, 1u)',
         'atomicAdd(node_groups[0], place % SELF_LOCAL == 0u ? 1u : 0u)',
         'atomicAdd(self_nodes[node].impulse[k], part[k])',
-        'atomicMin(least_distance, floatBitsToUint(distance))'],
+        'atomicMin(least_distance, floatBitsToUint(nearest))'],
     'self_contact/round.comp': [
         'atomicAdd(self_nodes[node].impulse[k], change[k])',
         'atomicAdd(self_nodes[node].way[k], change[k])',
@@ -170,7 +170,7 @@ _FORMS = {
         'LOADS_TEXTURE': 1, 'SELF_LOCAL': 32, 'IS_IMPLICIT': 1},
     'self_contact/contacts.comp, of solves': {
         'LOADS_TEXTURE': 1, 'SELF_LOCAL': 32, 'OF_EDGES': 1, 'MOST_GROUPS': 65535,
-        'IS_IMPLICIT': 1},
+        'IS_IMPLICIT': 1, 'PAIRS_EACH': 1},
     'self_contact/nodes.comp, last': {'LOADS_TEXTURE': 1, 'SELF_LOCAL': 32, 'IS_LAST': 1},
     'self_contact/nodes.comp, after limits': {
         'LOADS_TEXTURE': 1, 'SELF_LOCAL': 32, 'IS_LAST': 1, 'HAS_HELD': 1, 'NOTES_CHANGES': 1},
@@ -179,8 +179,10 @@ _FORMS = {
     'self_contact/nodes.comp, recording': {
         'LOADS_TEXTURE': 1, 'SELF_LOCAL': 32, 'IS_LAST': 1, 'HAS_HELD': 1, 'HAS_LOW_PARTS': 1},
     **{f'self_contact/{name}.comp{words}': {
-        'LOADS_TEXTURE': 1, 'SELF_LOCAL': 32, 'OF_EDGES': of_edges, 'MOST_GROUPS': 65535}
-       for name in ('contacts', 'guard') for words, of_edges in (('', 0), (', of edges', 1))},
+        'LOADS_TEXTURE': 1, 'SELF_LOCAL': 32, 'OF_EDGES': of_edges, 'MOST_GROUPS': 65535,
+        'PAIRS_EACH': each}
+       for name, each in (('contacts', 16), ('guard', 1))
+       for words, of_edges in (('', 0), (', of edges', 1))},
     **{f'self_contact/{name}.comp': {'LOADS_TEXTURE': 1, 'STRIP': 16} for name in (
         'cut', 'drive', 'longest', 'ways')},
     'limit/look.comp': {'STRIP': 16, 'LIST_LOCAL': '8u'},

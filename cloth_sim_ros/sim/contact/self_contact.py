@@ -29,6 +29,9 @@ import numpy as np
 
 # Invocations of a workgroup of the passes over pairs, contacts and nodes [1].
 _LOCAL = 32
+# Pairs that an invocation looks at for contacts [1], on software; chosen: from 8 to 32 a moving
+# towel takes the same time to 10 % (benchmarks/layers.py).
+_PAIRS_OF_SOFTWARE = 16
 # Passes read the state through textures on all devices: they write into many storage blocks.
 _READS = {'LOADS_TEXTURE': 1}
 # Rounds of impulses between two looks at how they change, and at most in a substep [1]; chosen:
@@ -177,6 +180,7 @@ class SelfContact:
         self._is_implicit = is_implicit
         self._skin_of_way = _SKIN_OF_LONG_WAY if is_implicit else _SKIN_OF_WAY
         self._strips = Strips.groups(layout)
+        self._pairs_each = _pairs_each(layout)
         self._head = Buffer(_HEAD.itemsize, is_polled=True)
         self._head.write(_fresh_head())
         self._fresh = _fresh_head()
@@ -556,7 +560,8 @@ class SelfContact:
             if count:
                 program = self._use(f'{name} {of_edges}')
                 yield program
-                _dispatch_pairs(program, count)
+                each = self._pairs_each if name == 'contacts' else 1
+                _dispatch_pairs(program, -(-count // each))
         shader_writes_visible()
 
     def _build(self, state: SubstepEnds, reach: float) -> None:
@@ -647,11 +652,11 @@ class SelfContact:
             (self._boxes, bindings.SELF_BOXES), (self._cell_ways, bindings.SELF_WAYS),
             (self._contacts, bindings.SELF_CONTACTS), (self._acting, bindings.SELF_ACTING),
             (self._first, bindings.SELF_FIRST), (self._pairs[0], bindings.SELF_PAIRS),
-            (self._nodes, bindings.SELF_NODES))
+            (self._nodes, bindings.SELF_NODES), (self._kept, bindings.SELF_KEPT))
         as_texture = (
             (self._features, bindings.SELF_FEATURES),
             (self._pairs[1], bindings.SELF_PAIRS_BEFORE))
-        as_storage = ((self._head, bindings.SELF_HEAD), (self._kept, bindings.SELF_KEPT))
+        as_storage = ((self._head, bindings.SELF_HEAD),)
         return [
             *(buffer.storage_call(place) for buffer, place in (*as_both, *as_storage)),
             *(call for buffer, place in (*as_both, *as_texture)
@@ -692,7 +697,8 @@ def _programs(
             **of_nodes, 'IS_LAST': 1, 'HAS_HELD': held, 'NOTES_CHANGES': notes}
            for held in (0, 1) for notes in range(1 + may_note)},
         **{f'{name} {of_edges}': {
-            **of_items, 'OF_EDGES': of_edges, 'IS_IMPLICIT': int(is_implicit)}
+            **of_items, 'OF_EDGES': of_edges, 'IS_IMPLICIT': int(is_implicit),
+            'PAIRS_EACH': _pairs_each(layout) if name == 'contacts' else 1}
            for name in ('contacts', 'guard') for of_edges in (0, 1)},
         **dict.fromkeys(('ways', 'longest', 'cut', *(('drive',) * is_implicit)), strips)}
     return {
@@ -706,8 +712,13 @@ def _last_pass(held_at: int, notes_changes: bool | int) -> str:
     return f'nodes last{" held" * (held_at >= 0)}{" noting" * notes_changes}'
 
 
-def _dispatch_pairs(program: Program, count: int) -> None:
-    groups = -(-count // _LOCAL)
+def _pairs_each(layout: Layout) -> int:
+    """Return how many pairs an invocation looks at for contacts."""
+    return _PAIRS_OF_SOFTWARE if layout.texture_loads else 1
+
+
+def _dispatch_pairs(program: Program, invocations: int) -> None:
+    groups = -(-invocations // _LOCAL)
     program.dispatch(min(groups, MOST_GROUPS), -(-groups // MOST_GROUPS))
 
 

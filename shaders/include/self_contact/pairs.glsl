@@ -15,11 +15,6 @@ struct Pair {
 // from the last one back.
 uniform int most_pairs;
 
-// Number of the pair of an invocation, in rows of at most MOST_GROUPS workgroups.
-uint pair_number() {
-    return gl_GlobalInvocationID.x + gl_GlobalInvocationID.y * uint(MOST_GROUPS * SELF_LOCAL);
-}
-
 layout(binding = SELF_PAIRS) uniform samplerBuffer pair_texels;
 
 // Software reads one texel much faster than four numbers.
@@ -31,14 +26,20 @@ Pair pair_of(vec4 texel) {
 Pair load_pair(uint place) { return pair_of(texelFetch(pair_texels, int(place))); }
 
 #ifdef OF_EDGES
-// The pair of an invocation; all are of one kind, as software evaluates all branches that some take.
-uint pair_place() {
-    uint i = pair_number();
+// Number of the pair k of an invocation, which has PAIRS_EACH, in rows of at most MOST_GROUPS workgroups.
+uint pair_number(int k) {
+    uint group = gl_WorkGroupID.x + gl_WorkGroupID.y * uint(MOST_GROUPS);
+    return (group * uint(PAIRS_EACH) + uint(k)) * uint(SELF_LOCAL) + gl_LocalInvocationID.x;
+}
+
+// Its place; all are of one kind, as software evaluates all branches that some take.
+uint pair_place(int k) {
+    uint i = pair_number(k);
     return OF_EDGES == 1 ? uint(most_pairs) - 1u - i : i;
 }
 
-bool has_pair() {
-    return pair_number() < (OF_EDGES == 1 ? edge_pairs : vertex_pairs);
+bool has_pair(int k) {
+    return pair_number(k) < (OF_EDGES == 1 ? edge_pairs : vertex_pairs);
 }
 
 layout(binding = SELF_WAYS) uniform samplerBuffer way_texels;
