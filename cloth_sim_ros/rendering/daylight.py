@@ -4,6 +4,7 @@
 """Draw a frame as one sees it: a fabric on its bodies and floor in daylight, with shadows."""
 
 from collections.abc import Iterator
+from collections.abc import Mapping
 from contextlib import contextmanager
 from functools import cached_property
 import math
@@ -69,7 +70,7 @@ TWILL_DEFINES = {**WOVEN_DEFINES, 'WEAVE': 'TWILL'}
 KNIT_DEFINES = {**WOVEN_DEFINES, 'WEAVE': 'KNIT', 'SLUB': 0.06, 'UNEVEN': 0.06}
 # A wide edge of a shadow needs more taps, or it has steps.
 FLOOR_DEFINES = {**DAYLIGHT_DEFINES, 'LAMP_TAPS': 128}
-_FABRIC_DEFINES = {
+_FABRIC_DEFINES: Mapping[str, Mapping[str, object]] = {
     'fabric': WOVEN_DEFINES, 'twill': TWILL_DEFINES, 'knit': KNIT_DEFINES,
     'plain': DAYLIGHT_DEFINES, 'checked': CHECKED_DEFINES}
 _COLORS = {

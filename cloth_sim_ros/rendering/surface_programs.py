@@ -45,11 +45,11 @@ class SurfacePrograms:
 
     def __init__(self) -> None:
         """Begin with none."""
-        self._made: dict[tuple[str, ...], RenderProgram] = {}
+        self._made: dict[tuple[object, ...], RenderProgram] = {}
 
-    def of(self, fragments: str, defines: Mapping[str, float]) -> RenderProgram:
+    def of(self, fragments: str, defines: Mapping[str, object]) -> RenderProgram:
         """Return the one with the shader ``fragments``, compiled with ``defines``."""
-        key = (fragments, *sorted(defines))
+        key = (fragments, *sorted(defines.items()))
         if key not in self._made:
             self._made[key] = RenderProgram('render/cloth.vert', fragments, defines)
         return self._made[key]
