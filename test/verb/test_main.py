@@ -98,7 +98,7 @@ def test_says_that_no_node_answers():
 
 
 def test_mode_does_not_find_its_own_client():
-    """Without a node, it would be told to wait longer for one."""
+    """Without a node, the error would advise a longer timeout instead of starting one."""
     result = cloth_sim('mode', 'adaptive', '--node', '/nobody/there', '--timeout', '2')
     assert result.returncode == 1
     assert 'busy' not in result.stderr and '--node' in result.stderr

@@ -157,11 +157,12 @@ class ImplicitStep(ABC):
         self._energies = Observer(scene, layout, set(families))
         # The law of the last substep, with its arguments.
         self._law: tuple[tuple[float, float], EdgeLaw] | None = None
-        # Of the current substep: first entry of held.glsl that it writes, or -1; the loads on
-        # single nodes; whether the cloth is free, neither pinned nor touched at the beginning;
-        # and whether contact requires another solve.
+        # First entry of held.glsl that the current substep writes; -1 for none.
         self._held_at = -1
+        # Loads on single nodes in the current substep.
         self._forcing = _NO_FORCING
+        # Whether the cloth is neither pinned nor touched at the beginning of the current substep,
+        # and whether contact requires another solve.
         self._is_free = self._is_due = False
         self.forget()
 

@@ -6,4 +6,3 @@
 // what both of their cells have gone. Substeps that were made again count twice.
 
 layout(std430, binding = SELF_WAYS) buffer SelfWays { vec4 cell_ways[]; };
-
