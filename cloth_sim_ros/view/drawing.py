@@ -4,6 +4,7 @@
 """The scene of a page: the cloth, handles at its pins, and colliders."""
 
 from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
 from typing import Any
 
 from cloth_sim_ros.analysis.frame import Frame
@@ -192,6 +193,9 @@ class PinHandles:
         self._handles: dict[Node, viser.TransformControlsHandle] = {}
         # Those in somebody's hand: they lead their pins, and do not follow them.
         self._dragged: set[Node] = set()
+        # Moves wait for the simulation: one after the other, each to the newest place.
+        self._moves = ThreadPoolExecutor(max_workers=1)
+        self._targets: dict[Node, tuple[float, ...]] = {}
 
     def follow(self, frame: Frame, is_shown: bool) -> None:
         """Put a handle at each of the first pins, and none elsewhere."""
@@ -213,14 +217,21 @@ class PinHandles:
             f'/handles/{node[0]}_{node[1]}', scale=size, disable_rotations=True,
             depth_test=False)
 
+        # Async, so that viser calls it in the order of the messages. Otherwise it runs later in a
+        # thread, perhaps after the end of the drag, when ``follow`` has put the handle back.
         @handle.on_update
-        def _(event: viser.TransformControlsEvent) -> None:
+        async def _(event: viser.TransformControlsEvent) -> None:
             if event.phase == 'start':
                 self._dragged.add(node)
             elif event.phase == 'end':
                 self._dragged.discard(node)
             else:
-                target = tuple(float(part) for part in event.target.position)
-                self._answer(event.client, lambda: self._source.move_pin(*node, target))
+                self._targets[node] = tuple(float(part) for part in event.target.position)
+                self._moves.submit(self._move, node, event.client)
 
         return handle
+
+    def _move(self, node: Node, client: viser.ClientHandle | None) -> None:
+        target = self._targets.pop(node, None)
+        if target is not None:
+            self._answer(client, lambda: self._source.move_pin(*node, target))

@@ -9,6 +9,7 @@ from concurrent.futures import Future
 from dataclasses import replace
 from queue import Empty
 from queue import SimpleQueue
+from threading import Lock
 from threading import Thread
 import time
 from typing import Any
@@ -65,6 +66,9 @@ class SceneSource(Source):
         self._latest: Moment | None = None
         # None asks the thread to end.
         self._requests: SimpleQueue[_Request | None] = SimpleQueue()
+        # Held while something is put into the queue, so that no request comes after the end.
+        self._lock = Lock()
+        self._has_ended = False
         started: Future[None] = Future()
         # The GL context lives on the thread that made it.
         self._thread = Thread(target=self._work, args=(started,), daemon=True)
@@ -141,15 +145,18 @@ class SceneSource(Source):
         self._ask(lambda simulation: simulation.move_pin(row, col, target))
 
     def close(self) -> None:
-        """End the simulation."""
-        self._requests.put(None)
+        """End the simulation, after what was requested before."""
+        with self._lock:
+            self._has_ended = True
+            self._requests.put(None)
         self._thread.join()
 
     def _ask(self, change: Callable[[Simulation], Any]) -> None:
-        if not self._thread.is_alive():
-            raise ClothSimError('the simulation of this view has ended: start another view')
         answer: Future[None] = Future()
-        self._requests.put((change, answer))
+        with self._lock:
+            if self._has_ended:
+                raise ClothSimError('the simulation of this view has ended: start another view')
+            self._requests.put((change, answer))
         answer.result()
 
     def _work(self, started: Future[None]) -> None:

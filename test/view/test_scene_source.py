@@ -109,6 +109,13 @@ def test_lost_run_stops_with_the_reason_and_restarts():
         source.reset()
 
 
+def test_a_scene_that_has_ended_is_told(source: SceneSource):
+    """A page would wait for ever for a simulation that is gone."""
+    source.close()
+    with pytest.raises(ClothSimError, match='simulation of this view has ended'):
+        source.step(1)
+
+
 def test_a_scene_goes_to_no_other_time(source: SceneSource):
     """A view that asked for it anyway would end in a traceback without a way out."""
     with pytest.raises(ClothSimError, match='small cannot go to a time: view a recording'):

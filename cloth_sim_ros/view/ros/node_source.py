@@ -151,6 +151,9 @@ class NodeSource(Source):
         self._shown_cloud = self._shown_state = None
         self._epoch = Time()
         self._told = Event()
+        # The calls that wait for an answer, which none gets once the view has ended.
+        self._waiting: set[Event] = set()
+        self._has_ended = False
         check_interfaces()
         # In a context of its own, rclpy leaves the signals alone: Ctrl-C works as in any command.
         self._context = Context()
@@ -230,9 +233,12 @@ class NodeSource(Source):
         self._call('move_pin', MovePin.Request(row=row, col=col, target=_point(target)))
 
     def close(self) -> None:
-        """Leave the graph."""
+        """Leave the graph; calls that still wait for an answer raise ClothSimError."""
         self._executor.shutdown()
         self._thread.join()
+        self._has_ended = True
+        for answered in tuple(self._waiting):
+            answered.set()
         self._node.destroy_node()
         rclpy.try_shutdown(context=self._context)
 
@@ -267,14 +273,19 @@ class NodeSource(Source):
 
     def _call(self, name: str, request: Any) -> None:
         client = self._clients[name]
-        answered = Event()
         if not client.wait_for_service(self._timeout):
             raise ClothSimError(f'no node offers {self.name}/{name}: is it still running?')
+        answered = Event()
+        self._waiting.add(answered)
         future = client.call_async(request)
         future.add_done_callback(lambda _: answered.set())
-        if not answered.wait(self._timeout):
+        is_in_time = self._has_ended or answered.wait(self._timeout)
+        self._waiting.discard(answered)
+        if not future.done():
             client.remove_pending_request(future)
             raise ClothSimError(
+                f'{self.name}/{name} has not answered before this view ended'
+                if is_in_time else
                 f'{self.name}/{name} does not respond within {self._timeout:g} s: it may be busy, '
                 'so raise --timeout')
         response = future.result()

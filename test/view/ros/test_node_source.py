@@ -4,7 +4,10 @@
 """The view of a running node: what it publishes is shown, and its services do what is asked."""
 
 from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
+import signal
+import time
 
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.scene import Scene
@@ -78,6 +81,21 @@ def test_what_the_node_refuses_is_told(source: NodeSource):
         source.release(3, 3)
     finally:
         source.close()
+
+
+def test_a_view_that_ends_waits_for_no_answer(node: NodeProcess, source: NodeSource):
+    """Ctrl-C would leave a view of a busy node running until its timeout."""
+    node.send(signal.SIGSTOP)
+    try:
+        with ThreadPoolExecutor() as pool:
+            call = pool.submit(source.step, 1)
+            while not source._waiting:
+                time.sleep(0.01)
+            source.close()
+            with pytest.raises(ClothSimError, match='cloth_sim/step has not answered before'):
+                call.result()
+    finally:
+        node.send(signal.SIGCONT)
 
 
 def test_a_view_leaves_the_node_as_it_is(node: NodeProcess, source: NodeSource):
