@@ -5,6 +5,7 @@
 
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
+from threading import Lock
 from typing import Any
 
 from cloth_sim_ros.analysis.frame import Frame
@@ -191,8 +192,10 @@ class PinHandles:
         self._source = source
         self._answer = answer
         self._handles: dict[Node, viser.TransformControlsHandle] = {}
-        # Those in somebody's hand: they lead their pins, and do not follow them.
+        # Those in somebody's hand: they lead their pins, and do not follow them. The lock keeps a
+        # drag from beginning between the look at them and the change of a position.
         self._dragged: set[Node] = set()
+        self._lock = Lock()
         # Moves wait for the simulation: one after the other, each to the newest place.
         self._moves = ThreadPoolExecutor(max_workers=1)
         self._targets: dict[Node, tuple[float, ...]] = {}
@@ -209,8 +212,10 @@ class PinHandles:
             if node not in self._handles:
                 self._handles[node] = self._add(node, _SIZE * diagonal(frame))
             handle = self._handles[node]
-            if node not in self._dragged and not np.array_equal(handle.position, positions[node]):
-                handle.position = positions[node]
+            with self._lock:
+                if node not in self._dragged and not np.array_equal(
+                        handle.position, positions[node]):
+                    handle.position = positions[node]
 
     def _add(self, node: Node, size: float) -> viser.TransformControlsHandle:
         handle = self._scene.add_transform_controls(
@@ -222,7 +227,8 @@ class PinHandles:
         @handle.on_update
         async def _(event: viser.TransformControlsEvent) -> None:
             if event.phase == 'start':
-                self._dragged.add(node)
+                with self._lock:
+                    self._dragged.add(node)
             elif event.phase == 'end':
                 self._dragged.discard(node)
             else:
