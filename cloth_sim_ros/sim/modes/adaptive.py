@@ -46,7 +46,7 @@ _LOOK = 16
 _REVIEW = 8
 # Time of a substep with listed edges, and of a round over one edge, over that of a pass of springs
 # and over that for a node; time of an implicit substep over that of such a pass [1]; measured on
-# llvmpipe with one thread (docs/notes/performance.md).
+# llvmpipe with one thread (docs/explanation/adaptive.md).
 _LISTED_COST = 1.9
 _ROUND_COST = 3.0
 _WHOLE_COST = 150.0

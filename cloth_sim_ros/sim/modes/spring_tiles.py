@@ -20,7 +20,7 @@ class SpringTiles:
     """
     The pass mass_spring_tile.comp: a workgroup for each cloth.
 
-    Overlapping tiles of larger cloths gained nothing (docs/notes/performance.md, On a GPU).
+    Overlapping tiles of larger cloths gained nothing (docs/notes/gpu/nvidia_h200.md).
     """
 
     def __init__(self, scene: Scene, layout: Layout) -> None:
