@@ -6,6 +6,8 @@
 // invocation. A spring inside the block is evaluated once for both its ends.
 // HAS_HELD 1: the pass records what pinned nodes are driven with.
 
+#define LOW_PARTS_TEXTURE LOADS_TEXTURE
+
 #include "lattice.glsl"
 #include "state_in.glsl"
 #include "state_out.glsl"

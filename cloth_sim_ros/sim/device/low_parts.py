@@ -16,13 +16,13 @@ _ULP = 2.0**-23
 # lost, which is above one unit where g h^2 is below this share of it [1].
 _LEAST_MOTION = 0.125
 # That takes longer than dt, so that whole steps do not move, where g h dt is below this share of
-# the unit [1]. Compensation takes 2 to 3.5 times as long on llvmpipe, so that it is not made for
-# short substeps of a long dt, which lose some micrometres of a fall at most.
+# the unit [1]. Compensation takes 1.6 times as long on llvmpipe (benchmarks/short_steps.py), so
+# that it is not made for short substeps of a long dt, which lose micrometres of a fall at most.
 _LEAST_STEP = 0.5
 # Acceleration [m/s2], in scenes without gravity as well.
 _GRAVITY = 9.81
-# Low parts of a node [1]: three of its position and three of its velocity.
-_FLOATS = 6
+# Floats of a node [1]: a texel of four for its position and one for its velocity.
+_FLOATS = 8
 
 
 def needs_low_parts(scene: Scene) -> bool:
@@ -70,8 +70,9 @@ class LowParts:
             buffer.clear()
 
     def bind(self, binding: int) -> None:
-        """Let the next dispatch change them."""
+        """Let the next dispatch change them, and read them as texels."""
         self._now.bind_storage(binding)
+        self._now.bind_texture(binding)
 
     def clear(self, first: int, count: int) -> None:
         """Make those of ``count`` stored nodes from ``first`` on zero."""
