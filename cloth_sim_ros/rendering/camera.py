@@ -108,6 +108,22 @@ class View:
         slope = -(at_near + at_far) / (near - far)
         return slope, at_far - slope * far
 
+    def may_show(self, corners: np.ndarray) -> bool:
+        """
+        Return whether something between ``corners`` can be in the picture.
+
+        It cannot be where all corners are beyond the same side of the picture.
+
+        :param corners: (n, 3) [m]; without one, nothing is in the picture
+        """
+        if not len(corners):
+            return False
+        across, up, near = ((corners - self.middle) @ self.axes.T).T
+        half_height = self.half_height * (1.0 - near / self.distance)
+        half_width = half_height * self.width / self.height
+        inside = half_width - across, half_width + across, half_height - up, half_height + up
+        return all(float(distance.max()) >= 0.0 for distance in inside)
+
     def project(self, points: np.ndarray) -> np.ndarray:
         """
         Return where ``points`` are seen.

@@ -152,10 +152,11 @@ _LETTERS = 1.7           # height of a letter over its usual width
 
 
 def legend_handles(
-        survey: Survey, grid: float, size: float, look: str = STRAIN) -> list[Line2D]:
+        survey: Survey, view: View, grid: float, size: float, look: str = STRAIN) -> list[Line2D]:
     """
-    Return an entry for each kind of mark that some panel has.
+    Return an entry for each kind of mark that some panel has in its picture.
 
+    :param view: of all panels
     :param grid: distance of the grid's lines [m]
     :param size: of the marks [point]
     :param look: one of LOOKS; a fabric in daylight has no grid, and bodies explain themselves
@@ -165,16 +166,16 @@ def legend_handles(
         entries.append((f'grid {grid:g} m', {'color': GRID_COLOR, 'linewidth': 1.5}))
         if survey.shows_colliders:
             entries.append(('collider', {**_dot(COLLIDER_COLOR, size), 'marker': 's'}))
-    if survey.shows_pins:
+    if view.may_show(survey.pins.corners):
         entries.append(('pinned', _dot(PIN_COLOR, size)))
-    if survey.shows_grasps:
+    if view.may_show(survey.grasps.corners):
         entries.append(('grasped', _dot(GRASP_COLOR, size)))
     if survey.shows_pushes:
         # An arrowhead at the end of its shaft.
         entries.append(('push', {
             'color': PUSH_COLOR, 'linewidth': 2.0, 'marker': '>', 'markersize': size,
             'markevery': [1]}))
-    if survey.shows_limits and look == STRAIN:
+    if look == STRAIN and view.may_show(survey.limits.corners):
         entries.append(('node at its strain limit', _dot(LIMIT_COLOR, 0.8 * size)))
     return [Line2D([0.0, 1.0], [0.0, 0.0], label=label, **look) for label, look in entries]
 
@@ -207,7 +208,7 @@ class Sheet:
         if layout.has_bar:
             self._draw_bar(scale)
         self._draw_directions(view)
-        self._explain(survey, note, look)
+        self._explain(survey, view, note, look)
         canvas = FigureCanvasAgg(self._figure)
         canvas.draw()
         self._around = np.asarray(canvas.buffer_rgba())[..., :3].copy()
@@ -281,11 +282,12 @@ class Sheet:
                 color=_INK, fontsize=0.8 * layout.font, ha='center',
                 va='center')
 
-    def _explain(self, survey: Survey, note: str, look: str) -> None:
+    def _explain(self, survey: Survey, view: View, note: str, look: str) -> None:
         layout = self.layout
         width, height = layout.size
         middle = layout.middle / width
-        handles = legend_handles(survey, grid_step(survey.size), 0.55 * layout.font, look)
+        handles = legend_handles(
+            survey, view, grid_step(survey.size), 0.55 * layout.font, look)
         if handles:
             self._figure.legend(
                 handles=handles, loc='center', ncols=len(handles), frameon=False,

@@ -10,6 +10,7 @@ from cloth_sim_ros.analysis.frame import Frame
 from cloth_sim_ros.rendering.look import StrainRange
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.model.collider_surface import collider_surface
+from cloth_sim_ros.sim.model.collider_surface import is_ground
 from cloth_sim_ros.sim.model.colliders import Collider
 from cloth_sim_ros.sim.model.push import Push
 from cloth_sim_ros.sim.snapshot import FLAG_AT_LIMIT
@@ -73,6 +74,30 @@ class Extent:
         self.add(positions[np.ix_(rows, cols)])
 
 
+class Box:
+    """The box around all points given, along x, y and z."""
+
+    def __init__(self) -> None:
+        """Begin with no point."""
+        self._low = np.full(3, np.inf)
+        self._high = np.full(3, -np.inf)
+
+    @property
+    def corners(self) -> np.ndarray:
+        """Get its corners [m], (8, 3); none before the first point was given."""
+        if not np.isfinite(self._low).all():
+            return np.zeros((0, 3))
+        return np.stack(
+            np.meshgrid(*np.stack([self._low, self._high], axis=1)), axis=-1).reshape(-1, 3)
+
+    def add(self, points: np.ndarray) -> None:
+        """Add ``points``, (n, 3) [m]; those that are not finite are ignored."""
+        finite = points[np.isfinite(points).all(axis=1)]
+        if len(finite):
+            self._low = np.minimum(self._low, finite.min(axis=0))
+            self._high = np.maximum(self._high, finite.max(axis=0))
+
+
 def _chosen(count: int) -> np.ndarray:
     return np.unique(np.linspace(0, count - 1, min(count, _SIDE)).round().astype(int))
 
@@ -105,16 +130,17 @@ class Survey:
     """
     Looks at all frames that will be shown, one after the other.
 
-    ``shows_pins``, ``shows_grasps``, ``shows_limits``, ``shows_pushes`` and ``shows_colliders``
-    say what a legend has to explain.
+    ``pins``, ``grasps`` and ``limits`` are the boxes around the nodes that are pinned, grasped and
+    at their strain limit; with ``shows_pushes`` and ``shows_colliders`` they say what a legend
+    has to explain.
     """
 
     def __init__(self) -> None:
         """Begin with no frame."""
         self.strains = StrainRange()
-        self.shows_pins = False
-        self.shows_grasps = False
-        self.shows_limits = False
+        self.pins = Box()
+        self.grasps = Box()
+        self.limits = Box()
         self.shows_colliders = False
         self.frames = 0
         self._cloth = Extent()
@@ -177,12 +203,12 @@ class Survey:
     def add(self, frame: Frame) -> None:
         """Look at ``frame``."""
         self.frames += 1
-        self._cloth.add_nodes(frame.positions)
+        positions = frame.positions
+        self._cloth.add_nodes(positions)
         self.strains.add(frame.strain)
-        flags = frame.records['flags']
-        self.shows_pins = self.shows_pins or bool((frame.pinned & ~frame.grasped).any())
-        self.shows_grasps = self.shows_grasps or bool(frame.grasped.any())
-        self.shows_limits = self.shows_limits or bool((flags & FLAG_AT_LIMIT).any())
+        self.pins.add(positions[frame.pinned & ~frame.grasped])
+        self.grasps.add(positions[frame.grasped])
+        self.limits.add(positions[(frame.records['flags'] & FLAG_AT_LIMIT) != 0])
         self._add_colliders(frame.colliders)
         pushes = frame.acting_pushes
         largest = largest_force(pushes)
@@ -193,7 +219,8 @@ class Survey:
             self._arrows.append(np.stack([tail, largest * (tip - tail)]))
 
     def _add_colliders(self, colliders: tuple[Collider, ...]) -> None:
-        self.shows_colliders = self.shows_colliders or bool(colliders)
+        # A level plane is drawn as the floor.
+        self.shows_colliders = self.shows_colliders or not all(map(is_ground, colliders))
         for collider in colliders:
             if collider.shape != 'plane' and collider not in self._last_bodies:
                 self._bodies.add(collider_surface(collider)[0])

@@ -3,6 +3,8 @@
 
 """From where the cloth is looked at, how that projects, and what a depth camera sees."""
 
+from itertools import product
+
 from cloth_sim_ros.rendering.camera import Camera
 from cloth_sim_ros.sim.errors import ClothSimError
 from hypothesis import given
@@ -35,6 +37,22 @@ def some_points(seed, scale=1.0):
     """Return points of a lopsided cloud."""
     random = np.random.default_rng(seed)
     return scale * (random.normal(size=(40, 3)) * (1.0, 0.3, 0.6) + (3.0, -2.0, 0.5))
+
+
+@pytest.mark.parametrize('field_of_view', [0.0, 25.0, 90.0])
+def test_what_is_beyond_a_side_cannot_be_shown(field_of_view):
+    """A legend would name a mark that is outside the picture, or lack one that is inside."""
+    corners = np.array(list(product((-0.1, 0.1), repeat=3)))
+    view = Camera(30.0, 15.0, field_of_view).looking_at(10.0 * corners, 320, 240)
+    right, up, _ = view.axes
+    for side, half in ((right, view.half_height * 320 / 240), (up, view.half_height)):
+        for sign in (-1.0, 1.0):
+            # 1.3 and 0.7 of the way to the side, at the distance of the middle.
+            assert view.may_show(view.middle + corners + 0.7 * sign * half * side)
+            assert not view.may_show(view.middle + 0.1 * corners + 1.3 * sign * half * side)
+    # Larger than the picture on all sides, though no corner is in it.
+    assert view.may_show(view.middle + (corners * (100.0, 100.0, 0.1)) @ view.axes)
+    assert not view.may_show(np.zeros((0, 3)))
 
 
 @given(ANGLES)

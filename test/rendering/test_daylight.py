@@ -147,16 +147,18 @@ def test_a_chain_is_drawn_in_every_look(flat, rendered, look):
     assert (np.ptp(image, axis=-1) > 10).any()
 
 
-def test_only_strain_has_a_bar_and_a_grid():
+def test_only_strain_has_a_bar_and_a_grid(hanging):
     """A fabric would be explained by a scale that it does not follow."""
     strains = StrainRange()
     strains.add(np.array([0.01]))
     scale = StrainScale(strains)
     assert has_bar(scale, Style()) and not has_bar(scale, Style(look='plain'))
+    ball = Collider('ball', 'sphere', (0.1,), (0.0, 0.0, 0.1), (0.0, 0.0, 0.0, 1.0), 0.5)
     survey = Survey()
-    survey.shows_colliders = survey.shows_pins = True
-    assert [handle.get_label() for handle in legend_handles(survey, 0.1, 5.0, 'plain')] == [
-        'pinned']
+    survey.add(_with(hanging(), ball))
+    view = SIDE.looking_at(survey.points, 320, 240)
+    handles = legend_handles(survey, view, 0.1, 5.0, 'plain')
+    assert [handle.get_label() for handle in handles] == ['pinned']
 
 
 def _with(frame, *colliders):

@@ -13,6 +13,7 @@ from cloth_sim_ros.rendering.sheet import panel_size
 from cloth_sim_ros.rendering.sheet import Sheet
 from cloth_sim_ros.rendering.survey import Survey
 from cloth_sim_ros.sim.model.colliders import Collider
+from cloth_sim_ros.sim.snapshot import FLAG_GRASPED
 import numpy as np
 import pytest
 
@@ -139,5 +140,25 @@ def test_the_legend_tells_of_colliders_where_there_are_some(hanging):
     for colliders in ((), (ball,)):
         survey = Survey()
         survey.add(replace(hanging(), colliders=colliders))
-        labels.append([entry.get_label() for entry in legend_handles(survey, 0.1, 8.0)])
+        labels.append(labels_of(survey, Camera()))
     assert labels[1] == [labels[0][0], 'collider', *labels[0][1:]]
+
+
+@pytest.mark.parametrize(('zoom', 'height', 'is_named'), [
+    (1.0, 0.5, True), (5.0, 0.0, False), (5.0, 1.0, True)])
+def test_the_legend_names_no_mark_out_of_view(hanging, zoom, height, is_named):
+    """A reader would look for a grasp that is above the picture."""
+    survey = Survey()
+    frame = hanging()
+    held = frame.positions[..., 2].max()
+    frame.records['flags'][frame.pinned] |= FLAG_GRASPED
+    survey.add(frame)
+    lowest = frame.positions[..., 2].min()
+    target = (0.0, 0.0, lowest + height * (held - lowest))
+    assert ('grasped' in labels_of(survey, Camera(zoom=zoom, target=target))) == is_named
+
+
+def labels_of(survey, camera):
+    """Return the entries of the legend of a panel of 320 x 240 pixels."""
+    view = camera.looking_at(survey.points, 320, 240)
+    return [entry.get_label() for entry in legend_handles(survey, view, 0.1, 8.0)]

@@ -4,8 +4,10 @@
 """All cloths, arrows and regions of a picture are inside of what is surveyed."""
 
 from dataclasses import replace
+from itertools import product
 
 from cloth_sim_ros.rendering.camera import Camera
+from cloth_sim_ros.rendering.survey import Box
 from cloth_sim_ros.rendering.survey import Extent
 from cloth_sim_ros.rendering.survey import region_rings
 from cloth_sim_ros.rendering.survey import Survey
@@ -85,14 +87,33 @@ def test_it_tells_what_has_to_be_explained(hanging):
     """The legend would have marks that are not drawn, or lack some that are."""
     frame = hanging()
     survey = survey_of(frame)
-    assert survey.shows_pins and not survey.shows_limits and not survey.shows_pushes
-    assert not survey.shows_grasps
+    assert len(survey.pins.corners) and not len(survey.limits.corners)
+    assert not len(survey.grasps.corners) and not survey.shows_pushes
     frame.records['flags'] = FLAG_PINNED | FLAG_GRASPED
     survey = survey_of(frame)
-    assert survey.shows_grasps and not survey.shows_pins
+    assert len(survey.grasps.corners) and not len(survey.pins.corners)
     frame.records['flags'] = FLAG_AT_LIMIT
     survey = survey_of(hanging(pushes=(push(0.0, 0.0, 1.0),)), frame)
-    assert survey.shows_pins and survey.shows_limits and survey.shows_pushes
+    assert len(survey.pins.corners) and len(survey.limits.corners) and survey.shows_pushes
+
+
+def test_a_box_spans_its_finite_points():
+    """A mark at a corner would be sought where none is; a lost node would have no place."""
+    box = Box()
+    assert box.corners.shape == (0, 3)
+    box.add(np.array([[0.0, 5.0, 1.0], [np.nan, 9.0, 9.0]]))
+    box.add(np.zeros((0, 3)))
+    box.add(np.array([[-1.0, 4.0, 2.0]]))
+    assert {tuple(corner) for corner in box.corners} == set(
+        product((-1.0, 0.0), (4.0, 5.0), (1.0, 2.0)))
+
+
+def test_a_level_plane_is_no_collider(hanging):
+    """The legend would name a body where only the floor is drawn."""
+    level = Collider('plane', 'plane', (), (0.0, 0.0, -1.0), (0.0, 0.0, 0.0, 1.0), 0.3)
+    tilted = replace(level, orientation=(0.0, 0.6, 0.0, 0.8))
+    assert not survey_of(replace(hanging(), colliders=(level,))).shows_colliders
+    assert survey_of(replace(hanging(), colliders=(level, tilted))).shows_colliders
 
 
 def test_arrows_of_all_frames_have_one_scale(hanging):
