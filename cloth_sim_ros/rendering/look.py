@@ -159,9 +159,7 @@ def write_words(
     :param size: of the font [pixel]
     """
     height, width = image.shape[:2]
-    font = _font(size, is_bold)
-    halo = max(1, round(size / 7))
-    left, top, right, bottom = font.getbbox(text, anchor='mm', stroke_width=halo)
+    left, top, right, bottom = _words_box(text, size, is_bold)
     across = float(np.clip(place[0], -left, max(width - right, -left)))
     down = float(np.clip(place[1], -top, max(height - bottom, -top)))
     # Only the part around the words is copied to and fro.
@@ -169,9 +167,18 @@ def write_words(
     part = image[y:int(down + bottom) + 2, x:int(across + right) + 2]
     canvas = Image.fromarray(np.ascontiguousarray(part))
     ImageDraw.Draw(canvas).text(
-        (across - x, down - y), text, font=font, fill=color, anchor='mm', stroke_width=halo,
-        stroke_fill=_HALO)
+        (across - x, down - y), text, font=_font(size, is_bold), fill=color, anchor='mm',
+        stroke_width=_halo_width(size), stroke_fill=_HALO)
     part[:] = np.asarray(canvas)
+
+
+def _words_box(text: str, size: int, is_bold: bool) -> tuple[float, float, float, float]:
+    """Return left, top, right and bottom of words with their halo, from their middle [pixel]."""
+    return _font(size, is_bold).getbbox(text, anchor='mm', stroke_width=_halo_width(size))
+
+
+def _halo_width(size: int) -> int:
+    return max(1, round(size / 7))
 
 
 @lru_cache
@@ -186,7 +193,7 @@ def write_forces(
         image: np.ndarray, pushes: Sequence[Push], arrows: Sequence[np.ndarray], view: View,
         size: int) -> None:
     """
-    Write the forces of ``pushes`` into ``image``.
+    Write the forces of ``pushes`` into ``image``: beyond the tip, or else behind the tail.
 
     :param arrows: tail and tip of each push [m]
     :param size: of the font [pixel]
@@ -197,9 +204,27 @@ def write_forces(
         length = float(np.linalg.norm(run))
         # A push towards the camera is a point in the view: its words go above it.
         ahead = run / length if length > 1.0 else np.array([0.0, -1.0])
-        words = f'{np.linalg.norm(push.force):.3g} N'
+        words = force_words(float(np.linalg.norm(push.force)))
         # Words are wider than high.
-        away = size * (0.9 + 0.32 * len(words) * abs(ahead[0]))
-        place = tip + away * ahead
+        away = size * (0.9 + 0.32 * len(words) * abs(ahead[0])) * ahead
+        place = tip + away
+        if not _is_inside(image, words, place, size) and _is_inside(
+                image, words, tail - away, size):
+            place = tail - away
         write_words(
             image, words, (place[0], place[1]), size, color=_COLOR, is_bold=True)
+
+
+def force_words(force: float) -> str:
+    """Return ``force`` [N] to three digits, without an exponent up to a million."""
+    return f'{float(f"{force:.3g}"):g} N'
+
+
+def _is_inside(image: np.ndarray, words: str, place: np.ndarray, size: int) -> bool:
+    """Return whether bold ``words`` around ``place`` [pixel] are wholly in ``image``."""
+    height, width = image.shape[:2]
+    left, top, right, bottom = _words_box(words, size, is_bold=True)
+    across, down = place
+    return bool(
+        across + left >= 0.0 and across + right <= width
+        and down + top >= 0.0 and down + bottom <= height)

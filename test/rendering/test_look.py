@@ -4,6 +4,7 @@
 """The colours, sizes, light and lettering of all pictures, and the colours of strain."""
 
 from cloth_sim_ros.rendering.camera import Camera
+from cloth_sim_ros.rendering.look import force_words
 from cloth_sim_ros.rendering.look import PALETTE_SIZE
 from cloth_sim_ros.rendering.look import round_up
 from cloth_sim_ros.rendering.look import StrainRange
@@ -169,3 +170,24 @@ def test_it_stands_beyond_the_tip(force):
     assert np.linalg.norm(ink.mean(axis=0) - tip) < 45.0
     if force[0] or force[2]:
         assert (ink.mean(axis=0) - tip) @ (tip - tail) > 0.0
+
+
+def test_it_stands_behind_the_tail_at_a_border():
+    """The words would cover the tip of an arrow that ends at the border of a panel."""
+    corners = np.array([[-1.0, -1.0, -1.0], [1.0, 1.0, 1.0]])
+    view = Camera(-90.0, 0.0, 0.0).looking_at(corners, 300, 300)
+    arrow = np.array([(0.0, 0.0, 0.6), (0.0, 0.0, 1.04)])
+    image = np.full((300, 300, 3), 255, np.uint8)
+    push = Push.checked(force=(0.0, 0.0, 6970.0), start=0.0, duration=1.0)
+    write_forces(image, [push], [arrow], view, 14)
+    ink = np.argwhere((image < 200).any(axis=-1))[:, ::-1]
+    tail, _ = view.project(arrow)
+    assert len(ink) > 30
+    assert 1.0 < ink[:, 1].min() - tail[1] < 14.0
+
+
+@pytest.mark.parametrize(('force', 'words'), [
+    (0.0123456, '0.0123 N'), (12.0, '12 N'), (6967.4, '6970 N'), (123456.0, '123000 N')])
+def test_forces_are_written_without_exponents(force, words):
+    """A reader would have to work out how large 6.97e+03 N is."""
+    assert force_words(force) == words
