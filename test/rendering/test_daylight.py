@@ -118,6 +118,16 @@ def test_a_body_below_the_cloth_is_drawn(flat, rendered):
     assert has_hue(image, BODY_COLOR)[int(down), int(across)]
 
 
+@pytest.mark.parametrize(('above', 'is_seen'), [(0.004, False), (0.02, True)])
+def test_a_body_in_a_face_is_hidden_by_it(flat, rendered, above, is_seen):
+    """Spots of a table would show in a cloth whose faces dip into its rim, or a finger vanish."""
+    table = Collider(
+        'table', 'box', (0.4, 0.4, 0.2), (0.0, 0.0, above - 0.1), (0.0, 0.0, 0.0, 1.0), 0.5)
+    image, renderer = rendered(_with(flat(), table), ABOVE, look='plain')
+    across, down = renderer.view.project(np.array((0.03, 0.02, above)))
+    assert has_hue(image, BODY_COLOR)[int(down), int(across)] == is_seen
+
+
 def test_the_far_side_of_a_fold_is_darker(flat, rendered):
     """Folds could not be seen."""
     levels = []
