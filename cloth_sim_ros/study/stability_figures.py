@@ -19,6 +19,7 @@ from cloth_sim_ros.study.stability_runs import points_of
 from cloth_sim_ros.study.stability_runs import predicted_limit
 from cloth_sim_ros.study.stability_runs import steps_of
 from cloth_sim_ros.study.stability_runs import with_stiffness
+from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.colors import ListedColormap
 from matplotlib.figure import Figure
@@ -29,6 +30,8 @@ import numpy as np
 # Told apart without colour vision, too: light, dark, grey.
 _COLORS = {STABLE: '#a8d5c2', UNSTABLE: '#b5402f', REFUSED: '#c9c9c9'}
 _OUTCOMES = tuple(_COLORS)
+_OUTCOME_LABELS = {
+    STABLE: 'stable', UNSTABLE: 'unstable', REFUSED: 'refused: too many substeps'}
 _INK = '#202020'
 _DPI = 110
 _LINE_POINTS = 30
@@ -54,16 +57,23 @@ def draw_maps(results: Sequence[Result], path: Path) -> None:
         axes.set_xlabel(f'stiffness of {_widest(results)} springs [N/m]')
     for axes in panels[:, 0]:
         axes.set_ylabel('dt [s]')
+    handles = map_legend(results)
     figure.legend(
-        handles=[
-            Patch(facecolor=_COLORS[STABLE], label='stable'),
-            Patch(facecolor=_COLORS[UNSTABLE], label='unstable'),
-            Patch(facecolor=_COLORS[REFUSED], label='refused: too many substeps'),
-            Line2D([], [], color=_INK, marker='x', linestyle='none',
-                   label='refused unless one insists'),
-            Line2D([], [], color='k', label='closed form for one step a dt')],
-        loc='outside lower center', ncols=5, frameon=False)
+        handles=handles, loc='outside lower center', ncols=len(handles), frameon=False)
     figure.savefig(path, dpi=_DPI)
+
+
+def map_legend(results: Sequence[Result]) -> list[Artist]:
+    """Return an entry for each kind of cell and mark that the maps of ``results`` have."""
+    values = [result.values for result in results if result.is_done]
+    outcomes = {value['outcome'] for value in values}
+    handles: list[Artist] = [
+        Patch(facecolor=color, label=_OUTCOME_LABELS[outcome])
+        for outcome, color in _COLORS.items() if outcome in outcomes]
+    if any(value['refused'] and value['outcome'] != REFUSED for value in values):
+        handles.append(Line2D(
+            [], [], color=_INK, marker='x', linestyle='none', label='refused unless one insists'))
+    return [*handles, Line2D([], [], color='k', label='closed form for one step a dt')]
 
 
 def draw_edges(results: Sequence[Result], path: Path) -> None:

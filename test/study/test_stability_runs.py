@@ -13,6 +13,7 @@ from cloth_sim_ros.study.stability import edges
 from cloth_sim_ros.study.stability import map_points
 from cloth_sim_ros.study.stability_figures import draw_edges
 from cloth_sim_ros.study.stability_figures import draw_maps
+from cloth_sim_ros.study.stability_figures import map_legend
 from cloth_sim_ros.study.stability_runs import edge_table
 from cloth_sim_ros.study.stability_runs import map_table
 from cloth_sim_ros.study.stability_runs import run_edge
@@ -118,6 +119,9 @@ def test_tables_and_figures(mapped, tmp_path):
     assert '| mass_spring | one step a dt, at rest | 2 | 2 | 0 |' in map_table(points)
     row = edge_table(found).splitlines()[2]
     assert float(row.split('|')[-2]) == pytest.approx(1.0, abs=0.05)
+    # No run of this map is refused for its number of substeps.
+    assert [entry.get_label() for entry in map_legend(points)] == [
+        'stable', 'unstable', 'refused unless one insists', 'closed form for one step a dt']
     draw_maps(points, tmp_path / 'maps.png')
     draw_edges(found, tmp_path / 'edges.png')
     assert min((tmp_path / name).stat().st_size for name in ('maps.png', 'edges.png')) > 10000
