@@ -278,7 +278,7 @@ def random_scene(random, values):
     return scene if scene.thin_colliders else None
 
 
-@pytest.mark.parametrize('count', [8, pytest.param(200, marks=pytest.mark.long)])
+@pytest.mark.parametrize('count', [4, pytest.param(200, marks=pytest.mark.long)])
 def test_random_thin_bodies_are_not_passed(context, within, values_of_mode, count):
     """A corner, a rim or a turn would let cloth through that the usual scenes hold."""
     seed = int(np.random.default_rng().integers(1_000_000))
