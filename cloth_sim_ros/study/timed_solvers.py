@@ -33,7 +33,7 @@ import numpy as np
 #
 # Va et al. 2021, Tab. 3 to 6. Different from the print: unit rows, the inverse mass inside, and
 # the same compliance as ``hard_edges``, without which the matrix is singular
-# (docs/explanation/numerics.md).
+# (docs/explanation/solver.md, The paper's solver).
 
 _BUFFERS = ('EDGES', 'NODES', 'VALUES', 'COLUMNS', 'MATRIX', 'COUNTS', 'VECTORS', 'SCALARS')
 _FAMILIES = ('structural', 'shear')
