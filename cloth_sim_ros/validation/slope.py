@@ -72,14 +72,14 @@ def slip_tangent(context: Context, mode: str, nodes: int, friction: float) -> Fi
     def simulate(values: dict[str, Any]) -> Simulation:
         return Simulation(Scene({**PLAIN, **values}), context=context)
 
-    sticking, sliding = Slope(simulate, mode, friction, rows=nodes).bracket()
+    sticking, sliding = Slope(simulate, mode, friction, rows=nodes, cols=3 * nodes // 4).bracket()
     return Figure(0.5 * friction * (sticking + sliding), friction, friction)
 
 
 def creep(context: Context, mode: str, nodes: int, angle: float, seconds: float) -> Figure:
     """Return the speed of a cloth on a slope of 0.99 of the friction limit [um/s]."""
     with Simulation(Scene({
-            **PLAIN, **LYING, **FLOOR, 'rows': nodes, 'mode': mode,
+            **PLAIN, **LYING, **FLOOR, 'rows': nodes, 'cols': 3 * nodes // 4, 'mode': mode,
             'gravity': inclined(angle), 'colliders.floor.friction': math.tan(angle) / 0.99}),
             context=context) as simulation:
         simulation.advance(0.1)
