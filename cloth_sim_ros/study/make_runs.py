@@ -152,6 +152,7 @@ def make_runs(
 
     :param title: in front of the progress bar
     :param alone: one at a time, each in a fresh process of this machine: to measure wall time
+    :raises ClothSimError: when the code has changed since the first run; that run is not kept
     """
     distinct = {run.key: run for run in runs}
     found = {key: results.find(key) for key in distinct}
@@ -167,6 +168,11 @@ def make_runs(
             # Closed at once, so that an interrupt ends the processes.
             with closing(_make_alone(todo) if alone else _make(todo, workers)) as made:
                 for number, result in enumerate(made, 1):
+                    if result.key not in distinct:
+                        raise ClothSimError(
+                            'a run was made by other code than the study was begun with: leave '
+                            'the files of cloth_sim_ros as they are while it runs, the same on '
+                            'all machines, and start it again')
                     results.add(result)
                     forecast.end(result)
                     if result.outcome == FAILED:

@@ -12,6 +12,7 @@ import subprocess
 import sys
 import time
 
+import cloth_sim_ros
 from cloth_sim_ros.study.make_runs import Forecast
 from cloth_sim_ros.study.make_runs import in_minutes
 from cloth_sim_ros.study.make_runs import make_runs
@@ -205,3 +206,29 @@ def test_a_stopped_study_goes_on(tmp_path, stop):
     assert [result.values['square'] for result in results] == [0, 1, 4, 9]
     assert len(lines_of(tmp_path)) == 4
     assert Path(script).exists()
+
+
+def test_a_run_of_other_code_ends_the_study(tmp_path):
+    """A study of two versions would end in a KeyError, or compare what differs."""
+    root = Path(cloth_sim_ros.__file__).parent.parent
+    for part in ('cloth_sim_ros', 'shaders'):
+        shutil.copytree(
+            root / part, tmp_path / part, ignore=shutil.ignore_patterns('__pycache__'))
+    program = (
+        'from cloth_sim_ros.sim.errors import ClothSimError\n'
+        'from cloth_sim_ros.study.make_runs import make_runs\n'
+        'from cloth_sim_ros.study.results import ResultsFolder\n'
+        'from cloth_sim_ros.study.results import Run\n'
+        'from cloth_sim_ros.study.workers import Workers\n'
+        'if __name__ == "__main__":\n'
+        '    with ResultsFolder("results") as results:\n'
+        '        try:\n'
+        '            make_runs([Run("study_runs:edit")], results, Workers(1), title="test")\n'
+        '        except ClothSimError as error:\n'
+        '            print(error)\n')
+    study = subprocess.run(
+        [sys.executable, '-c', program], cwd=tmp_path, capture_output=True, text=True,
+        env={**os.environ, 'PYTHONPATH': os.pathsep.join([str(tmp_path), *sys.path])},
+        timeout=300.0)
+    assert study.stdout.startswith('a run was made by other code'), study.stderr
+    assert not lines_of(tmp_path / 'results')

@@ -9,6 +9,7 @@ import signal
 import time
 from typing import Any
 
+import cloth_sim_ros
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.simulation import Simulation
 import numpy as np
@@ -57,4 +58,11 @@ def meet(scene: dict[str, Any], *, folder: str, name: str, others: int) -> dict[
 def sleep(scene: dict[str, Any], *, seconds: float) -> dict[str, Any]:
     """Take ``seconds``."""
     time.sleep(seconds)
+    return {'device': 'none'}
+
+
+def edit(scene: dict[str, Any]) -> dict[str, Any]:
+    """Change the code of this package, as somebody does who works on it meanwhile."""
+    with open(cloth_sim_ros.__file__, 'a') as file:
+        file.write('# changed\n')
     return {'device': 'none'}
