@@ -12,8 +12,6 @@
 set -euo pipefail
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
-setup=''
-asked=''
 node=''
 scratch=''
 recording=''
@@ -45,12 +43,11 @@ end() {
 clean_up() {
   local status=$?
   trap - EXIT INT TERM HUP
-  if [ -n "$setup" ]; then
-    end "$setup" TERM KILL || true
-  fi
-  if [ -n "$asked" ]; then
-    end "$asked" TERM KILL || true
-  fi
+  # By the list of jobs: a signal may come between the start of a process and the next command.
+  local process
+  for process in $(jobs -p); do
+    [ "$process" = "$node" ] || end "$process" TERM KILL || true
+  done
   if [ -n "$node" ]; then
     # The way Ctrl-C does it, which closes the recording.
     end "$node" INT TERM KILL || true
@@ -67,22 +64,13 @@ clean_up() {
 # In the background, so that a signal ends it as well; with the terminal, where there is one.
 set_up() {
   "$root/scripts/setup.sh" <&0 &
-  setup=$!
-  wait "$setup" || {
-    setup=''
-    exit 1
-  }
-  setup=''
+  wait $! || exit 1
 }
 
 # Ask the node, and wait patiently; in the background, so that a signal is not kept waiting.
 ask() {
-  local code=0
   cloth_sim "$@" --timeout "$patience" &
-  asked=$!
-  wait "$asked" || code=$?
-  asked=''
-  return "$code"
+  wait $!
 }
 
 start_node() {
