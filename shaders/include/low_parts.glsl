@@ -3,24 +3,40 @@
 
 // Sums of positions and velocities. With HAS_LOW_PARTS they are compensated (Kahan): the rounding
 // error of a sum is stored, and added with the next change. See docs/explanation/numerics.md.
-
 // LOW_PARTS_TEXTURE 1: a pass that changes each of them once reads them through a texture unit, which
 // software devices do several times faster.
 
 #if HAS_LOW_PARTS
+// Of each node three of its position, then three of its velocity.
 layout(std430, binding = LOW_PARTS) buffer LowParts { float low_parts[]; };
+
 #if LOW_PARTS_TEXTURE
 layout(binding = LOW_PARTS) uniform samplerBuffer low_part_texels;
+
+// The six of a node are in two texels, from the first or the third number on.
+vec3 low_position(int index) {
+    vec4 first = texelFetch(low_part_texels, 3 * index / 2);
+    vec4 second = texelFetch(low_part_texels, 3 * index / 2 + 1);
+    return (index & 1) == 0 ? first.xyz : vec3(first.zw, second.x);
+}
+
+vec3 low_velocity(int index) {
+    vec4 first = texelFetch(low_part_texels, 3 * index / 2);
+    vec4 second = texelFetch(low_part_texels, 3 * index / 2 + 1);
+    return (index & 1) == 0 ? vec3(first.w, second.xy) : second.yzw;
+}
+#else
+vec3 low_at(int entry) {
+    return vec3(low_parts[entry], low_parts[entry + 1], low_parts[entry + 2]);
+}
+
+vec3 low_position(int index) { return low_at(6 * index); }
+
+vec3 low_velocity(int index) { return low_at(6 * index + 3); }
 #endif
 
 // precise: a compiler that cancels terms would find that nothing was rounded off.
-vec3 compensated_sum(int texel, vec3 value, vec3 change) {
-    int entry = 4 * texel;
-#if LOW_PARTS_TEXTURE
-    vec3 low = texelFetch(low_part_texels, texel).xyz;
-#else
-    vec3 low = vec3(low_parts[entry], low_parts[entry + 1], low_parts[entry + 2]);
-#endif
+vec3 compensated_sum(int entry, vec3 low, vec3 value, vec3 change) {
     precise vec3 part = change + low;
     precise vec3 sum = value + part;
     precise vec3 added = sum - value;
@@ -33,11 +49,11 @@ vec3 compensated_sum(int texel, vec3 value, vec3 change) {
 
 // The position [m] or velocity [m/s] of the stored node ``index`` after a change.
 vec3 changed_position(int index, vec3 position, vec3 change) {
-    return compensated_sum(2 * index, position, change);
+    return compensated_sum(6 * index, low_position(index), position, change);
 }
 
 vec3 changed_velocity(int index, vec3 velocity, vec3 change) {
-    return compensated_sum(2 * index + 1, velocity, change);
+    return compensated_sum(6 * index + 3, low_velocity(index), velocity, change);
 }
 #else
 vec3 changed_position(int index, vec3 position, vec3 change) { return position + change; }

@@ -10,6 +10,8 @@ from cloth_sim_ros.gl.context import Context
 from cloth_sim_ros.gl.errors import DeviceError
 from cloth_sim_ros.gl.program import Program
 from cloth_sim_ros.sim.device.bindings import DEFINES
+from cloth_sim_ros.sim.device.low_parts import LOW_PART_BYTES
+from cloth_sim_ros.sim.device.low_parts import needs_low_parts
 from cloth_sim_ros.sim.device.tuning import BUILT_IN
 from cloth_sim_ros.sim.device.tuning import Choice
 from cloth_sim_ros.sim.device.tuning import tuned_choice
@@ -31,8 +33,8 @@ _GPU_BLOCK = 1
 # 1024, and 16 x 8 half as fast at 4096 x 4096.
 _SOFTWARE_LOCAL = (8, 4)
 _GPU_LOCAL = (32, 4)
-# Size of a position or velocity, a vec4 [bytes].
-_BYTES_PER_NODE = 16
+# Size of a position or velocity, a vec4, and what one texel of a texture holds [bytes].
+_VECTOR_BYTES = 16
 
 
 @dataclass(frozen=True)
@@ -46,6 +48,7 @@ class Layout:
     :param local: invocations of a workgroup, x and y
     :param cloth_rows: of each cloth, where several are stacked; 0 for one cloth
     :param is_asynchronous: True when the device computes while the host goes on
+    :param node_bytes: of a node in the largest of the buffers of the state
     """
 
     rows: int
@@ -56,6 +59,7 @@ class Layout:
     local: tuple[int, int]
     cloth_rows: int = 0
     is_asynchronous: bool = False
+    node_bytes: int = _VECTOR_BYTES
 
     @property
     def period(self) -> int:
@@ -159,7 +163,7 @@ def choose_layout(scene: Scene, context: Context, *, tuned: bool = True) -> Layo
                 f'layout paper reads storage, one node per invocation, got loads {given.loads} '
                 f'and block {given.block}: set loads: storage and block: 1, or layout: fused')
         layout = Layout(scene.rows, scene.cols, 'paper', False, 1, (16, 16),
-                        is_asynchronous=not context.is_software)
+                        is_asynchronous=not context.is_software, node_bytes=_node_bytes(scene))
         _refuse_too_large(layout, context)
         return layout
     if tuned and given == BUILT_IN:
@@ -184,7 +188,7 @@ def _fused(scene: Scene, context: Context, choice: Choice) -> Layout:
         choice.loads == 'texture' or (choice.loads == 'auto' and has_textures),
         choice.block or _best_block(scene, context),
         _SOFTWARE_LOCAL if context.is_software else _GPU_LOCAL,
-        is_asynchronous=not context.is_software)
+        is_asynchronous=not context.is_software, node_bytes=_node_bytes(scene))
 
 
 def _best_block(scene: Scene, context: Context) -> int:
@@ -205,8 +209,14 @@ def _refuse_too_large(layout: Layout, context: Context) -> None:
 
 
 def _most_stored(layout: Layout, context: Context) -> int:
-    limit = context.max_buffer_bytes // _BYTES_PER_NODE
-    return min(limit, context.max_texture_texels) if layout.texture_loads else limit
+    limit = context.max_buffer_bytes // layout.node_bytes
+    if not layout.texture_loads:
+        return limit
+    return min(limit, context.max_texture_texels * _VECTOR_BYTES // layout.node_bytes)
+
+
+def _node_bytes(scene: Scene) -> int:
+    return LOW_PART_BYTES if needs_low_parts(scene) else _VECTOR_BYTES
 
 
 def _round_up(value: int, multiple: int) -> int:

@@ -16,13 +16,14 @@ _ULP = 2.0**-23
 # lost, which is above one unit where g h^2 is below this share of it [1].
 _LEAST_MOTION = 0.125
 # That takes longer than dt, so that whole steps do not move, where g h dt is below this share of
-# the unit [1]. Compensation takes 1.6 times as long on llvmpipe (benchmarks/short_steps.py), so
-# that it is not made for short substeps of a long dt, which lose micrometres of a fall at most.
+# the unit [1]. Compensation takes 1.2 to 1.7 times as long on llvmpipe
+# (benchmarks/short_steps.py), so that it is not made for short substeps of a long dt, which lose
+# some micrometres of a fall at most.
 _LEAST_STEP = 0.5
 # Acceleration [m/s2], in scenes without gravity as well.
 _GRAVITY = 9.81
-# Floats of a node [1]: a texel of four for its position and one for its velocity.
-_FLOATS = 8
+# Size of those of a node [bytes]: three floats of its position and three of its velocity.
+LOW_PART_BYTES = 24
 
 
 def needs_low_parts(scene: Scene) -> bool:
@@ -63,9 +64,8 @@ class LowParts:
 
     def __init__(self, stored: int) -> None:
         """Allocate them; all are zero."""
-        size = stored * _FLOATS * np.dtype(np.float32).itemsize
+        size = stored * LOW_PART_BYTES
         self._now, self._kept = Buffer(size), Buffer(size)
-        self._node_bytes = size // stored
         for buffer in (self._now, self._kept):
             buffer.clear()
 
@@ -77,7 +77,7 @@ class LowParts:
     def clear(self, first: int, count: int) -> None:
         """Make those of ``count`` stored nodes from ``first`` on zero."""
         self._now.write(
-            np.zeros(count * self._node_bytes, dtype=np.uint8), first * self._node_bytes)
+            np.zeros(count * LOW_PART_BYTES, dtype=np.uint8), first * LOW_PART_BYTES)
 
     def keep(self) -> None:
         """Keep them for ``restore``."""

@@ -72,10 +72,24 @@ def test_blocks_on_software_leave_no_half_workgroup_idle(rows: int, cols: int, b
 def test_cloth_beyond_the_buffer_limit_is_refused():
     """The device would cut the cloth off, or crash."""
     with pytest.raises(DeviceError) as caught:
-        choose_layout(Scene({**SPRINGS, 'rows': 4000, 'cols': 4000}), device(device='tiny'))
+        choose_layout(
+            Scene({**SPRINGS, 'rows': 4000, 'cols': 4000, 'auto_substeps': False}),
+            device(device='tiny'))
     message = str(caught.value)
     assert 'rows 4000 x cols 4000 need' in message
     assert 'the buffers of tiny hold 8388608: use up to about 2891 x 2891' in message
+
+
+def test_compensated_sums_have_a_limit_of_their_own():
+    """Beyond it a large cloth would lose its low parts, and fall too slowly."""
+    values = {**SPRINGS, 'rows': 2400, 'cols': 2400, 'auto_substeps': False}
+    for is_software in (True, False):
+        choose_layout(Scene({**values, 'dt': 1e-3}), device(is_software=is_software))
+        with pytest.raises(DeviceError, match='hold 5592405: use up to about 23[0-9]{2} x 23'):
+            choose_layout(Scene({**values, 'dt': 1e-7}), device(is_software=is_software))
+    stacked = choose_layout(Scene({**SPRINGS, 'rows': 8, 'cols': 8, 'dt': 1e-7}), device())
+    with pytest.raises(DeviceError, match='hold 5592405'):
+        stacked.stacked(50_000, device())
 
 
 def test_small_texture_limits_count_only_for_texture_loads():
