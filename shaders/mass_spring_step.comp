@@ -6,7 +6,7 @@
 // invocation. A spring inside the block is evaluated once for both its ends.
 // HAS_HELD 1: the pass records what pinned nodes are driven with.
 
-#define LOW_PARTS_TEXTURE LOADS_TEXTURE
+#define CHANGES_LOW_PARTS_ONCE
 
 #include "lattice.glsl"
 #include "state_in.glsl"

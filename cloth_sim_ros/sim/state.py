@@ -273,7 +273,7 @@ class State:
     def bind_low_parts(self) -> None:
         """Bind the low parts, if there are any, for writing."""
         if self._low is not None:
-            self._low.bind(bindings.LOW_PARTS)
+            self._low.bind(bindings.LOW_PARTS, as_texture=self._layout.texture_loads)
 
     def bind_for_changes(self) -> None:
         """Bind the present state for writing."""

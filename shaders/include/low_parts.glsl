@@ -3,11 +3,17 @@
 
 // Sums of positions and velocities. With HAS_LOW_PARTS they are compensated (Kahan): the rounding
 // error of a sum is stored, and added with the next change. See docs/explanation/numerics.md.
-// LOW_PARTS_TEXTURE 1: a pass that changes each of them once reads them through a texture unit, which
-// software devices do several times faster.
+// CHANGES_LOW_PARTS_ONCE: a pass that changes each of them once may read them through a texture unit,
+// like the state, which software devices do several times faster.
+
+#ifdef CHANGES_LOW_PARTS_ONCE
+#define LOW_PARTS_TEXTURE LOADS_TEXTURE
+#else
+#define LOW_PARTS_TEXTURE 0
+#endif
 
 #if HAS_LOW_PARTS
-// Of each node three of its position, then three of its velocity.
+// Six numbers per node: three low parts of its position [m], then three of its velocity [m/s].
 layout(std430, binding = LOW_PARTS) buffer LowParts { float low_parts[]; };
 
 #if LOW_PARTS_TEXTURE

@@ -69,10 +69,11 @@ class LowParts:
         for buffer in (self._now, self._kept):
             buffer.clear()
 
-    def bind(self, binding: int) -> None:
-        """Let the next dispatch change them, and read them as texels."""
+    def bind(self, binding: int, *, as_texture: bool) -> None:
+        """Let the next dispatch change them; ``as_texture``: read them as texels as well."""
         self._now.bind_storage(binding)
-        self._now.bind_texture(binding)
+        if as_texture:
+            self._now.bind_texture(binding)
 
     def clear(self, first: int, count: int) -> None:
         """Make those of ``count`` stored nodes from ``first`` on zero."""

@@ -90,6 +90,7 @@ def test_a_view_that_ends_waits_for_no_answer(node: NodeProcess, source: NodeSou
         with ThreadPoolExecutor() as pool:
             call = pool.submit(source.step, 1)
             while not source._waiting:
+                assert not call.done()
                 time.sleep(0.01)
             source.close()
             with pytest.raises(ClothSimError, match='cloth_sim/step has not answered before'):
