@@ -13,8 +13,8 @@ from cloth_sim_ros.sim.modes.paper.one_solve import ONE_SOLVE
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.solver.edge_law import EdgeLaw
 
-# Strain over which a limit comes into force, over that past it [1]; chosen: solves change by +7 %
-# at 0 (a kink) and by 0 % at 2 (constants.py --only _TRANSITION).
+# Strain over which a limit comes into force, over that past it [1]; chosen: solves change by +20 %
+# at 0 (a kink) and by -7 % at 2 (constants.py --only _TRANSITION).
 _TRANSITION = 1.0
 
 

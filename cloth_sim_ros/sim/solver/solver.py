@@ -50,19 +50,19 @@ PRECONDITIONERS: dict[str, type[Preconditioner]] = {
     'multigrid': Multigrid, 'block_jacobi': BlockJacobi}
 
 # Residual at which a solve stops, over the tolerance [1], as that of the last iteration is
-# foretold; chosen: iterations go from +12 % at 0.4 to -1 % at 1 (constants.py --only _AIM).
+# foretold; chosen: iterations go from +12 % at 0.4 to -2 % at 1 (constants.py --only _AIM).
 _AIM = 0.8
 # Error of the tensions at which a pass ends, over the tolerance [1]; chosen: nodes move by < 1 %
-# of their way from 0.1 to 2, solves go from +13 to -11 % (constants.py --only _LACKING).
+# of their way from 0.1 to 2, solves go from +12 to -13 % (constants.py --only _LACKING).
 _LACKING = 0.5
 # Residual of an early solve, over that at its start [1]; chosen: nodes move by 1 % of their way
-# from 0.1 to 0.9, 0 costs 9 % more iterations (constants.py --only _EARLY).
+# from 0.1 to 0.9, 0 costs 12 % more iterations (constants.py --only _EARLY).
 _EARLY = 0.3
 # Tolerance of solves in contact with thin colliders, over that of others [1], so that fewer
 # follow; chosen: time changes by 15 % from 0.03 to 0.3, 1 takes a quarter longer at 33 x 33.
 _IN_CONTACT = 0.1
 # Part of the way of an early solve that the line search goes [1], below which the solves that
-# follow are exact; chosen: nodes move by < 0.01 % of their way from 0 to 0.75, iterations by 2 %
+# follow are exact; chosen: nodes move by < 0.01 % of their way from 0 to 0.75, iterations by 3 %
 # at 1.1 (constants.py --only _HALF).
 _HALF = 0.5
 
