@@ -43,6 +43,9 @@ void main() {
     }
     Near node = listed_at_place(nodes_at + gl_GlobalInvocationID.x);
     int index = int(node.index);
+#if OWN_BODIES
+    take_bodies(index / PITCH - HALO);
+#endif
 #if HAS_SURFACE
     // Handled by surface_contact.comp, or pinned.
     if (surface_nodes[index].is_held == 1 || load_next_velocity(index).w == 0.0) {

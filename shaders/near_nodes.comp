@@ -31,6 +31,9 @@ void main() {
     Near block = listed_at_place(place);
     int inside = int(gl_GlobalInvocationID.x % uint(BLOCK * BLOCK));
     int index = int(block.index) + inside / BLOCK * PITCH + inside % BLOCK;
+#if OWN_BODIES
+    take_places(index / PITCH - HALO);
+#endif
     vec4 v = load_next_velocity(index);
     // NaN fails the comparison and counts as fast, so that the node is listed.
     float square = dot(v.xyz, v.xyz);

@@ -4,6 +4,7 @@
 """Carry a cloth by its pins to a goal."""
 
 from collections.abc import Mapping
+from collections.abc import Sequence
 from typing import Any
 
 from cloth_sim_ros.gym.carry_task import CarryTask
@@ -14,6 +15,7 @@ from cloth_sim_ros.gym.observations import Observation
 from cloth_sim_ros.gym.observations import Observer
 from cloth_sim_ros.gym.pictures import Pictures
 from cloth_sim_ros.gym.pictures import RGB_ARRAY
+from cloth_sim_ros.sim.model.frame_paths import FramePath
 from cloth_sim_ros.sim.scene import Scene
 import gymnasium
 from gymnasium import spaces
@@ -96,6 +98,14 @@ class CarryCloth(gymnasium.Env[Observation, np.ndarray]):
         return (
             self._look(), float(outcome.rewards[0]), bool(outcome.arrived[0]), bool(problem),
             self._info(outcome, problem))
+
+    def move_collider(
+            self, name: str, target: Sequence[float], orientation: Sequence[float] | None = None,
+            speed: float | None = None, angular_speed: float | None = None, *,
+            duration: float = 0.0) -> FramePath:
+        """Move a collider as ``Simulation.move_collider`` does; ``reset`` puts it back."""
+        return self._cloths.simulation.move_collider(
+            name, target, orientation, speed, angular_speed, duration=duration)
 
     def render(self) -> np.ndarray:
         """Return a picture, (height, width, 3) uint8; ClothSimError without a render_mode."""

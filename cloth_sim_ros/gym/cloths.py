@@ -58,31 +58,31 @@ class SingleCloth(Cloths):
     def __init__(self, task: CarryTask) -> None:
         """Make the simulation."""
         self._task = task
-        self._simulation = Simulation(task.scene, records_forces=False)
+        self.simulation = Simulation(task.scene, records_forces=False)
 
     def positions(self) -> np.ndarray:
         """Return all positions [m], (1, rows, cols, 3) float32."""
-        return self._simulation.positions()[None]
+        return self.simulation.positions()[None]
 
     def velocities(self) -> np.ndarray:
         """Return all velocities [m/s], (1, rows, cols, 3) float32."""
-        return self._simulation.velocities()[None]
+        return self.simulation.velocities()[None]
 
     def strains(self) -> np.ndarray:
         """Return the largest strain, (1,)."""
-        return np.array([self._simulation.measure().max_strain])
+        return np.array([self.simulation.measure().max_strain])
 
     def times(self) -> np.ndarray:
         """Return the time of the episode [s], (1,)."""
-        return np.array([self._simulation.time])
+        return np.array([self.simulation.time])
 
     def views(self) -> Sequence[Simulation]:
         """Return the simulation."""
-        return [self._simulation]
+        return [self.simulation]
 
     def begin(self, numbers: np.ndarray, positions: np.ndarray) -> None:
         """Put the cloth at rest at ``positions``, (1, rows, cols, 3) [m]."""
-        simulation = self._simulation
+        simulation = self.simulation
         simulation.reset()
         for row, col in self._task.held.tolist():
             simulation.pin(row, col)
@@ -92,16 +92,16 @@ class SingleCloth(Cloths):
         """Begin to ``move`` pins and make a frame; return why it was lost, '' for not."""
         for (row, col), target, speed in zip(
                 moves.nodes.tolist(), moves.targets, moves.speeds.tolist()):
-            self._simulation.move_pin(row, col, target, speed=speed)
+            self.simulation.move_pin(row, col, target, speed=speed)
         try:
-            self._simulation.step(self._task.steps)
+            self.simulation.step(self._task.steps)
         except NonFiniteStateError as error:
             return [str(error)]
         return ['']
 
     def close(self) -> None:
         """Release the device."""
-        self._simulation.close()
+        self.simulation.close()
 
 
 class BatchedCloths(Cloths):
@@ -114,44 +114,44 @@ class BatchedCloths(Cloths):
     def __init__(self, task: CarryTask, count: int) -> None:
         """Make the batch."""
         self._task = task
-        self._batch = Batch(task.scene, count)
+        self.batch = Batch(task.scene, count)
 
     def positions(self) -> np.ndarray:
         """Return all positions [m], (n, rows, cols, 3) float32."""
-        return self._batch.positions()
+        return self.batch.positions()
 
     def velocities(self) -> np.ndarray:
         """Return all velocities [m/s], (n, rows, cols, 3) float32."""
-        return self._batch.velocities()
+        return self.batch.velocities()
 
     def strains(self) -> np.ndarray:
         """Return the largest strain of each cloth, (n,)."""
-        return self._batch.max_strains()
+        return self.batch.max_strains()
 
     def times(self) -> np.ndarray:
         """Return the time of each episode [s], (n,)."""
-        return self._batch.times
+        return self.batch.times
 
     def views(self) -> Sequence[ClothOfBatch]:
         """Return each cloth."""
-        return [self._batch.cloth(number) for number in range(self._batch.count)]
+        return [self.batch.cloth(number) for number in range(self.batch.count)]
 
     def begin(self, numbers: np.ndarray, positions: np.ndarray) -> None:
         """Put cloths of some ``numbers`` (k,) at rest at ``positions`` (k, rows, cols, 3) [m]."""
         held = self._task.held
-        self._batch.reset(numbers)
-        self._batch.pin(np.repeat(numbers, len(held)), np.tile(held, (len(numbers), 1)))
-        self._batch.set_state(positions, np.zeros_like(positions), numbers)
+        self.batch.reset(numbers)
+        self.batch.pin(np.repeat(numbers, len(held)), np.tile(held, (len(numbers), 1)))
+        self.batch.set_state(positions, np.zeros_like(positions), numbers)
 
     def play(self, moves: Moves) -> list[str]:
         """Begin to ``move`` pins and make a frame; return why each was lost, '' for not."""
-        self._batch.move_pins(*moves)
-        self._batch.step(self._task.steps)
+        self.batch.move_pins(*moves)
+        self.batch.step(self._task.steps)
         return [
             f'the state became non-finite before t = {time:.6g} s, and the cloth is where it was '
             'before this action: reset it' if lost else ''
-            for lost, time in zip(self._batch.lost.tolist(), self._batch.times.tolist())]
+            for lost, time in zip(self.batch.lost.tolist(), self.batch.times.tolist())]
 
     def close(self) -> None:
         """Release the device."""
-        self._batch.close()
+        self.batch.close()

@@ -20,6 +20,7 @@ from cloth_sim_ros.sim.arguments import integer
 from cloth_sim_ros.sim.arguments import iterable
 from cloth_sim_ros.sim.arguments import mapping
 from cloth_sim_ros.sim.errors import ClothSimError
+from cloth_sim_ros.sim.model.frame_paths import FramePath
 from cloth_sim_ros.sim.scene import Scene
 from gymnasium import spaces
 from gymnasium.utils.seeding import np_random
@@ -137,6 +138,19 @@ class CarryCloths(VectorEnv[Observation, np.ndarray, np.ndarray]):
         return (
             self._observer.look(self._cloths), rewards, terminations, truncations,
             self._infos(outcome, problems))
+
+    def move_collider(
+            self, cloths: np.ndarray, name: str, targets: np.ndarray,
+            orientations: np.ndarray | None = None, speeds: np.ndarray | float | None = None,
+            angular_speeds: np.ndarray | float | None = None, *,
+            durations: np.ndarray | float = 0.0) -> tuple[FramePath, ...]:
+        """
+        Move a collider of some cloths as ``Batch.move_collider`` does.
+
+        The next episode of a cloth begins with its collider where the scene has it.
+        """
+        return self._cloths.batch.move_collider(
+            cloths, name, targets, orientations, speeds, angular_speeds, durations=durations)
 
     def render(self) -> tuple[np.ndarray, ...]:
         """Return pictures, (height, width, 3) uint8; ClothSimError without a render_mode."""

@@ -9,11 +9,13 @@ from collections.abc import Iterable
 from collections.abc import Mapping
 from collections.abc import Sequence
 from contextlib import AbstractContextManager
+from dataclasses import replace
 import math
 from typing import Any
 
 from cloth_sim_ros.files.errors import shown
 from cloth_sim_ros.gl.context import Context
+from cloth_sim_ros.gl.errors import DeviceError
 from cloth_sim_ros.sim.arguments import array
 from cloth_sim_ros.sim.arguments import instance
 from cloth_sim_ros.sim.arguments import integer
@@ -21,16 +23,23 @@ from cloth_sim_ros.sim.arguments import integers
 from cloth_sim_ros.sim.arguments import iterable
 from cloth_sim_ros.sim.arguments import real_number
 from cloth_sim_ros.sim.batch_cloth import ClothOfBatch
+from cloth_sim_ros.sim.contact.stacked_contacts import BODY_VECTORS
+from cloth_sim_ros.sim.contact.stacked_contacts import StackedContacts
 from cloth_sim_ros.sim.device.layout import choose_layout
+from cloth_sim_ros.sim.device.layout import Layout
 from cloth_sim_ros.sim.device.low_parts import largest_coordinate
 from cloth_sim_ros.sim.device.low_parts import needs_low_parts
 from cloth_sim_ros.sim.device.low_parts import plain_reach
 from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.guarded_steps import BoundsCheck
 from cloth_sim_ros.sim.held.stacked_pins import StackedPins
+from cloth_sim_ros.sim.inputs import MoveCollider
 from cloth_sim_ros.sim.loads.loads import Loads
 from cloth_sim_ros.sim.model.cells import edge_shares
+from cloth_sim_ros.sim.model.colliders import Collider
 from cloth_sim_ros.sim.model.edge_kinds import EDGE_KINDS
+from cloth_sim_ros.sim.model.frame_paths import FrameMove
+from cloth_sim_ros.sim.model.frame_paths import FramePath
 from cloth_sim_ros.sim.model.pins import PinMove
 from cloth_sim_ros.sim.modes.mass_spring import MassSpring
 from cloth_sim_ros.sim.scene import GIVE_SCENE
@@ -46,18 +55,20 @@ import numpy as np
 
 # Parameters in which the cloths of one stack may differ.
 _OWN = ('start.pose', 'start.z', 'start.jitter', 'start.seed', 'pins', 'pin_points.positions',
-        'pin_points.max_distance')
+        'pin_points.max_distance', *(
+            f'collider_moves.{value}' for value in (
+                'start', 'name', 'target', 'orientation', 'speed', 'angular_speed')))
 # Parameters that all cloths of a batch share.
 _COMMON = ('rows', 'cols', 'dt')
 # Max. cloths of a batch [1]: more than fit into any buffer, even of the smallest size.
 _MOST_CLOTHS = 1_000_000
 # Parameters that must be empty.
-_TIMED = ('pushes.start', 'pin_moves.start', 'grasps.start', 'collider_moves.start')
+_TIMED = ('pushes.start', 'pin_moves.start', 'grasps.start')
 
 
 class Stack:
     """
-    Cloths that differ only in their start and pins, stored one below the other on one lattice.
+    Cloths that differ only in start, pins and moves of bodies, one below the other on one lattice.
 
     :param scenes: one for each cloth
     :param context: GL context, which is current
@@ -67,8 +78,12 @@ class Stack:
         """Compile, allocate and set the start poses."""
         scene = scenes[0]
         self.scenes = tuple(scenes)
+        self._most_texels = context.max_texture_texels
         single = choose_layout(scene, context)
         self.layout = single.stacked(len(scenes), context)
+        moves = any(each['collider_moves.start'] for each in scenes)
+        if moves:
+            self.layout = self._with_own_bodies()
         rows = np.arange(len(scenes))[:, None] * single.period + np.arange(scene.rows)
         self._rows = rows
         parts = np.zeros((self.layout.rows, scene.cols))
@@ -81,9 +96,13 @@ class Stack:
             self.layout, starts, pinned, parts, absent=parts == 0.0 if scene.has_gaps else None,
             has_low_parts=needs_low_parts(scene))
         self._loads = Loads(scene, self.layout, self._state)
-        self._mode = MassSpring(scene, self.layout)
         self.pins = StackedPins(scene, self.layout, self._state)
         self._check = BoundsCheck(scene, self.layout)
+        self._mode = MassSpring(scene, self.layout)
+        # The contacts of ``_loads`` once bodies are to move.
+        self._bodies: StackedContacts | None = None
+        if moves:
+            self._replace_contacts(np.zeros(len(scenes), dtype=int))
 
     def step(self, first: int, count: int) -> np.ndarray:
         """
@@ -121,9 +140,36 @@ class Stack:
         self.pins.stop(slice(rows[0], rows[-1] + 1))
         self._state.write_rows(int(rows[0]), positions, velocities)
 
-    def reset(self, cloth: int) -> None:
-        """Put one cloth back to its start."""
+    def colliders(self, cloth: int, time: float) -> tuple[Collider, ...]:
+        """Return the colliders of a cloth at its ``time`` [s]."""
+        if self._bodies is None:
+            return self.scenes[cloth].colliders
+        return self._bodies.present_in(cloth, time)
+
+    def let_bodies_move(self, firsts: np.ndarray) -> None:
+        """
+        Compile and allocate what bodies that move need, unless it is there.
+
+        :param firsts: number of the first step of each cloth, (cloths,) int
+        :raises DeviceError: when they are too many for it
+        """
+        if self._bodies is None:
+            layout = self._with_own_bodies()
+            mode, self._mode = self._mode, MassSpring(self.scenes[0], layout)
+            mode.delete()
+            self.layout = layout
+            self._replace_contacts(firsts)
+
+    def move_collider(self, cloth: int, move: FrameMove) -> FramePath:
+        """Start the motion of a collider, after ``let_bodies_move``; return its path."""
+        assert self._bodies is not None
+        return self._bodies.move_in(cloth, move)
+
+    def reset(self, cloth: int, number: int) -> None:
+        """Put one cloth back to its start, before step ``number``."""
         scene = self.scenes[cloth]
+        if self._bodies is not None:
+            self._bodies.begin_cloth(cloth, number)
         self._state.pinned[self._rows[cloth]] = scene.pinned_nodes()
         start = scene.start_positions()
         self.write(cloth, start, np.zeros_like(start))
@@ -170,6 +216,26 @@ class Stack:
         for part in (self._mode, self._check, self.pins, self._loads, self._state):
             part.delete()
 
+    def _with_own_bodies(self) -> Layout:
+        """Return the layout for bodies that move; DeviceError where they are too many."""
+        layout = replace(self.layout, own_bodies=True)
+        texels = len(self.scenes) * len(self.scenes[0].colliders) * BODY_VECTORS
+        if layout.texture_loads and texels > self._most_texels:
+            raise DeviceError(
+                f'{len(self.scenes)} cloths with {len(self.scenes[0].colliders)} bodies that move '
+                f'need {texels} texels, textures of this device hold {self._most_texels}: set '
+                'loads: storage, or make several batches')
+        return layout
+
+    def _replace_contacts(self, firsts: np.ndarray) -> None:
+        """Let bodies move, which ``_mode`` has been compiled for."""
+        bodies = StackedContacts(
+            self.scenes, firsts, self.layout, length=self._mode.last_length,
+            most=self._mode.most_at_once, quiet_until=self._loads.quiet_without_bodies_until)
+        if self._loads.contacts is not None:
+            self._loads.contacts.delete()
+        self._loads.contacts = self._bodies = bodies
+
     def _steps(self, number: int, most: int) -> int:
         dt = self.scenes[0]['dt']
         begin, end = number * dt, (number + 1) * dt
@@ -180,6 +246,8 @@ class Stack:
                 return made
         self.pins.begin_step(number)
         self._loads.begin_step(begin, end)
+        if self._bodies is not None:
+            self._bodies.begin_stacked_step(number)
         self._mode.step(self._state, begin, self._loads)
         self.pins.end_step(number)
         return 1
@@ -189,10 +257,10 @@ class Batch(AbstractContextManager['Batch']):
     """
     Many cloths in mode mass_spring, each bitwise identical to a Simulation of its scene.
 
-    Cloths that differ only in their start and pins step in one dispatch; otherwise there is one
-    dispatch for each kind. All have the same rows, cols and dt. With air, cloths are bitwise
-    identical to a Simulation only if all cloths of a kind are held, or none is. Colliders act on
-    nodes and do not move. There are no pushes, grasps or self-contact.
+    Cloths that differ only in their start, pins and timed moves of colliders step in one dispatch;
+    otherwise there is one dispatch for each kind. All have the same rows, cols and dt. With air,
+    cloths are bitwise identical to a Simulation only if all cloths of a kind are held, or none is.
+    Colliders act on nodes. There are no pushes, grasps or self-contact.
 
     A cloth whose state becomes non-finite stays as it was before that call, and is marked in
     ``lost`` until it is reset; the others continue.
@@ -308,7 +376,7 @@ class Batch(AbstractContextManager['Batch']):
 
     def reset(self, cloths: Iterable[int] | None = None) -> None:
         """
-        Restore the start of some cloths: pose, pins and their own time.
+        Restore the start of some cloths: pose, pins, colliders and their own time.
 
         The ``time`` of the batch continues, and so do gusts.
 
@@ -317,7 +385,7 @@ class Batch(AbstractContextManager['Batch']):
         numbers = self._checked_cloths(cloths)
         self._context.make_current()
         for stack, place in self._places[numbers]:
-            self._stacks[stack].reset(place)
+            self._stacks[stack].reset(place, self.steps)
         self._firsts[numbers] = self.steps
         self.lost[numbers] = False
 
@@ -362,10 +430,7 @@ class Batch(AbstractContextManager['Batch']):
         numbers, nodes = self._checked_nodes(cloths, nodes)
         targets = array(
             targets, 'the targets', (len(numbers), 3), 'give x, y and z for each pin')
-        if getattr(speeds, 'shape', None) == () or not hasattr(speeds, '__len__'):
-            one = real_number(speeds, 'the speed', 'give it in m/s')
-            speeds = np.full(len(numbers), one)
-        speed = array(speeds, 'the speeds', (len(numbers),), 'give one for each pin, or for all')
+        speed = _one_each(speeds, 'speed', len(numbers), 'pin', 'm/s')
         entries = zip(numbers.tolist(), nodes.tolist(), targets.tolist(), speed.tolist())
         for cloth, (row, col), target, pace in entries:
             self._check_pin(cloth, row, col)
@@ -380,6 +445,59 @@ class Batch(AbstractContextManager['Batch']):
                 stack.pins.move(
                     stack.at(places[here, 1], nodes[here]), targets[here], speed[here],
                     self._firsts[numbers[here]], self.steps)
+
+    def move_collider(
+            self, cloths: np.ndarray, name: str, targets: np.ndarray,
+            orientations: np.ndarray | None = None, speeds: np.ndarray | float | None = None,
+            angular_speeds: np.ndarray | float | None = None, *,
+            durations: np.ndarray | float = 0.0) -> tuple[FramePath, ...]:
+        """
+        Move the collider of that name of some cloths as ``Simulation.move_collider`` does.
+
+        The first move compiles what bodies that move need, for all cloths of a dispatch.
+
+        :param cloths: their numbers, (n,); none of them twice
+        :param name: of the collider
+        :param targets: of its centre for each cloth [m], (n, 3)
+        :param orientations: at the targets, quaternions x y z w, (n, 4); the present ones by
+            default
+        :param speeds: [m/s] in simulated time, (n,) or one for all; motion.speed of each scene by
+            default
+        :param angular_speeds: [rad/s], (n,) or one for all; motion.angular_speed by default
+        :param durations: in which to arrive, where these speeds are high enough [s], (n,) or one
+            for all; 0 to have these speeds themselves
+        :return: the path of each, whose times are those of its cloth
+        :raises ClothSimError: when there is no such cloth or collider or a value is wrong; then
+            none moves
+        """
+        numbers = self._checked_cloths(cloths)
+        count = len(numbers)
+        if len(np.unique(numbers)) < count:
+            raise ClothSimError('a cloth is given twice: give its collider one target')
+        targets = array(targets, 'the targets', (count, 3), 'give x, y and z for each cloth')
+        turned = [None] * count if orientations is None else array(
+            orientations, 'the orientations', (count, 4), 'give x, y, z and w for each cloth'
+            ).tolist()
+        speed, angular_speed = (
+            [None] * count if values is None else _one_each(
+                values, of, count, 'cloth', unit).tolist()
+            for values, of, unit in (
+                (speeds, 'speed', 'm/s'), (angular_speeds, 'angular_speed', 'rad/s')))
+        duration = _one_each(durations, 'duration', count, 'cloth', 's').tolist()
+        times = self.times[numbers].tolist()
+        moves = []
+        for cloth, time, target, *values in zip(
+                numbers.tolist(), times, targets.tolist(), turned, speed, angular_speed, duration):
+            stack, place = self._places[cloth]
+            moves.append(MoveCollider(name, target, *values).of_one(
+                self.scenes[cloth], self._stacks[stack].colliders(place, time), time))
+        self._context.make_current()
+        places = self._places[numbers]
+        for stack in np.unique(places[:, 0]):
+            self._stacks[stack].let_bodies_move(self._firsts[self._members[stack]])
+        return tuple(
+            self._stacks[stack].move_collider(place, move)
+            for (stack, place), move in zip(places, moves))
 
     def finish(self) -> None:
         """Wait until the device has finished all work; for timing."""
@@ -451,6 +569,15 @@ class Batch(AbstractContextManager['Batch']):
                 'it in its scene')
 
 
+def _one_each(
+        values: np.ndarray | float, of: str, count: int, owner: str, unit: str) -> np.ndarray:
+    """Return ``values``, or one value for all, as (count,) float."""
+    if getattr(values, 'shape', None) == () or not hasattr(values, '__len__'):
+        one = real_number(values, f'the {of}', f'give it in {unit}')
+        values = np.full(count, one)
+    return array(values, f'the {of}s', (count,), f'give one for each {owner}, or for all')
+
+
 def _checked_scenes(scenes: Scene | Sequence[Scene], count: int | None) -> tuple[Scene, ...]:
     count = None if count is None else integer(count, 'the count of a batch')
     if isinstance(scenes, Scene):
@@ -489,8 +616,8 @@ def _check(scene: Scene) -> None:
     for name in _TIMED:
         if scene[name]:
             raise ClothSimError(
-                f'a batch has nothing timed, and {name} is not empty: hold and move nodes with '
-                'pin and move_pins')
+                f'a batch has no timed inputs but moves of colliders, and {name} is not empty: '
+                'hold and move nodes with pin and move_pins')
     if scene['self_contact.enabled']:
         raise ClothSimError(
             'a batch lets layers of a cloth pass, and self_contact.enabled is true: set it to '

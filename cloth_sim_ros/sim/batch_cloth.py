@@ -25,6 +25,9 @@ class _Stack(Protocol):
     def stored_positions(self, cloth: int) -> StoredPositions:
         """Return where the device has the positions of one cloth."""
 
+    def colliders(self, cloth: int, time: float) -> tuple[Collider, ...]:
+        """Return the colliders of one cloth at its ``time`` [s]."""
+
 
 class _Batch(Protocol):
     """What is asked of the batch."""
@@ -63,8 +66,8 @@ class ClothOfBatch:
 
     @property
     def colliders(self) -> tuple[Collider, ...]:
-        """Return the colliders of its scene, which do not move."""
-        return self.scene.colliders
+        """Return the colliders of its scene where they are now."""
+        return self.stack.colliders(self.place, self.time)
 
     def positions(self) -> np.ndarray:
         """Return its positions [m], (rows, cols, 3) float32; NaN for no node."""

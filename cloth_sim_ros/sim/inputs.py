@@ -39,7 +39,6 @@ from cloth_sim_ros.sim.model.grasp_request import GraspRequest
 from cloth_sim_ros.sim.model.grid import usual_reach
 from cloth_sim_ros.sim.model.pins import PinMove
 from cloth_sim_ros.sim.model.pins import PinPath
-from cloth_sim_ros.sim.model.pose import Pose
 from cloth_sim_ros.sim.model.push import Push
 from cloth_sim_ros.sim.model.scene_fields import ALL_LAYERS
 from cloth_sim_ros.sim.scene import Scene
@@ -278,16 +277,15 @@ class MoveFrame:
         """Return the input that makes ``move``."""
         return cls(move.name, move.target, move.orientation, move.speed, move.angular_speed)
 
-    def move(self, cloth: Cloth) -> FrameMove:
-        """Return the move, beginning now, before ``duration`` slows it down."""
-        scene = cloth.scene
+    def move(self, scene: Scene, now: float) -> FrameMove:
+        """Return the move, beginning ``now`` [s], before ``duration`` slows it down."""
         return FrameMove.checked(
             name=self.name, target=self.target, orientation=self.orientation,
             speed=scene['motion.speed'] if self.speed is None else self.speed,
             angular_speed=(
                 scene['motion.angular_speed'] if self.angular_speed is None
                 else self.angular_speed),
-            start=cloth.time)
+            start=now)
 
 
 class MoveGrasp(MoveFrame):
@@ -295,7 +293,7 @@ class MoveGrasp(MoveFrame):
 
     def apply(self, cloth: Cloth) -> tuple[MoveGrasp, FramePath]:
         """Return its path, with the time of arrival."""
-        move = self.move(cloth)
+        move = self.move(cloth.scene, cloth.time)
         grasp = _holding(cloth, self.name)
         path = cloth.held.move(move.slowed(self.duration, grasp.pose))
         return MoveGrasp.of(path.move), path
@@ -306,16 +304,24 @@ class MoveCollider(MoveFrame):
 
     def apply(self, cloth: Cloth) -> tuple[MoveCollider, FramePath]:
         """Return its path, with the time of arrival."""
+        move = self.of_one(cloth.scene, cloth.colliders, cloth.time)
         contacts = cloth.loads.contacts
-        poses = {
-            collider.name: Pose(collider.position, collider.orientation)
-            for collider in cloth.colliders}
-        if contacts is None or not isinstance(self.name, str) or self.name not in poses:
+        assert contacts is not None  # there would be no collider
+        path = contacts.move(move)
+        return MoveCollider.of(path.move), path
+
+    def of_one(self, scene: Scene, colliders: Sequence[Collider], now: float) -> FrameMove:
+        """
+        Return the move, beginning ``now`` [s].
+
+        :param colliders: of the scene, where they are now
+        """
+        poses = {collider.name: collider.pose for collider in colliders}
+        if not isinstance(self.name, str) or self.name not in poses:
             raise NotFoundError(
                 f'there is no collider {shown(self.name)}: give one of those of the scene, '
                 f'{", ".join(poses) or "none"}')
-        path = contacts.move(self.move(cloth).slowed(self.duration, poses[self.name]))
-        return MoveCollider.of(path.move), path
+        return self.move(scene, now).slowed(self.duration, poses[self.name])
 
 
 @dataclass(frozen=True)

@@ -31,6 +31,9 @@ void add_speed(inout Bound bound, vec3 v) {
 
 // List the block if any of its nodes may reach a collider in the substep.
 void list_if_near(Bound bound, ivec2 first) {
+#if OWN_BODIES
+    take_places(first.y);
+#endif
     uint bodies = near_bodies(
         0.5 * (bound.least + bound.most), 0.5 * WIDER * length(bound.most - bound.least),
         substep * sqrt(bound.fastest));

@@ -14,6 +14,9 @@
 #define SHAPE_CYLINDER 4
 
 uniform float collider_shape[COLLIDERS];
+#if OWN_BODIES
+#include "own_bodies.glsl"
+#else
 uniform vec3 collider_axes[3 * COLLIDERS];  // x, y and z axis of each as the substep begins
 uniform vec3 collider_centre[COLLIDERS];    // [m] as the substep begins
 uniform float near_limit[COLLIDERS];        // [m] from the core that a node at rest is near
@@ -21,6 +24,7 @@ uniform float near_share[COLLIDERS];        // of that distance, with what it tu
 
 #if HAS_LONG
 uniform vec3 near_core[COLLIDERS];          // half axis of a long one [m], or 0: the centre
+#endif
 #endif
 
 // The first of some bodies.
@@ -36,6 +40,15 @@ int first_of(uint bodies) { return COLLIDERS > 1 ? findLSB(bodies) : 0; }
 #define ROWS_OF_EACH_BODY(UNIFORM) \
     FIRST_OF(THREE(UNIFORM, 0), THREE(UNIFORM, 3), THREE(UNIFORM, 6), THREE(UNIFORM, 9))
 float body_shape[COLLIDERS] = float[](EACH_BODY(collider_shape));
+#if OWN_BODIES
+vec3 body_axes[3 * COLLIDERS];
+vec3 body_centre[COLLIDERS];
+float body_limit[COLLIDERS];
+float body_share[COLLIDERS];
+#if HAS_LONG
+vec3 body_core[COLLIDERS];
+#endif
+#else
 vec3 body_axes[3 * COLLIDERS] = vec3[](ROWS_OF_EACH_BODY(collider_axes));
 vec3 body_centre[COLLIDERS] = vec3[](EACH_BODY(collider_centre));
 float body_limit[COLLIDERS] = float[](EACH_BODY(near_limit));
@@ -43,6 +56,16 @@ float body_share[COLLIDERS] = float[](EACH_BODY(near_share));
 #if HAS_LONG
 vec3 body_core[COLLIDERS] = vec3[](EACH_BODY(near_core));
 #endif
+#endif
+#elif OWN_BODIES
+#define OF(READ, I) READ(I)
+#define ROW_OF(READ, ROW, I) READ(ROW, I)
+float body_shape(int i) { return collider_shape[i]; }
+vec3 body_axes(int row, int i) { return own_entry(i, OWN_AXES + row).xyz; }
+vec3 body_centre(int i) { return own_entry(i, OWN_CENTRE).xyz; }
+float body_limit(int i) { return own_entry(i, OWN_CENTRE).w; }
+float body_share(int i) { return own_entry(i, OWN_VELOCITY).w; }
+vec3 body_core(int i) { return own_core(i); }
 #else
 #define OF(READ, I) READ[I]
 #define ROW_OF(READ, ROW, I) READ[3 * (I) + ROW]
@@ -52,6 +75,26 @@ vec3 body_core[COLLIDERS] = vec3[](EACH_BODY(near_core));
 #define body_limit near_limit
 #define body_share near_share
 #define body_core near_core
+#endif
+
+#if OWN_BODIES
+// Take where the bodies are of the cloth that the row of the stack belongs to.
+void take_places(int row) {
+    take_cloth(row);
+#if COLLIDERS <= 4
+    for (int i = 0; i < COLLIDERS; ++i) {
+        body_centre[i] = own_entry(i, OWN_CENTRE).xyz;
+        body_limit[i] = own_entry(i, OWN_CENTRE).w;
+        body_share[i] = own_entry(i, OWN_VELOCITY).w;
+#if HAS_LONG
+        body_core[i] = own_core(i);
+#endif
+        for (int axis = 0; axis < 3; ++axis) {
+            body_axes[3 * i + axis] = own_entry(i, OWN_AXES + axis).xyz;
+        }
+    }
+#endif
+}
 #endif
 
 // Min. distance that a point within radius of x has to travel to come near to a collider [m].

@@ -9,6 +9,8 @@
 uniform vec3 collider_size[COLLIDERS];  // [m] radius and half the length, or half the sides
 #if COLLIDERS <= 4
 vec3 body_size[COLLIDERS] = vec3[](EACH_BODY(collider_size));
+#elif OWN_BODIES
+vec3 body_size(int i) { return collider_size[i]; }
 #else
 #define body_size collider_size
 #endif

@@ -38,8 +38,10 @@
 #define NODE_COLLIDERS 0xffffffffu
 #endif
 
+#if !OWN_BODIES
 uniform vec3 collider_velocity[COLLIDERS];    // [m/s] mean velocity of the centre in the substep
 uniform vec3 collider_turn[3 * COLLIDERS];    // [1/s] rows of (R - 1) / h, R: rotation in the substep h
+#endif
 uniform float collider_friction[COLLIDERS];
 uniform float collider_thickness[COLLIDERS];  // [m] min. length of a path through it
 uniform float clearance;                      // [m] half the thickness of the cloth
@@ -49,15 +51,40 @@ float half_cloth = READ_FIRST(clearance);
 float out_speed = READ_FIRST(way_out_speed);
 
 #if COLLIDERS <= 4
+#if OWN_BODIES
+vec3 body_velocity[COLLIDERS];
+vec3 body_turn[3 * COLLIDERS];
+#else
 vec3 body_velocity[COLLIDERS] = vec3[](EACH_BODY(collider_velocity));
 vec3 body_turn[3 * COLLIDERS] = vec3[](ROWS_OF_EACH_BODY(collider_turn));
+#endif
 float body_friction[COLLIDERS] = float[](EACH_BODY(collider_friction));
 float body_thickness[COLLIDERS] = float[](EACH_BODY(collider_thickness));
+#elif OWN_BODIES
+vec3 body_velocity(int i) { return own_entry(i, OWN_VELOCITY).xyz; }
+vec3 body_turn(int row, int i) { return own_entry(i, OWN_TURN + row).xyz; }
+float body_friction(int i) { return collider_friction[i]; }
+float body_thickness(int i) { return collider_thickness[i]; }
 #else
 #define body_velocity collider_velocity
 #define body_turn collider_turn
 #define body_friction collider_friction
 #define body_thickness collider_thickness
+#endif
+
+#if OWN_BODIES
+// Take where the bodies are of the cloth that the row of the stack belongs to, and how they move.
+void take_bodies(int row) {
+    take_places(row);
+#if COLLIDERS <= 4
+    for (int i = 0; i < COLLIDERS; ++i) {
+        body_velocity[i] = own_entry(i, OWN_VELOCITY).xyz;
+        for (int axis = 0; axis < 3; ++axis) {
+            body_turn[3 * i + axis] = own_entry(i, OWN_TURN + axis).xyz;
+        }
+    }
+#endif
+}
 #endif
 
 struct Contact {

@@ -47,7 +47,9 @@ SMALL = {
 TOUCHING = {
     **SMALL, 'colliders.names': ['ball'], 'colliders.ball.shape': 'sphere',
     'colliders.ball.size': [0.1], 'colliders.ball.position': [0.0, 0.0, 0.5]}
-BATCHED = {key: value for key, value in SMALL.items() if not key.startswith('air')}
+BATCHED = {
+    **{key: value for key, value in TOUCHING.items() if not key.startswith('air')},
+    'contact.features': False}
 STATE = np.zeros((ROWS, COLS, 3))
 PINNED = np.zeros((ROWS, COLS), bool)
 CENTER = (0.0, 0.0, 1.0)
@@ -96,6 +98,10 @@ OF_BATCH: dict[str, dict[str, Any]] = {
     'move_pins': {
         'cloths': [0, 1], 'nodes': [(0, 0), (0, 0)], 'targets': [CENTER] * 2,
         'speeds': [1.0, 1.0]},
+    'move_collider': {
+        'cloths': [0, 1], 'name': 'ball', 'targets': [CENTER] * 2,
+        'orientations': [(0.0, 0.0, 0.0, 1.0)] * 2, 'speeds': [1.0, 1.0],
+        'angular_speeds': [1.0, 1.0], 'durations': [1.0, 1.0]},
     'finish': {},
 }
 OF_SCENE: dict[str, dict[str, Any]] = {
@@ -122,10 +128,11 @@ OF_RECORDER: dict[str, dict[str, Any]] = {
     'advance': {'seconds': 0.01}, 'write': {'step_wall_time': 0.0, 'real_time_factor': 0.0}}
 OF_ENVIRONMENT: dict[str, dict[str, Any]] = {
     'reset': {'seed': 1, 'options': None}, 'step': {'action': np.zeros((2, 3), np.float32)},
-    'render': {}}
+    'move_collider': OF_SIMULATION['move_collider'], 'render': {}}
 OF_ENVIRONMENTS: dict[str, dict[str, Any]] = {
     'reset': {'seed': 1, 'options': {'reset_mask': np.array([True, False])}},
-    'step': {'actions': np.zeros((2, 2, 3), np.float32)}, 'render': {}}
+    'step': {'actions': np.zeros((2, 2, 3), np.float32)},
+    'move_collider': OF_BATCH['move_collider'], 'render': {}}
 # What makes an environment, or many.
 _OF_TASK = (
     'scene', 'goal', 'frame', 'speed', 'observation', 'jitter', 'tolerance', 'camera',
@@ -360,7 +367,7 @@ def test_recorder_methods_take_or_refuse_anything(context, tmp_path):
 def test_environment_takes_or_refuses_anything():
     """An action of text was a TypeError in a training run."""
     assert set(OF_ENVIRONMENT) == methods_of(CarryCloth)
-    environment = CarryCloth(SMALL)
+    environment = CarryCloth(TOUCHING)
 
     def look() -> list[Any]:
         return look_at(environment._cloths.views()[0])

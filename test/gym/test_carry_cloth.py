@@ -33,7 +33,14 @@ def test_the_programs_of_its_page_run(capsys):
     for part in parts:
         exec(part, names)
         names['cloths'].close()
-    assert len(parts) == 3 and names['cloths'].single_observation_space.shape == (4, 3)
+    assert len(parts) == 4 and names['cloths'].single_observation_space.shape == (4, 3)
+    pushed = names['Pushed'](make_vec(
+        2, {**SMALL, 'colliders.names': ['ball'], 'colliders.ball.size': [0.1]}))
+    pushed.reset(seed=1)
+    pushed.step((np.zeros((2, 2, 3), np.float32), np.array([(0.0, 1.0, 0.0), (0.0, 0.0, 0.0)])))
+    balls = [view.colliders[0].position for view in pushed.unwrapped._cloths.views()]
+    np.testing.assert_allclose(balls, [(0.0, 0.025, 0.0), (0.0, 0.0, 0.0)], atol=1e-12)
+    pushed.close()
 
 
 def test_it_is_made_by_name():

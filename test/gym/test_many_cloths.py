@@ -153,11 +153,34 @@ def test_a_mask_resets_some_to_the_start_of_their_seeds(make_many):
     np.testing.assert_allclose(infos['time'], (0.05, 0.0, 0.05))
 
 
+def test_a_moved_body_pushes_as_it_does_one_alone(make_many):
+    """A policy would be hindered by another body than in a trial, or begin with it elsewhere."""
+    scene = {**SMALL, 'colliders.names': ['ball'], 'colliders.ball.size': [0.12],
+             'colliders.ball.position': [0.0, -0.3, 0.6]}
+    options = {'goal': (0.0, 0.0, 0.1), 'observation': 'state'}
+    many, alone = make_many(2, scene, max_steps=6, **options), one_by_one(
+        2, scene, max_steps=6, **options)
+    many.reset(seed=5)
+    alone.reset(seed=5)
+    actions = np.zeros((2, 2, 3), np.float32)
+    for step in range(9):
+        if step % 7 == 1:
+            targets = [(0.0, 0.1, 0.5), (0.1, 0.0, 0.7)]
+            many.move_collider([0, 1], 'ball', targets, speeds=1.0)
+            for environment, target in zip(alone.envs, targets):
+                environment.unwrapped.move_collider('ball', target, speed=1.0)
+        found, expected = many.step(actions), alone.step(actions)
+        for each, other in zip(found[:-1], expected[:-1]):
+            np.testing.assert_array_equal(each, other)
+        if step == 5:
+            assert found[0][..., 3:].max() > 0.5 and found[3].all()
+
+
 def test_a_lost_cloth_ends_its_episode_alone(make_many):
     """One blow-up would end the training, or go on in nonsense."""
     many = make_many(2, frame=0.05)
     many.reset(seed=1)
-    batch = many.unwrapped._cloths._batch
+    batch = many.unwrapped._cloths.batch
     far = np.where(np.arange(5)[None, :, None] % 2, 9e11, -9e11) + np.zeros((6, 5, 3))
     batch.set_state(far[None], np.full_like(far, 9e11)[None], [1])
     actions = np.zeros((2, 2, 3), np.float32)

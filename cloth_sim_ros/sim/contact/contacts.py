@@ -19,11 +19,13 @@ from cloth_sim_ros.sim.device.layout import Layout
 from cloth_sim_ros.sim.device.scene_program import SceneProgram
 from cloth_sim_ros.sim.loads.forcing import Forcing
 from cloth_sim_ros.sim.loads.forcing import Layers
+from cloth_sim_ros.sim.model.collider_paths import paths_of_scene
 from cloth_sim_ros.sim.model.colliders import Collider
+from cloth_sim_ros.sim.model.colliders import placed
 from cloth_sim_ros.sim.model.colliders import SHAPES
 from cloth_sim_ros.sim.model.frame_paths import FrameMove
 from cloth_sim_ros.sim.model.frame_paths import FramePath
-from cloth_sim_ros.sim.model.frame_paths import FramePaths
+from cloth_sim_ros.sim.model.frame_paths import Motions
 from cloth_sim_ros.sim.model.frame_paths import MovedFrame
 from cloth_sim_ros.sim.model.pose import Pose
 from cloth_sim_ros.sim.scene import Scene
@@ -125,7 +127,7 @@ class Contacts:
 
     def begin_run(self) -> None:
         """Put the colliders at their poses of the scene."""
-        self._paths = self._paths_of_scene()
+        self._paths = paths_of_scene(self._scene)
         self._forget_touch()
         self.forget()
 
@@ -177,9 +179,7 @@ class Contacts:
 
     def present(self, time: float) -> tuple[Collider, ...]:
         """Return the colliders at their poses of ``time`` [s]."""
-        return tuple(
-            replace(collider, position=pose.position, orientation=pose.orientation)
-            for collider, pose in zip(self.colliders, self._poses(time)))
+        return placed(self.colliders, self._poses(time))
 
     def move(self, move: FrameMove) -> FramePath:
         """Start the motion of a collider; return its path."""
@@ -189,7 +189,7 @@ class Contacts:
 
     def moved(self, now: float) -> tuple[MovedFrame, ...]:
         """Return the colliders that are not at their poses of the scene ``now`` [s]."""
-        return self._paths.differing(self._paths_of_scene(), now)
+        return self._paths.differing(paths_of_scene(self._scene), now)
 
     def place(self, name: str, pose: Pose, now: float) -> None:
         """Put a collider at rest at ``pose`` from ``now`` [s] on, until its next move."""
@@ -364,15 +364,33 @@ class Contacts:
         if program not in self._set:
             self._set_shapes(program)
         if self._set.get(program) != (touch, length):
-            program.set_vectors('collider_centre', touch.centres)
-            program.set_vectors('collider_axes', touch.axes)
-            program.set_vectors('collider_velocity', touch.velocities)
-            program.set_vectors('collider_turn', touch.turns)
-            if np.any(self.cores):
-                program.set_vectors('near_core', touch.cores())
-            program.set_floats('near_limit', touch.near_limits(length).tolist())
-            program.set_floats('near_share', touch.near_shares(length).tolist())
+            self._set_motions(program, touch.motions, length)
             self._set[program] = touch, length
+
+    def near_limits(self, velocities: np.ndarray, length: float) -> np.ndarray:
+        """
+        Return the distances from the cores within which a node at rest is near [m], (..., n).
+
+        What ``rounding_of`` returns has to be added.
+
+        :param velocities: of the colliders [m/s], (..., n, 3)
+        """
+        return (
+            self.reach_from_core + self.clearance + self.feature_reach
+            + length * np.linalg.norm(velocities, axis=-1) + 1e-8)
+
+    def rounding_of(self, centres: np.ndarray) -> np.ndarray:
+        """Return more than the rounding of positions at colliders [m], (..., n)."""
+        largest = np.abs(centres).max(axis=-1) + self.reach + self.clearance
+        return _ROUNDING * largest
+
+    def near_cores(self, axes: np.ndarray) -> np.ndarray:
+        """
+        Return the half axes of long bodies [m], (..., n, 3); 0 for others, whose core is a point.
+
+        :param axes: of the colliders, (..., n, 3, 3)
+        """
+        return np.einsum('na,...nax->...nx', self.cores, axes)
 
     def set_marks_in(self, program: Program) -> None:
         """Set the marks that a pass of an implicit step leaves for a contact or a motion."""
@@ -471,11 +489,6 @@ class Contacts:
         self._record.read_into(stored)
         return np.stack([self._layout.load(each) for each in stored])
 
-    def _paths_of_scene(self) -> FramePaths:
-        return FramePaths(
-            {collider.name: collider.pose for collider in self.colliders},
-            self._scene.timed_collider_moves())
-
     def _poses(self, time: float) -> list[Pose]:
         return [self._paths.pose(collider.name, time) for collider in self.colliders]
 
@@ -488,23 +501,26 @@ class Contacts:
         if touch is not None and self._same_from <= begin and end <= self._same_until:
             return touch
         names = [collider.name for collider in self.colliders]
-        poses = self._poses(begin)
-        moves = end > begin
-        touch = self._touch = _Touch(
-            self, centres=np.array([pose.position for pose in poses]),
-            axes=np.concatenate([pose.axes for pose in poses]),
-            velocities=np.array([
-                self._paths.velocity(name, begin, end) if moves else np.zeros(3)
-                for name in names]),
-            turns=np.concatenate([
-                self._paths.turn(name, begin, end) if moves else np.zeros((3, 3))
-                for name in names]))
+        motions = self._paths.motions(names, begin, end)
+        touch = self._touch = _Touch(self, motions)
         # If nothing moves, it is valid until something does.
-        if not (np.any(touch.velocities) or np.any(touch.turns)):
+        if motions.are_rest:
             self._same_from, self._same_until = begin, max(end, self.quiet_until(begin))
         else:
             self._same_until = -math.inf
         return touch
+
+    def _set_motions(self, program: Program, motions: Motions, length: float) -> None:
+        centres, axes, velocities, turns = motions
+        program.set_vectors('collider_centre', centres)
+        program.set_vectors('collider_axes', axes)
+        program.set_vectors('collider_velocity', velocities)
+        program.set_vectors('collider_turn', turns)
+        if np.any(self.cores):
+            program.set_vectors('near_core', self.near_cores(axes.reshape(-1, 3, 3)))
+        limits = self.near_limits(velocities, length) + self.rounding_of(centres)
+        program.set_floats('near_limit', limits.tolist())
+        program.set_floats('near_share', near_shares(turns.reshape(-1, 3, 3), length).tolist())
 
     def _set_shapes(self, program: Program) -> None:
         shapes = list(SHAPES)
@@ -525,43 +541,11 @@ class Contacts:
 
 
 class _Touch:
-    """
-    The colliders in one substep.
+    """The colliders in one substep, and how they move in it."""
 
-    :param centres: at the beginning [m], (n, 3)
-    :param axes: x, y and z axes at the beginning, (3 n, 3)
-    :param velocities: mean velocities of the centres [m/s], (n, 3)
-    :param turns: rows of the matrices from a lever arm to the mean velocity of its end [1/s],
-        (3 n, 3)
-    """
-
-    def __init__(
-            self, contacts: Contacts, *, centres: np.ndarray, axes: np.ndarray,
-            velocities: np.ndarray, turns: np.ndarray) -> None:
+    def __init__(self, contacts: Contacts, motions: Motions) -> None:
         self._contacts = contacts
-        self.centres = centres
-        self.axes = axes
-        self.velocities = velocities
-        self.turns = turns
-
-    def near_limits(self, length: float) -> np.ndarray:
-        """Return the distances from the cores within which a node at rest is near [m], (n,)."""
-        clearance = self._contacts.clearance
-        largest = np.abs(self.centres).max(axis=-1) + self._contacts.reach + clearance
-        # More than the rounding of positions.
-        return (
-            self._contacts.reach_from_core + clearance + self._contacts.feature_reach
-            + length * np.linalg.norm(self.velocities, axis=-1) + _ROUNDING * largest + 1e-8)
-
-    def cores(self) -> np.ndarray:
-        """Return the half axes of long bodies [m], (n, 3); 0 for others, whose core is a point."""
-        axes = self.axes.reshape(-1, 3, 3)
-        return np.einsum('na,nax->nx', self._contacts.cores, axes)
-
-    def near_shares(self, length: float) -> np.ndarray:
-        """Return the fractions of these distances that remain with the rotation, (n,)."""
-        rates = np.linalg.norm(self.turns.reshape(-1, 9), axis=-1)
-        return np.maximum(1.0 - length * rates, 0.0)
+        self.motions = motions
 
     def set_in(self, program: Program, length: float) -> None:
         self._contacts.set_in(program, self, length)
@@ -610,6 +594,12 @@ class _Touch:
 
     def is_solve_due(self, *, is_exact: bool = False) -> bool:
         return self._contacts.is_solve_due(is_exact=is_exact)
+
+
+def near_shares(turns: np.ndarray, length: float) -> np.ndarray:
+    """Return the fractions of ``near_limits`` that remain with ``turns`` (..., 3, 3), (...)."""
+    rates = np.linalg.norm(turns.reshape(*turns.shape[:-2], 9), axis=-1)
+    return np.maximum(1.0 - length * rates, 0.0)
 
 
 def _is_inside(gaps: np.ndarray, positions: np.ndarray) -> bool:

@@ -49,6 +49,7 @@ class Layout:
     :param cloth_rows: of each cloth, where several are stacked; 0 for one cloth
     :param is_asynchronous: True when the device computes while the host goes on
     :param node_bytes: of a node in the largest of the buffers of the state
+    :param own_bodies: True where the bodies of each cloth of a stack are at places of their own
     """
 
     rows: int
@@ -60,6 +61,7 @@ class Layout:
     cloth_rows: int = 0
     is_asynchronous: bool = False
     node_bytes: int = _VECTOR_BYTES
+    own_bodies: bool = False
 
     @property
     def period(self) -> int:
@@ -145,6 +147,7 @@ class Layout:
         return {
             **DEFINES, 'LOADS_TEXTURE': int(self.texture_loads), 'BLOCK': self.block,
             'LOCAL_X': self.local[0], 'LOCAL_Y': self.local[1],
+            'OWN_BODIES': int(self.own_bodies),
         }
 
 

@@ -139,7 +139,12 @@ class Loads:
 
     def quiet_until(self, now: float) -> float:
         """Return until when what acts at ``now`` [s] stays so: ``now`` itself, or infinite."""
-        parts = (self.pushes, self.air, self.contacts)
+        quiet = self.quiet_without_bodies_until(now)
+        return quiet if self.contacts is None else min(quiet, self.contacts.quiet_until(now))
+
+    def quiet_without_bodies_until(self, now: float) -> float:
+        """Return the same of what acts besides colliders."""
+        parts = (self.pushes, self.air)
         return min(part.quiet_until(now) for part in parts if part is not None)
 
     def still_until(self, now: float) -> float:

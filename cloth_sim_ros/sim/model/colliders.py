@@ -6,6 +6,7 @@
 from collections.abc import Mapping
 from collections.abc import Sequence
 from dataclasses import dataclass
+from dataclasses import replace
 import math
 from typing import Any
 
@@ -158,6 +159,13 @@ class Collider:
     def axes(self) -> np.ndarray:
         """Return its x, y and z axis as the rows of a matrix, (3, 3)."""
         return self.pose.axes
+
+
+def placed(colliders: Sequence[Collider], poses: Sequence[Pose]) -> tuple[Collider, ...]:
+    """Return ``colliders``, each at its pose."""
+    return tuple(
+        replace(collider, position=pose.position, orientation=pose.orientation)
+        for collider, pose in zip(colliders, poses))
 
 
 def is_thin(collider: Collider, spacing: tuple[float, float]) -> bool:

@@ -9,6 +9,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from dataclasses import replace
 import math
+from typing import NamedTuple
 
 from cloth_sim_ros.files.errors import cut
 from cloth_sim_ros.sim.arguments import real_number
@@ -137,6 +138,38 @@ class FramePath:
         """Return the velocity of its origin while it moves, (3,) [m/s]."""
         return self._velocity
 
+    @property
+    def axis(self) -> Vector:
+        """Return the unit axis that it turns about."""
+        return self._axis
+
+    @property
+    def rate(self) -> float:
+        """Return how fast it turns while it moves [rad/s]."""
+        return self._rate
+
+
+class Motions(NamedTuple):
+    """
+    How n frames move from one time to another.
+
+    :param centres: at the first time [m], (n, 3)
+    :param axes: x, y and z axes at that time, (3 n, 3)
+    :param velocities: mean velocities of the origins [m/s], (n, 3)
+    :param turns: rows of the matrices from a lever arm to the mean velocity of its end [1/s],
+        (3 n, 3)
+    """
+
+    centres: np.ndarray
+    axes: np.ndarray
+    velocities: np.ndarray
+    turns: np.ndarray
+
+    @property
+    def are_rest(self) -> bool:
+        """Return whether no frame moves."""
+        return not (np.any(self.velocities) or np.any(self.turns))
+
 
 @dataclass(frozen=True)
 class MovedFrame:
@@ -235,6 +268,28 @@ class FramePaths:
         if first.orientation == last.orientation:
             return np.zeros((3, 3))
         return (last.axes.T @ first.axes - np.eye(3)) / (end - begin)
+
+    def motions(self, names: Sequence[str], begin: float, end: float) -> Motions:
+        """Return how frames move from ``begin`` to ``end`` [s]; not at all if these are equal."""
+        poses = [self.pose(name, begin) for name in names]
+        moves = end > begin
+        return Motions(
+            np.array([pose.position for pose in poses]),
+            np.concatenate([pose.axes for pose in poses]),
+            np.array([
+                self.velocity(name, begin, end) if moves else np.zeros(3) for name in names]),
+            np.concatenate([
+                self.turn(name, begin, end) if moves else np.zeros((3, 3)) for name in names]))
+
+    def current(self, name: str, now: float) -> FramePath | None:
+        """Return the path that the frame ``name`` moves on at ``now`` [s]; None at rest."""
+        path = self._path(name, now)
+        return path if path is not None and now < path.arrival else None
+
+    def next_begin(self, name: str, now: float) -> float:
+        """Return when the next move of the frame ``name`` begins [s]; infinite for none."""
+        return min((path.begin for path in self._paths[name] if path.begin > now),
+                   default=math.inf)
 
     def quiet_until(self, now: float) -> float:
         """Return until when nothing moves: ``now`` itself, or infinite."""

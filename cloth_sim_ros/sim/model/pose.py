@@ -6,6 +6,7 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 import math
+from typing import Any
 
 from cloth_sim_ros.sim.arguments import vector
 from cloth_sim_ros.sim.errors import ClothSimError
@@ -39,11 +40,7 @@ class Pose:
     @property
     def axes(self) -> np.ndarray:
         """Return its x, y and z axis as the rows of a matrix, (3, 3)."""
-        x, y, z, w = self.orientation
-        return np.array([
-            (1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y + z * w), 2.0 * (x * z - y * w)),
-            (2.0 * (x * y - z * w), 1.0 - 2.0 * (x * x + z * z), 2.0 * (y * z + x * w)),
-            (2.0 * (x * z + y * w), 2.0 * (y * z - x * w), 1.0 - 2.0 * (x * x + y * y))])
+        return np.array(_axes(*self.orientation))
 
     @property
     def inverse(self) -> 'Pose':
@@ -136,6 +133,29 @@ def rotated(orientation: Quaternion, axis: Vector, angle: float) -> Quaternion:
     return found[0] / length, found[1] / length, found[2] / length, found[3] / length
 
 
+def rotated_each(
+        orientations: np.ndarray, axes: np.ndarray, angles: np.ndarray) -> np.ndarray:
+    """
+    Return what ``rotated`` does of each, to the bit, (n, 4).
+
+    :param orientations: unit quaternions x y z w, (n, 4)
+    :param axes: unit axes of the world, (n, 3)
+    :param angles: [rad], (n,)
+    """
+    # Sines of numpy may have other last bits.
+    halves = (0.5 * angles).tolist()
+    sines = np.array([math.sin(half) for half in halves])
+    x, y, z = (axes * sines[:, None]).T
+    found = np.stack(_product(
+        (x, y, z, np.array([math.cos(half) for half in halves])), orientations.T), axis=-1)
+    return found / np.array([math.hypot(*each) for each in found.tolist()])[:, None]
+
+
+def axes_of_each(orientations: np.ndarray) -> np.ndarray:
+    """Return the axes of a Pose with each of ``orientations`` (n, 4), to the bit, (n, 3, 3)."""
+    return np.ascontiguousarray(np.moveaxis(np.array(_axes(*orientations.T)), -1, 0))
+
+
 def between(first: Pose, second: Pose, share: float) -> Pose:
     """Return the pose after a ``share``, 0 to 1, of the way from ``first`` to ``second``."""
     ax, ay, az = first.position
@@ -156,8 +176,21 @@ def turned(vector: Vector, orientation: Quaternion) -> Vector:
 
 def product(a: Quaternion, b: Quaternion) -> Quaternion:
     """Return the quaternion that turns by ``b`` and then by ``a``."""
+    return _product(a, b)
+
+
+# For single numbers and for arrays of them, with the same bits.
+
+def _product(a: Any, b: Any) -> Any:
     ax, ay, az, aw = a
     bx, by, bz, bw = b
     return (
         aw * bx + ax * bw + ay * bz - az * by, aw * by - ax * bz + ay * bw + az * bx,
         aw * bz + ax * by - ay * bx + az * bw, aw * bw - ax * bx - ay * by - az * bz)
+
+
+def _axes(x: Any, y: Any, z: Any, w: Any) -> Any:
+    return (
+        (1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y + z * w), 2.0 * (x * z - y * w)),
+        (2.0 * (x * y - z * w), 1.0 - 2.0 * (x * x + z * z), 2.0 * (y * z + x * w)),
+        (2.0 * (x * z + y * w), 2.0 * (y * z - x * w), 1.0 - 2.0 * (x * x + y * y)))

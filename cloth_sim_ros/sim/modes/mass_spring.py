@@ -204,12 +204,13 @@ class MassSpring:
         self._passes = self.make_passes(scene, layout)
         self._tiles: SpringTiles | None = None
         self.checked_substeps = CHECKED_SUBSTEPS
-        self._most_at_once = max(1, _NODES_AT_ONCE // scene.node_count)
+        # Max. substeps that are made at once.
+        self.most_at_once = max(1, _NODES_AT_ONCE // scene.node_count)
         if layout.is_asynchronous:
-            self._most_at_once = _SUBMITTED_AT_ONCE
+            self.most_at_once = _SUBMITTED_AT_ONCE
             if SpringTiles.can_run(scene, layout):
                 self._tiles = SpringTiles(scene, layout)
-                self._most_at_once = self.checked_substeps = _TILED_AT_ONCE
+                self.most_at_once = self.checked_substeps = _TILED_AT_ONCE
 
     @staticmethod
     def make_passes(scene: Scene, layout: Layout) -> SubstepPasses:
@@ -251,7 +252,7 @@ class MassSpring:
 
     def step_ahead(self, state: State, gravity: Forcing, most: int) -> int:
         """Make up to ``most`` steps at once under gravity alone; return how many."""
-        count = min(most, self._most_at_once // self.substeps)
+        count = min(most, self.most_at_once // self.substeps)
         if state.impulses is not None and count:
             state.impulses.expect_steps((count - 1) * self.substeps)
         self._substeps(state, gravity, count * self.substeps)
@@ -268,7 +269,7 @@ class MassSpring:
     def _alike(self, start: float, loads: Loads) -> int:
         """Return how many substeps from ``start`` [s] on are made at once, under equal loads."""
         quiet = loads.quiet_until(start) - start
-        return max(1, int(min(self._most_at_once, quiet / self._length + _ROUNDING)))
+        return max(1, int(min(self.most_at_once, quiet / self._length + _ROUNDING)))
 
     def run_all_passes(self, state: State, loads: Loads, stop: Stop = never) -> None:
         """Make a substep of a scratch ``state``."""

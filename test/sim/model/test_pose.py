@@ -3,9 +3,11 @@
 
 """Positions and orientations of bodies."""
 
+from cloth_sim_ros.sim.model.pose import axes_of_each
 from cloth_sim_ros.sim.model.pose import between
 from cloth_sim_ros.sim.model.pose import Pose
 from cloth_sim_ros.sim.model.pose import rotated
+from cloth_sim_ros.sim.model.pose import rotated_each
 from cloth_sim_ros.sim.model.pose import turned
 from cloth_sim_ros.sim.model.pose import unit_quaternion
 import numpy as np
@@ -50,3 +52,18 @@ def test_the_ends_of_a_way_between_poses():
     assert between(first, last, 1.0).position == last.position
     np.testing.assert_allclose(
         between(first, last, 1.0).orientation, last.orientation, atol=1e-15)
+
+
+def test_many_are_turned_to_the_bits_of_each():
+    """A body of a batch would turn by other bits than in a run of its own."""
+    random = np.random.default_rng(7)
+    orientations = [unit_quaternion(each, 'it') for each in random.normal(size=(500, 4))]
+    axes = random.normal(size=(500, 3))
+    axes /= np.linalg.norm(axes, axis=-1)[:, None]
+    angles = random.uniform(-4.0, 4.0, 500)
+    turned_each = rotated_each(np.array(orientations), axes, angles)
+    expected = [
+        rotated(*each) for each in zip(orientations, axes.tolist(), angles.tolist())]
+    np.testing.assert_array_equal(turned_each, expected)
+    np.testing.assert_array_equal(
+        axes_of_each(turned_each), [Pose((0.0, 0.0, 0.0), each).axes for each in expected])
