@@ -5,7 +5,9 @@
 
 from collections.abc import Iterable
 
+from cloth_sim_ros.files.errors import ClothSimError
 from cloth_sim_ros.files.errors import MOST_SHOWN
+from cloth_sim_ros.files.errors import shown
 
 # A name may have one slip, and one more for every six characters: chosen. So holes, two slips from
 # cols, is another name.
@@ -22,6 +24,21 @@ def close_name(name: str, known: Iterable[str]) -> str | None:
     near = [(edits(name, each), each) for each in known if abs(len(each) - len(name)) <= most]
     least, closest = min(near, default=(most + 1, ''))
     return closest if least <= most else None
+
+
+def refuse_unknown(kind: str, names: Iterable[str], known: Iterable[str]) -> None:
+    """
+    Raise ClothSimError for the first of ``names`` that is not among ``known``.
+
+    :param kind: what the names are names of, in one word
+    """
+    known = list(known)
+    for name in names:
+        if name not in known:
+            close = close_name(name, known)
+            raise ClothSimError(
+                f'there is no {kind} {shown(name)}: '
+                + (f'did you mean {close}?' if close else f'take one of {", ".join(known)}'))
 
 
 def edits(name: str, other: str) -> int:

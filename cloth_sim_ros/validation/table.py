@@ -6,15 +6,10 @@
 from collections.abc import Collection
 from collections.abc import Iterator
 from collections.abc import Sequence
-from contextlib import contextmanager
 from dataclasses import dataclass
-from pathlib import Path
 
-from cloth_sim_ros.files.close_name import close_name
-from cloth_sim_ros.files.errors import shown
-from cloth_sim_ros.files.regular_file import read_regular
+from cloth_sim_ros.files.close_name import refuse_unknown
 from cloth_sim_ros.gl.context import Context
-from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.model.scene_fields import MODES
 from cloth_sim_ros.validation.row import Figure
 from cloth_sim_ros.validation.row import Row
@@ -23,8 +18,6 @@ from cloth_sim_ros.validation.rows import ROWS
 # Between these lines a page holds the table.
 BEGIN = '<!-- validation table: written by cloth_sim validate --long --out -->'
 END = '<!-- end of the validation table -->'
-# Max. size of a page with the table [bytes]; chosen: a thousand times the largest one.
-_PAGE_LIMIT = 2**25
 _HEADER = (
     'row', 'what', 'formula or measurement', 'nodes', 'true', *MODES, 'allowed')
 
@@ -59,12 +52,7 @@ def chosen(names: Collection[str], *, is_long: bool) -> list[Row]:
         return [row for row in ROWS if is_long or not row.is_long]
     known = [*(row.name for row in ROWS), *dict.fromkeys(
         row.name.partition('.')[0] for row in ROWS)]
-    for name in names:
-        if name not in known:
-            close = close_name(name, known)
-            raise ClothSimError(
-                f'there is no row {shown(name)}: '
-                + (f'did you mean {close}?' if close else f'take one of {", ".join(known)}'))
+    refuse_unknown('row', names, known)
     return [row for row in ROWS if {row.name, row.name.partition('.')[0]} & set(names)]
 
 
@@ -133,48 +121,3 @@ def _number(value: float) -> str:
 
 def _in_unit(row: Row, value: float) -> str:
     return f'{_number(value)} {row.unit}'.strip()
-
-
-class Page:
-    """
-    A page that the table is written into: between BEGIN and END where it has them, else all of it.
-
-    :raises ClothSimError: if the file can't be read, its folder is not there, or it has one of
-        both lines alone
-    """
-
-    def __init__(self, path: Path) -> None:
-        """Read what stands around the table, before minutes of measuring."""
-        self._path = path
-        with self._errors_named():
-            path.parent.stat()
-            page = (
-                read_regular(path, _PAGE_LIMIT).decode() if path.exists()
-                else f'{BEGIN}\n{END}\n')
-            if (BEGIN in page) != (END in page):
-                raise ClothSimError(
-                    f'{shown(str(path))} has one of the two lines that the table stands between: '
-                    f'write both, {BEGIN} and {END}')
-        self._before, begin, rest = page.partition(BEGIN)
-        self._after = rest.partition(END)[2]
-        self._has_place = bool(begin)
-
-    def write(self, text: str) -> None:
-        """
-        Write the table.
-
-        :raises ClothSimError: if the file can't be written
-        """
-        if self._has_place:
-            text = f'{self._before}{BEGIN}\n\n{text}\n{END}{self._after}'
-        with self._errors_named():
-            self._path.write_text(text, encoding='utf-8')
-
-    @contextmanager
-    def _errors_named(self) -> Iterator[None]:
-        try:
-            yield
-        except (OSError, UnicodeDecodeError) as error:
-            raise ClothSimError(
-                f'{shown(str(self._path))} can not be written: {error}: choose another file'
-            ) from None

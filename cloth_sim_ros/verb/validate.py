@@ -21,12 +21,14 @@ from argparse import Namespace
 from contextlib import closing
 from pathlib import Path
 
+from cloth_sim_ros.files.generated_page import GeneratedPage
 from cloth_sim_ros.gl.context import Context
 from cloth_sim_ros.sim.model.scene_fields import MODES
+from cloth_sim_ros.validation.table import BEGIN
 from cloth_sim_ros.validation.table import chosen
+from cloth_sim_ros.validation.table import END
 from cloth_sim_ros.validation.table import markdown
 from cloth_sim_ros.validation.table import measure
-from cloth_sim_ros.validation.table import Page
 from tqdm import tqdm
 
 
@@ -44,7 +46,7 @@ def add_arguments(parser: ArgumentParser) -> None:
 def main(args: Namespace) -> int:
     """Measure, print and write."""
     rows = chosen(args.only, is_long=args.long)
-    page = Page(args.out) if args.out else None
+    page = GeneratedPage(args.out, BEGIN, END) if args.out else None
     found = []
     with closing(Context(single_thread=True)) as context, tqdm(
             total=sum(len(row.grids) for row in rows), unit=' rows', leave=False,

@@ -5,6 +5,8 @@
 
 from cloth_sim_ros.files.close_name import close_name
 from cloth_sim_ros.files.close_name import edits
+from cloth_sim_ros.files.close_name import refuse_unknown
+from cloth_sim_ros.files.errors import ClothSimError
 from hypothesis import given
 from hypothesis import strategies
 import pytest
@@ -20,6 +22,15 @@ WORDS = strategies.text('abc', max_size=6)
 def test_a_slip_is_understood_and_another_word_is_not(name, meant):
     """A user would be led to a parameter that has nothing to do with what was asked for."""
     assert close_name(name, KNOWN) == meant
+
+
+def test_an_unknown_name_is_refused_with_a_way_out():
+    """A typing error would be taken for a wish to do nothing."""
+    refuse_unknown('field', ['rows', 'run'], iter(KNOWN))
+    with pytest.raises(ClothSimError, match="there is no field 'rwos': did you mean rows?"):
+        refuse_unknown('field', ['run', 'rwos'], KNOWN)
+    with pytest.raises(ClothSimError, match='take one of rows, cols'):
+        refuse_unknown('field', ['friction'], KNOWN)
 
 
 @given(WORDS, WORDS)

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-"""The validation table, its verdicts, and the page that has it."""
+"""The validation table and its verdicts, and the rows of the page that has it."""
 
 from pathlib import Path
 
@@ -10,12 +10,9 @@ from cloth_sim_ros.validation.row import exactly
 from cloth_sim_ros.validation.row import Figure
 from cloth_sim_ros.validation.row import Row
 from cloth_sim_ros.validation.rows import ROWS
-from cloth_sim_ros.validation.table import BEGIN
 from cloth_sim_ros.validation.table import chosen
-from cloth_sim_ros.validation.table import END
 from cloth_sim_ros.validation.table import markdown
 from cloth_sim_ros.validation.table import Measured
-from cloth_sim_ros.validation.table import Page
 import pytest
 
 PAGE = Path(__file__).parents[2] / 'docs' / 'validation.md'
@@ -55,22 +52,6 @@ def test_names_and_families():
     assert not any(each.is_long for each in chosen([], is_long=False))
     with pytest.raises(ClothSimError, match='did you mean strips'):
         chosen(['stripes'], is_long=False)
-
-
-def test_a_page_keeps_its_text(tmp_path):
-    """What people have written round the table would be lost."""
-    page = tmp_path / 'page.md'
-    page.write_text(f'before\n\n{BEGIN}\n\nold\n{END}\n\nafter\n', encoding='utf-8')
-    Page(page).write('new\n')
-    assert page.read_text(encoding='utf-8') == f'before\n\n{BEGIN}\n\nnew\n\n{END}\n\nafter\n'
-    page.write_text(f'{BEGIN}\n', encoding='utf-8')
-    with pytest.raises(ClothSimError, match='one of the two lines'):
-        Page(page)
-    assert page.read_text(encoding='utf-8') == f'{BEGIN}\n'
-    with pytest.raises(ClothSimError, match='can not be written'):
-        Page(tmp_path / 'none' / 'page.md')
-    Page(tmp_path / 'new.md').write('new\n')
-    assert (tmp_path / 'new.md').read_text(encoding='utf-8') == f'{BEGIN}\n\nnew\n\n{END}\n'
 
 
 def test_the_page_has_every_row():
