@@ -45,6 +45,7 @@ from cloth_sim_ros.gl.context import Context
 from cloth_sim_ros.recording.bag_metadata import project_version
 from cloth_sim_ros.reference.explicit_cloth import MassSpringReference
 from cloth_sim_ros.study.speed import bench_scene
+from cloth_sim_ros.study.speed_page import processor_name
 import numpy as np
 from peers.c_peer import compiler
 from peers.cloth import Cloth
@@ -200,7 +201,7 @@ def _close(peer: Peer) -> None:
 def machine(context: Context) -> dict[str, Any]:
     """Return what the figures depend on, for JSON."""
     return {
-        'device': context.device, 'driver': context.version, 'processor': _processor(),
+        'device': context.device, 'driver': context.version, 'processor': processor_name(),
         'versions': _versions(), 'commit': _said_by('git', 'describe', '--always', '--dirty'),
         'environment': ONE_THREAD}
 
@@ -217,16 +218,6 @@ def _versions() -> dict[str, str]:
     except PeerMissingError:
         pass
     return versions
-
-
-def _processor() -> str:
-    try:
-        for line in Path('/proc/cpuinfo').read_text(encoding='utf-8').splitlines():
-            if line.startswith('model name'):
-                return line.partition(':')[2].strip()
-    except OSError:
-        pass
-    return platform.processor()
 
 
 def _said_by(*command: str) -> str:

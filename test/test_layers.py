@@ -23,7 +23,7 @@ ROOMS = {
     'recording': {'messages', 'sim', 'files'},
     'playback': {'recording', 'messages', 'sim', 'files'},
     'node': {'recording', 'messages', 'sim', 'gl', 'files'},
-    'study': {'recording', 'messages', 'sim', 'gl', 'reference', 'files'},
+    'study': {'gym', 'camera', 'recording', 'messages', 'sim', 'gl', 'reference', 'files'},
     'dataset': {'study', 'camera', 'sim', 'gl', 'files'},
     'analysis': {'recording', 'messages', 'sim', 'files'},
     'rendering': {'analysis', 'recording', 'messages', 'camera', 'sim', 'gl', 'files'},

@@ -33,4 +33,6 @@ def way_out(error: ImportError) -> str:
         return (
             'viser, which shows the cloth in a browser, is missing: run `./scripts/setup.sh '
             '--view`, or `pip install viser`')
+    if package == 'gymnasium':
+        return 'gymnasium is missing: run `pip install gymnasium`'
     raise error

@@ -24,6 +24,11 @@ def test_says_what_a_small_ros_lacks():
     assert 'ros-jazzy-tf2-msgs' in way_out(ModuleNotFoundError(name='tf2_msgs'))
 
 
+def test_says_what_environments_need():
+    """A user who measures environments would get a traceback."""
+    assert 'pip install gymnasium' in way_out(ModuleNotFoundError(name='gymnasium'))
+
+
 def test_does_not_guess():
     """Another missing module would be taken for a missing ROS."""
     with pytest.raises(ModuleNotFoundError):

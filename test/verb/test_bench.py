@@ -7,6 +7,8 @@ import json
 import subprocess
 import sys
 
+from cloth_sim_ros.study.speed_page import BEGIN
+from cloth_sim_ros.study.speed_page import END
 from cloth_sim_ros.verb.main import main
 import pytest
 
@@ -92,7 +94,8 @@ def test_some_modes_can_be_compared_alone(capsys):
 @pytest.mark.parametrize(('arguments', 'reason'), [
     (['--grids', '6,ten'], "'6,ten' is not a list of integers: write it as in 32,64"),
     (['--grids', '6', '--only', 'magic'], 'mass_spring'),
-    (['--grids', '1'], 'at least 2'), (['--grids', '6', '--seconds', 'nan'], 'nan s')])
+    (['--grids', '1'], 'at least 2'), (['--grids', '6', '--seconds', 'nan'], 'nan s'),
+    (['--grids', '6', '--rounds', '0'], '0 rounds')])
 def test_a_comparison_that_makes_no_sense_is_refused(arguments, reason, capsys):
     """A slip of the keyboard would end in a traceback."""
     try:
@@ -114,3 +117,23 @@ def test_colliders_are_compared_with_none(capsys):
         assert list(each['ratios']) == list(each['ratios_to_hung']) == names
         assert each['ratios']['no collider'] == [1.0]
         assert each['ratios_to_hung']['hung, no collider'] == [1.0]
+
+
+def test_a_page_is_written(tmp_path, capsys):
+    """The page would have to be put together by hand."""
+    page = tmp_path / 'speed.md'
+    page.write_text(f'# Mine\n\n{BEGIN}\n{END}\n\nkept\n', encoding='utf-8')
+    lines = bench(capsys, '--page', str(page), '--quick', '--only', 'springs', 'camera')
+    text = page.read_text(encoding='utf-8')
+    assert text.startswith('# Mine') and text.endswith('kept\n')
+    assert all(line in text for line in lines)
+    assert [line for line in text.splitlines() if line.startswith('## ')] == [
+        '## Springs', '## Cameras']
+
+
+@pytest.mark.parametrize(('arguments', 'reason'), [
+    (['--only', 'sprngs'], 'did you mean springs'), ([], 'can not be written')])
+def test_a_page_that_can_not_be_made_is_refused(arguments, reason, tmp_path, capsys):
+    """The user would learn so after ten minutes."""
+    assert main(['bench', '--page', str(tmp_path / 'none' / 'speed.md'), *arguments]) == 1
+    assert reason in capsys.readouterr().err

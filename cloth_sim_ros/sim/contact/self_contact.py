@@ -30,7 +30,7 @@ import numpy as np
 # Invocations of a workgroup of the passes over pairs, contacts and nodes [1].
 _LOCAL = 32
 # Pairs that an invocation looks at for contacts [1], on software; chosen: from 8 to 32 a moving
-# towel takes the same time to 10 % (benchmarks/layers.py).
+# towel takes the same time to 10 % (cloth_sim bench --layers).
 _PAIRS_OF_SOFTWARE = 16
 # Passes read the state through textures on all devices: they write into many storage blocks.
 _READS = {'LOADS_TEXTURE': 1}
@@ -50,7 +50,7 @@ _MOST_ROUNDS_OF_SOLVE = 24
 _STILL = 0.1
 # Reach of the lists beyond the thickness: the largest of this many thicknesses, parts of a cell,
 # and displacements of a substep [1]; chosen: from 1 to 2 thicknesses a moving towel takes the same
-# time to 10 % (benchmarks/layers.py).
+# time to 10 % (cloth_sim bench --layers).
 _SKIN, _SKIN_OF_CELL, _SKIN_OF_WAY = 1.5, 0.1, 4.0
 # Reach over the displacement of an implicit substep [1], so that lists last for several;
 # chosen: same bits from 4 to 16, time -13 to 0 % (constants.py --only _SKIN_OF_LONG_WAY).
@@ -68,7 +68,7 @@ _MOST_UNLOOKED, _FASTER = 16, 4.0
 _MOST_WINDOW = 16
 # Max. displacement meanwhile, over a cell and over the thickness [1]: points that touch are those
 # of the first substep; chosen: from (0.05, 0.2) to (0.1, 0.4) the figures of
-# test_self_contact.py stay, and a moving towel takes 12 % less time (benchmarks/layers.py).
+# test_self_contact.py stay, and a moving towel takes 12 % less time (cloth_sim bench --layers).
 _WINDOW_OF_CELL, _WINDOW_OF_THICKNESS = 0.1, 0.4
 # Displacement since lists were made, as a fraction of half the reach [1], at which a node is
 # stopped; the rest is rounding.
