@@ -101,18 +101,19 @@ SECTIONS = (
         speed_tables.springs),
     Section(
         'modes', 'Modes at equal stretch',
-        ('--modes', '--grids', '32,64,96', '--rounds', '2'),
+        ('--modes', '--grids', '32,48,64'),
         ('--grids', '6', *_ONE_ROUND, '--seconds', '0.04'),
         'A light cloth of 1 x 1 m and 0.15 kg falls from level while two corners are pinned, '
         '1.2 s on one thread. The settings of each mode are meant to keep its stretch near 1 %.',
         speed_tables.modes),
     Section(
-        'bodies', 'Contact with bodies', ('--contact',),
+        'bodies', 'Contact with bodies', ('--contact', '--seconds', '0.4'),
         ('--sizes', '6', *_ONE_ROUND, '--seconds', '0.04'),
-        'A cloth falls over a sphere, alone and among 19 more that it never comes near to; beside '
-        'the same without a body, falling, and hung from two corners.', speed_tables.bodies),
+        'A cloth falls for 0.4 s over a sphere, alone and among 19 more that it never comes near '
+        'to; beside the same without a body, falling, and hung from two corners.',
+        speed_tables.bodies),
     Section(
-        'layers', 'Layers that touch', ('--layers', '--sizes', '32', '64'),
+        'layers', 'Layers that touch', ('--layers', '--sizes', '32', '48'),
         ('--sizes', '8', *_ONE_ROUND, '--seconds', '0.005', '--settle', '0.005'),
         'Processor time of a simulated second of a towel on a floor, flat and folded in half, '
         'with self-contact and without.', speed_tables.layers),
