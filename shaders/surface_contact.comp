@@ -174,11 +174,23 @@ void list_edges(Entry entry) {
 // The same of its faces.
 void list_faces(Entry entry) {
     bool is_there = owns(entry.index, SURFACE_EDGES);
+    vec3 places[4];
+    float ways[4];
+    for (int corner = 0; corner < 4; ++corner) {
+        int index = entry.index + corner / 2 * PITCH + corner % 2;
+        places[corner] = place_of(index);
+        ways[corner] = is_at_end ? 0.0 : way_of(entry.collider, index);
+    }
+    vec3 first[3] = vec3[3](places[0], places[2], places[1]);
+    vec3 second[3] = vec3[3](places[1], places[2], places[3]);
+    float inner = max(ways[1], ways[2]);
     for (int row = SURFACE_EDGES; row < SURFACE_ROWS_OF_BODY; ++row) {
-        ivec3 nodes = entry.index + surface_offsets(row);
+        bool is_first = row < SURFACE_EDGES + SURFACE_TIPS;
+        int tip = (row - SURFACE_EDGES) % SURFACE_TIPS;
         surface_rows[entry.first_row + row].row.impulse.w = 0.0;
-        if (is_there && may_face_touch(
-                entry.collider, nodes, (row - SURFACE_EDGES) % SURFACE_TIPS)) {
+        bool may = is_first ? may_face_touch(entry.collider, first, max(inner, ways[0]), tip)
+            : may_face_touch(entry.collider, second, max(inner, ways[3]), tip);
+        if (is_there && may) {
             list_row(entry, row);
         }
     }

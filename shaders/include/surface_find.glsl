@@ -60,25 +60,38 @@ float edge_limit(int collider, int first, int second, float around) {
     return is_at_end ? -2.0 * around : max(way_of(collider, first), way_of(collider, second));
 }
 
-// The end of an edge: position, displacement as by way_of, and distance to a collider [m].
+// The end of an edge: position, displacement as by way_of [m], vector from the centre of a collider
+// [m], gradient of the distance to it, and distance [m].
 struct EdgeEnd {
     vec3 place;
     float way;
-    float distance;
+    vec3 arm;
+    vec4 near;
 };
 
 EdgeEnd edge_end(int collider, int index) {
     vec3 place = place_of(index);
-    return EdgeEnd(place, is_at_end ? 0.0 : way_of(collider, index),
-        distance_to_collider(collider, arm_of(collider, place)).w);
+    vec3 arm = arm_of(collider, place);
+    return EdgeEnd(place, is_at_end ? 0.0 : way_of(collider, index), arm,
+        distance_to_collider(collider, arm));
 }
 
-// Whether an edge is near enough to touch: the distance changes by at most the length along it.
+// Slope of the distance along an edge over its length [1], to which gradients are taken as exact:
+// arms of 1 m are rounded by 1e-5 of a body of 6 mm.
+#define LEVEL_SLOPE 1e-3
+
+// Whether an edge may be near enough to touch, and nearer than at its ends. The distance is convex
+// along it, so the tangents at both ends bound it from below.
 bool may_edge_touch(int collider, EdgeEnd a, EdgeEnd b) {
     float around = rounding(a.place, collider);
     float limit = is_at_end ? -2.0 * around : max(a.way, b.way);
-    return 0.5 * (a.distance + b.distance - length(b.place - a.place)) - clearance
-        <= limit + 2.0 * around;
+    vec3 along = b.arm - a.arm;
+    float level = LEVEL_SLOPE * length(along);
+    float first = dot(a.near.xyz, along) - level, last = dot(b.near.xyz, along) + level;
+    bool is_between = first < 0.0 && last > 0.0;
+    float place = clamp((b.near.w - a.near.w - last) / min(first - last, -1e-30), 0.0, 1.0);
+    float least = a.near.w + first * place;
+    return is_between && least - clearance <= limit + 2.0 * around;
 }
 
 // The contact of an edge that may touch.
@@ -149,21 +162,21 @@ float face_limit(int collider, ivec3 nodes, float around) {
         way_of(collider, nodes.y), way_of(collider, nodes.z)));
 }
 
-// Whether a face is near enough to a point of the collider to touch it there.
-bool may_face_touch(int collider, ivec3 nodes, int tip) {
+// Whether a face, by its corners and the displacement of the fastest, is near enough to a point of
+// the collider to touch it there.
+bool may_face_touch(int collider, vec3 corners[3], float way, int tip) {
     int shape = int(collider_shape[collider]);
     vec3 size = collider_size[collider];
     // All possible points of a tip are within a radius of their middle.
     vec3 middle = tip_of(shape, size, vec3(0.0), tip);
     float radius = shape == SHAPE_BOX ? 0.0 : size.x;
     middle.xy = shape == SHAPE_CYLINDER ? vec2(0.0) : middle.xy;
-    vec3 x0 = arm_of(collider, place_of(nodes.x));
-    float reach = max(
-        length(place_of(nodes.y) - place_of(nodes.x)), length(place_of(nodes.z) - place_of(nodes.x)));
-    float around = rounding(place_of(nodes.x), collider);
+    vec3 x0 = arm_of(collider, corners[0]);
+    float reach = max(length(corners[1] - corners[0]), length(corners[2] - corners[0]));
+    float around = rounding(corners[0], collider);
     vec3 away = middle.x * collider_axes[3 * collider]
         + middle.y * collider_axes[3 * collider + 1] + middle.z * collider_axes[3 * collider + 2] - x0;
-    float limit = max(face_limit(collider, nodes, around) + around, 0.0) + clearance;
+    float limit = max((is_at_end ? -2.0 * around : way) + around, 0.0) + clearance;
     // A tip is at most as deep below the face as its core.
     float deepest = 2.0 * depth_of_core(shape, size);
     return tip < tip_count(shape) && length(away) <= reach + radius + max(limit, deepest);
