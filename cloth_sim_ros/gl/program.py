@@ -77,7 +77,7 @@ class LinkedProgram:
         """Set an int uniform, whatever program is in use."""
         quick_calls.set_program_int(self._program, self._location(name), value)
 
-    def set_floats(self, name: str, values: Sequence[float]) -> None:
+    def set_floats(self, name: str, values: Sequence[float] | np.ndarray) -> None:
         """Set the first floats of an array uniform of the program in use."""
         flat = np.ascontiguousarray(values, dtype=np.float32)
         if self._changed(name, flat):

@@ -7,6 +7,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from dataclasses import replace
 import math
+from typing import NamedTuple
 
 from cloth_sim_ros.gl.buffer import Buffer
 from cloth_sim_ros.gl.buffer import shader_dispatches_visible
@@ -121,8 +122,8 @@ class Contacts:
         self._foresight = SceneProgram('foresee_contact.comp', scene, layout)
         self._surface = (
             SurfaceContact(scene, layout) if scene.thin_colliders else None)
-        self._set: dict[Program, tuple[_Touch, float]] = {}
-        self._joined: tuple[Forcing, _Touch, Forcing] | None = None
+        self._set: dict[Program, tuple[Touch, float]] = {}
+        self._joined: tuple[Forcing, Touch, Forcing] | None = None
         self.begin_run()
 
     def begin_run(self) -> None:
@@ -203,7 +204,7 @@ class Contacts:
         return self._paths.quiet_until(now)
 
     def begin_explicit(
-            self, touch: '_Touch', step: Program, length: float, *, on_surface: bool) -> None:
+            self, touch: 'Touch', step: Program, length: float, *, on_surface: bool) -> None:
         """
         Have ``step``, which is in use, list the nodes for ``act`` in substeps of ``length`` [s].
 
@@ -219,14 +220,14 @@ class Contacts:
             self._begin_surface(touch, length, notes_changes=False)
         self._bind_near()
 
-    def _begin_surface(self, touch: '_Touch', length: float, *, notes_changes: bool) -> None:
+    def _begin_surface(self, touch: 'Touch', length: float, *, notes_changes: bool) -> None:
         if self._surface is None:
             return
         self._set_surface(self._surface.programs(notes_changes=notes_changes), touch, length)
         self._surface.bind()
 
     def _set_surface(
-            self, programs: Iterable[Program], touch: '_Touch', length: float) -> None:
+            self, programs: Iterable[Program], touch: 'Touch', length: float) -> None:
         for program in programs:
             program.set_float('substep', length)
             program.set_int('block_count', self._layout.block_count)
@@ -244,7 +245,7 @@ class Contacts:
         make(self._clear_near)
 
     def act_after_limits(
-            self, touch: '_Touch', state: State, length: float, changes: Buffer,
+            self, touch: 'Touch', state: State, length: float, changes: Buffer,
             held_at: int, layers: Layers | None) -> None:
         """
         Apply contact to an explicit substep whose velocities were changed after it was made.
@@ -265,7 +266,7 @@ class Contacts:
         else:
             self._act_beside(layers, self._noting_program, held_at, notes_changes=True)
 
-    def move_out(self, touch: '_Touch', state: State, length: float) -> None:
+    def move_out(self, touch: 'Touch', state: State, length: float) -> None:
         """
         Move edges and faces out of thin colliders at the end of an implicit substep.
 
@@ -284,7 +285,7 @@ class Contacts:
         self._surface.list_entries()
         self._surface.move_out()
 
-    def _list_blocks(self, touch: '_Touch', state: State, length: float) -> None:
+    def _list_blocks(self, touch: 'Touch', state: State, length: float) -> None:
         """List the blocks near colliders in a substep whose end state is written."""
         self.list_none()
         program = self._near_blocks.use()
@@ -349,7 +350,7 @@ class Contacts:
         return bool(head[_NEAR_NODES])
 
     def foresee(
-            self, touch: '_Touch', state: State, forcing: Forcing, ahead: float) -> None:
+            self, touch: 'Touch', state: State, forcing: Forcing, ahead: float) -> None:
         """Write the expected velocities of the state after ``state``."""
         program = self._foresight.use_for_step(forcing, ahead)
         self.set_in(program, touch, ahead)
@@ -358,13 +359,13 @@ class Contacts:
         program.dispatch(*self._layout.node_groups)
         shader_writes_visible()
 
-    def set_in(self, program: Program, touch: '_Touch', length: float) -> None:
+    def set_in(self, program: Program, touch: 'Touch', length: float) -> None:
         """Set the uniforms of contact.glsl in the program in use for ``length`` [s]."""
         self._record.bind_storage(bindings.CONTACTS)
         if program not in self._set:
             self._set_shapes(program)
         if self._set.get(program) != (touch, length):
-            self._set_motions(program, touch.motions, length)
+            self._set_motions(program, touch, length)
             self._set[program] = touch, length
 
     def near_limits(self, velocities: np.ndarray, length: float) -> np.ndarray:
@@ -493,16 +494,16 @@ class Contacts:
         return [self._paths.pose(collider.name, time) for collider in self.colliders]
 
     def _forget_touch(self) -> None:
-        self._touch: _Touch | None = None
+        self._touch: Touch | None = None
         self._same_from, self._same_until = math.inf, -math.inf
 
-    def _touch_in(self, begin: float, end: float) -> '_Touch':
+    def _touch_in(self, begin: float, end: float) -> 'Touch':
         touch = self._touch
         if touch is not None and self._same_from <= begin and end <= self._same_until:
             return touch
         names = [collider.name for collider in self.colliders]
         motions = self._paths.motions(names, begin, end)
-        touch = self._touch = _Touch(self, motions)
+        touch = self._touch = Touch(self, motions)
         # If nothing moves, it is valid until something does.
         if motions.are_rest:
             self._same_from, self._same_until = begin, max(end, self.quiet_until(begin))
@@ -510,17 +511,27 @@ class Contacts:
             self._same_until = -math.inf
         return touch
 
-    def _set_motions(self, program: Program, motions: Motions, length: float) -> None:
+    def _set_motions(self, program: Program, touch: 'Touch', length: float) -> None:
+        uniforms = touch.uniforms(length)
+        for name, vectors in uniforms.vectors.items():
+            program.set_vectors(name, vectors)
+        for name, floats in uniforms.floats.items():
+            program.set_floats(name, floats)
+
+    def uniforms_of(self, motions: Motions, length: float) -> 'MotionUniforms':
+        """Return the uniforms of contact.glsl for motions in a substep of ``length`` [s]."""
         centres, axes, velocities, turns = motions
-        program.set_vectors('collider_centre', centres)
-        program.set_vectors('collider_axes', axes)
-        program.set_vectors('collider_velocity', velocities)
-        program.set_vectors('collider_turn', turns)
+        vectors = {
+            'collider_centre': centres, 'collider_axes': axes, 'collider_velocity': velocities,
+            'collider_turn': turns}
         if np.any(self.cores):
-            program.set_vectors('near_core', self.near_cores(axes.reshape(-1, 3, 3)))
-        limits = self.near_limits(velocities, length) + self.rounding_of(centres)
-        program.set_floats('near_limit', limits.tolist())
-        program.set_floats('near_share', near_shares(turns.reshape(-1, 3, 3), length).tolist())
+            vectors['near_core'] = self.near_cores(axes.reshape(-1, 3, 3))
+        floats = {
+            'near_limit': self.near_limits(velocities, length) + self.rounding_of(centres),
+            'near_share': near_shares(turns.reshape(-1, 3, 3), length)}
+        return MotionUniforms(*(
+            {name: values.astype(np.float32) for name, values in each.items()}
+            for each in (vectors, floats)))
 
     def _set_shapes(self, program: Program) -> None:
         shapes = list(SHAPES)
@@ -540,12 +551,27 @@ class Contacts:
         program.set_int('record_stride', self._layout.stored)
 
 
-class _Touch:
+class MotionUniforms(NamedTuple):
+    """Arrays for the uniforms of contact.glsl that depend on motions, by name, in float32."""
+
+    vectors: dict[str, np.ndarray]
+    floats: dict[str, np.ndarray]
+
+
+class Touch:
     """The colliders in one substep, and how they move in it."""
 
     def __init__(self, contacts: Contacts, motions: Motions) -> None:
         self._contacts = contacts
-        self.motions = motions
+        self._motions = motions
+        # For the last length of a substep: several passes ask for them.
+        self._uniforms: tuple[float, MotionUniforms] | None = None
+
+    def uniforms(self, length: float) -> MotionUniforms:
+        """Return the uniforms of contact.glsl for a substep of ``length`` [s]."""
+        if self._uniforms is None or self._uniforms[0] != length:
+            self._uniforms = length, self._contacts.uniforms_of(self._motions, length)
+        return self._uniforms[1]
 
     def set_in(self, program: Program, length: float) -> None:
         self._contacts.set_in(program, self, length)

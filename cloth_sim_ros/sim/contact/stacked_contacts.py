@@ -10,6 +10,7 @@ from cloth_sim_ros.gl.buffer import Buffer
 from cloth_sim_ros.gl.program import Program
 from cloth_sim_ros.sim.contact.contacts import Contacts
 from cloth_sim_ros.sim.contact.contacts import near_shares
+from cloth_sim_ros.sim.contact.contacts import Touch
 from cloth_sim_ros.sim.device import bindings
 from cloth_sim_ros.sim.device.layout import Layout
 from cloth_sim_ros.sim.loads.forcing import Forcing
@@ -19,7 +20,6 @@ from cloth_sim_ros.sim.model.colliders import Collider
 from cloth_sim_ros.sim.model.colliders import placed
 from cloth_sim_ros.sim.model.frame_paths import FrameMove
 from cloth_sim_ros.sim.model.frame_paths import FramePath
-from cloth_sim_ros.sim.model.frame_paths import Motions
 from cloth_sim_ros.sim.scene import Scene
 import numpy as np
 
@@ -105,7 +105,7 @@ class StackedContacts(Contacts):
         if self._layout.texture_loads:
             self._places.bind_texture(bindings.OWN_BODIES_TABLE)
 
-    def _set_motions(self, program: Program, motions: Motions, length: float) -> None:
+    def _set_motions(self, program: Program, touch: Touch, length: float) -> None:
         """Set nothing: the motions of all cloths are in the table."""
 
     def _upload(self) -> None:

@@ -249,37 +249,22 @@ class FramePaths:
         path = self._path(name, time)
         return self._origins[name] if path is None else path.pose(time)
 
-    def velocity(self, name: str, begin: float, end: float) -> np.ndarray:
-        """Return the mean velocity of its origin from ``begin`` to ``end`` [s], (3,) [m/s]."""
-        path = self._path(name, begin)
-        # In the middle of a path, the same bits in each step.
-        if path is not None and path.is_under_way(begin, end):
-            return path.velocity
-        first, last = self.pose(name, begin), self.pose(name, end)
-        return (np.array(last.position) - np.array(first.position)) / (end - begin)
-
-    def turn(self, name: str, begin: float, end: float) -> np.ndarray:
-        """
-        Return what takes an arm to the mean velocity of its end [1/s], (3, 3).
-
-        It is the rotation from ``begin`` to ``end`` [s], less 1, over the time that it takes.
-        """
-        first, last = self.pose(name, begin), self.pose(name, end)
-        if first.orientation == last.orientation:
-            return np.zeros((3, 3))
-        return (last.axes.T @ first.axes - np.eye(3)) / (end - begin)
-
     def motions(self, names: Sequence[str], begin: float, end: float) -> Motions:
         """Return how frames move from ``begin`` to ``end`` [s]; not at all if these are equal."""
-        poses = [self.pose(name, begin) for name in names]
-        moves = end > begin
+        count, moves = len(names), end > begin
+        firsts = [self.pose(name, begin) for name in names]
+        axes = [pose.axes for pose in firsts]
+        lasts = [self.pose(name, end) for name in names] if moves else firsts
+        velocities, turns = np.zeros((count, 3)), np.zeros((count, 3, 3))
+        for i, (name, first, last) in enumerate(zip(names, firsts, lasts)):
+            if moves:
+                velocities[i] = self._mean_velocity(name, first, last, begin, end)
+            if first.orientation != last.orientation:
+                # The rotation, less 1, over the time that it takes.
+                turns[i] = (last.axes.T @ axes[i] - np.eye(3)) / (end - begin)
         return Motions(
-            np.array([pose.position for pose in poses]),
-            np.concatenate([pose.axes for pose in poses]),
-            np.array([
-                self.velocity(name, begin, end) if moves else np.zeros(3) for name in names]),
-            np.concatenate([
-                self.turn(name, begin, end) if moves else np.zeros((3, 3)) for name in names]))
+            np.array([pose.position for pose in firsts]), np.concatenate(axes), velocities,
+            turns.reshape(3 * count, 3))
 
     def current(self, name: str, now: float) -> FramePath | None:
         """Return the path that the frame ``name`` moves on at ``now`` [s]; None at rest."""
@@ -305,6 +290,15 @@ class FramePaths:
         path = FramePath(move, self.pose(move.name, move.start))
         self._paths[move.name].append(path)
         return path
+
+    def _mean_velocity(
+            self, name: str, first: Pose, last: Pose, begin: float, end: float) -> np.ndarray:
+        """Return that of a frame at these poses at ``begin`` and ``end`` [s], (3,) [m/s]."""
+        path = self._path(name, begin)
+        # In the middle of a path, the same bits in each step.
+        if path is not None and path.is_under_way(begin, end):
+            return path.velocity
+        return (np.array(last.position) - np.array(first.position)) / (end - begin)
 
     def _path(self, name: str, time: float) -> FramePath | None:
         return next((path for path in reversed(self._paths[name]) if time >= path.begin), None)

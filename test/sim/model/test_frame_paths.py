@@ -35,9 +35,10 @@ def test_a_move_ends_at_its_target():
     assert paths.quiet_until(1.1) == 1.1
     np.testing.assert_allclose(paths.pose('ball', 1.25).position, [0.0, 0.0, 0.5])
     np.testing.assert_allclose(paths.pose('ball', 1.75).position, [0.5, 0.0, 0.5])
-    np.testing.assert_allclose(paths.velocity('ball', 1.3, 1.4), [1.0, 0.0, 0.0])
+    np.testing.assert_allclose(
+        paths.motions(['ball'], 1.3, 1.4).velocities, [[1.0, 0.0, 0.0]])
     assert paths.pose('ball', 9.0).position == (1.0, 0.0, 0.5)
-    np.testing.assert_allclose(paths.velocity('ball', 9.0, 9.1), 0.0)
+    np.testing.assert_allclose(paths.motions(['ball'], 9.0, 9.1).velocities, 0.0)
     assert paths.quiet_until(9.0) == math.inf
 
 
@@ -65,7 +66,7 @@ def test_a_turn_takes_an_arm_to_where_it_ends():
     """What sticks to a body that turns would creep outwards."""
     paths = FramePaths({'ball': HERE}, [a_move((0.0, 0.0, 0.0), 0.0, orientation=about_z(1.0))])
     arm = np.array([2.0, 0.0, 1.0])
-    velocity = paths.turn('ball', 0.0, 0.5) @ arm
+    velocity = paths.motions(['ball'], 0.0, 0.5).turns @ arm
     np.testing.assert_allclose(
         arm + 0.5 * velocity, [2.0 * math.cos(0.5), 2.0 * math.sin(0.5), 1.0])
     np.testing.assert_allclose(np.linalg.norm(
