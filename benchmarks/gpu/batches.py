@@ -4,8 +4,10 @@
 """Many cloths that step together in a Batch."""
 
 from collections.abc import Iterator
+from collections.abc import Mapping
 from contextlib import closing
 import time
+from typing import Any
 
 from cloth_sim_ros.gl.context import Context
 from cloth_sim_ros.sim.batch import Batch
@@ -23,11 +25,27 @@ def _scenes(side: int, count: int) -> list[Scene]:
     return [Scene({**values, 'start.seed': number}) for number in range(count)]
 
 
-def _first_unlike_step(most: int) -> int | None:
-    """Return the first step in which a fabric in air has other bits in a Batch than alone."""
-    scenes = [Scene({
-        'rows': 11, 'cols': 9, 'start.jitter': 0.02, 'start.seed': seed}) for seed in range(3)]
+_FABRIC = {'rows': 11, 'cols': 9, 'start.jitter': 0.02}
+_PUSHED = {
+    **_FABRIC, 'start.pose': 'horizontal', 'start.z': 0.2, 'colliders.names': ['ball', 'box'],
+    'colliders.ball.size': [0.15], 'colliders.box.shape': 'box',
+    'colliders.box.size': [0.2, 0.3, 0.2], 'colliders.box.position': [0.3, 0.0, 0.0]}
+
+
+def _first_unlike_step(values: Mapping[str, Any], most: int, *, moves: bool) -> int | None:
+    """
+    Return the first step in which a fabric in air has other bits in a Batch than alone.
+
+    :param moves: whether the ball and the box of each cloth move and turn, at their own speeds
+    """
+    scenes = [Scene({**values, 'start.seed': seed}) for seed in range(3)]
     with Batch(scenes) as batch, Simulation(scenes[1]) as alone:
+        for name in ('ball', 'box') if moves else ():
+            targets = np.array([[0.1, 0.1, 0.1 * cloth] for cloth in range(3)])
+            turned = np.tile([0.0, 0.6, 0.0, 0.8], (3, 1))
+            speeds = np.array([0.5, 1.0, 2.0])
+            batch.move_collider(range(3), name, targets, turned, speeds, 3.0)
+            alone.move_collider(name, targets[1], turned[1], speeds[1], 3.0)
         for step in range(1, most + 1):
             batch.step(1)
             alone.step(1)
@@ -37,10 +55,13 @@ def _first_unlike_step(most: int) -> int | None:
 
 
 def _measure(quick: bool) -> Iterator[Row]:
-    unlike = _first_unlike_step(50)
-    yield {'cloths': '3 fabrics in air', 'steps': 50,
-           'first step with other bits than alone': unlike or '-',
-           FAULT: '' if unlike is None else 'other bits'}
+    for cloths, values, moves in (
+            ('3 fabrics in air', _FABRIC, False),
+            ('3 fabrics on bodies that move', _PUSHED, True)):
+        unlike = _first_unlike_step(values, 50, moves=moves)
+        yield {'cloths': cloths, 'steps': 50,
+               'first step with other bits than alone': unlike or '-',
+               FAULT: '' if unlike is None else 'other bits'}
     with closing(Context(single_thread=True)) as context:
         is_software = context.is_software
     sizes = ((12, 256), (32, 256)) if is_software else (

@@ -11,12 +11,12 @@ from typing import Any
 from cloth_sim_ros.gl.context import Context
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.simulation import Simulation
+from cloth_sim_ros.study.self_contact_speed import folded
+from cloth_sim_ros.study.self_contact_speed import towel
 from gpu.call_counts import CallCounts
 from gpu.call_counts import counted_calls
 from gpu.section import Row
 from gpu.section import Section
-from layers import folded
-from layers import scene_of
 import numpy as np
 
 # What a dispatch costs with its barrier [s], whatever it computes: an NVIDIA H200 takes 4 to 5 us
@@ -105,7 +105,7 @@ def rows(context: Context, *, quick: bool = False, only: str = '') -> Iterator[R
             scene = Scene({'mode': mode, 'rows': side, 'cols': side, **values})
             yield {**head, 'scene': name, **counted(
                 scene, context, settle=settle, seconds=seconds)}
-        scene = scene_of(side, enabled=True, mode=mode, dt=_DT_OF_TOWEL[mode])
+        scene = towel(mode, side, is_enabled=True, dt=_DT_OF_TOWEL[mode])
         yield {**head, 'scene': _TOWEL, **counted(
             scene, context, folded(side), settle=settle, seconds=seconds)}
 

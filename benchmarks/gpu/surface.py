@@ -9,12 +9,12 @@ from cloth_sim_ros.gl.context import Context
 from cloth_sim_ros.gl.inventory import take_inventory
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.simulation import Simulation
+from cloth_sim_ros.study.self_contact_speed import folded
+from cloth_sim_ros.study.self_contact_speed import towel
 from gpu.modes import timed
 from gpu.section import FAULT
 from gpu.section import Row
 from gpu.section import Section
-from layers import folded
-from layers import scene_of
 import numpy as np
 
 _DT = {'mass_spring': 0.001, 'adaptive': 0.001, 'constraint': 0.005}
@@ -57,7 +57,7 @@ def _measure(quick: bool) -> Iterator[Row]:
     simulated = 0.02 if quick else _SIMULATED
     for side in (16,) if quick else _SIDES:
         for mode, dt in _DT.items():
-            scene = scene_of(side, enabled=True, mode=mode, dt=dt)
+            scene = towel(mode, side, is_enabled=True, dt=dt)
             yield {
                 'mode': mode, 'scene': 'folded towel', 'side': side,
                 **_row(context, scene, folded(side), simulated)}

@@ -77,7 +77,7 @@ def measure_layers(
     times: tuple[list[float], list[float]] = ([], [])
     with ExitStack() as stack:
         runs = [
-            stack.enter_context(Simulation(_scene(mode, nodes, is_enabled=is_enabled)))
+            stack.enter_context(Simulation(towel(mode, nodes, is_enabled=is_enabled)))
             for is_enabled in (False, True)]
         for run in runs:
             if pose == 'folded':
@@ -118,11 +118,17 @@ def folded(nodes: int) -> np.ndarray:
     return found
 
 
-def _scene(mode: str, nodes: int, *, is_enabled: bool) -> Scene:
+def towel(mode: str, nodes: int, *, is_enabled: bool, dt: float | None = None) -> Scene:
+    """
+    Return a towel on a floor.
+
+    :param is_enabled: whether it can touch itself
+    :param dt: [s]; that of STEPS by default
+    """
     thickness = _THICKNESS * _SIDE / (nodes - 1)
     return Scene({
         'mode': mode, 'rows': nodes, 'cols': nodes, 'width': _SIDE, 'height': _SIDE,
-        'pins': ['none'], 'areal_density': 0.2, 'dt': STEPS[mode], 'start.z': 0.0,
+        'pins': ['none'], 'areal_density': 0.2, 'dt': dt or STEPS[mode], 'start.z': 0.0,
         'stiffness.structural': 500.0, 'stiffness.shear': 150.0,
         'bending.rigidity': [2e-6, 2e-6], 'contact.thickness': thickness,
         'colliders.names': ['floor'], 'colliders.floor.shape': 'plane',
