@@ -15,6 +15,7 @@ from cloth_sim_ros.sim.device.tuning import VARIABLE
 from hypothesis import HealthCheck
 from hypothesis import settings
 from hypothesis.internal.conjecture import providers
+from long_cases import listed_cases
 import pytest
 
 # How long an example takes, or to make one, depends on what else the machine does.
@@ -103,6 +104,10 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
     items.sort(key=lambda item: item.path.name not in BEGUN_FIRST)
     if config.getoption('--long'):
         return
-    long_items = [item for item in items if item.get_closest_marker('long')]
+    listed = listed_cases()
+    ordinary, long_items = [], []
+    for item in items:
+        is_long = item.get_closest_marker('long') or item.nodeid in listed
+        (long_items if is_long else ordinary).append(item)
     config.hook.pytest_deselected(items=long_items)
-    items[:] = [item for item in items if item not in long_items]
+    items[:] = ordinary
