@@ -207,7 +207,7 @@ def _measure(section: Section, is_trial: bool) -> list[Found]:
     try:
         said, complaint = process.communicate()
     except BaseException:
-        # It ends what it has started itself, such as a node.
+        # A bench that is terminated ends its own child processes, such as a node.
         process.terminate()
         process.wait()
         raise

@@ -76,8 +76,8 @@ EdgeEnd edge_end(int collider, int index) {
         distance_to_collider(collider, arm));
 }
 
-// Slope of the distance along an edge over its length [1], to which gradients are taken as exact:
-// arms of 1 m are rounded by 1e-5 of a body of 6 mm.
+// Bound on the rounding of the slope of the distance along an edge, over its length [1]: with arms
+// of 1 m and a body of 6 mm it is 1e-5.
 #define LEVEL_SLOPE 1e-3
 
 // Whether an edge may be near enough to touch, and nearer than at its ends. The distance is convex

@@ -105,7 +105,7 @@ class StackedPaths:
         # Times of each cloth [s] from and until which its bodies stay where they are.
         self._rests_from = np.full(count, math.inf)
         self._rests_until = np.full(count, -math.inf)
-        # Those between which each body goes on with its move, or rests.
+        # Times [s] between which each body continues its move, or rests.
         self._goes_from = np.full(count, math.inf)
         self._goes_until = np.full(count, -math.inf)
         self._quiet_until = np.zeros(count)
