@@ -34,7 +34,7 @@ and the recording are added one after another, at 50 frames per second, and the 
 reliable subscriber in another process misses. It needs ROS.
 
 --page measures all sections of docs/speed.md, each by the command that it shows, and writes that
-page, which keeps its other text. It takes about a quarter of an hour on two cores.
+page, which keeps its other text. It takes about eleven minutes on two cores.
 
 For example:
   cloth_sim bench
