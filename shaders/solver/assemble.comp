@@ -65,7 +65,8 @@ void main() {
     Symmetric inverse_block = moves * inverse_above(diagonal, mass);
 #if HAS_CONTACT
     vec4 contact = load_contact(index);
-    if (contact.w > 0.0) {
+    // As in coarsen_cloth.comp.
+    for (uint asks = contact.w > 0.0 ? 1u : 0u; asks != 0u; asks &= asks - 1u) {
         vec4 grip = load_grip(index);
         diagonal += mass * grip.w * (scaled_identity(1.0) - outer_square(grip.xyz));
         inverse_block = moves * inverse_above(diagonal, mass);

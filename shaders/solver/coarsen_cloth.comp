@@ -153,15 +153,20 @@ void main() {
         }
     }
 #if HAS_CONTACT
-    for (int i = 0; i < 4; ++i) {
+    for (int i = 0; i < near_tied; ++i) {
         ivec2 at = first + ivec2(i / 2, i % 2);
         if (inside(0, at.x, at.y)) {
             ground += mass_share(load_node(at)) * grip_tensor(node_index(at.x, at.y));
-#if HAS_SURFACE
-            ground += load_surface_ground(node_index(at.x, at.y));
-#endif
         }
     }
+#if HAS_SURFACE
+    for (int i = 0; i < 4; ++i) {
+        ivec2 at = first + ivec2(i / 2, i % 2);
+        if (inside(0, at.x, at.y)) {
+            ground += load_surface_ground(node_index(at.x, at.y));
+        }
+    }
+#endif
 #endif
     store_symmetric(level, GROUND, index, ground);
 }

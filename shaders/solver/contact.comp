@@ -32,19 +32,14 @@
 #include "state_out.glsl"
 #if STAGE == BEGIN
 #include "applied_acceleration.glsl"
-#else
+#endif
 // What is written was copied, and is changed at the nodes that near.comp lists.
 #include "solver/near_list.glsl"
-#endif
 #include "low_parts.glsl"
 #include "contact.glsl"
 #include "contact_record.glsl"
 
-#if STAGE == BEGIN
-layout(local_size_x = LOCAL_X, local_size_y = LOCAL_Y) in;
-#else
 layout(local_size_x = NEAR_LOCAL) in;
-#endif
 
 uniform float substep;        // [s]
 #if STAGE == BEGIN
@@ -158,8 +153,6 @@ vec3 towards(int at, int index, vec3 v) {
 
 // Begin the substep of a node; return whether it may touch.
 bool may_touch(int at, int index, vec4 x, vec4 v) {
-    store_vector(cloth_entry(BEGIN_POSITION, index), x.xyz);
-    store_vector(cloth_entry(BEGIN_VELOCITY, index), v.xyz);
     bool is_near = is_near_body(x.xyz, towards(at, index, v.xyz));
     if (v.w > 0.0 && !is_near) {
         if (share == 0.0) {
@@ -358,24 +351,14 @@ void decide(int at, int index, inout vec4 x, inout vec4 v) {
 #endif
 
 void main() {
-#if STAGE == BEGIN
-    int row = int(gl_GlobalInvocationID.y);
-    int col = int(gl_GlobalInvocationID.x);
-    if (row >= ROWS || col >= COLS) {
-        return;
-    }
-#else
     if (gl_GlobalInvocationID.x >= near_count) {
         return;
     }
-    int listed = int(near_nodes[gl_GlobalInvocationID.x]);
-    int row = listed / COLS;
-    int col = listed % COLS;
-#endif
-    int at = state_index(row, col);
+    ivec2 listed = near_node(gl_GlobalInvocationID.x);
+    int at = state_index(listed.y, listed.x);
     vec4 x = load_position(at);
     vec4 v = load_velocity(at);
-    int index = node_index(row, col);
+    int index = node_index(listed.y, listed.x);
     // Software runs the body of a branch for nodes that do not take it, but no loop that ends at
     // once, if its compiler does not tell it from a branch.
     for (uint asks = may_touch(at, index, x, v) ? 1u : 0u; asks != 0u; asks &= asks - 1u) {

@@ -2,24 +2,24 @@
 // SPDX-License-Identifier: Apache-2.0
 
 #version 430 core
-// Project the right side of nodes in contact to their free directions, and add the impulse of the
-// collider along its surface; reaction.comp needs the right side before.
+// Project the right side of listed nodes to their free directions, and add the impulse of the
+// collider along its surface; reaction.comp needs the right side before. Other nodes are free.
 
 #include "solver/levels.glsl"
 #include "solver/vectors.glsl"
 #include "solver/system.glsl"
 #include "cells.glsl"
 #include "solver/free_directions.glsl"
+#include "solver/near_list.glsl"
 
-layout(local_size_x = LOCAL_X, local_size_y = LOCAL_Y) in;
+layout(local_size_x = NEAR_LOCAL) in;
 
 void main() {
-    int row = int(gl_GlobalInvocationID.y);
-    int col = int(gl_GlobalInvocationID.x);
-    if (row >= ROWS || col >= COLS) {
+    if (gl_GlobalInvocationID.x >= near_count) {
         return;
     }
-    int index = node_index(row, col);
+    ivec2 at = near_node(gl_GlobalInvocationID.x);
+    int index = node_index(at.y, at.x);
     vec3 right = load_vector(cloth_entry(RESIDUAL, index));
     vec3 given = mass_share(load_system(cloth_entry(NODE, index)))
         * load_vector(cloth_entry(GIVEN, index));

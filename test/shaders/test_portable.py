@@ -210,6 +210,8 @@ _FORMS = {
     'solver/contact.comp': {'STAGE': 'BEGIN'},
     'solver/contact.comp, again': {'STAGE': 'AGAIN'},
     'solver/contact.comp, end': {'STAGE': 'END'},
+    'solver/near.comp': {'STAGE': 'BEGIN'},
+    'solver/near.comp, after a solve': {'STAGE': 'AFTER'},
     'surface_pins.comp': _SURFACE,
     'solver/surface_find.comp': {'STAGE': 'BEGIN', **_SURFACE},
     'solver/surface_find.comp, again': {'STAGE': 'AGAIN', **_SURFACE},

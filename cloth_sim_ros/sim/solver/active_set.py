@@ -300,11 +300,13 @@ class SolverContacts:
             stage: SceneProgram('solver/contact.comp', scene, state, {
                 **programs.defines, **others, 'STAGE': stage})
             for stage in ('BEGIN', 'AGAIN', 'END')}
-        # Lists those that AGAIN and END decide about.
-        self._near = SceneProgram('solver/near.comp', scene, state, programs.defines)
+        # List those that BEGIN, and that AGAIN and END, decide about.
+        self._near = {
+            stage: SceneProgram('solver/near.comp', scene, state, {
+                **programs.defines, 'STAGE': stage}) for stage in ('BEGIN', 'AFTER')}
         self._listed = Buffer(_NONE_LISTED.nbytes + _LISTED_BYTES * scene.node_count)
         self._clear_listed = self._listed.write_calls(_NONE_LISTED)
-        self._hold = SolverPass(programs.make('hold.comp'), groups)
+        self._hold = programs.make('hold.comp')
         self._react = SolverPass(programs.make('reaction.comp'), block_groups)
 
     def begin(
@@ -316,9 +318,13 @@ class SolverContacts:
         :param kick: that ``forcing`` acts for [s]
         :param guess: share of the last change of velocity that is expected; 0 where none is known
         """
+        near = self._near['BEGIN'].use_for_step(forcing, length, kick)
+        near.set_float('guess', guess)
+        self._list_near(near, state, forcing, length)
         program = self._use('BEGIN', forcing, length, kick)
         program.set_float('guess', guess)
-        self._run(program, state)
+        self._write_listed(program, state)
+        state.swap()
         if self._surface is not None:
             self._surface.begin(state, forcing, length, kick, guess)
 
@@ -329,7 +335,8 @@ class SolverContacts:
 
     def hold(self) -> None:
         """Take from a right side what nodes that touch a collider can't follow."""
-        self._hold.run()
+        self._hold.use()
+        self._run_listed(self._hold)
 
     def after_solve(
             self, state: State, forcing: Forcing, length: float, *, is_last: bool,
@@ -346,7 +353,11 @@ class SolverContacts:
         touch_of(forcing).begin_decision()
         if self._surface is not None and not is_last:
             self._surface.give(state, forcing, length)
-        self._list_near(state, forcing, length)
+        # END decides about the nodes that were listed after the last solve.
+        if not is_last:
+            near = self._near['AFTER'].use_for_step(forcing, length)
+            near.set_float('most_unsolved', self._most_unsolved)
+            self._list_near(near, state, forcing, length)
         program = self._use('END' if is_last else 'AGAIN', forcing, length, length)
         program.set_int('ends_turns', int(ends_turns))
         self._write_listed(program, state)
@@ -359,7 +370,7 @@ class SolverContacts:
 
     def delete(self) -> None:
         """Release the passes."""
-        for program in (*self._decide.values(), self._near):
+        for program in (*self._decide.values(), *self._near.values()):
             program.delete()
         self._listed.delete()
 
@@ -373,18 +384,11 @@ class SolverContacts:
         program.set_float('most_unsolved', self._most_unsolved)
         touch_of(forcing).set_in(program, length)
 
-    def _run(self, program: Program, state: State) -> None:
-        state.bind_in()
-        state.bind_out()
-        program.dispatch(*self._groups)
-        shader_writes_visible()
-        state.swap()
-
-    def _list_near(self, state: State, forcing: Forcing, length: float) -> None:
+    def _list_near(
+            self, program: Program, state: State, forcing: Forcing, length: float) -> None:
         make(self._clear_listed)
-        program = self._near.use()
-        self._set(program, forcing, length)
-        program.set_float('substep', length)
+        self._programs.set_sizes(program)
+        touch_of(forcing).set_in(program, length)
         self._listed.bind_storage(bindings.SOLVER_NEAR)
         state.bind_in()
         program.dispatch(*self._groups)
@@ -394,6 +398,10 @@ class SolverContacts:
         state.carry_over()
         state.bind_in()
         state.bind_out()
+        self._run_listed(program)
+
+    def _run_listed(self, program: Program) -> None:
+        self._listed.bind_storage(bindings.SOLVER_NEAR)
         self._listed.bind_dispatches()
         program.dispatch_indirect(0)
         shader_writes_visible()

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Nodes that contact.comp decides about after a solve, in no order, with the workgroups for it.
+// Nodes that contact.comp decides about, in no order, with the workgroups for them.
 
 #define NEAR_LOCAL 32u
 
@@ -12,3 +12,9 @@ layout(std430, binding = SOLVER_NEAR) buffer NearList {
     uint near_count;
     uint near_nodes[];  // row * COLS + col
 };
+
+// Column and row of a listed node.
+ivec2 near_node(uint place) {
+    int listed = int(near_nodes[place]);
+    return ivec2(listed % COLS, listed / COLS);
+}
