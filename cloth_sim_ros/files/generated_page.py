@@ -19,6 +19,8 @@ class GeneratedPage:
     """
     A page that text is written into: between two lines where it has them, else all of it.
 
+    ``written`` is the text between them; empty without them.
+
     :param begin: line before the text that is written
     :param end: line after it
     :raises ClothSimError: if the file can't be read, its folder is not there, or it has one of
@@ -39,7 +41,7 @@ class GeneratedPage:
                     f'{shown(str(path))} has one of the two lines that the written text stands '
                     f'between: write both, {begin} and {end}')
         self._before, found, rest = page.partition(begin)
-        self._after = rest.partition(end)[2]
+        self.written, _, self._after = rest.partition(end)
         self._has_place = bool(found)
 
     def write(self, text: str) -> None:

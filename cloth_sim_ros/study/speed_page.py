@@ -34,6 +34,7 @@ from cloth_sim_ros.study.speed_tables import Found
 # Between these lines a page holds the figures.
 BEGIN = '<!-- figures: written by cloth_sim bench --page -->'
 END = '<!-- end of the figures -->'
+_TITLE = '## '
 _ONE_THREAD = {'LP_NUM_THREADS': '0'}
 _ONE_ROUND = ('--rounds', '1')
 # Max. size of a list of processors [bytes]; chosen: 4 kB for each of a thousand.
@@ -84,12 +85,13 @@ class Measured:
     found: list[Found] | None
 
     def in_markdown(self) -> str:
-        """Return the section: title, command, what was measured, and the table."""
+        """Return the section: title, command, what was measured, when and where, and the table."""
         section = self.section
         below = (
-            section.table(self.found) if self.found is not None
+            f'{_where(self.found)}\n\n{section.table(self.found)}' if self.found is not None
             else f'Not measured: {_NEEDS[section.needs]} is not installed here.\n')
-        return f'## {section.title}\n\n    {section.command}\n\n{section.text}\n\n{below}'
+        return (
+            f'{_TITLE}{section.title}\n\n    {section.command}\n\n{section.text}\n\n{below}')
 
 
 SECTIONS = (
@@ -169,17 +171,36 @@ def measure(sections: Sequence[Section], *, is_trial: bool = False) -> Iterator[
         yield Measured(section, _measure(section, is_trial) if is_there else None)
 
 
-def markdown(measured: Sequence[Measured]) -> str:
-    """Return all sections, below what the figures depend on."""
-    device = next(
-        (_device(each.found) for each in measured if each.found and _device(each.found)), '')
+def markdown(measured: Sequence[Measured], before: str = '') -> str:
+    """
+    Return all sections.
+
+    :param before: what this has returned before: its other sections stay
+    """
+    sections = {section.title: '' for section in SECTIONS}
+    sections.update(_sections_in(before))
+    sections.update({each.section.title: each.in_markdown() for each in measured})
+    return '\n'.join(text for text in sections.values() if text)
+
+
+def _sections_in(text: str) -> dict[str, str]:
+    """Return the sections of a page that was written before, by their titles."""
+    found = {}
+    for part in f'\n{text}'.split(f'\n{_TITLE}')[1:]:
+        title, _, rest = part.partition('\n')
+        if title in {section.title for section in SECTIONS}:
+            found[title] = f'{_TITLE}{title}\n{rest.rstrip()}\n'
+    return found
+
+
+def _where(found: Sequence[Found]) -> str:
+    """Return what the figures depend on."""
+    device = str(found[0].get('device', '')) if found else ''
     version = project_version() or 'that is not installed'
     cores = len(os.sched_getaffinity(0))
-    where = ', '.join(filter(None, [device, f'{cores} cores', processor_name()]))
-    head = (
-        f'Measured on {date.today().isoformat()} with version {version} of cloth_sim_ros, on '
-        f'{where}.\n')
-    return '\n'.join([head, *(each.in_markdown() for each in measured)])
+    where = ', '.join(filter(None, [
+        device, f'{cores} cores' if cores > 1 else '1 core', processor_name()]))
+    return f'Measured on {date.today().isoformat()} with version {version}, on {where}.'
 
 
 def processor_name() -> str:
@@ -192,10 +213,6 @@ def processor_name() -> str:
         if line.startswith('model name'):
             return line.partition(':')[2].strip()
     return platform.processor()
-
-
-def _device(found: Sequence[Found]) -> str:
-    return str(found[0].get('device', ''))
 
 
 def _measure(section: Section, is_trial: bool) -> list[Found]:

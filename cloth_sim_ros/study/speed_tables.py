@@ -72,9 +72,11 @@ def bodies(found: Sequence[Found]) -> str:
     """Return the table of contact with bodies by mode."""
     return table(
         ['nodes', 'mode', 'scene', 'wall time of a simulated second [s]',
-         'over no body, falling', 'over no body, hung'],
+         'over no body, falling', 'over no body, hung', 'substeps of a dt', 'solves of a substep'],
         ([_grid(each['nodes']), f'`{each["mode"]}`', name, figure(seconds),
-          figure(each['ratios'][name]), figure(each['ratios_to_hung'][name])]
+          figure(each['ratios'][name]), figure(each['ratios_to_hung'][name]),
+          figure(each['substeps'][name]),
+          figure(each['solves'][name]) if any(each['solves'][name]) else 'none']
          for each in found for name, seconds in each['seconds'].items()))
 
 

@@ -34,7 +34,8 @@ and the recording are added one after another, at 50 frames per second, and the 
 reliable subscriber in another process misses. It needs ROS.
 
 --page measures all sections of docs/speed.md, each by the command that it shows, and writes that
-page, which keeps its other text. It takes about eleven minutes on two cores.
+page, which keeps its other text. It takes about eleven minutes on two cores; --only measures some
+sections and leaves the others as they are.
 
 For example:
   cloth_sim bench
@@ -232,9 +233,8 @@ def _write_page(args: Namespace) -> int:
     found = list(tqdm(
         speed_page.measure(sections, is_trial=args.quick), total=len(sections),
         unit=' sections', leave=False, disable=None))
-    text = speed_page.markdown(found)
-    print(text, end='')
-    page.write(text)
+    print(speed_page.markdown(found), end='')
+    page.write(speed_page.markdown(found, page.written))
     return 0
 
 

@@ -54,7 +54,7 @@ def test_the_page_names_device_version_and_date():
     """A figure would be compared with that of another machine."""
     page = PAGE.read_text(encoding='utf-8')
     assert speed_page.BEGIN in page and speed_page.END in page
-    assert 'Measured on 20' in page and 'of cloth_sim_ros, on ' in page
+    assert page.count('Measured on 20') == page.count('\n## ') == len(SECTIONS)
 
 
 @pytest.mark.parametrize('name', [
@@ -76,6 +76,18 @@ def test_a_section_without_its_module_says_so(monkeypatch):
     text = markdown(list(measure(chosen(['environments', 'node', 'start_up']))))
     assert text.count('Not measured: ROS is not installed here.') == 2
     assert 'Not measured: gymnasium is not installed here.' in text
+
+
+def test_sections_that_are_not_measured_again_stay(monkeypatch):
+    """To measure one section again would cost all others."""
+    monkeypatch.setattr(speed_page, 'find_spec', lambda _: None)
+    before = markdown(list(measure(chosen(['environments', 'node']))))
+    node = before[before.index('## A node'):]
+    kept = before.replace('Not measured: ROS', 'Kept: ROS').replace('gymnasium is not', 'X is not')
+    again = markdown(list(measure(chosen(['environments']))), kept)
+    assert again == before.replace(node, node.replace('Not measured: ROS', 'Kept: ROS'))
+    later = markdown(list(measure(chosen(['start_up']))), f'\n\n{kept}\n')
+    assert later.startswith(kept) and later.count('## ') == 3
 
 
 def test_a_section_that_fails_is_named():
