@@ -25,9 +25,7 @@ layout(binding = SELF_KEPT) uniform samplerBuffer kept_texels;
 layout(std430, binding = SELF_CONTACTS) buffer SelfContacts { SelfContact contacts_found[]; };
 layout(binding = VELOCITY_OUT) uniform samplerBuffer velocity_out;
 
-// Thickness between two edges over that between a node and a triangle [1]: flat layers lie on the
-// nodes of both, and edges act where they come nearer.
-#define EDGE_THICKNESS 0.998
+// EDGE_THICKNESS: between two edges, over that between a node and a triangle [1].
 // Gap over the thickness [1] up to which a pair is looked at that moves slowly.
 #define SPARE 0.002
 // Gap within which a contact is found, over what it may close by while it serves [1]; chosen: from 1

@@ -173,7 +173,7 @@ _FORMS = {
         'LOADS_TEXTURE': 1, 'SELF_LOCAL': 32, 'IS_IMPLICIT': 1},
     'self_contact/contacts.comp, of solves': {
         'LOADS_TEXTURE': 1, 'SELF_LOCAL': 32, 'OF_EDGES': 1, 'MOST_GROUPS': 65535,
-        'IS_IMPLICIT': 1, 'PAIRS_EACH': 1},
+        'IS_IMPLICIT': 1, 'PAIRS_EACH': 1, 'EDGE_THICKNESS': 0.9999},
     'self_contact/nodes.comp, last': {'LOADS_TEXTURE': 1, 'SELF_LOCAL': 32, 'IS_LAST': 1},
     'self_contact/nodes.comp, after limits': {
         'LOADS_TEXTURE': 1, 'SELF_LOCAL': 32, 'IS_LAST': 1, 'HAS_HELD': 1, 'NOTES_CHANGES': 1},
@@ -183,7 +183,7 @@ _FORMS = {
         'LOADS_TEXTURE': 1, 'SELF_LOCAL': 32, 'IS_LAST': 1, 'HAS_HELD': 1, 'HAS_LOW_PARTS': 1},
     **{f'self_contact/{name}.comp{words}': {
         'LOADS_TEXTURE': 1, 'SELF_LOCAL': 32, 'OF_EDGES': of_edges, 'MOST_GROUPS': 65535,
-        'PAIRS_EACH': each}
+        'PAIRS_EACH': each, 'EDGE_THICKNESS': 0.999}
        for name, each in (('contacts', 16), ('guard', 1))
        for words, of_edges in (('', 0), (', of edges', 1))},
     **{f'self_contact/{name}.comp': {'LOADS_TEXTURE': 1, 'STRIP': 16} for name in (
