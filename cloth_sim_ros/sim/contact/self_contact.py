@@ -76,14 +76,14 @@ _ROOM = 0.98
 # Fraction of a gap that is left in a substep [1], as in guard.comp, and rounding of a displacement
 # over the largest coordinate [1].
 _LEFT, _ROUNDING = 0.2, 4e-7
-# Thickness between two edges over that between a node and a triangle [1], so that flat layers lie on
-# their nodes, and edges act where they come nearer. Chosen by test_self_contact.py -k "four_layers or
-# incline": with 0.9995 a stack comes to rest within 8e-8 m/s instead of 2e-8 and a sheet slides by up
-# to 1.1 % too far instead of 0.8 %, as with 0.998.
+# Thickness between two edges over that between a node and a triangle [1]: flat layers lie on their
+# nodes, and edges act where they come nearer. Chosen by test_self_contact.py -k "four_layers or
+# incline": with 0.9995 a stack comes to rest within 8e-8 m/s instead of 2e-8, and a sheet slides
+# by up to 1.1 % too far instead of 0.8 %, as with 0.998.
 _OF_EDGES = 0.999
 # The same where solves act, where edges carry flat layers. Chosen likewise: with 0.999, 0.9995 and
-# 0.9998 four layers are 0.0030, 0.0015 and 0.0006 of a thickness too low instead of 0.0003, as they
-# settle on edges; below it would be near the rounding of positions.
+# 0.9998 four layers are 0.0030, 0.0015 and 0.0006 of a thickness too low instead of 0.0003; nearer
+# to 1 the difference would be near the rounding of positions.
 _OF_EDGES_IN_SOLVES = 0.9999
 # Distance over the thickness [1] below which crossings are counted: with a thickness of 1 mm, ten
 # times what positions near 1 m are rounded by.
