@@ -109,7 +109,7 @@ ROWS: tuple[Row, ...] = (
         '((1 + mu t) / (1 - mu t))^15, t = tan(pi / 30) (Euler, Eytelwein)', '', 0.01,
         _of_belt(0.4), (23,)),
     Row('stacks.height', 'four sheets on a floor: height of the uppermost', '3.5 thicknesses',
-        'mm', 2e-3, layers.height_of_stack, (8, 12)),
+        'mm', 1e-3, layers.height_of_stack, (8, 12)),
     Row('stacks.load', 'the same: force on the floor over the weight', '1', '', 1e-3,
         layers.load_of_stack, (8, 12)),
     *(Row(f'air.{1e3 * sigma:g}', f'a level sheet of {sigma:g} kg/m2, dt {1e3 * dt:g} ms: '
