@@ -3,6 +3,8 @@
 
 """Where the surface of a cloth passes through itself, by signs of volumes in float64."""
 
+from fractions import Fraction
+
 from cloth_sim_ros.sim.mesh import triangles
 import numpy as np
 from scipy.spatial import cKDTree
@@ -37,7 +39,25 @@ def crossings(positions: np.ndarray, present: np.ndarray | None = None) -> np.nd
     around = np.stack([_volume(p, q, a, b), _volume(p, q, b, c), _volume(p, q, c, a)], axis=1)
     pierces = (below * above < 0.0) & (
         (around > 0.0).all(axis=1) | (around < 0.0).all(axis=1))
-    return five[pierces]
+    # Triangles of a flat cloth have volumes that are 0, and rounding in float64.
+    return five[[i for i in np.flatnonzero(pierces) if _pierces_exactly(x[five[i]])]]
+
+
+def _pierces_exactly(points: np.ndarray) -> bool:
+    """Return whether the edge of the first two points (5, 3) pierces the triangle of the others."""
+    p, q, a, b, c = ([Fraction(each) for each in point] for point in points.tolist())
+    below, above = _exact_volume(a, b, c, p), _exact_volume(a, b, c, q)
+    around = [_exact_volume(p, q, *ends) for ends in ((a, b), (b, c), (c, a))]
+    return below * above < 0 and (min(around) > 0 or max(around) < 0)
+
+
+def _exact_volume(
+        a: list[Fraction], b: list[Fraction], c: list[Fraction], d: list[Fraction]) -> Fraction:
+    """Return six times the signed volume of a tetrahedron [m3]."""
+    (ux, uy, uz), (vx, vy, vz), (wx, wy, wz) = (
+        [end - begin for begin, end in zip(a, other)] for other in (b, c, d))
+    return (
+        (uy * vz - uz * vy) * wx + (uz * vx - ux * vz) * wy + (ux * vy - uy * vx) * wz)
 
 
 def _volume(a: np.ndarray, b: np.ndarray, c: np.ndarray, d: np.ndarray) -> np.ndarray:

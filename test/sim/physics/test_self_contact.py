@@ -74,6 +74,24 @@ def frames_with_crossings(scene: Scene, positions: np.ndarray, steps: int, every
     return found
 
 
+def test_triangles_in_a_plane_do_not_cross() -> None:
+    """A cloth flat on a floor would be taken to pass through itself, by rounding in float64."""
+    # Of a cloth that sags towards a floor by 1e-8 m: edge and triangle are in a plane to the bit.
+    flat = np.array([
+        [(1.06259264e-01, 8.34680125e-02, 4.35912071e-08),
+         (1.39074832e-01, 8.87299255e-02, 5.67240086e-08),
+         (1.71890408e-01, 9.39918235e-02, 6.98568101e-08)],
+        [(1.11552477e-01, 5.04571386e-02, 4.56668303e-08),
+         (1.44368052e-01, 5.57190366e-02, 5.87996318e-08),
+         (1.77183628e-01, 6.09809346e-02, 7.19324333e-08)]], dtype=np.float32)
+    assert len(crossings(flat)) == 0
+    # A corner folded back through the cell beside it.
+    folded = flat + np.zeros_like(flat)
+    folded[0, 2] = 0.3 * flat[0, 0] + 0.4 * flat[0, 1] + 0.3 * flat[1, 0] + (0.0, 0.0, 0.01)
+    folded[1, 2] = folded[0, 2] - (0.0, 0.0, 0.02)
+    assert len(crossings(folded)) > 0
+
+
 def test_no_crossings_in_a_heap(layered: dict) -> None:
     """A ribbon that falls into a heap passes through itself nowhere; without contact it does."""
     assert frames_with_crossings(*falling_ribbon(**layered), steps=350, every=5) == 0
