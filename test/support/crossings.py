@@ -44,7 +44,7 @@ def crossings(positions: np.ndarray, present: np.ndarray | None = None) -> np.nd
 
 
 def _pierces_exactly(points: np.ndarray) -> bool:
-    """Return whether the edge of the first two points (5, 3) pierces the triangle of the others."""
+    """Return whether the edge of the first two of 5 points pierces the triangle of the others."""
     p, q, a, b, c = ([Fraction(each) for each in point] for point in points.tolist())
     below, above = _exact_volume(a, b, c, p), _exact_volume(a, b, c, q)
     around = [_exact_volume(p, q, *ends) for ends in ((a, b), (b, c), (c, a))]
