@@ -69,6 +69,11 @@ float inverse_mass(int index) { return velocity_out[index].w; }
 #if COLLIDERS > 1
 #include "surface_facing.glsl"
 #endif
+// Whether colliders that leave the cloth too little room press on triangles.
+#define HAS_PRESSURE (COLLIDERS > 1 && FINDS_IMPULSES && !WAYS_OUT)
+#if HAS_PRESSURE
+#include "surface_pressing.glsl"
+#endif
 
 bool are_listed(ivec3 nodes) {
     return surface_nodes[nodes.x].is_listed == 1 && surface_nodes[nodes.y].is_listed == 1
@@ -122,10 +127,11 @@ void keep_impulses() {
     for (uint i = gl_LocalInvocationID.x; i < acting_rows; i += SURFACE_LOCAL) {
         uvec2 acting = surface_rows[i].acting;
         SurfaceRow found = surface_rows[acting.x].row;
-#if COLLIDERS > 1
-        found.impulse.xyz -= surface_rows[acting.x].facing.xyz;
-#endif
         int row = int(acting.x) % SURFACE_ROWS_OF_BODY;
+#if COLLIDERS > 1
+        found.impulse.xyz -= row < FIRST_PRESSED
+            ? surface_rows[acting.x].facing.xyz : vec3(0.0);
+#endif
         kept[kept_place(int(acting.y), int(found.weights.w), row)] =
             vec4(found.impulse.xyz, uintBitsToFloat(kept_time));
     }
@@ -184,7 +190,7 @@ void list_faces(Entry entry) {
     vec3 first[3] = vec3[3](places[0], places[2], places[1]);
     vec3 second[3] = vec3[3](places[1], places[2], places[3]);
     float inner = max(ways[1], ways[2]);
-    for (int row = SURFACE_EDGES; row < SURFACE_ROWS_OF_BODY; ++row) {
+    for (int row = SURFACE_EDGES; row < FIRST_PRESSED; ++row) {
         bool is_first = row < SURFACE_EDGES + SURFACE_TIPS;
         int tip = (row - SURFACE_EDGES) % SURFACE_TIPS;
         surface_rows[entry.first_row + row].row.impulse.w = 0.0;
@@ -196,23 +202,54 @@ void list_faces(Entry entry) {
     }
 }
 
-// Add a row that acts to the lists.
-void add_row(Entry entry, int row, SurfaceRow found) {
-    ivec3 nodes = entry.index + surface_offsets(row);
-    if (found.impulse.w != 0.0 && !are_listed(nodes)) {
-        atomicAdd(surface_missed, 1u);
-        found = no_row();
+#if HAS_PRESSURE
+// The same of the pressure on its triangles.
+void list_pressed(Entry entry) {
+    uint triangles = owns(entry.index, SURFACE_EDGES) ? 3u : 0u;
+    // Not unrolled, as Mesa does with a loop over both.
+    for (; triangles != 0u; triangles &= triangles - 1u) {
+        int row = FIRST_PRESSED + findLSB(triangles);
+        if (may_be_pressed(
+                entry.collider, triangle_at(entry.index + surface_offsets(row)))) {
+            list_row(entry, row);
+        }
     }
+}
+#endif
+
+// Add a row that acts to the lists.
+void list_acting(Entry entry, int row, SurfaceRow found) {
     int slot = entry.first_row + row;
+    ivec3 nodes = entry.index + surface_offsets(row);
+    surface_rows[slot].row = found;
+    atomicOr(surface_rows[entry.first_row].spare.y, 1u << uint(row));
+    surface_rows[atomicAdd(acting_rows, 1u)].acting = uvec2(slot, entry.index);
+    for (int i = 0; i < surface_row_count(row); ++i) {
+        surface_nodes[nodes[i]].is_held = 1;
+    }
+}
+
+// A row of which a node is not listed does not act.
+SurfaceRow with_listed_nodes(Entry entry, int row, SurfaceRow found) {
+    if (found.impulse.w != 0.0 && !are_listed(entry.index + surface_offsets(row))) {
+        atomicAdd(surface_missed, 1u);
+        return no_row();
+    }
+    return found;
+}
+
+// Add the row of an edge or a face, if it acts.
+void add_row(Entry entry, int row, SurfaceRow found) {
+    found = with_listed_nodes(entry, row, found);
     if (found.impulse.w != 0.0) {
 #if COLLIDERS > 1
+        ivec3 nodes = entry.index + surface_offsets(row);
         vec3 x = vec3(0.0);
         for (int i = 0; i < surface_row_count(row); ++i) {
             x += found.weights[i] * place_of(nodes[i]);
         }
-        float room = find_facing(found, entry.collider, x);
-        surface_rows[slot].facing = facing_of(found) >= 0
-            ? vec4(vec3(0.0), part_of_row(facing_of(found)) * pressing_with(room)) : vec4(0.0);
+        find_facing(found, entry.collider, x);
+        surface_rows[entry.first_row + row].facing = vec4(0.0);
 #endif
 #if FINDS_IMPULSES && !WAYS_OUT
         found.impulse.xyz = kept_impulse(kept_place(entry.index, entry.collider, row));
@@ -221,19 +258,37 @@ void add_row(Entry entry, int row, SurfaceRow found) {
         found.impulse.xyz *= facing_of(found) >= 0 ? 0.0 : 1.0;
 #endif
 #endif
-        surface_rows[slot].row = found;
-        atomicOr(surface_rows[entry.first_row].spare.y, 1u << uint(row));
-        surface_rows[atomicAdd(acting_rows, 1u)].acting = uvec2(slot, entry.index);
-        for (int i = 0; i < surface_row_count(row); ++i) {
-            surface_nodes[nodes[i]].is_held = 1;
-        }
+        list_acting(entry, row, found);
     }
 }
 
-// Find the rows that are listed: edges, or faces.
-void find_listed(bool is_edge) {
+#if HAS_PRESSURE
+// Add the row of the pressure on a triangle, if there is any.
+void add_pressed(Entry entry, int row) {
+    float press;
+    SurfaceRow found = pressed_row(
+        entry.collider, triangle_at(entry.index + surface_offsets(row)), press);
+    found = with_listed_nodes(entry, row, found);
+    if (found.impulse.w != 0.0) {
+        // Friction of the substep before, by both coefficients; rounds from none leave creep.
+        found.impulse.xyz = kept_impulse(kept_place(entry.index, entry.collider, row));
+        float own = collider_friction[entry.collider];
+        float other = collider_friction[facing_of(found)];
+        surface_rows[entry.first_row + row].facing = vec4(
+            other / max(own + other, 1e-30) * found.impulse.xyz, press);
+        list_acting(entry, row, found);
+    }
+}
+#endif
+
+#define OF_EDGES 0
+#define OF_FACES 1
+#define OF_PRESSURE 2
+
+// Find the rows that are listed, which are of one kind.
+void find_listed(int kind) {
     synchronise();
-    uint edges = is_edge ? listed_rows : 0u;
+    uint edges = kind == OF_EDGES ? listed_rows : 0u;
     for (uint i = gl_LocalInvocationID.x; i < edges; i += SURFACE_LOCAL) {
         uint slot = surface_rows[i].spare.x;
         Entry entry = entry_at(slot / uint(SURFACE_ROWS_OF_BODY));
@@ -241,7 +296,7 @@ void find_listed(bool is_edge) {
         ivec3 nodes = entry.index + surface_offsets(row);
         add_row(entry, row, edge_row(entry.collider, nodes.x, nodes.y));
     }
-    uint faces = is_edge ? 0u : listed_rows;
+    uint faces = kind == OF_FACES ? listed_rows : 0u;
     for (uint i = gl_LocalInvocationID.x; i < faces; i += SURFACE_LOCAL) {
         uint slot = surface_rows[i].spare.x;
         Entry entry = entry_at(slot / uint(SURFACE_ROWS_OF_BODY));
@@ -250,6 +305,14 @@ void find_listed(bool is_edge) {
         add_row(entry, row, face_row(
             entry.collider, nodes, (row - SURFACE_EDGES) % SURFACE_TIPS));
     }
+#if HAS_PRESSURE
+    uint pressed = kind == OF_PRESSURE ? listed_rows : 0u;
+    for (uint i = gl_LocalInvocationID.x; i < pressed; i += SURFACE_LOCAL) {
+        uint slot = surface_rows[i].spare.x;
+        Entry entry = entry_at(slot / uint(SURFACE_ROWS_OF_BODY));
+        add_pressed(entry, int(slot) - entry.first_row);
+    }
+#endif
     synchronise();
     if (gl_LocalInvocationID.x == 0u) {
         listed_rows = 0u;
@@ -314,6 +377,8 @@ vec3 gathered(int index) {
 // Bits of the largest impulse of a round, and of the largest change of one.
 shared uint largest;
 shared uint largest_change;
+// Bits of the largest pressure of a row in the round: other impulses may be rounding beside it.
+shared uint largest_pressed;
 
 void note_round(vec3 impulse, vec3 before) {
     atomicMax(largest, floatBitsToUint(length(impulse)));
@@ -366,6 +431,7 @@ void act(int owner, int row, int slot) {
         before - across(u - carried, normal) / share, collider, now + facing.w);
     vec3 impulse = now * normal + friction;
 #if COLLIDERS > 1
+    atomicMax(largest_pressed, floatBitsToUint(facing.w));
     for (uint asks = facing_of(found) >= 0 ? 1u : 0u; asks != 0u; asks &= asks - 1u) {
         int other = facing_of(found);
         vec3 slid = u - surface_velocity(other, x) + share * (friction - before);
@@ -414,6 +480,7 @@ bool rows_act() {
     if (gl_LocalInvocationID.x == 0u) {
         largest = 0u;
         largest_change = 0u;
+        largest_pressed = 0u;
     }
     synchronise();
     for (EACH_ROW(i)) {
@@ -442,11 +509,17 @@ void find_all_rows() {
     for (uint i = gl_LocalInvocationID.x; i < entries; i += SURFACE_LOCAL) {
         list_edges(entry_at(i));
     }
-    find_listed(true);
+    find_listed(OF_EDGES);
     for (uint i = gl_LocalInvocationID.x; i < entries; i += SURFACE_LOCAL) {
         list_faces(entry_at(i));
     }
-    find_listed(false);
+    find_listed(OF_FACES);
+#if HAS_PRESSURE
+    for (uint i = gl_LocalInvocationID.x; i < entries; i += SURFACE_LOCAL) {
+        list_pressed(entry_at(i));
+    }
+    find_listed(OF_PRESSURE);
+#endif
     for (EACH_NEAR(i)) {
         int index = node_at(i);
         if (surface_nodes[index].is_held == 1) {
@@ -499,7 +572,7 @@ float lacking_room(int collider, vec4 near, vec3 x) {
     float lacking = 0.0;
     for (int other = 0; other < COLLIDERS; ++other) {
         vec4 facing = gap_at_end(other, x, substep);
-        if (other != collider && dot(near.xyz, facing.xyz) <= -FACING) {
+        if (other != collider && are_facing(collider, other, near.xyz, facing.xyz)) {
             lacking = max(lacking, -0.5 * (near.w + facing.w));
         }
     }
@@ -618,7 +691,8 @@ void let_rows_act() {
         }
         move_held_nodes();
     }
-    bool is_far = uintBitsToFloat(largest_change) > UNSETTLED * uintBitsToFloat(largest);
+    bool is_far = uintBitsToFloat(largest_change)
+        > UNSETTLED * uintBitsToFloat(max(largest, largest_pressed));
     if (!is_done && is_far && acting_rows > 0u && gl_LocalInvocationID.x == 0u) {
         ++surface_unsettled;
     }

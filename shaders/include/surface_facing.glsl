@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 the cloth_sim_ros authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Compression of an edge or a face between a thin collider and another collider, as of a node between
-// two (find_compression in contact.glsl): where the gap between both is less than the thickness of
-// the cloth, the contact point stays between them, and both press on it. Includer: surface_find.glsl.
+// An edge or a face between a thin collider and another collider, as a node between two
+// (find_compression in contact.glsl): where the gap between both is less than the thickness of the
+// cloth, the contact point stays between them. Includer: surface_find.glsl.
 
 // The collider that faces the collider of a row, or -1.
 int facing_of(SurfaceRow row) { return int(row.impulse.w) - 2; }
@@ -26,27 +26,24 @@ vec2 room_between(int collider, int facing, float gaps, vec3 normal, vec3 x) {
     return vec2(gaps - closing, gaps);
 }
 
-// Find the facing collider that leaves the smallest gap at x, and adapt the row to it; return the gap
-// at the end of the substep [m], 0 if there is no such collider.
-float find_facing(inout SurfaceRow row, int collider, vec3 x) {
+// Find the facing collider that leaves the smallest gap at x, and adapt the row to it.
+void find_facing(inout SurfaceRow row, int collider, vec3 x) {
     vec3 normal = row.normal.xyz;
     float gap = row.normal.w;
-    float least = 0.0, at_end = 0.0;
+    float least = 0.0;
     for (int other = 0; other < COLLIDERS; ++other) {
         vec4 near = gap_of(other, x);
-        if (other == collider || dot(near.xyz, normal) > -FACING) {
+        if (other == collider || !are_facing(collider, other, normal, near.xyz)) {
             continue;
         }
         vec3 n = normalize(normal - near.xyz);
         vec2 room = room_between(collider, other, gap + near.w, n, x);
         if (min(room.x, room.y) < least) {
             least = min(room.x, room.y);
-            at_end = room.x;
             row.normal = vec4(n, gap - part_of_row(other) * min(room.y, 0.0));
             row.impulse.w = float(other + 2);
         }
     }
-    return at_end;
 }
 
 // Velocity at x of the surface of a row: its collider, or a plane between two facing ones.
@@ -58,10 +55,4 @@ vec3 carried_by(SurfaceRow row, vec3 x) {
         velocity -= part_of_row(facing) * closing * row.normal.xyz;
     }
     return velocity;
-}
-
-// Change of velocity of the point by the pressure of both colliders, for the gap at the end [m/s].
-float pressing_with(float room) {
-    float share = clamp(-room / max(2.0 * clearance, 1e-30), 0.0, 1.0);
-    return substep * compression * share;
 }

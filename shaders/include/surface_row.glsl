@@ -2,10 +2,15 @@
 // SPDX-License-Identifier: Apache-2.0
 
 // Contact of an edge or a face with a thin collider. A node owns the edges to the right and down,
-// the one across its cell, and the two triangles of the cell.
+// the one across its cell, and the two triangles of the cell. PRESSED_ROWS 2: and the pressure of
+// two colliders on these triangles (surface_pressing.glsl).
 
+#ifndef PRESSED_ROWS
+#define PRESSED_ROWS 0
+#endif
 #define SURFACE_EDGES 3
-#define SURFACE_ROWS_OF_BODY (SURFACE_EDGES + 2 * SURFACE_TIPS)
+#define FIRST_PRESSED (SURFACE_EDGES + 2 * SURFACE_TIPS)
+#define SURFACE_ROWS_OF_BODY (FIRST_PRESSED + PRESSED_ROWS)
 
 // A contact of up to three nodes, with weights that add up to 1.
 struct SurfaceRow {
@@ -27,7 +32,7 @@ ivec3 surface_offsets(int row) {
     if (row == 2) {
         return ivec3(1, PITCH, 0);
     }
-    return row < SURFACE_EDGES + SURFACE_TIPS
+    return row < SURFACE_EDGES + SURFACE_TIPS || row == FIRST_PRESSED
         ? ivec3(0, PITCH, 1) : ivec3(1, PITCH, PITCH + 1);
 }
 

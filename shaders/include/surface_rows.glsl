@@ -3,6 +3,7 @@
 
 // Contacts of edges and faces with thin colliders in an explicit substep, and their nodes.
 
+#define PRESSED_ROWS (COLLIDERS > 1 ? 2 : 0)
 #include "surface_nodes.glsl"
 #include "surface_row.glsl"
 
@@ -31,8 +32,8 @@ layout(std430, binding = SURFACE_ROWS) coherent buffer SurfaceRows {
     uint kept_time;     // substeps until now, modulo 2^32
     float kept_length;  // length of the last substep with acting rows [s]; 0: nothing is kept
     uvec2 kept_spare;
-    // Impulse of each row when it last acted, without that of the facing collider [m/s], and bits of
-    // the time: the iteration of the next substep starts from it.
+    // Impulse of each row when it last acted, without that of the facing collider except where both
+    // press [m/s], and bits of the time: the iteration of the next substep starts from it.
     vec4 kept[SURFACE_STORED * THIN_COLLIDERS * SURFACE_ROWS_OF_BODY];
     SurfacePlace surface_rows[];
 };

@@ -82,6 +82,7 @@ _COUNTING = {
         'atomicAdd(listed_rows, 1u)',
         'atomicOr(surface_rows[entry.first_row].spare.y, 1u << uint(row))',
         'atomicMax(largest, floatBitsToUint(length(impulse)))',
+        'atomicMax(largest_pressed, floatBitsToUint(facing.w))',
         'atomicMax(largest_change, floatBitsToUint(length(impulse - before)))'],
     # Only whether there are any counts.
     'solver/surface_find.comp': ['atomicAdd(changed_owners, 1u)', 'atomicAdd(owners, 1u)'],

@@ -55,6 +55,26 @@ def test_compression_energy_is_that_of_its_pressure(lacking, share):
     assert compression_energy(scene, planes[:1], positions) == 0.0
 
 
+def test_compression_energy_between_thin_bodies():
+    """Fingers that open would be taken for a source of energy, or for a sink."""
+    thickness, pressure, radius, lacking = 0.003, 1e4, 0.004, 0.0015
+    scene = Scene({
+        **SPRINGS, 'rows': 7, 'cols': 7, 'width': 0.36, 'height': 0.36, 'start.pose': 'horizontal',
+        'contact.thickness': thickness, 'contact.compression': pressure,
+        'colliders.names': ['below', 'above'], **{
+            f'colliders.{name}.{key}': value for name, side in (('below', -1.0), ('above', 1.0))
+            for key, value in {
+                'shape': 'sphere', 'size': [radius],
+                'position': [0.01, 0.02, side * (radius + 0.5 * (thickness - lacking))]
+            }.items()}})
+    # Within the missing room at the distance s, lacking - s^2 / R: the energy of a spring on it.
+    curvature = radius + 0.5 * (thickness - lacking)
+    expected = pressure / thickness * np.pi * curvature * lacking**3 / 6.0
+    flat = scene.rest_positions() * (1.0, 1.0, 0.0)
+    found = compression_energy(scene, scene.colliders, flat)
+    assert found == pytest.approx(expected, rel=0.1)
+
+
 @pytest.mark.parametrize('mode', ['mass_spring', 'constraint', 'adaptive'])
 def test_a_cloth_that_is_lifted_by_a_body_gains_nothing(mode):
     """A table that rises with a cloth would be taken for a blow-up."""

@@ -548,6 +548,7 @@ class Contacts:
         program.set_float(
             'way_out_speed', _WAY_OUT_SPEED * math.sqrt(max(scene['width'], scene['height'])))
         program.set_float('compression', scene['contact.compression'] / scene.mass_per_area)
+        program.set_float('node_area', scene.node_mass / scene.mass_per_area)
         program.set_int('record_stride', self._layout.stored)
 
 

@@ -23,6 +23,7 @@ from cloth_sim_ros.sim.device.layout import HALO
 from cloth_sim_ros.sim.device.layout import Layout
 from cloth_sim_ros.sim.device.scene_program import SceneProgram
 from cloth_sim_ros.sim.device.scene_program import Strips
+from cloth_sim_ros.sim.model.colliders import mask_of
 from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.sim.state import SubstepEnds
 import numpy as np
@@ -698,7 +699,8 @@ def _programs(
     # Solves let thin colliders act.
     has_surface = int(bool(scene.thin_colliders) and not is_implicit)
     of_nodes: dict[str, object] = {
-        **of_items, 'HAS_SURFACE': has_surface, 'IS_IMPLICIT': int(is_implicit)}
+        **of_items, 'HAS_SURFACE': has_surface, 'IS_IMPLICIT': int(is_implicit),
+        'PRESS_ON_TRIANGLES': mask_of(scene.thin_colliders if has_surface else ())}
     forms: dict[str, dict[str, object]] = {
         **dict.fromkeys(('boxes', 'clear', 'crossings', 'pairs', 'keep', 'round'), of_items),
         # With what layers do to pinned nodes added to the entries of held.glsl, and with changes

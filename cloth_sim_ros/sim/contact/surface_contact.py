@@ -13,6 +13,7 @@ from cloth_sim_ros.sim.device import bindings
 from cloth_sim_ros.sim.device.layout import Layout
 from cloth_sim_ros.sim.device.scene_program import SceneProgram
 from cloth_sim_ros.sim.loads.forcing import Layers
+from cloth_sim_ros.sim.model.colliders import mask_of
 from cloth_sim_ros.sim.model.colliders import rows_of
 from cloth_sim_ros.sim.model.colliders import surface_defines
 from cloth_sim_ros.sim.scene import Scene
@@ -27,6 +28,8 @@ _ROW_BYTES, _NODE_BYTES, _HEAD_BYTES = 96, 48, 48
 _KEPT_AT, _LENGTH_AT, _KEPT_BYTES = 32, 36, 16
 # Additional size of a row in a scene of several colliders [bytes].
 _FACING_BYTES = 16
+# Additional rows of a node and thin collider there [1]: the pressure on its triangles.
+_PRESSED_ROWS = 2
 # Size of a node with self-contact [bytes]: it includes the sum of its impulses.
 _LAYERED_NODE_BYTES = 64
 # Alternations between thin colliders and layers in a substep [1].
@@ -44,7 +47,7 @@ class SurfaceContact:
         local = _LOCAL_OF_SOFTWARE if layout.texture_loads else _LOCAL_OF_GPU
         defines = {
             'SURFACE_LOCAL': local, 'SURFACE_STORED': layout.stored,
-            **surface_defines(scene.colliders, numbers)}
+            **surface_defines(scene.colliders, numbers), 'PRESS_ON_TRIANGLES': mask_of(numbers)}
         # Key: whether changes of velocity are noted for the strain limits.
         self._impulses = {notes: SceneProgram(
             'surface_contact.comp', scene, layout,
@@ -52,7 +55,8 @@ class SurfaceContact:
             for notes in (False, True)}
         self._others = {notes: SceneProgram(
             'contact.comp', scene, layout,
-            {'NOTES_CHANGES': int(notes), 'HAS_SURFACE': 1}) for notes in (False, True)}
+            {'NOTES_CHANGES': int(notes), 'HAS_SURFACE': 1,
+             'PRESS_ON_TRIANGLES': mask_of(numbers)}) for notes in (False, True)}
         self._ways = SceneProgram(
             'surface_contact.comp', scene, layout,
             {**defines, 'WAYS_OUT': 1, 'NOTES_CHANGES': 0, 'FINDS_IMPULSES': 1})
@@ -67,8 +71,10 @@ class SurfaceContact:
         # Substeps whose iteration had not converged, at the last query.
         self._unsettled = 0
         self._most_entries = scene.node_count * len(numbers)
-        row_bytes = _ROW_BYTES + (_FACING_BYTES if len(scene.colliders) > 1 else 0)
+        has_several = len(scene.colliders) > 1
+        row_bytes = _ROW_BYTES + (_FACING_BYTES if has_several else 0)
         rows = max(rows_of(scene.colliders[number]) for number in numbers)
+        rows += _PRESSED_ROWS if has_several else 0
         self._has_layers: bool = scene['self_contact.enabled']
         node_bytes = _LAYERED_NODE_BYTES if self._has_layers else _NODE_BYTES
         self._nodes = Buffer(np.zeros(layout.stored * node_bytes // 4, dtype=np.float32))

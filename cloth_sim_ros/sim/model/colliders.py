@@ -205,8 +205,13 @@ def surface_defines(colliders: Sequence[Collider], thin: Sequence[int]) -> dict[
     """Return what shaders compile in that let the ``thin`` colliders act on edges and faces."""
     return {
         'SURFACE_TIPS': max(_TIPS[colliders[number].shape] for number in thin),
-        'SURFACE_COLLIDERS': f'{sum(1 << number for number in thin)}u',
+        'SURFACE_COLLIDERS': mask_of(thin),
         'THIN_COLLIDERS': len(thin)}
+
+
+def mask_of(numbers: Sequence[int]) -> str:
+    """Return a bit for each of the colliders of these numbers, as shaders write it."""
+    return f'{sum(1 << number for number in numbers)}u'
 
 
 def _from_sides(q: np.ndarray) -> np.ndarray:
