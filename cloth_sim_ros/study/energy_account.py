@@ -27,7 +27,7 @@ import numpy as np
 
 # Max. cosine between the normals of surfaces that face each other [1], as in contact.glsl.
 _FACING = -0.9
-# The same a part of a triangle beside the place where they are nearest [1].
+# The same where one of them is thin [1], as FACING_THIN in contact.glsl.
 _FACING_NEARBY = -0.5
 # Step of finite differences [m].
 _STEP = 1e-5

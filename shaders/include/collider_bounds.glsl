@@ -7,6 +7,11 @@
 #include "choose.glsl"
 #include "read_first.glsl"
 
+// The colliders that act on nodes by the law of contact.glsl, one bit each.
+#ifndef NODE_COLLIDERS
+#define NODE_COLLIDERS 0xffffffffu
+#endif
+
 #define SHAPE_PLANE 0
 #define SHAPE_SPHERE 1
 #define SHAPE_CAPSULE 2

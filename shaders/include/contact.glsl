@@ -37,11 +37,6 @@
 #define SLIDES 2
 #define SLIDES_ON_TWO 3
 
-// The colliders that act on nodes by this law, one bit each.
-#ifndef NODE_COLLIDERS
-#define NODE_COLLIDERS 0xffffffffu
-#endif
-
 // The thin colliders of an explicit substep, one bit each: surface_pressing.glsl finds their pressure.
 #ifndef PRESS_ON_TRIANGLES
 #define PRESS_ON_TRIANGLES 0u

@@ -151,19 +151,6 @@ vec3 towards(int at, int index, vec3 v) {
     return v + share * last + kicked * applied_acceleration(at);
 }
 
-// Begin the substep of a node; return whether it may touch.
-bool may_touch(int at, int index, vec4 x, vec4 v) {
-    bool is_near = is_near_body(x.xyz, towards(at, index, v.xyz));
-    if (v.w > 0.0 && !is_near) {
-        if (share == 0.0) {
-            store_vector(cloth_entry(CHANGE, index), vec3(0.0));
-        }
-        keep(index, Hold(FREE, vec3(0.0), vec3(0.0), 0.0, vec3(0.0), vec3(0.0)), vec3(0.0));
-        vectors[cloth_entry(REACTION, index)].w = 0.0;
-    }
-    return v.w > 0.0 && is_near;
-}
-
 void decide(int at, int index, inout vec4 x, inout vec4 v) {
     vec3 last = load_vector(cloth_entry(CHANGE, index));
     vec3 expected = share > 0.0
@@ -359,11 +346,15 @@ void main() {
     vec4 x = load_position(at);
     vec4 v = load_velocity(at);
     int index = node_index(listed.y, listed.x);
+#if STAGE == BEGIN
+    decide(at, index, x, v);
+#else
     // Software runs the body of a branch for nodes that do not take it, but no loop that ends at
     // once, if its compiler does not tell it from a branch.
     for (uint asks = may_touch(at, index, x, v) ? 1u : 0u; asks != 0u; asks &= asks - 1u) {
         decide(at, index, x, v);
     }
+#endif
     velocity_out[at] = v;
     position_out[at] = x;
 }

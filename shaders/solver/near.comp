@@ -4,7 +4,7 @@
 #version 430 core
 // List the nodes that contact.comp decides about: few of all, and it does much with each.
 // STAGE BEGIN: before the first solve, nodes that may come to a collider at the expected velocity.
-// The other ones lose what contact has left at them.
+// For all others, contact, friction and impulses of the last substep are set to zero.
 // STAGE AFTER: after a solve, nodes that touch a collider, were let go by one, or may come to one
 // at the velocity that it has led to.
 
@@ -73,7 +73,7 @@ void main() {
     vec3 change = load_vector(cloth_entry(CHANGE, index));
     vec3 towards = v.xyz + guess * change + kick * applied_acceleration(at);
     // NaN counts as near, so that the node is listed.
-    bool is_near = near_bodies(x, 0.0, substep * length(towards)) != 0u;
+    bool is_near = (near_bodies(x, 0.0, substep * length(towards)) & NODE_COLLIDERS) != 0u;
     if (v.w > 0.0 && is_near) {
         list(row, col);
     } else if (v.w > 0.0) {

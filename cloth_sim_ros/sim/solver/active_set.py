@@ -303,7 +303,7 @@ class SolverContacts:
         # List those that BEGIN, and that AGAIN and END, decide about.
         self._near = {
             stage: SceneProgram('solver/near.comp', scene, state, {
-                **programs.defines, 'STAGE': stage}) for stage in ('BEGIN', 'AFTER')}
+                **programs.defines, **others, 'STAGE': stage}) for stage in ('BEGIN', 'AFTER')}
         self._listed = Buffer(_NONE_LISTED.nbytes + _LISTED_BYTES * scene.node_count)
         self._clear_listed = self._listed.write_calls(_NONE_LISTED)
         self._hold = programs.make('hold.comp')

@@ -76,7 +76,7 @@ def frames_with_crossings(scene: Scene, positions: np.ndarray, steps: int, every
 
 def test_triangles_in_a_plane_do_not_cross() -> None:
     """A cloth flat on a floor would be taken to pass through itself, by rounding in float64."""
-    # Of a cloth that sags towards a floor by 1e-8 m: edge and triangle are in a plane to the bit.
+    # Positions [m] of six nodes that lie exactly in a plane, in float32 as a cloth near a floor.
     flat = np.array([
         [(1.06259264e-01, 8.34680125e-02, 4.35912071e-08),
          (1.39074832e-01, 8.87299255e-02, 5.67240086e-08),
