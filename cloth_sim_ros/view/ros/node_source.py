@@ -171,7 +171,8 @@ class NodeSource(Source):
             for name, kind in _SERVICES.items()}
         self._executor = SingleThreadedExecutor(context=self._context)
         self._executor.add_node(self._node)
-        self._thread = Thread(target=self._executor.spin, daemon=True)
+        self._is_spinning = True
+        self._thread = Thread(target=self._spin, daemon=True)
         self._thread.start()
         if not self._told.wait(timeout):
             self.close()
@@ -234,13 +235,23 @@ class NodeSource(Source):
 
     def close(self) -> None:
         """Leave the graph; calls that still wait for an answer raise ClothSimError."""
-        self._executor.shutdown()
+        # An executor shut down while it spins may wait on, without what would wake it.
+        if self._thread.is_alive():
+            self._executor.create_task(self._stop_spinning)
         self._thread.join()
+        self._executor.shutdown()
         self._has_ended = True
         for answered in tuple(self._waiting):
             answered.set()
         self._node.destroy_node()
         rclpy.try_shutdown(context=self._context)
+
+    def _spin(self) -> None:
+        while self._is_spinning:
+            self._executor.spin_once()
+
+    def _stop_spinning(self) -> None:
+        self._is_spinning = False
 
     def _subscribe(self) -> None:
         # The newest alone is shown: a slow browser must not be behind.

@@ -7,6 +7,8 @@ from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 import signal
+import subprocess
+import sys
 import time
 
 from cloth_sim_ros.sim.errors import ClothSimError
@@ -14,6 +16,7 @@ from cloth_sim_ros.sim.scene import Scene
 from cloth_sim_ros.view.ros.node_source import NodeSource
 from cloth_under_test import SCENE
 from node_process import NodeProcess
+from node_process import PATIENCE
 import numpy as np
 import pytest
 from served_view import served
@@ -109,3 +112,24 @@ def test_without_a_node_it_is_told(tmp_path: Path):
     """A page would wait for ever."""
     with pytest.raises(ClothSimError, match='no message arrives on /nobody/state within 0.2 s'):
         NodeSource('nobody', 0.2)
+
+
+# Threads that take turns often end a view at any point of the first spin of its executor.
+_ENDED_AT_ONCE = """
+import sys
+from cloth_sim_ros.sim.errors import ClothSimError
+from cloth_sim_ros.view.ros.node_source import NodeSource
+sys.setswitchinterval(1e-6)
+for number in range(60):
+    try:
+        NodeSource('nobody', (0.0, 1e-5, 1e-4, 3e-4, 1e-3, 2e-3)[number % 6])
+    except ClothSimError:
+        print('ended')
+"""
+
+
+def test_a_view_ends_as_soon_as_it_has_begun():
+    """An executor that was shut down as it began to spin waited for ever, and the view with it."""
+    done = subprocess.run(
+        [sys.executable, '-c', _ENDED_AT_ONCE], capture_output=True, text=True, timeout=PATIENCE)
+    assert done.stdout.count('ended') == 60, done.stderr
