@@ -100,14 +100,20 @@ def pytest_unconfigure(config: pytest.Config) -> None:
 
 
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
-    """Begin with files that take long; leave the long tests out unless --long asks for them."""
+    """
+    Begin with files that take long; leave the long tests out unless --long asks for them.
+
+    Then no time limits them.
+    """
     items.sort(key=lambda item: item.path.name not in BEGUN_FIRST)
-    if config.getoption('--long'):
-        return
     listed = listed_cases()
     ordinary, long_items = [], []
     for item in items:
         is_long = item.get_closest_marker('long') or item.nodeid in listed
         (long_items if is_long else ordinary).append(item)
+    if config.getoption('--long'):
+        for item in long_items:
+            item.add_marker(pytest.mark.timeout(0))
+        return
     config.hook.pytest_deselected(items=long_items)
     items[:] = ordinary
