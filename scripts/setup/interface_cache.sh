@@ -20,9 +20,9 @@ print(sys.version, sysconfig.get_platform(), sysconfig.get_config_var("SOABI"))'
   cmake --version
 }
 
-# Print the archive for the sources of a package.
+# Print the archive for the sources of a package, with C++ or without: yes or no.
 interface_archive() {
-  local folder key
+  local folder key with_cpp=${2:-$with_cpp}
   folder=$(interface_cache)
   [ -n "$folder" ] || return 0
   key=$(build_tools | digest "$1" scripts/setup/interfaces.sh scripts/setup/interface_cache.sh \
@@ -60,6 +60,8 @@ take_kept_interfaces() {
   local package archive fresh
   package=$(basename "$1")
   archive=$(interface_archive "$1")
+  # What was built with C++ has all that Python needs.
+  [ -f "$archive" ] || archive=$(interface_archive "$1" yes)
   fresh=$venv/build/$package.kept
   [ -f "$archive" ] || return 1
   rm -rf "$fresh"

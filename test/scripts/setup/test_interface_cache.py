@@ -20,12 +20,12 @@ IN_WHEELS = pytest.mark.skipif(
     reason='a sourced ROS can change under the same version: nothing is kept')
 
 
-def setup(folder, command, cache):
+def setup(folder, command, cache, with_cpp='no'):
     """Run a function of the set-up on the environment in ``folder``; return code and output."""
     return run_bash(
         PARTS, f'export XDG_CACHE_HOME={shlex.quote(str(cache))}\n{command}', ROOT, root=str(ROOT),
         venv=str(folder), stamps=str(folder / '.setup'), ros_source='wheels',
-        with_cpp='no')
+        with_cpp=with_cpp)
 
 
 def environment(folder):
@@ -101,6 +101,23 @@ def test_a_broken_archive_is_built_again(built, tmp_path):
     assert f'Building {PACKAGE}: done' in output
     assert set(contents(second)) == set(contents(first))
     subprocess.run(['gzip', '-t', archive_in(cache)], check=True)
+
+
+@IN_WHEELS
+def test_messages_for_cpp_serve_python_as_well(built, tmp_path):
+    """A set-up after one with --tests would build all messages again."""
+    first, _ = built
+    keep = f'keep_interfaces scripts/setup/{PACKAGE}'
+    assert setup(first, keep, tmp_path / 'cache', 'yes') == (0, '')
+    second = environment(tmp_path / 'second')
+    code, output = setup(second, INSTALL, tmp_path / 'cache')
+    assert code == 0, output
+    assert f'{PACKAGE}: built before' in output
+    assert contents(second) == contents(first)
+    third = environment(tmp_path / 'third')
+    missing = f'take_kept_interfaces scripts/setup/{PACKAGE} || echo missing'
+    assert setup(first, f'{keep}', tmp_path / 'plain') == (0, '')
+    assert setup(third, missing, tmp_path / 'plain', 'yes') == (0, 'missing\n')
 
 
 @IN_WHEELS
