@@ -13,8 +13,7 @@ import sys
 from typing import Any
 
 from cloth_sim_interfaces import srv
-from geometry_msgs.msg import Point
-from geometry_msgs.msg import Pose
+from geometry_msgs import msg
 import numpy as np
 import rclpy
 from rclpy.wait_for_message import wait_for_message
@@ -32,13 +31,14 @@ node, front = rclpy.create_node('depth_to_grasp'), f'{name}/cameras/front'
 
 
 def take(kind: Any, topic: str) -> Any:
-    return wait_for_message(kind, node, topic, time_to_wait=WAIT)[1] or sys.exit(f'no {topic}')
+    waits = (wait_for_message(kind, node, topic, time_to_wait=WAIT / 9)[1] for _ in range(9))
+    return next(filter(None, waits), None) or sys.exit(f'no {topic}')  # None: lost on the way
 
 
 def call(kind: Any, service: str, place: np.ndarray, **fields: Any) -> None:
     client = node.create_client(kind, f'{name}/{service}')
     client.wait_for_service(WAIT)
-    pose = Pose(position=Point(**dict(zip('xyz', map(float, place)))))
+    pose = msg.Pose(position=msg.Point(**dict(zip('xyz', map(float, place)))))
     future = client.call_async(kind.Request(name='hand', header=cloud.header, pose=pose, **fields))
     rclpy.spin_until_future_complete(node, future, timeout_sec=WAIT)
     answer = future.result() or sys.exit(f'{service}: no answer')

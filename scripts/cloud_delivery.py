@@ -3,12 +3,14 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-Count the clouds that reach a best-effort subscriber, with and without the node's shared memory.
+Count the clouds that reach a subscriber, with and without the node's shared memory.
 
     python scripts/cloud_delivery.py
     python scripts/cloud_delivery.py --sizes 316 --rate 60 --seconds 20
+    python scripts/cloud_delivery.py --sizes 280 --reliable --busy 8
 
-The subscriber is this process: best effort, a depth of 5, and nothing set up for large messages.
+The subscriber is this process: best effort with a depth of 5 or, as rclpy's wait_for_message,
+reliable with a depth of 1, and nothing set up for large messages.
 The node steps a cloth without springs, in real time. Prints a table in Markdown.
 """
 
@@ -72,12 +74,25 @@ def cloth_node(size: int, rate: float, profile: bool) -> Iterator[None]:
             process.wait(PATIENCE)
 
 
-def count(node: Node, seconds: float) -> tuple[int, int]:
+@contextmanager
+def load(processes: int) -> Iterator[None]:
+    """Keep so many processes busy besides."""
+    busy = [subprocess.Popen([sys.executable, '-c', 'while True: pass'])
+            for _ in range(processes)]
+    try:
+        yield
+    finally:
+        for process in busy:
+            process.kill()
+            process.wait(PATIENCE)
+
+
+def count(node: Node, seconds: float, quality: QoSProfile) -> tuple[int, int]:
     """Let the cloth run and return the clouds that came and the frames that there were."""
     clouds, frames = set(), set()
     node.create_subscription(
         PointCloud2, '/cloth_sim/points', lambda data: clouds.add(_time(header_stamp(data))),
-        QoSProfile(depth=5, reliability=ReliabilityPolicy.BEST_EFFORT), raw=True)
+        quality, raw=True)
     node.create_subscription(
         ClothStats, '/cloth_sim/stats', lambda stats: frames.add(_time(stats.header.stamp)), 1000)
     pause = node.create_client(SetBool, '/cloth_sim/pause')
@@ -101,12 +116,13 @@ def _time(stamp: object) -> int:
     return stamp.sec * NANOSECONDS + stamp.nanosec
 
 
-def measure(size: int, rate: float, seconds: float, profile: bool) -> str:
+def measure(
+        size: int, rate: float, seconds: float, profile: bool, quality: QoSProfile) -> str:
     """Return how many clouds came, in words."""
     with cloth_node(size, rate, profile):
         rclpy.init()
         node = rclpy.create_node('cloud_delivery')
-        came, sent = count(node, seconds)
+        came, sent = count(node, seconds, quality)
         node.destroy_node()
         rclpy.shutdown()
     return f'{came} of {sent} ({came / max(sent, 1):.0%})'
@@ -118,7 +134,12 @@ def main() -> int:
     parser.add_argument('--sizes', nargs='+', type=int, default=[64, 128, 256, 512])
     parser.add_argument('--rate', type=float, default=30.0, help='clouds in a second')
     parser.add_argument('--seconds', type=float, default=8.0, help='of each run')
+    parser.add_argument(
+        '--reliable', action='store_true', help='subscribe reliably, with a depth of 1')
+    parser.add_argument('--busy', type=int, default=0, help='processes that load the machine')
     args = parser.parse_args()
+    quality = QoSProfile(depth=1) if args.reliable else QoSProfile(
+        depth=5, reliability=ReliabilityPolicy.BEST_EFFORT)
     os.environ.pop(VARIABLE, None)
     # A graph of its own: nobody else's clouds are counted.
     os.environ['ROS_DOMAIN_ID'] = subprocess.check_output(
@@ -126,7 +147,9 @@ def main() -> int:
     print('| nodes | a cloud has | without the profile | with it |')
     print('|---|---|---|---|', flush=True)
     for size in args.sizes:
-        told = [measure(size, args.rate, args.seconds, profile) for profile in (False, True)]
+        with load(args.busy):
+            told = [measure(size, args.rate, args.seconds, profile, quality)
+                    for profile in (False, True)]
         print(f'| {size} x {size} | {size**2 * POINT_DTYPE.itemsize / 1e6:.2g} MB | '
               f'{told[0]} | {told[1]} |', flush=True)
     return 0

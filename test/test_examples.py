@@ -14,6 +14,7 @@ import sysconfig
 from cloth_sim_interfaces.msg import ResultCode
 from cloth_sim_ros import Recording
 from cloth_sim_ros import Scene
+from cloth_sim_ros.node.shared_memory import VARIABLE
 from cloth_sim_ros.sim.model.given_values import load_parameters
 from cloth_sim_ros.sim.model.pose import Pose
 from cloth_sim_ros.verb.main import main
@@ -26,6 +27,12 @@ ROOT = Path(__file__).resolve().parents[1]
 # Max. time of an example [s]: 48 x 48 nodes fold in 210 s, and other processes slow them down.
 _LONGEST = 1200.0
 EXAMPLES = sorted((ROOT / 'examples').glob('*.py'))
+
+
+@pytest.fixture(autouse=True)
+def without_profile(monkeypatch):
+    """Give nodes the shared memory that a user's have, whatever other tests have chosen."""
+    monkeypatch.delenv(VARIABLE, raising=False)
 
 
 def ended(name, folder, *arguments):

@@ -47,6 +47,7 @@ from cloth_sim_ros.node.run_loop import RunLoop
 from cloth_sim_ros.node.run_services import RecordingServices
 from cloth_sim_ros.node.run_services import RunServices
 from cloth_sim_ros.node.shared_memory import cloud_bytes
+from cloth_sim_ros.node.shared_memory import picture_cloud_bytes
 from cloth_sim_ros.node.shared_memory import SharedMemory
 from cloth_sim_ros.node.targets import GraspRequests
 from cloth_sim_ros.node.targets import MoveRequests
@@ -255,8 +256,10 @@ class ClothSimNode(GuardedNode):
             self._start_first_recording()
         else:
             self._report_state()
-        sent = cloud_bytes(scene.node_count) if self._values['publish.points'] else 0
-        if warning := self._memory.warning(sent):
+        sent = [picture_cloud_bytes(camera.width, camera.height) for camera in scene.cameras]
+        if self._values['publish.points']:
+            sent.append(cloud_bytes(scene.node_count))
+        if warning := self._memory.warning(max(sent, default=0)):
             self.get_logger().warning(warning)
         self._switch.ask(self._simulation.mode)
 

@@ -34,7 +34,8 @@ _PROFILES = (
 # A reader that runs late by so many frames still gets them all.
 _FRAMES = 3
 _FAST_DDS = ('', 'rmw_fastrtps_cpp', 'rmw_fastrtps_dynamic_cpp')
-# What Fast DDS takes by itself [bytes]: larger messages are lost to best-effort subscribers.
+# What Fast DDS takes by itself [bytes]: of larger messages, some are lost. A reliable subscriber
+# misses those that newer ones replace before all parts have come.
 _DEFAULT_SEGMENT = 512 << 10
 # Below this [bytes] no segment fits beside what others need, and shared memory is left out.
 _LEAST = 2 * _DEFAULT_SEGMENT
@@ -59,23 +60,24 @@ class SharedMemory:
     lack: str = ''
     is_full: bool = False
 
-    def warning(self, cloud: int) -> str:
+    def warning(self, message: int) -> str:
         """
         Return what to warn of; empty when all is well.
 
-        :param cloud: size of a cloud [bytes]; 0 when none are sent
+        :param message: size of the largest that is sent [bytes]; 0 when none are
         """
         # UDP delivers messages of the default segment's size.
-        if self.lack and cloud > (self.segment or _DEFAULT_SEGMENT):
+        if self.lack and message > (self.segment or _DEFAULT_SEGMENT):
             return (
-                f'a point cloud has {cloud / 1e6:.2g} MB but Fast DDS only '
-                f'{self.segment / 1e6:.2g} MB of shared memory, so best-effort subscribers will '
-                f'miss some; subscribe reliably, or fix this: {self.lack}')
+                f'messages have up to {message / 1e6:.2g} MB but Fast DDS only '
+                f'{self.segment / 1e6:.2g} MB of shared memory, so subscribers will miss some, '
+                f'and most where they subscribe best-effort: {self.lack}')
         return self.lack if self.is_full else ''
 
 
-# Size of a pixel [bytes]: colour, depth, label and point.
-_PICTURE_BYTES = 3 + 4 + 1 + 12
+# Sizes of a pixel [bytes]: its point, the largest part, and colour, depth, label and point.
+_PIXEL_POINT_BYTES = 12
+_PICTURE_BYTES = 3 + 4 + 1 + _PIXEL_POINT_BYTES
 
 
 def cloud_bytes(nodes: int) -> int:
@@ -91,6 +93,11 @@ def frame_bytes(rows: int, cols: int) -> int:
 def picture_bytes(width: int, height: int) -> int:
     """Return how large all parts of a picture are together [bytes]."""
     return width * height * _PICTURE_BYTES
+
+
+def picture_cloud_bytes(width: int, height: int) -> int:
+    """Return how large the cloud of a picture is [bytes], the largest of its messages."""
+    return width * height * _PIXEL_POINT_BYTES
 
 
 def use_profile(
