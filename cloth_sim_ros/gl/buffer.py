@@ -176,6 +176,12 @@ class Buffer:
         read_buffer(_STORAGE, offset, target.nbytes, target.ctypes.data)
         refuse_lost_context()
 
+    def read_calls(self, target: np.ndarray) -> list[Call]:
+        """Return the calls that fill ``target``, which has to be kept, with its first bytes."""
+        return [
+            (memory_barrier, (_READS,)), (bind_buffer, (_STORAGE, self.name)),
+            (read_buffer, (_STORAGE, 0, target.nbytes, target.ctypes.data))]
+
     def delete(self) -> None:
         """Free the memory."""
         if self._texture is not None:

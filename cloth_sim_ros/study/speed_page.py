@@ -115,7 +115,7 @@ SECTIONS = (
         'to; beside the same without a body, falling, and hung from two corners.',
         speed_tables.bodies),
     Section(
-        'layers', 'Layers that touch', ('--layers', '--sizes', '32', '48'),
+        'layers', 'Layers that touch', ('--layers', '--sizes', '32', '64'),
         ('--sizes', '8', *_ONE_ROUND, '--seconds', '0.005', '--settle', '0.005'),
         'Processor time of a simulated second of a towel on a floor, flat and folded in half, '
         'with self-contact and without.', speed_tables.layers),

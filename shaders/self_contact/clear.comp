@@ -17,5 +17,5 @@ void main() {
     }
     uint index = self_nodes[i].listed;
     self_nodes[index].impulse = int[3](0, 0, 0);
-    self_nodes[index].shares = self_nodes[index].contacts = 0u;
+    self_nodes[index].shares = self_nodes[index].contacts = self_nodes[index].entries = 0u;
 }

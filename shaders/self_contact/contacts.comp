@@ -14,7 +14,6 @@
 #include "self_contact/nearest.glsl"
 #include "self_contact/head.glsl"
 #include "self_contact/pairs.glsl"
-#define LISTS_ACTING 1
 #include "self_contact/contacts.glsl"
 
 layout(local_size_x = SELF_LOCAL) in;
@@ -132,7 +131,7 @@ void add_contact(uint pair, ivec4 nodes, vec3 weights, vec3 d, float distance, f
     along *= l > friction * pressed ? friction * pressed / max(l, 1e-30) : 1.0;
     vec3 impulse = pressed * normal + along;
     uint at = atomicAdd(contact_count, 1u);
-    atomicAdd(contact_groups[0], at % SELF_LOCAL == 0u ? 1u : 0u);
+    atomicAdd(contact_groups[0], at % (SELF_LOCAL * CONTACTS_EACH) == 0u ? 1u : 0u);
     // A contact that may act later counts once it does: rounds are slower by what they allow for.
 #if IS_IMPLICIT
     // Solves end while contacts still come and go by their tolerance, and layers would tremble.
@@ -143,28 +142,11 @@ void add_contact(uint pair, ivec4 nodes, vec3 weights, vec3 d, float distance, f
     contacts_found[at] = SelfContact(
         nodes, vec4(normal, gap), vec4(impulse, uintBitsToFloat(pair)),
         weights, acts ? least : -least);
-    vec4 all = all_weights(weights);
     for (int i = 0; i < 4; ++i) {
-        int node = nodes[i];
-        if (atomicAdd(self_nodes[node].contacts, 1u) == 0u) {
-            uint place = atomicAdd(self_node_count, 1u);
-            self_nodes[place].listed = uint(node);
-            atomicAdd(node_groups[0], place % SELF_LOCAL == 0u ? 1u : 0u);
-        }
+        atomicAdd(self_nodes[nodes[i]].contacts, 1u);
     }
     if (!acts) {
         kept[pair] = vec4(0.0);
-        return;
-    }
-    list_acting(at, nodes, all);
-    for (int i = 0; i < 4; ++i) {
-        int node = nodes[i];
-        ivec3 part = in_units(all[i], impulse);
-        for (int k = 0; k < 3; ++k) {
-            if (part[k] != 0) {
-                atomicAdd(self_nodes[node].impulse[k], part[k]);
-            }
-        }
     }
 }
 

@@ -27,7 +27,8 @@ void main() {
     if (number >= acting_count) {
         return;
     }
-    SelfContact found = load_contact(int(acting_place(number)));
+    vec4 own = load_acting(number);
+    SelfContact found = load_contact(floatBitsToInt(own.w));
     Pair before = pair_of(texelFetch(before_texels, floatBitsToInt(found.impulse.w)));
     uint next = first_pair(before.own >> 2);
     while (next != 0u) {
@@ -35,7 +36,7 @@ void main() {
         Pair pair = load_pair(place);
         bool is_same = pair.own == before.own && pair.other == before.other;
         if (is_same) {
-            kept[place] = vec4(found.impulse.xyz, 0.0);
+            kept[place] = vec4(own.xyz, 0.0);
         }
         next = is_same ? 0u : pair.next;
     }

@@ -2,19 +2,22 @@
 // SPDX-License-Identifier: Apache-2.0
 
 #version 430 core
-// The velocity of each node with contacts that act after a round, with what colliders do to it.
-// IS_LAST 1: write the state to come instead, of each node with contacts. IS_IMPLICIT 1: solves give nodes their velocities, and
-// include impulses of layers; layers that are too near are moved apart last.
+// The velocity of each node with contacts after a round, with what colliders do to it. IS_SUM 1: by the
+// impulses of layers alone, whose sums are stored. IS_LAST 1: write the state to come instead.
+// IS_IMPLICIT 1: solves give nodes their velocities, and include impulses of layers; layers that are
+// too near are moved apart last.
 
 #define POSITIONS_ALONE 1
 #include "lattice.glsl"
 #include "state_in.glsl"
-#if HAS_CONTACT
+#define ASKS_BODIES (HAS_CONTACT && !IS_SUM)
+#if ASKS_BODIES
 #include "contact.glsl"
 #endif
 #include "low_parts.glsl"
 #include "self_contact/head.glsl"
 #include "self_contact/contacts.glsl"
+#include "self_contact/entries.glsl"
 
 layout(local_size_x = SELF_LOCAL) in;
 
@@ -27,7 +30,7 @@ layout(binding = POSITION_OUT) uniform samplerBuffer position_texels;
 layout(binding = VELOCITY_OUT) uniform samplerBuffer velocity_texels;
 layout(binding = SELF_NODES) uniform samplerBuffer node_texels;
 layout(std430, binding = SELF_VELOCITIES) writeonly buffer SelfVelocities { vec4 velocities[]; };
-#if HAS_CONTACT && IS_LAST && !IS_IMPLICIT
+#if ASKS_BODIES && IS_LAST && !IS_IMPLICIT
 #include "contact_record.glsl"
 #endif
 #if IS_IMPLICIT
@@ -40,41 +43,42 @@ layout(binding = SELF_APPLIED) uniform samplerBuffer applied;
 layout(std430, binding = LIMIT_CHANGES) buffer Changes { vec4 changes[]; };
 #endif
 
-#if HAS_SURFACE
+#if HAS_SURFACE && !IS_SUM
 // Nodes of surface_nodes.glsl, four texels each.
 layout(binding = SURFACE_NODES) uniform samplerBuffer surface_texels;
 #endif
 
 uniform float substep;  // [s]
 uniform float way_unit;  // [m]
+uniform int is_summed;   // whether the sums of impulses that are stored are those of now
 
-// A vector that three whole numbers are [unit].
-vec3 of_numbers(vec4 texel, float unit) { return unit * vec3(floatBitsToInt(texel.xyz)); }
+#if IS_LAST
+// Displacement of a node out of layers, over its inverse mass.
+vec3 out_of_layers_at(int index) {
+    return way_unit * vec3(floatBitsToInt(texelFetch(node_texels, 3 * index + 1).xyz));
+}
+#endif
 
 void main() {
     uint i = gl_GlobalInvocationID.x;
-#if IS_LAST
     if (i >= self_node_count) {
         return;
     }
     int index = floatBitsToInt(texelFetch(node_texels, 3 * int(i) + 2).x);
-#else
-    if (i >= acting_node_count) {
-        return;
-    }
-    int index = floatBitsToInt(texelFetch(node_texels, 3 * int(i) + 2).z);
-#endif
-    vec4 node = texelFetch(node_texels, 3 * index);
+    uvec4 own = floatBitsToUint(texelFetch(node_texels, 3 * index + 2));
+    // llvmpipe runs the body of a branch for all nodes, but skips a loop without rounds.
+    ivec3 sum = sum_of_entries(own.z, is_summed == 1 ? 0u : own.w);
+    sum = is_summed == 1 ? floatBitsToInt(texelFetch(node_texels, 3 * index).xyz) : sum;
     vec4 free = texelFetch(velocity_texels, index);
     vec3 x = load_position(index).xyz;
-    vec3 impulse = of_numbers(node, impulse_unit);
+    vec3 impulse = impulse_unit * vec3(sum);
 #if IS_LAST
-    vec3 out_of_layers = free.w * of_numbers(texelFetch(node_texels, 3 * index + 1), way_unit);
+    vec3 out_of_layers = free.w * out_of_layers_at(index);
 #endif
 #if IS_IMPLICIT
     free.xyz -= free.w * texelFetch(applied, index).xyz;
 #endif
-#if HAS_SURFACE
+#if HAS_SURFACE && !IS_SUM
     // Thin colliders have changed the velocity already.
     vec4 without = texelFetch(surface_texels, 4 * index);
     bool is_listed = floatBitsToInt(without.w) == 1;
@@ -85,7 +89,7 @@ void main() {
 #else
     vec3 v = free.xyz + free.w * impulse;
 #endif
-#if HAS_CONTACT
+#if ASKS_BODIES
 #if IS_IMPLICIT && IS_LAST
     // Layers that are moved apart may be moved into a body.
     v += out_of_layers / substep;
@@ -99,8 +103,14 @@ void main() {
         kind = contact.kind;
     }
 #endif
-#if !IS_LAST
-    velocities[index] = vec4(v, free.w * float(floatBitsToUint(node.w)) / SHARE_PARTS);
+#if IS_SUM || IS_LAST
+    self_nodes[index].impulse = int[3](sum.x, sum.y, sum.z);
+#endif
+#if IS_SUM
+    velocities[index] = vec4(v, 0.0);
+#elif !IS_LAST
+    uint shares = floatBitsToUint(texelFetch(node_texels, 3 * index).w);
+    velocities[index] = vec4(v, free.w * float(shares) / SHARE_PARTS);
 #else
 #if HAS_HELD
     vec4 position = load_position(index);
@@ -115,7 +125,7 @@ void main() {
         way += substep * (v - free.xyz);
 #endif
         vec3 to = changed_position(index, texelFetch(position_texels, index).xyz, way);
-#if HAS_CONTACT
+#if ASKS_BODIES
         if (touched_count > 0) {
             to = moved_out(to, substep);
 #if !IS_IMPLICIT

@@ -101,22 +101,23 @@ _COUNTING = {
     'include/self_contact/contacts.glsl': [
         'atomicAdd(acting_count, 1u)',
         'atomicAdd(acting_groups[0], at % SELF_LOCAL == 0u ? 1u : 0u)',
-        'atomicAdd(self_nodes[nodes[k]].shares, share)', 'atomicAdd(acting_node_count, 1u)',
-        'atomicAdd(acting_node_groups[0], node_at % SELF_LOCAL == 0u ? 1u : 0u)'],
+        'atomicAdd(self_nodes[nodes[k]].shares, share)',
+        'atomicAdd(self_nodes[nodes[k]].entries, 1u)'],
+    'self_contact/list.comp': [
+        'atomicAdd(self_node_count, 1u)',
+        'atomicAdd(node_groups[0], place % SELF_LOCAL == 0u ? 1u : 0u)',
+        'atomicAdd(entry_count, (contacts + 1u) / 2u)'],
     'self_contact/wake.comp': [
-        'atomicMin(least_distance, floatBitsToUint(max(gap + abs(found.least), 0.0)))'],
+        'atomicMin(least_distance, floatBitsToUint(nearest))'],
     'self_contact/contacts.comp': [
         'atomicAdd(contact_count, 1u)',
-        'atomicAdd(contact_groups[0], at % SELF_LOCAL == 0u ? 1u : 0u)',
-        'atomicAdd(self_nodes[node].contacts, 1u)', 'atomicAdd(self_node_count, 1u)',
-        'atomicAdd(node_groups[0], place % SELF_LOCAL == 0u ? 1u : 0u)',
-        'atomicAdd(self_nodes[node].impulse[k], part[k])',
+        'atomicAdd(contact_groups[0], at % (SELF_LOCAL * CONTACTS_EACH) == 0u ? 1u : 0u)',
+        'atomicAdd(self_nodes[nodes[i]].contacts, 1u)',
         'atomicMin(least_distance, floatBitsToUint(nearest))'],
     'self_contact/round.comp': [
-        'atomicAdd(self_nodes[node].impulse[k], change[k])',
         'atomicAdd(self_nodes[node].way[k], change[k])',
         'atomicMax(largest_impulse, floatBitsToUint(length(impulse)))',
-        'atomicMax(largest_change, floatBitsToUint(share * length(impulse - found.impulse.xyz)))'],
+        'atomicMax(largest_change, floatBitsToUint(share * length(impulse - own.xyz)))'],
     'self_contact/longest.comp': [
         'atomicMax(longest_way, floatBitsToUint(longest))', 'atomicAdd(cut_nodes, 1u)'],
     'self_contact/guard.comp': [
@@ -163,18 +164,23 @@ _FORMS = {
     'surface_contact.comp, beside layers': {
         'WAYS_OUT': 0, 'NOTES_CHANGES': 0, 'FINDS_IMPULSES': 1, 'HAS_SELF': 1, **_SURFACE},
     'self_contact/nodes.comp, beside the surface': {
-        'LOADS_TEXTURE': 1, 'SELF_LOCAL': 32, 'IS_LAST': 1, 'HAS_HELD': 1, 'HAS_SELF': 1,
-        'HAS_SURFACE': 1},
+        'LOADS_TEXTURE': 1, 'SELF_LOCAL': 32, 'IS_SUM': 0, 'IS_LAST': 1, 'HAS_HELD': 1,
+        'HAS_SELF': 1, 'HAS_SURFACE': 1},
     'contact.comp, beside layers': {'NOTES_CHANGES': 0, 'HAS_SELF': 1},
     **{f'self_contact/{name}.comp': {
         'LOADS_TEXTURE': 1, 'SELF_LOCAL': 32, 'MOST_GROUPS': 65535}
        for name in (
-           'boxes', 'clear', 'crossings', 'keep', 'nodes', 'pairs', 'round', 'wake')},
-    'self_contact/wake.comp, of solves': {
-        'LOADS_TEXTURE': 1, 'SELF_LOCAL': 32, 'IS_IMPLICIT': 1},
+           'boxes', 'clear', 'crossings', 'keep', 'nodes', 'pairs', 'round')},
+    **{f'self_contact/wake.comp{words}': {
+        'LOADS_TEXTURE': 1, 'SELF_LOCAL': 32, 'CONTACTS_EACH': 16, 'LOOKS': looks}
+       for looks, words in enumerate(('', ', asleep', ', again'))},
+    'self_contact/nodes.comp, sums': {
+        'LOADS_TEXTURE': 1, 'SELF_LOCAL': 32, 'IS_SUM': 1, 'HAS_SELF': 1, 'HAS_SURFACE': 1},
+    'self_contact/nodes.comp, sums of solves': {
+        'LOADS_TEXTURE': 1, 'SELF_LOCAL': 32, 'IS_SUM': 1, 'IS_IMPLICIT': 1},
     'self_contact/contacts.comp, of solves': {
         'LOADS_TEXTURE': 1, 'SELF_LOCAL': 32, 'OF_EDGES': 1, 'MOST_GROUPS': 65535,
-        'IS_IMPLICIT': 1, 'PAIRS_EACH': 1, 'EDGE_THICKNESS': 0.9999},
+        'IS_IMPLICIT': 1, 'PAIRS_EACH': 1, 'CONTACTS_EACH': 1, 'EDGE_THICKNESS': 0.9999},
     'self_contact/nodes.comp, last': {'LOADS_TEXTURE': 1, 'SELF_LOCAL': 32, 'IS_LAST': 1},
     'self_contact/nodes.comp, after limits': {
         'LOADS_TEXTURE': 1, 'SELF_LOCAL': 32, 'IS_LAST': 1, 'HAS_HELD': 1, 'NOTES_CHANGES': 1},
@@ -184,11 +190,12 @@ _FORMS = {
         'LOADS_TEXTURE': 1, 'SELF_LOCAL': 32, 'IS_LAST': 1, 'HAS_HELD': 1, 'HAS_LOW_PARTS': 1},
     **{f'self_contact/{name}.comp{words}': {
         'LOADS_TEXTURE': 1, 'SELF_LOCAL': 32, 'OF_EDGES': of_edges, 'MOST_GROUPS': 65535,
-        'PAIRS_EACH': each, 'EDGE_THICKNESS': 0.999}
+        'PAIRS_EACH': each, 'CONTACTS_EACH': 16, 'EDGE_THICKNESS': 0.999}
        for name, each in (('contacts', 16), ('guard', 1))
        for words, of_edges in (('', 0), (', of edges', 1))},
     **{f'self_contact/{name}.comp': {'LOADS_TEXTURE': 1, 'STRIP': 16} for name in (
         'cut', 'drive', 'longest', 'ways')},
+    'self_contact/list.comp': {'SELF_LOCAL': 32, 'STRIP': 16},
     'limit/look.comp': {'STRIP': 16, 'LIST_LOCAL': '8u'},
     'limit/list.comp': {'LIST_LOCAL': 8},
     'limit/solve.comp': {'LOCAL': 256, 'LISTS': 0},

@@ -7,12 +7,15 @@ from collections.abc import Callable
 from collections.abc import Iterator
 from dataclasses import dataclass
 import math
+import struct
 import warnings
 
 from cloth_sim_ros.gl.buffer import Buffer
+from cloth_sim_ros.gl.buffer import BufferRow
 from cloth_sim_ros.gl.buffer import shader_dispatches_visible
 from cloth_sim_ros.gl.buffer import shader_writes_visible
 from cloth_sim_ros.gl.buffer import writes_visible_call
+from cloth_sim_ros.gl.context import refuse_lost_context
 from cloth_sim_ros.gl.errors import DeviceError
 from cloth_sim_ros.gl.program import MOST_GROUPS
 from cloth_sim_ros.gl.program import Program
@@ -30,6 +33,9 @@ import numpy as np
 
 # Invocations of a workgroup of the passes over pairs, contacts and nodes [1].
 _LOCAL = 32
+# Contacts that an invocation looks at before rounds [1], on software; chosen: with 4 a folded
+# towel takes 2 % longer, with 1 13 % (cloth_sim bench --layers --sizes 64 --rounds 3).
+_CONTACTS_OF_SOFTWARE = 16
 # Pairs that an invocation looks at for contacts [1], on software; chosen: from 8 to 32 a moving
 # towel takes the same time to 10 % (cloth_sim bench --layers).
 _PAIRS_OF_SOFTWARE = 16
@@ -93,6 +99,8 @@ _DOUBTFUL = 1e-3
 _PAIRS = 4
 # Size of an entry of each kind in the shaders [bytes].
 _PAIR_BYTES, _CONTACT_BYTES, _NODE_BYTES, _BOX_BYTES = 16, 64, 48, 32
+# The same of a contact that acts, and of its entry at each of four nodes.
+_ACTING_BYTES, _ENTRY_BYTES = 16, 8
 # Range of the sums of impulses over the speed in a substep [1], as in contacts.glsl, and the least
 # such speed [m/s].
 _SUM_RANGE, _LEAST_SPEED = 4096.0, 1e-9
@@ -105,8 +113,7 @@ _LEAST = 0xFFFFFFFF
 _HEAD = np.dtype([
     ('contact_groups', '3u4'), ('contact_count', 'u4'), ('node_groups', '3u4'),
     ('self_node_count', 'u4'), ('acting_groups', '3u4'), ('acting_count', 'u4'),
-    ('acting_node_groups', '3u4'), ('acting_node_count', 'u4'),
-    ('least_distance', 'f4'),
+    ('entry_count', 'u4'), ('least_distance', 'f4'),
     ('least_moved', '3u4'), ('most_moved', '3u4'), ('least_speed', '3u4'),
     ('most_speed', '3u4'), ('vertex_pairs', 'u4'), ('edge_pairs', 'u4'), ('cut_nodes', 'u4'),
     ('largest_cut', 'f4'), ('longest_way', 'f4'), ('largest_impulse', 'f4'),
@@ -114,6 +121,9 @@ _HEAD = np.dtype([
     ('crossing_edges', 'u4'), ('first_crossing', 'u4'), ('cut_pins', 'u4'),
     ('largest_drive', 'f4')])
 _FIRST_ROUND, _LAST_ROUND = 1, 2
+_NOWHERE = 0.0, 0.0, 0.0
+# What wake.comp looks at.
+_FOUND, _ASLEEP, _AGAIN = range(3)
 
 
 def _place(name: str) -> int:
@@ -123,12 +133,12 @@ def _place(name: str) -> int:
     return fields[name][1]
 
 
-_CONTACT_GROUPS, _NODE_GROUPS, _ACTING_GROUPS, _ACTING_NODE_GROUPS = (
-    _place(f'{name}_groups') for name in ('contact', 'node', 'acting', 'acting_node'))
+_CONTACT_GROUPS, _NODE_GROUPS, _ACTING_GROUPS = (
+    _place(f'{name}_groups') for name in ('contact', 'node', 'acting'))
 # Offset of the fields of one substep in the head, after those of the contacts [bytes], and the
-# range of the displacements and velocities.
+# range of the displacements and velocities in it, as numbers of four bytes.
 _OF_SUBSTEP = _place('least_moved')
-_SPANS = slice(_OF_SUBSTEP, _place('vertex_pairs'))
+_SPANS = slice(_OF_SUBSTEP // 4, _place('vertex_pairs') // 4)
 
 
 @dataclass
@@ -186,6 +196,8 @@ class SelfContact:
         self._rounds = (
             (_ROUNDS_OF_SOLVE, _MOST_ROUNDS_OF_SOLVE) if is_implicit else (_ROUNDS, _MOST_ROUNDS))
         self._is_implicit = is_implicit
+        # Whether passes of thin bodies read the impulses on nodes.
+        self._acts_on_surface = bool(scene.thin_colliders) and not is_implicit
         self._skin_of_way = _SKIN_OF_LONG_WAY if is_implicit else _SKIN_OF_WAY
         self._strips = Strips.groups(layout)
         self._pairs_each = _pairs_each(layout)
@@ -209,7 +221,8 @@ class SelfContact:
         self._most_pairs = _PAIRS * scene.node_count
         self._pairs = [Buffer(self._most_pairs * _PAIR_BYTES) for _ in range(2)]
         self._contacts = Buffer(self._most_pairs * _CONTACT_BYTES)
-        self._acting = Buffer(self._most_pairs * 4)
+        self._acting = Buffer(self._most_pairs * _ACTING_BYTES)
+        self._entries = Buffer(self._entry_bytes())
         self._kept = Buffer(self._most_pairs * _PAIR_BYTES)
         # Impulses on nodes: all that solves have included, and what the next one is to.
         self._applied, self._driven = (
@@ -221,13 +234,16 @@ class SelfContact:
         self._version = 0
         self._set_for: dict[str, int] = {}
         self._set_colliders_in: Callable[[Program], None] | None = None
-        # The calls that bind its buffers, by the name of that of the pairs.
+        # The calls that bind its buffers, by the name of that of the pairs, and what they need.
         self._binds: dict[int, list[Call]] = {}
+        self._rows: list[BufferRow] = []
         # The calls of rounds, by whether they are the first of a substep.
         self._rounds_made: dict[bool, list[Call]] = {}
         # Whether there are contacts on the device.
         self._has_found = False
         self._read = np.zeros(1, dtype=_HEAD)
+        self._spans = self._read.view(np.uint32)[_SPANS]
+        self._look = self._head.read_calls(self._read)
         self.forget()
 
     def forget(self) -> None:
@@ -243,7 +259,8 @@ class SelfContact:
         self._counts = 0, 0
         # Substeps until the next look.
         self._unlooked = 0
-        self._common_way = self._common_moved = np.zeros(3)
+        self._common_way: tuple[float, ...] = _NOWHERE
+        self._common_moved: tuple[float, ...] = _NOWHERE
         # Whether no round has been made in the substep.
         self._is_first = True
         # Length of the last substep whose impulses solves have included [s]; 0: none has.
@@ -278,6 +295,8 @@ class SelfContact:
         self._copy_kept()
         self.begin(state)
         self.let_act()
+        for looks in (_ASLEEP, _AGAIN):
+            self._wake(looks)
         if self._is_implicit:
             self.drive(state)
         for notes_changes in (False, True):
@@ -346,11 +365,10 @@ class SelfContact:
         ways = self._use('ways')
         state.bind_in_textures()
         state.bind_out_textures()
-        self._built.bind_texture(bindings.SELF_BUILT)
         ways.dispatch(*self._strips)
         shader_writes_visible()
-        head = self._read_head()
-        least, most, slowest, fastest = _from_order(head.tobytes()[_SPANS])
+        self._read_head()
+        least, most, slowest, fastest = _from_order(self._spans.tolist())
         moved = 0.5 * math.dist(most, least)
         way = 0.5 * length * math.dist(fastest, slowest)
         room = 0.5 * _USED * (self._reach - self._thickness)
@@ -362,12 +380,15 @@ class SelfContact:
             cell = min(self._scene.spacing)
             skin = max(_SKIN * self._thickness, _SKIN_OF_CELL * cell, self._skin_of_way * way)
             self._build(state, self._thickness + min(skin, _MOST_SKIN_OF_CELL * cell))
-            self._common_moved = np.zeros(3)
+            self._common_moved = _NOWHERE
         else:
-            self._common_moved = 0.5 * (least + most) - 0.5 * length * (slowest + fastest)
+            self._common_moved = tuple(
+                0.5 * (a + b) - 0.5 * length * (c + d)
+                for a, b, c, d in zip(least, most, slowest, fastest))
         # Pins and what lies on a collider stay where they are, whatever ways are cut.
         is_free = not (self._scene.has_contact or state.pinned.any())
-        self._common_way = 0.5 * length * (slowest + fastest) if is_free else np.zeros(3)
+        self._common_way = tuple(
+            0.5 * length * (c + d) for c, d in zip(slowest, fastest)) if is_free else _NOWHERE
         speed = way / length + self._gravity * length + _LEAST_SPEED
         self._serves_again = self._window > 0 and self._may_serve_again(way, speed)
         if self._serves_again:
@@ -408,17 +429,18 @@ class SelfContact:
         """Begin with the impulses of the last substep."""
         self.go_on(state)
         self._is_first = True
+        if self._acts_on_surface and not self._serves_again:
+            self._head.bind_dispatches()
+            shader_dispatches_visible()
+            self._add_up()
 
     def go_on(self, state: SubstepEnds) -> None:
         """Continue after other passes have bound their buffers."""
         state.bind_in_textures()
         state.bind_out_textures()
         state.bind_out()
-        self._velocities.bind_storage(bindings.SELF_VELOCITIES)
-        self._velocities.bind_texture(bindings.SELF_VELOCITIES)
         if self._is_implicit:
             self._bind()
-            self._applied.bind_texture(bindings.SELF_APPLIED)
 
     def let_act(self) -> None:
         """Iterate the impulses in rounds, with colliders on the nodes that they hold."""
@@ -426,10 +448,9 @@ class SelfContact:
         shader_dispatches_visible()
         rounds, (some, most) = 0, self._rounds
         while True:
-            wake = self._use('wake')
-            wake.set_int('again', int(self._is_first and self._serves_again))
-            wake.dispatch_indirect(_CONTACT_GROUPS)
-            shader_dispatches_visible()
+            is_again = self._is_first and self._serves_again
+            self._add_up(is_summed=is_again)
+            self._wake(_AGAIN if is_again else _ASLEEP)
             self._make_rounds(some)
             rounds += some
             head = self._read_head()
@@ -438,6 +459,24 @@ class SelfContact:
                     head['largest_change'] <= _STILL * head['largest_impulse']):
                 break
             self._head.write(np.zeros(2, dtype=np.uint32), _place('largest_impulse'))
+        if self._is_implicit or self._acts_on_surface:
+            self._add_up()
+
+    def _add_up(self, *, is_summed: bool = False) -> None:
+        """
+        Add up the impulses on each node, and find its velocity by them.
+
+        :param is_summed: whether they have not changed since they were added up
+        """
+        sums = self._use('sums')
+        sums.set_int('is_summed', int(is_summed))
+        sums.dispatch_indirect(_NODE_GROUPS)
+        shader_writes_visible()
+
+    def _wake(self, looks: int) -> None:
+        """List contacts that act, among those that ``looks`` names."""
+        self._use(f'wake {looks}').dispatch_indirect(_CONTACT_GROUPS)
+        shader_dispatches_visible()
 
     def give(self, held_at: int, *, notes_changes: bool = False) -> None:
         """
@@ -458,7 +497,6 @@ class SelfContact:
         """Shorten displacements so that nothing passes; wait, and return the result."""
         state.bind_in_textures()
         state.bind_out_textures()
-        self._built.bind_texture(bindings.SELF_BUILT)
         self._run_over_nodes('longest')
         head = self._read_head()
         # NaN is no reason to go on: what checks the state finds it.
@@ -496,7 +534,7 @@ class SelfContact:
         for buffer in (
                 self._head, self._features, self._built, self._velocities, self._cell_ways,
                 self._boxes, self._first, *self._pairs, self._kept, self._nodes,
-                self._contacts, self._acting, self._applied, self._driven):
+                self._contacts, self._acting, self._entries, self._applied, self._driven):
             buffer.delete()
 
     def _use(self, name: str) -> Program:
@@ -535,7 +573,8 @@ class SelfContact:
         if is_first not in self._rounds_made:
             self._rounds_made[is_first] = [
                 call for number in range(count) for call in (
-                    *nodes.indirect_calls(_ACTING_NODE_GROUPS), writes_visible_call(),
+                    *nodes.indirect_calls(_NODE_GROUPS, is_summed=int(number == 0)),
+                    writes_visible_call(),
                     *impulses.indirect_calls(_ACTING_GROUPS, part=(
                         _FIRST_ROUND * (is_first and number == 0)
                         + _LAST_ROUND * (number == count - 1))),
@@ -552,6 +591,10 @@ class SelfContact:
         for program in self._each_kind_of('contacts'):
             program.set_float('kept_share', self._share_to_keep)
             program.set_float('window', float(self._window + 1))
+        self._use('list').dispatch(*self._strips)
+        self._head.bind_dispatches()
+        shader_dispatches_visible()
+        self._wake(_FOUND)
 
     def _clear_contacts(self) -> None:
         """Forget the contacts that were found, if there are some."""
@@ -579,7 +622,6 @@ class SelfContact:
         self._window = 0
         boxes = self._use('boxes')
         state.bind_in_textures()
-        self._built.bind_storage(bindings.SELF_BUILT)
         for level, (rows, cols, *_) in enumerate(self._levels):
             boxes.set_int('level', level)
             boxes.dispatch(-(-int(rows * cols) // _LOCAL))
@@ -639,16 +681,24 @@ class SelfContact:
         self._pairs[0] = Buffer(pairs * _PAIR_BYTES)
         self._kept = Buffer(pairs * _PAIR_BYTES)
         self._binds.clear()
+        self._rows.clear()
 
     def _make_room_for_contacts(self) -> None:
         """Have room for a contact of each pair; those there are forgotten."""
         self._clear_contacts()
         self._contacts.delete()
         self._acting.delete()
+        self._entries.delete()
         self._contacts = Buffer(self._most_pairs * _CONTACT_BYTES)
-        self._acting = Buffer(self._most_pairs * 4)
+        self._acting = Buffer(self._most_pairs * _ACTING_BYTES)
+        self._entries = Buffer(self._entry_bytes())
         self._binds.clear()
+        self._rows.clear()
         self._bind()
+
+    def _entry_bytes(self) -> int:
+        """Return the room for the entries of all nodes, whose number is even at each."""
+        return (4 * self._most_pairs + self._scene.node_count) * _ENTRY_BYTES
 
     def _bind(self) -> None:
         pairs = self._pairs[0].name
@@ -657,19 +707,15 @@ class SelfContact:
         make(self._binds[pairs])
 
     def _bind_calls(self) -> list[Call]:
-        as_both = (
-            (self._boxes, bindings.SELF_BOXES), (self._cell_ways, bindings.SELF_WAYS),
-            (self._contacts, bindings.SELF_CONTACTS), (self._acting, bindings.SELF_ACTING),
-            (self._first, bindings.SELF_FIRST), (self._pairs[0], bindings.SELF_PAIRS),
-            (self._nodes, bindings.SELF_NODES), (self._kept, bindings.SELF_KEPT))
-        as_texture = (
-            (self._features, bindings.SELF_FEATURES),
-            (self._pairs[1], bindings.SELF_PAIRS_BEFORE))
-        as_storage = ((self._head, bindings.SELF_HEAD),)
+        row = BufferRow((
+            self._features, self._built, self._boxes, self._first, *self._pairs, self._contacts,
+            self._nodes, self._velocities, self._kept, self._cell_ways, self._applied,
+            self._driven, self._acting, self._entries))
+        self._rows.append(row)
         return [
-            *(buffer.storage_call(place) for buffer, place in (*as_both, *as_storage)),
-            *(call for buffer, place in (*as_both, *as_texture)
-              for call in buffer.texture_calls(place))]
+            self._head.storage_call(bindings.SELF_HEAD),
+            *row.storage_calls(bindings.SELF_FEATURES),
+            *row.texture_calls(bindings.SELF_FEATURES)]
 
     def _set_length(self, length: float) -> None:
         self._fresh['vertex_pairs'], self._fresh['edge_pairs'] = self._counts
@@ -682,7 +728,8 @@ class SelfContact:
         self._set('way_unit', length * _WAY_RANGE)
 
     def _read_head(self) -> np.void:
-        self._head.read_into(self._read)
+        make(self._look)
+        refuse_lost_context()
         return self._read[0]
 
 
@@ -703,22 +750,28 @@ def _programs(
         'PRESS_ON_TRIANGLES': mask_of(scene.thin_colliders if has_surface else ())}
     forms: dict[str, dict[str, object]] = {
         **dict.fromkeys(('boxes', 'clear', 'crossings', 'pairs', 'keep', 'round'), of_items),
+        **{f'wake {looks}': {**of_items, 'LOOKS': looks, 'CONTACTS_EACH': _contacts_each(layout)}
+           for looks in range(3)},
         # With what layers do to pinned nodes added to the entries of held.glsl, and with changes
         # of velocity noted for the limits of edges.
-        'wake': {**of_items, 'IS_IMPLICIT': int(is_implicit)},
-        'nodes': {**of_nodes, 'IS_LAST': 0, 'HAS_HELD': 0, 'NOTES_CHANGES': 0},
+        **{name: {
+            **of_nodes, 'IS_SUM': is_sum, 'IS_LAST': 0, 'HAS_HELD': 0, 'NOTES_CHANGES': 0}
+           for is_sum, name in enumerate(('nodes', 'sums'))},
         **{_last_pass(held - 1, notes): {
-            **of_nodes, 'IS_LAST': 1, 'HAS_HELD': held, 'NOTES_CHANGES': notes}
+            **of_nodes, 'IS_SUM': 0, 'IS_LAST': 1, 'HAS_HELD': held, 'NOTES_CHANGES': notes}
            for held in (0, 1) for notes in range(1 + may_note)},
         **{f'{name} {of_edges}': {
             **of_items, 'OF_EDGES': of_edges, 'IS_IMPLICIT': int(is_implicit),
             'EDGE_THICKNESS': _edge_thickness(is_implicit=is_implicit),
-            'PAIRS_EACH': _pairs_each(layout) if name == 'contacts' else 1}
+            **({'PAIRS_EACH': _pairs_each(layout), 'CONTACTS_EACH': _contacts_each(layout)}
+               if name == 'contacts' else {'PAIRS_EACH': 1})}
            for name in ('contacts', 'guard') for of_edges in (0, 1)},
+        'list': {**of_items, **strips},
         **dict.fromkeys(('ways', 'longest', 'cut', *(('drive',) * is_implicit)), strips)}
+    files = {name: 'nodes' if name == 'sums' else name.split()[0] for name in forms}
     return {
         name: SceneProgram(
-            f'self_contact/{name.split()[0]}.comp', scene, layout, {**_READS, **defines})
+            f'self_contact/{files[name]}.comp', scene, layout, {**_READS, **defines})
         for name, defines in forms.items()}
 
 
@@ -732,13 +785,18 @@ def _pairs_each(layout: Layout) -> int:
     return _PAIRS_OF_SOFTWARE if layout.texture_loads else 1
 
 
+def _contacts_each(layout: Layout) -> int:
+    """Return how many contacts an invocation looks at before rounds."""
+    return _CONTACTS_OF_SOFTWARE if layout.texture_loads else 1
+
+
 def _dispatch_pairs(program: Program, invocations: int) -> None:
     groups = -(-invocations // _LOCAL)
     program.dispatch(min(groups, MOST_GROUPS), -(-groups // MOST_GROUPS))
 
 
 def _refuse_too_many(head: np.void) -> None:
-    if head['contact_groups'][0] > MOST_GROUPS:
+    if max(head['contact_groups'][0], head['acting_groups'][0]) > MOST_GROUPS:
         raise DeviceError(
             f'{head["contact_count"]} contacts of the cloth with itself are more than the '
             f'{MOST_GROUPS * _LOCAL} of one dispatch: use fewer nodes')
@@ -754,18 +812,19 @@ def _refuse_unfinished(head: np.void) -> None:
 def _fresh_head() -> np.ndarray:
     head = np.zeros(1, dtype=_HEAD)
     head['least_moved'] = head['least_speed'] = _LEAST
-    for name in ('contact_groups', 'node_groups', 'acting_groups', 'acting_node_groups'):
+    for name in ('contact_groups', 'node_groups', 'acting_groups'):
         head[name][0, 1:] = 1
     head['least_distance'] = np.inf
     head['first_crossing'] = _LEAST
     return head
 
 
-def _from_order(data: bytes) -> np.ndarray:
-    """Return the vectors of ``in_order`` in head.glsl, (vectors, 3) float64."""
-    bits = np.frombuffer(data, dtype=np.uint32)
-    plain = np.where(bits & 0x80000000 == 0, ~bits, bits & 0x7FFFFFFF)
-    return plain.view(np.float32).reshape(-1, 3).astype(float)
+def _from_order(numbers: list[int]) -> list[tuple[float, ...]]:
+    """Return the four vectors of ``in_order`` in head.glsl."""
+    floats = struct.unpack('12f', struct.pack('12I', *(
+        number & 0x7FFFFFFF if number & 0x80000000 else number ^ 0xFFFFFFFF
+        for number in numbers)))
+    return [floats[first:first + 3] for first in range(0, 12, 3)]
 
 
 def _levels(rows: int, cols: int) -> np.ndarray:

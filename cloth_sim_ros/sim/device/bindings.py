@@ -58,5 +58,6 @@ SELF_WAYS = 33
 SELF_APPLIED = 34
 SELF_DRIVEN = 35
 SELF_ACTING = 36
+SELF_ENTRIES = 37
 
 DEFINES = {name: value for name, value in list(globals().items()) if name.isupper()}

@@ -7,7 +7,8 @@
 struct SelfContact {
     ivec4 nodes;
     vec4 normal;    // from the second feature to the first, and the gap [m]
-    vec4 impulse;   // on the first [m/s of a node amid the cloth], and the pair as bits
+    // On the first when it was found [m/s of a node amid the cloth], and the pair as bits.
+    vec4 impulse;
     vec3 weights;   // of the first three nodes; all four add up to 0
     float least;    // [m] distance at which it acts; negative until it does
 };
@@ -19,8 +20,8 @@ struct SelfNode {
     uint cut;        // bits of the share of its way that it may go
     uint listed;     // of the list of nodes with contacts, which stands here: a node
     uint contacts;   // of it, whether they act or not
-    uint acting;     // of the list of nodes with contacts that act, which stands here: a node
-    uint spare;      // so that it is three texels
+    uint first;      // texel of its entries, two in each
+    uint entries;    // of it: contacts that act
 };
 
 #define SHARE_PARTS 1048576.0
@@ -46,27 +47,27 @@ float last_weight(vec3 weights) { return -(weights.x + weights.y + weights.z); }
 
 vec4 all_weights(vec3 weights) { return vec4(weights, last_weight(weights)); }
 
-ivec3 in_units(float weight, vec3 impulse) {
-    return ivec3(round(weight * impulse / impulse_unit));
-}
-
 uint in_shares(float weight) { return uint(ceil(abs(weight) * SHARE_PARTS)); }
 
 #if LISTS_ACTING
-// Places of the contacts that act, in no order.
-layout(std430, binding = SELF_ACTING) writeonly buffer SelfActing { uint acting[]; };
+// The contacts that act, in no order: impulse [m/s of a node amid the cloth], and place as bits.
+layout(std430, binding = SELF_ACTING) writeonly buffer SelfActing { vec4 acting[]; };
+// Number of a contact that acts, and bits of the weight of a node in it [1]: in no order, those of a
+// node side by side.
+layout(std430, binding = SELF_ENTRIES) writeonly buffer SelfEntries { uvec2 entries[]; };
 
-// List a contact among those that act, and its nodes among theirs.
-void list_acting(uint place, ivec4 nodes, vec4 weights) {
+// List a contact among those that act, and among those of its nodes.
+void list_acting(uint place, ivec4 nodes, vec4 weights, vec3 impulse) {
     uint at = atomicAdd(acting_count, 1u);
-    acting[at] = place;
+    acting[at] = vec4(impulse, uintBitsToFloat(place));
     atomicAdd(acting_groups[0], at % SELF_LOCAL == 0u ? 1u : 0u);
     for (int k = 0; k < 4; ++k) {
         uint share = in_shares(weights[k]);
-        if (share > 0u && atomicAdd(self_nodes[nodes[k]].shares, share) == 0u) {
-            uint node_at = atomicAdd(acting_node_count, 1u);
-            self_nodes[node_at].acting = uint(nodes[k]);
-            atomicAdd(acting_node_groups[0], node_at % SELF_LOCAL == 0u ? 1u : 0u);
+        if (share > 0u) {
+            atomicAdd(self_nodes[nodes[k]].shares, share);
+            uint entry = atomicAdd(self_nodes[nodes[k]].entries, 1u);
+            entries[2u * self_nodes[nodes[k]].first + entry] =
+                uvec2(at, floatBitsToUint(weights[k]));
         }
     }
 }

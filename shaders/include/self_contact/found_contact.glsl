@@ -15,7 +15,5 @@ SelfContact load_contact(int place) {
         last.xyz, last.w);
 }
 
-// Place of a contact that acts.
-uint acting_place(uint number) {
-    return floatBitsToUint(texelFetch(acting_texels, int(number >> 2))[number & 3u]);
-}
+// A contact that acts: impulse [m/s of a node amid the cloth], and place as bits.
+vec4 load_acting(uint number) { return texelFetch(acting_texels, int(number)); }

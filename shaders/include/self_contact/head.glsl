@@ -12,8 +12,7 @@ layout(std430, binding = SELF_HEAD) buffer SelfHead {
     uint self_node_count;
     uint acting_groups[3];   // workgroups of passes over the contacts that act [1]
     uint acting_count;
-    uint acting_node_groups[3];  // workgroups of passes over their nodes [1]
-    uint acting_node_count;
+    uint entry_count;        // texels of the entries of all nodes
     uint least_distance;    // [m] of a pair that was looked at, or of a contact
     // These begin anew in each substep.
     uint least_moved[3];    // [m] since the lists were made, in this substep as well
