@@ -572,23 +572,47 @@ float lacking_room(int collider, vec4 near, vec3 x) {
     float lacking = 0.0;
     for (int other = 0; other < COLLIDERS; ++other) {
         vec4 facing = gap_at_end(other, x, substep);
-        if (other != collider && are_facing(collider, other, near.xyz, facing.xyz)) {
-            lacking = max(lacking, -0.5 * (near.w + facing.w));
+        float room = near.w + facing.w;
+        if (other != collider && are_facing(collider, other, near.xyz, facing.xyz, room)) {
+            lacking = max(lacking, -0.5 * room);
         }
     }
     return lacking;
 }
 
+// Gap of a collider at x as the substep ends, with its part of the room that another one lacks [m].
+vec4 gap_with_room(int collider, vec3 x) {
+    vec4 near = gap_at_end(collider, x, substep);
+    return near + vec4(0.0, 0.0, 0.0, lacking_room(collider, near, x));
+}
+
+#if WAYS_OUT
+// Where a node at x is when it goes to a place, but no deeper into colliders than it is: moved_out
+// lets it leave a deep place slowly.
+vec3 no_deeper(uint bodies, vec3 x, vec3 to) {
+    for (; bodies != 0u; bodies &= bodies - 1u) {
+        int collider = first_of(bodies);
+        vec4 near = gap_with_room(collider, to);
+        float least = -rounding(to, collider);
+        // llvmpipe runs a branch for all nodes, but skips a loop without rounds.
+        for (uint asks = near.w < least ? 1u : 0u; asks != 0u; asks &= asks - 1u) {
+            least = min(gap_with_room(collider, x).w, least);
+            to += max(least - near.w, 0.0) * near.xyz;
+        }
+    }
+    return to;
+}
+#else
 // Where a node at x is when the colliders have moved it out, as the substep ends.
 vec3 out_of(uint bodies, vec3 x) {
     for (; bodies != 0u; bodies &= bodies - 1u) {
         int collider = first_of(bodies);
-        vec4 near = gap_at_end(collider, x, substep);
-        near.w += lacking_room(collider, near, x);
+        vec4 near = gap_with_room(collider, x);
         x += max(-near.w - rounding(x, collider), 0.0) * near.xyz;
     }
     return x;
 }
+#endif
 #endif
 
 #if WAYS_OUT
@@ -611,15 +635,18 @@ void main() {
                 int index = held_node(i);
                 vec3 x = position_out[index].xyz;
                 vec3 to = x + inverse_mass(index) * gathered(index);
-                // An edge must not push its nodes into a collider.
+                uint bodies = near[uint(block_count) + held_place(i)].bodies;
                 surface_nodes[index].free = inverse_mass(index) > 0.0
-                    ? out_of(near[uint(block_count) + held_place(i)].bodies, to) - x : vec3(0.0);
+                    ? no_deeper(bodies, x, to) - x : vec3(0.0);
             }
             synchronise();
         }
         for (EACH_HELD(i)) {
             int index = held_node(i);
-            position_out[index].xyz += surface_nodes[index].free;
+            // As in moved_out: to leave a deep place at once would stretch edges.
+            vec3 way = surface_nodes[index].free;
+            float part = substep * out_speed / max(length(way), 1e-30);
+            position_out[index].xyz += min(part, 1.0) * way;
         }
         synchronise();
     }

@@ -117,7 +117,7 @@ class Snapshot(Measures):
     :param surface_contact_held: False if the cloth passes through itself, layers are nearer than
         half their thickness, a way was cut by more than 0.02 of a cell, a contact of edges or
         faces with a thin collider was lost, or a node is inside a collider by more than 1e-6 m
-        where no other one presses it in
+        where no other one presses it in, or both overlap
     :param tension: if requested, of the edges that start at each node [N], (rows, cols, 6)
         float32, above 0 where it pulls: of node (r, c) to (r, c + 1), (r + 1, c), (r + 1, c + 1),
         (r + 1, c - 1), (r, c + 2) and (r + 2, c); 0 where there is no such edge

@@ -11,6 +11,8 @@ from cloth_sim_ros.sim.contact.contacts import ContactForce
 from cloth_sim_ros.sim.held.pin_forces import edge_pulls
 from cloth_sim_ros.sim.model.cells import edge_shares
 from cloth_sim_ros.sim.model.colliders import Collider
+from cloth_sim_ros.sim.model.colliders import FACING
+from cloth_sim_ros.sim.model.colliders import FACING_THIN
 from cloth_sim_ros.sim.model.edge_kinds import EDGE_KINDS
 from cloth_sim_ros.sim.model.edge_kinds import EdgeKind
 from cloth_sim_ros.sim.model.pose import rotation_between
@@ -25,12 +27,6 @@ from cloth_sim_ros.sim.solver.edge_law import EdgeLaw
 from cloth_sim_ros.sim.solver.edge_law import FAR
 import numpy as np
 
-# Max. cosine between the normals of surfaces that face each other [1], as in contact.glsl.
-_FACING = -0.9
-# The same where one of them is thin [1], as FACING_THIN in contact.glsl.
-_FACING_NEARBY = -0.5
-# Step of finite differences [m].
-_STEP = 1e-5
 # Parts of a side of a triangle that thin colliders press on [1].
 _PARTS = 48
 
@@ -76,9 +72,9 @@ def compression_energy(
         if not lacking.any():
             continue
         # The surface of a thin one bends, so a place near the middle of the pressed part decides.
-        least, places = (_FACING_NEARBY, places[np.argmax(lacking)]) if is_thin else (
-            _FACING, places)
-        normals = [_normals(body, places) for body in pair]
+        least, places = (FACING_THIN, places[np.argmax(lacking)]) if is_thin else (
+            FACING, places)
+        normals = [body.normals(places) for body in pair]
         lacking *= np.sum(normals[0] * normals[1], axis=-1) < least
         # The pressure grows up to a whole thickness, and no further.
         growing = np.minimum(lacking, thickness)
@@ -115,14 +111,6 @@ def _near_parts(
     places = corners[:, None, 0] + np.einsum('pk,tkx->tpx', weights, sides)
     parts = np.repeat(areas / _PARTS**2, len(weights))
     return places.reshape(-1, 3), parts
-
-
-def _normals(body: Collider, positions: np.ndarray) -> np.ndarray:
-    """Return the directions in which the distance from ``body`` grows, (..., 3)."""
-    slopes = np.stack([
-        body.distance(positions + way) - body.distance(positions - way)
-        for way in _STEP * np.eye(3)], axis=-1)
-    return slopes / np.maximum(np.linalg.norm(slopes, axis=-1, keepdims=True), 1e-30)
 
 
 # Relative rounding of float32 [1], of two operations.

@@ -16,8 +16,9 @@
 // chosen: same bits from 0.5 to 0.99 (benchmarks/constants.py --only FACING).
 #define FACING 0.9
 
-// The same of a thin body and another one [1], 60 degrees: on round ones normals turn by more than 26
-// degrees within the part that they press on (test_thin_pinch.py -k spheres).
+// The same of a thin body and another one that it does not overlap [1], 60 degrees: on round ones
+// normals turn by more than 26 degrees within the part that they press on (test_thin_pinch.py -k
+// spheres).
 #define FACING_THIN 0.5
 
 // Loop over the surfaces of a node. Mesa unrolls a loop over a whole array from a constant on, and
@@ -207,9 +208,11 @@ bool is_thin_pair(int one, int other) {
     return (PRESS_ON_TRIANGLES & (1u << uint(one) | 1u << uint(other))) != 0u;
 }
 
-// Whether surfaces with these normals face each other.
-bool are_facing(int one, int other, vec3 normal, vec3 facing) {
-    return dot(normal, facing) <= (is_thin_pair(one, other) ? -FACING_THIN : -FACING);
+// Whether surfaces with these normals face each other; room: sum of their gaps [m]. Bodies that
+// overlap beside a node leave it no place between them: it goes out along both.
+bool are_facing(int one, int other, vec3 normal, vec3 facing, float room) {
+    bool may_turn = is_thin_pair(one, other) && room + 2.0 * half_cloth >= 0.0;
+    return dot(normal, facing) <= (may_turn ? -FACING_THIN : -FACING);
 }
 
 #if COLLIDERS > 1
@@ -234,7 +237,7 @@ void find_compression(float h) {
             float room = AT(surface, i).w + AT(surface, j).w;
             float room_at_end = room - h * closing;
             if (!are_facing(
-                    TOUCHED(i), TOUCHED(j), AT(surface, i).xyz, AT(surface, j).xyz)
+                    TOUCHED(i), TOUCHED(j), AT(surface, i).xyz, AT(surface, j).xyz, room)
                     || min(room, room_at_end) >= 0.0) {
                 continue;
             }
@@ -419,8 +422,9 @@ float room_lacking(int i, vec4 near, vec3 x, float h) {
     int others = touched_count > 1 ? touched_count : 0;
     for (int j = FROM(0); j < others; ++j) {
         vec4 other = gap_at_end(TOUCHED(j), x, h);
-        if (j != i && are_facing(TOUCHED(i), TOUCHED(j), near.xyz, other.xyz)) {
-            lacking = max(lacking, -0.5 * (near.w + other.w));
+        float room = near.w + other.w;
+        if (j != i && are_facing(TOUCHED(i), TOUCHED(j), near.xyz, other.xyz, room)) {
+            lacking = max(lacking, -0.5 * room);
         }
     }
 #endif

@@ -33,7 +33,8 @@ void find_facing(inout SurfaceRow row, int collider, vec3 x) {
     float least = 0.0;
     for (int other = 0; other < COLLIDERS; ++other) {
         vec4 near = gap_of(other, x);
-        if (other == collider || !are_facing(collider, other, normal, near.xyz)) {
+        if (other == collider
+                || !are_facing(collider, other, normal, near.xyz, gap + near.w)) {
             continue;
         }
         vec3 n = normalize(normal - near.xyz);

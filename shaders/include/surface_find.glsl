@@ -157,6 +157,13 @@ int tip_count(int shape) {
     return shape == SHAPE_BOX ? 8 : shape == SHAPE_CYLINDER ? 4 : shape == SHAPE_CAPSULE ? 2 : 1;
 }
 
+// Whether a point, in the axes of a collider with tips, is inside it.
+bool is_inside(int shape, vec3 size, vec3 x, float around) {
+    return shape == SHAPE_CYLINDER
+        ? length(x.xy) <= size.x + around && abs(x.z) <= size.y + around
+        : all(lessThanEqual(abs(x), size + around));
+}
+
 float face_limit(int collider, ivec3 nodes, float around) {
     return is_at_end ? -2.0 * around : max(way_of(collider, nodes.x), max(
         way_of(collider, nodes.y), way_of(collider, nodes.z)));
@@ -201,17 +208,23 @@ SurfaceRow face_row(int collider, ivec3 nodes, int tip) {
     vec3 own = tip_of(shape, size, in_axes, tip);
     vec3 core = core_of(shape, size, own);
     core = core.x * axis_x + core.y * axis_y + core.z * axis_z;
-    normal = dot(normal, x0 - core) > 0.0 ? -normal : normal;
+    bool is_turned = dot(normal, x0 - core) > 0.0;
+    normal = is_turned ? -normal : normal;
     vec3 place = own.x * axis_x + own.y * axis_y + own.z * axis_z - x0;
-    float gap = dot(normal, place) - (is_round ? size.x : 0.0) - clearance;
+    float above = dot(normal, place);
+    float gap = above - (is_round ? size.x : 0.0) - clearance;
     float around = rounding(place_of(nodes.x), collider);
+    // Where a tip is through the face, its foot is inside the collider; a face beside the collider
+    // may have a foot, too, up to the length of a side away.
+    bool is_through = is_round || above >= 0.0
+        || is_inside(shape, size, own - above * (is_turned ? -in_axes : in_axes), around);
     float limit = face_limit(collider, nodes, around);
     float scale = 1.0 / max(area * area, 1e-30);
     float second = dot(cross(place, other), across) * scale;
     float third = dot(cross(side, place), across) * scale;
     float least = min(min(second, third), 1.0 - second - third);
     float deepest = max(max(size.x, max(size.y, size.z)), clearance);
-    bool is_near = area > 0.0 && least > LEAST_WEIGHT
+    bool is_near = area > 0.0 && least > LEAST_WEIGHT && is_through
         && gap < limit + around && gap > -2.0 * deepest;
     if (!is_near) {
         return no_row();

@@ -4,6 +4,7 @@
 """The colliders of a run on the device: their poses, and their contact with the cloth."""
 
 from collections.abc import Iterable
+from collections.abc import Sequence
 from dataclasses import dataclass
 from dataclasses import replace
 import math
@@ -22,6 +23,8 @@ from cloth_sim_ros.sim.loads.forcing import Forcing
 from cloth_sim_ros.sim.loads.forcing import Layers
 from cloth_sim_ros.sim.model.collider_paths import paths_of_scene
 from cloth_sim_ros.sim.model.colliders import Collider
+from cloth_sim_ros.sim.model.colliders import FACING
+from cloth_sim_ros.sim.model.colliders import FACING_THIN
 from cloth_sim_ros.sim.model.colliders import placed
 from cloth_sim_ros.sim.model.colliders import SHAPES
 from cloth_sim_ros.sim.model.frame_paths import FrameMove
@@ -444,8 +447,8 @@ class Contacts:
         """Return ``snapshot``, taken at the end of a step, with its contacts."""
         positions = snapshot.positions.astype(float)
         kinds = self._read_record()[..., 3]
-        gaps = np.stack([
-            body.distance(positions) - self.clearance for body in self.present(snapshot.time)])
+        bodies = self.present(snapshot.time)
+        gaps = np.stack([body.distance(positions) - self.clearance for body in bodies])
         lost = 0 if self._surface is None else self._surface.warn_of_losses()
         records = snapshot.records
         records['flags'][np.any(kinds > 0.0, axis=0)] |= FLAG_TOUCHING
@@ -455,7 +458,7 @@ class Contacts:
             sliding_nodes=int(np.count_nonzero(np.any(kinds == SLIDES, axis=0) & ~sticking)),
             deepest_node=max(-float(np.nanmin(gaps)), 0.0),
             surface_contact_held=snapshot.surface_contact_held and not lost
-            and not _is_inside(gaps, positions))
+            and not self._is_inside(bodies, gaps, positions))
 
     def delete(self) -> None:
         """Release pass and record."""
@@ -472,6 +475,34 @@ class Contacts:
         self._foresight.delete()
         if self._surface is not None:
             self._surface.delete()
+
+    def _is_inside(
+            self, bodies: Sequence[Collider], gaps: np.ndarray, positions: np.ndarray) -> bool:
+        """
+        Return whether a node is inside a collider that no other one presses it into.
+
+        Two that overlap each other beside it do not press on it: they leave it no place at all.
+
+        :param gaps: of each collider and node [m], (n, rows, cols)
+        :param positions: (rows, cols, 3) [m]
+        """
+        rounding = 0.2 * _ROUNDING * np.abs(positions).max(axis=-1)
+        inside = -gaps > np.maximum(rounding, _INSIDE)
+        for number, body in enumerate(bodies):
+            places = positions[inside[number]]
+            if not len(places):
+                continue
+            own_gaps, own_normals = gaps[number][inside[number]], body.normals(places)
+            is_pressed = np.zeros(len(places), dtype=bool)
+            for other, facing_body in enumerate(bodies):
+                is_thin = {number, other} & set(self._scene.thin_colliders)
+                facing = np.sum(own_normals * facing_body.normals(places), axis=-1)
+                room = own_gaps + gaps[other][inside[number]]
+                is_pressed |= (room < 0.0) & (room >= -2.0 * self.clearance - _INSIDE) & (
+                    facing <= (FACING_THIN if is_thin else FACING))
+            if not is_pressed.all():
+                return True
+        return False
 
     def _marks(self) -> np.ndarray:
         """Return the last entry of the record, (4,): the marks of substeps and solves."""
@@ -627,19 +658,3 @@ def near_shares(turns: np.ndarray, length: float) -> np.ndarray:
     """Return the fractions of ``near_limits`` that remain with ``turns`` (..., 3, 3), (...)."""
     rates = np.linalg.norm(turns.reshape(*turns.shape[:-2], 9), axis=-1)
     return np.maximum(1.0 - length * rates, 0.0)
-
-
-def _is_inside(gaps: np.ndarray, positions: np.ndarray) -> bool:
-    """
-    Return whether a node is inside a collider although other colliders leave room beside it.
-
-    :param gaps: of each collider and node [m], (n, rows, cols)
-    :param positions: (rows, cols, 3) [m]
-    """
-    rounding = 0.2 * _ROUNDING * np.abs(positions).max(axis=-1)
-    inside = -gaps - np.maximum(rounding, _INSIDE)
-    for number, depth in enumerate(inside):
-        others = np.delete(gaps, number, axis=0).min(axis=0, initial=np.inf)
-        if np.any((depth > 0.0) & (gaps[number] + others >= 0.0)):
-            return True
-    return False

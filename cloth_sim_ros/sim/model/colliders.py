@@ -28,6 +28,11 @@ SHAPES = {
 # Thickness of a collider over the longer side of a cell [1], below which it can pass between
 # nodes: the diagonal of a square of four nodes.
 THIN = 1.4
+# Max. cosine between the normals of surfaces that press on a node from two sides [1], and the same
+# where one of them is thin, as FACING and FACING_THIN in contact.glsl.
+FACING, FACING_THIN = -0.9, -0.5
+# Step of finite differences of a distance [m].
+_STEP = 1e-5
 # Edges that a node owns, and points that a face can touch, of each shape [1].
 _EDGES_OF_A_NODE = 3
 _TIPS = {'plane': 1, 'sphere': 1, 'capsule': 2, 'box': 8, 'cylinder': 4}
@@ -154,6 +159,13 @@ class Collider:
         if self.shape == 'capsule':
             p[..., 2] -= np.clip(p[..., 2], -half, half)
         return np.linalg.norm(p, axis=-1) - self.size[0]
+
+    def normals(self, points: np.ndarray) -> np.ndarray:
+        """Return the directions in which the distance of ``points``, (..., 3) [m], grows."""
+        slopes = np.stack([
+            self.distance(points + way) - self.distance(points - way)
+            for way in _STEP * np.eye(3)], axis=-1)
+        return slopes / np.maximum(np.linalg.norm(slopes, axis=-1, keepdims=True), 1e-30)
 
     @property
     def axes(self) -> np.ndarray:

@@ -152,6 +152,33 @@ def test_a_cloth_inside_a_body_comes_out_slowly(simulate, within, any_mode):
     assert simulation.snapshot().surface_contact_held
 
 
+def test_nodes_inside_two_bodies_side_by_side(simulate, any_mode):
+    """A cloth in a floor and in a wall would count as pressed between them."""
+    wall = {
+        'colliders.names': ['floor', 'wall'], 'colliders.wall.shape': 'plane',
+        'colliders.wall.position': [0.6 * LYING['width'], 0.0, 0.0],
+        'colliders.wall.orientation': [0.0, math.sqrt(0.5), 0.0, math.sqrt(0.5)]}
+    simulation = simulate({
+        **LYING, **FLOOR, **wall, 'mode': any_mode, 'gravity': [0.0, 0.0, 0.0],
+        'start.z': -0.05})
+    simulation.advance(0.02)
+    assert not simulation.snapshot().surface_contact_held
+
+
+@pytest.mark.parametrize(('room', 'is_held'), [(0.005, True), (-0.005, False)])
+def test_bodies_that_overlap_press_on_no_node(simulate, any_mode, room, is_held):
+    """A cloth inside two bodies that overlap each other would count as pressed between them."""
+    lid = {
+        'colliders.names': ['floor', 'lid'], 'colliders.lid.shape': 'plane',
+        'colliders.lid.position': [0.0, 0.0, room],
+        'colliders.lid.orientation': [1.0, 0.0, 0.0, 0.0]}
+    simulation = simulate({
+        **LYING, **FLOOR, **lid, 'mode': any_mode, 'contact.thickness': 0.01,
+        'start.z': 0.5 * room})
+    simulation.advance(0.02)
+    assert simulation.snapshot().surface_contact_held == is_held
+
+
 def test_a_floor_carries_the_weight(simulate, within, any_mode):
     """A force sensor in the table would show another weight."""
     simulation = simulate({**LYING, **FLOOR, 'mode': any_mode, 'start.z': 0.02})
