@@ -5,6 +5,7 @@
 
 step=''
 reporter=''
+held=''  # the signal that came as a step began
 step_root=''  # how to signal a step that runs as root
 
 say() {
@@ -53,12 +54,16 @@ run_step() {
   local log=$1 text=$2 words=$3 status=0 started=$SECONDS
   shift 3
   say "$text ..."
+  # What a signal has to end is known once it has a name.
+  on_signals hold
   set -m
   { "$@" || exit "$?"; } > "$log" 2>&1 < /dev/null 8<&- &
   step=$!
   set +m
   report_while_running "$text" "$words" "$log" 8<&- 9<&- &
   reporter=$!
+  on_signals stopped_by
+  [ -z "$held" ] || stopped_by "$held"
   wait "$step" || status=$?
   step=''
   end_reporter
@@ -95,7 +100,17 @@ stopped_by() {
   exit $((128 + $(kill -l "$1")))
 }
 
-for signal in INT TERM HUP; do
-  # shellcheck disable=SC2064
-  trap "stopped_by $signal" "$signal"
-done
+hold() {
+  held=$1
+}
+
+# on_signals COMMAND: call it with the name of a signal that would end the set-up.
+on_signals() {
+  local name
+  for name in INT TERM HUP; do
+    # shellcheck disable=SC2064
+    trap "$1 $name" "$name"
+  done
+}
+
+on_signals stopped_by

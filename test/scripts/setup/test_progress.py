@@ -30,6 +30,18 @@ def test_a_killed_set_up_takes_its_command_along(tmp_path, number):
     assert processes_of(process.pid) == []
 
 
+def test_a_set_up_killed_as_a_step_begins(tmp_path):
+    """The set-up would not know yet what to end."""
+    process = start_bash(
+        'progress', 'work() { kill -INT $$; sleep 300; }\n'
+        # Bash starts the command well before it notes which process that is.
+        "set -T; trap 'case $BASH_COMMAND in step=?!) sleep 1; esac' DEBUG\n"
+        'long_step "Working" no_words work', tmp_path)
+    process.communicate(timeout=300.0)
+    assert process.returncode == 128 + signal.SIGINT
+    assert processes_of(process.pid) == []
+
+
 def test_a_failing_command_is_shown(tmp_path):
     """The user would learn that a step failed, but not why."""
     code, output = run_bash(
