@@ -86,7 +86,8 @@ def finished(tmp_path_factory):
     with demo(
             folder, 'bags', MESA_SHADER_CACHE_DISABLE='true', GALLIVM_PERF='nopt',
             XDG_CACHE_HOME=str(folder / 'cache')) as process:
-        output = process.communicate(timeout=PATIENCE)[0]
+        # PATIENCE is that of one answer.
+        output = process.communicate(timeout=4.0 * PATIENCE)[0]
         return folder / 'bags', output, process.returncode, processes_of(process.pid)
 
 

@@ -4,12 +4,14 @@
 """The examples, each run as its docstring says, on less time."""
 
 import ast
+from contextlib import contextmanager
 import os
 from pathlib import Path
 import re
 import subprocess
 import sys
 import sysconfig
+import time
 
 from cloth_sim_interfaces.msg import ResultCode
 from cloth_sim_ros import Recording
@@ -33,6 +35,16 @@ EXAMPLES = sorted((ROOT / 'examples').glob('*.py'))
 def without_profile(monkeypatch):
     """Give nodes the shared memory that a user's have, whatever other tests have chosen."""
     monkeypatch.delenv(VARIABLE, raising=False)
+
+
+@contextmanager
+def running_node(folder, parameters, *arguments):
+    """Give a node whose shaders are compiled: examples wait for one for a while only."""
+    with NodeProcess(folder, parameters, *arguments) as node:
+        while ' nodes in mode ' not in node.output:
+            assert node.running, node.output
+            time.sleep(0.05)
+        yield node
 
 
 def ended(name, folder, *arguments):
@@ -124,7 +136,7 @@ def test_a_client_carries_a_towel(tmp_path):
     """The first robot program of a user would not get along with the node."""
     # Names of its own: other tests have nodes on the same graph.
     parameters = {'rows': 8, 'cols': 8, 'real_time_factor': 0.0, 'publish.rate': 20.0}
-    with NodeProcess(tmp_path, parameters, '-r', '__ns:=/carried'):
+    with running_node(tmp_path, parameters, '-r', '__ns:=/carried'):
         shown = run_example(
             'carry_towel', tmp_path, '--node', '/carried/cloth_sim', '--by', 0.2, 0.0, 0.1,
             '--speed', 1.0)
@@ -135,7 +147,7 @@ def test_a_client_carries_a_towel(tmp_path):
 def test_a_client_reads_the_cloth_and_switches_the_mode(tmp_path):
     """A node of a user's own would find no topics, no positions or no service."""
     parameters = {'rows': 8, 'cols': 9, 'real_time_factor': 0.0, 'publish.rate': 20.0}
-    with NodeProcess(tmp_path, parameters, '-r', '__ns:=/watched'):
+    with running_node(tmp_path, parameters, '-r', '__ns:=/watched'):
         shown = run_example(
             'watch_cloth', tmp_path, '--node', '/watched/cloth_sim', '--mode', 'constraint')
     assert '/watched/cloth_sim/points' in shown.splitlines()
@@ -148,7 +160,7 @@ def test_a_client_picks_up_a_corner(tmp_path):
     parameters = {
         **load_parameters(ROOT / 'config' / 'towel_on_floor.yaml'), 'rows': 12, 'cols': 12,
         'real_time_factor': 0.0, 'publish.rate': 20.0}
-    with NodeProcess(tmp_path, parameters, '-r', '__ns:=/picked'):
+    with running_node(tmp_path, parameters, '-r', '__ns:=/picked'):
         shown = run_example('pick_up_a_corner', tmp_path, '--node', '/picked/cloth_sim')
     assert re.search(r'grasp hand holds \d+ nodes', shown)
     felt = [
@@ -169,7 +181,7 @@ def test_a_corner_that_a_camera_sees_is_grasped(tmp_path):
            if not name.startswith(('colliders.ball', 'colliders.box'))},
         'rows': 16, 'cols': 16, 'start.z': 0.01, 'colliders.names': ['table'],
         'colliders.table.color': [0.9, 0.9, 0.9]}
-    with NodeProcess(tmp_path, flat, '-r', '__ns:=/seen_corner') as node:
+    with running_node(tmp_path, flat, '-r', '__ns:=/seen_corner') as node:
         shown = run_example(
             'depth_to_grasp', tmp_path, '--node', '/seen_corner/cloth_sim')
         assert node.running
@@ -195,7 +207,7 @@ def test_a_client_without_a_node_ends(tmp_path, name):
 def test_a_client_that_is_refused_ends(tmp_path, name, arguments, told):
     """pick_up_a_corner.py went on with a hand that held nothing, and waited for its force."""
     parameters = {'rows': 8, 'cols': 8, 'publish.rate': 20.0}
-    with NodeProcess(tmp_path, parameters, '-r', '__ns:=/refusing'):
+    with running_node(tmp_path, parameters, '-r', '__ns:=/refusing'):
         done = ended(name, tmp_path, '--node', '/refusing/cloth_sim', *arguments)
     assert done.returncode == 1 and told in done.stderr
     assert 'Traceback' not in done.stderr
@@ -248,7 +260,7 @@ def test_services_fold_a_towel(tmp_path, nodes, capsys):
     values = {
         **load_parameters(ROOT / 'config' / 'towel_to_fold.yaml'), 'rows': nodes, 'cols': nodes,
         'real_time_factor': 0.0, 'recording.enabled': True, 'recording.name': 'by_services'}
-    with NodeProcess(tmp_path, values):
+    with running_node(tmp_path, values):
         shown = run_example('fold_by_services', tmp_path)
     area, apart, speed = map(float, re.findall(r'([\d.e-]+) (?:of the area|mm)', shown))
     path = tmp_path / 'bags' / 'by_services'
@@ -330,7 +342,7 @@ def test_clients_in_c_plus_plus_act_on_codes(tmp_path):
     # That in rclcpp is built where ROS has rclcpp.
     clients = [path for path in sorted(build.glob('*_client')) if os.access(path, os.X_OK)]
     assert build / 'cloth_client' in clients
-    with NodeProcess(tmp_path, {'rows': 4, 'cols': 4, 'start_paused': True}):
+    with running_node(tmp_path, {'rows': 4, 'cols': 4, 'start_paused': True}):
         for number, client in enumerate(clients, 1):
             done = run(client, '/cloth_sim', '5')
             assert (done.returncode, done.stdout) == (
@@ -338,7 +350,7 @@ def test_clients_in_c_plus_plus_act_on_codes(tmp_path):
             done = run(client, '/cloth_sim', '0')
             assert done.returncode == ResultCode.INVALID_VALUE
             assert 'steps 0 is outside its range' in done.stdout
-    with NodeProcess(tmp_path, {'rows': 4, 'cols': 4}):
+    with running_node(tmp_path, {'rows': 4, 'cols': 4}):
         for client in clients:
             done = run(client, '/cloth_sim', '5')
             assert done.returncode == ResultCode.WRONG_STATE

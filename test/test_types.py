@@ -19,7 +19,7 @@ def check_types(*arguments, **options):
     done = subprocess.run(
         [sys.executable, '-m', 'mypy', '--config-file', str(ROOT / 'setup.cfg'),
          '--cache-dir', str(CACHE), *arguments],
-        capture_output=True, text=True, timeout=300, **options)
+        capture_output=True, text=True, timeout=1200, **options)
     return done.stdout + done.stderr
 
 

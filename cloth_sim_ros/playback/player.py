@@ -304,6 +304,8 @@ class Player:
             if delay == 0.0:
                 if time.monotonic() - self._looked_up > _LOOK_UP:
                     self._spin(0.0)
+                    if self._clock.paused:
+                        continue
                 return not self._stopped()
             self._spin(min(delay, _LOOK_UP))
         return False

@@ -52,6 +52,8 @@ class WatchedFile(io.FileIO):
         try:
             named = os.stat(self._path)
         except OSError as error:
+            # Removed a moment ago, it has no name at all.
+            self._check_length()
             raise FileChangedError(
                 f'{self._path.name} is no longer in its folder ({error.strerror})') from error
         if not os.path.samestat(named, os.fstat(self.fileno())):

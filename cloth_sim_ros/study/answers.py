@@ -37,7 +37,7 @@ from cloth_sim_ros.sim.errors import ClothSimError
 from cloth_sim_ros.sim.model.scene_fields import MODES
 import numpy as np
 
-_PATIENCE = 120.0
+_PATIENCE = 300.0
 _RATE = 50.0
 _GET_EVERY = 0.05
 

@@ -32,7 +32,9 @@ RATE = 50.0
 _TARGET = 'cloth_sim_node_cost'
 # Line that the listener prints after the first message on every topic.
 READY = 'ready'
-_PATIENCE = 60.0
+_PATIENCE = 300.0
+# Max. time in which the node has to send two clouds [s].
+_LONGEST = 60.0
 # Discovery and the first messages are not measured [s].
 _SETTLE = 1.0
 _WARM_UP_FRAMES = 10
@@ -278,7 +280,7 @@ def _measure_part(
                 frame for frame in found['arrivals']['points'] if begin <= frame[0] <= end]
             if len(frames) >= 2:
                 break
-            if seconds > _PATIENCE:
+            if seconds > _LONGEST:
                 raise ClothSimError(f'the node has sent {len(frames)} clouds in {seconds:g} s')
             # A machine that is busy besides has let it run for less.
             seconds *= 2.0

@@ -87,7 +87,7 @@ from cloth_sim_ros.verb.scene_arguments import add_tuning_argument
 from cloth_sim_ros.verb.scene_arguments import parse_change
 from tqdm import tqdm
 
-_START_UP_TIMEOUT = 60.0
+_START_UP_TIMEOUT = 300.0
 _SIZES = [128, 512, 1024]
 _SOLVER_SIZES = [52, 128]
 # The paper's matrix takes time and memory with the square of the edges.

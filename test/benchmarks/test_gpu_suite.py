@@ -56,7 +56,8 @@ def test_a_section_that_fails_is_reported(tmp_path: Path):
     """The sections behind it would be lost, or the fault overlooked."""
     root = tmp_path / 'copy'
     for name in ('benchmarks', 'shaders'):
-        shutil.copytree(ROOT / name, root / name)
+        shutil.copytree(
+            ROOT / name, root / name, ignore=shutil.ignore_patterns('__pycache__'))
     (root / 'benchmarks/gpu/states.npz').unlink()
     done = run(tmp_path / 'out', '--sections', 'device', 'states', 'dispatches', root=root)
     assert done.returncode == 1

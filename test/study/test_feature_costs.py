@@ -28,7 +28,7 @@ def test_all_variants_have_their_turns():
         assert len(variant['ratios']) == 3 and min(variant['ratios']) > 0.0, name
     assert found['variants'][WHOLE]['ratios'] == [1.0, 1.0, 1.0]
     # Two frames without messages against two with all of them, and a recording.
-    assert found['variants'][ALL_OUTPUTS]['ratio'] < 1.0
+    assert found['variants'][ALL_OUTPUTS]['processor_ratio'] < 1.0
 
 
 def test_what_a_result_loses():

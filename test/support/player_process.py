@@ -11,6 +11,7 @@ import time
 
 from graph_client import GraphClient
 from graph_client import PATIENCE
+from rclpy.task import Future
 from std_srvs.srv import SetBool
 
 _START = 'import sys; from cloth_sim_ros.verb.main import main; sys.exit(main())'
@@ -80,14 +81,16 @@ class PlayerProcess:
         service = client.node.create_client(SetBool, f'{PLAYER}/pause')
         deadline = time.monotonic() + PATIENCE
         for data in pauses:
-            answered = False
-            while not answered:
+            asked: list[Future] = []
+            while not any(future.done() for future in asked):
+                if asked and not data and self.process.poll() == 0:
+                    break  # it has played all before its answer came
                 assert self.process.poll() is None, f'the player has ended: {self.problems}'
                 assert time.monotonic() < deadline, f'the player is silent: {self.problems}'
                 client.spin_for(0.02)
                 if service.service_is_ready():
-                    future = service.call_async(SetBool.Request(data=data))
+                    asked.append(service.call_async(SetBool.Request(data=data)))
                     end = time.monotonic() + 0.5
-                    while not (answered := future.done()) and time.monotonic() < end:
+                    while not asked[-1].done() and time.monotonic() < end:
                         client.spin_for(0.02)
         client.node.destroy_client(service)

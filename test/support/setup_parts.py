@@ -32,5 +32,5 @@ def run_bash(names: str, command: str, folder: Path, **variables: str) -> tuple[
     """Run ``command`` as start_bash does; return exit code and output."""
     process = start_bash(names, command, folder, **variables)
     # A machine that is busy otherwise compiles all shaders for more than a minute.
-    output = process.communicate(timeout=300.0)[0]
+    output = process.communicate(timeout=1200.0)[0]
     return process.returncode, output

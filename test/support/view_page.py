@@ -34,7 +34,8 @@ class ViewPage:
         self._by_uuid: dict[str, dict[str, Any]] = {}
         self._socket = connect(
             address.replace('http://', 'ws://'), additional_headers=headers,
-            subprotocols=[f'viser-v{viser.__version__}'], max_size=None, compression=None)
+            subprotocols=[f'viser-v{viser.__version__}'], max_size=None, compression=None,
+            open_timeout=PATIENCE)
         # The server takes a page for open when it has told of its camera.
         self.send(
             'ViewerCameraMessage', wxyz=(1.0, 0.0, 0.0, 0.0), position=(0.0, 0.0, 5.0), fov=1.0,

@@ -53,7 +53,8 @@ def test_middleware_output_is_not_in_the_answer(cloth, tmp_path):
     profiles = tmp_path / 'profiles.xml'
     profiles.write_text('<unfinished')
     done = subprocess.run(
-        [sys.executable, '-m', 'cloth_sim_ros.verb', 'status', '--json', '--node', cloth.name],
+        [sys.executable, '-m', 'cloth_sim_ros.verb', 'status', '--json', '--timeout', '120',
+         '--node', cloth.name],
         capture_output=True, text=True,
         env={**os.environ, 'FASTRTPS_DEFAULT_PROFILES_FILE': str(profiles)})
     assert json.loads(done.stdout)['state']['run_state'] == 'paused'
@@ -64,6 +65,7 @@ def test_it_answers_where_stderr_is_closed(cloth):
     """A script that has closed stderr would get no answer."""
     done = subprocess.run(
         ['bash', '-c', 'exec "$@" 2>&-', 'bash', sys.executable, '-m', 'cloth_sim_ros.verb',
-         'status', '--json', '--node', cloth.name], stdout=subprocess.PIPE, text=True)
+         'status', '--json', '--timeout', '120', '--node', cloth.name],
+        stdout=subprocess.PIPE, text=True)
     assert done.returncode == 0
     assert json.loads(done.stdout)['state']['run_state'] == 'paused'

@@ -87,7 +87,8 @@ def test_a_click_pushes_along_the_look():
         # Whichever comes first, the click or the run: the momentum stays.
         page.give('Run', True)
         page.wait_for(lambda: source.latest().frame.records['vz'].any(), 'a push')
-        page.wait_for(lambda: source.latest().frame.time > 0.03, 'its end')
+        page.wait_for(
+            lambda: source.latest().frame.time > 0.03 and 'Pause' in page.controls, 'its end')
         page.give('Pause', True)
         frame = source.latest().frame
     momentum = scene.node_mass * np.array(

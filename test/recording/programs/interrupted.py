@@ -5,6 +5,7 @@
 
 import os
 import sys
+from threading import Timer
 
 from cloth_sim_ros.recording.recorder import Recorder
 from rclpy.serialization import serialize_message
@@ -14,7 +15,8 @@ recorder = Recorder(sys.argv[1], 'run')
 data = serialize_message(PointCloud2(data=os.urandom(2**24)))
 for step in range(12):
     recorder.write('points', data, step / 50)
-print('closing', flush=True)
+# When it is closing: an interrupt just before is another matter.
+Timer(0.1, print, ('closing',), {'flush': True}).start()
 try:
     recorder.close()
 except KeyboardInterrupt:

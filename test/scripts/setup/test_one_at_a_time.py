@@ -10,6 +10,7 @@ import signal
 import subprocess
 
 import pytest
+from session_processes import kill_all_of
 from session_processes import processes_of
 from setup_parts import start_bash
 
@@ -24,8 +25,7 @@ def holder(tmp_path):
     assert process.stdout.readline() == 'has it\n'
     assert process.stdout.readline() == 'Working ...\n'
     yield process
-    for pid in processes_of(process.pid):
-        os.kill(pid, signal.SIGKILL)
+    kill_all_of(process.pid)
     process.communicate(timeout=300.0)
 
 
