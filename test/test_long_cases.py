@@ -16,8 +16,8 @@ REPORT = """
 30.00s call     test/sim/test_a.py::test_falls[constraint]
 20.00s call     test/sim/test_a.py::test_falls[adaptive]
 40.00s call     test/sim/test_b.py::test_alone
-0.90s call     test/sim/test_b.py::test_short[1]
-0.80s call     test/sim/test_b.py::test_short[2]
+0.40s call     test/sim/test_b.py::test_short[1]
+0.30s call     test/sim/test_b.py::test_short[2]
 """
 
 

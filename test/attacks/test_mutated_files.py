@@ -21,7 +21,7 @@ from PIL import Image
 import pytest
 
 CONFIG = Path(__file__).resolve().parents[2] / 'config'
-COUNTS = pytest.mark.parametrize('count', [20, pytest.param(1000, marks=pytest.mark.long)])
+COUNTS = pytest.mark.parametrize('count', [12, pytest.param(1000, marks=pytest.mark.long)])
 SECONDS = 10.0
 MEMORY = 1 << 30  # [bytes]
 # A scene of a few nodes and steps: with damage that has no effect, the run takes little time.

@@ -32,6 +32,7 @@ def test_nothing_slips_here(mode, grip):
     assert cells[4] == 'yes'
 
 
+@pytest.mark.long
 def test_the_box_gets_what_the_sheet_gives():
     """The forces that the page compares would not be those that stop the sheet."""
     cells = box_row('constraint', 12, lambda: ThrownHere(12, 'constraint')).split(' | ')

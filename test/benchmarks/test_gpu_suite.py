@@ -38,6 +38,7 @@ def sections_of(folder: Path) -> dict[str, dict]:
     return {section['name']: section for section in content['sections']}
 
 
+@pytest.mark.long
 def test_all_sections_pass_on_llvmpipe(tmp_path: Path):
     """Whoever has a GPU for half an hour would find a suite that no longer runs."""
     done = run(tmp_path)

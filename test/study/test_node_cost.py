@@ -24,6 +24,7 @@ def bench(*arguments):
          '--seconds', '0.3', '--sizes', '8', *arguments], capture_output=True, text=True)
 
 
+@pytest.mark.long
 def test_each_part_has_its_cost_and_its_clouds():
     """The table in the docs could not be made again, or clouds be lost unseen."""
     done = bench('--json')

@@ -83,6 +83,7 @@ def test_cheapest_setting_within_a_strain_budget(folder, capsys):
     assert 'holds (budget-strain: 0.05)' in capsys.readouterr().out
 
 
+@pytest.mark.long
 def test_a_forecast_comes_first_and_quick_is_a_part(folder, tmp_path, capsys):
     """A study of hours would begin without a word, and there was no shorter one."""
     more = {'rows': 8, 'cols': 8, 'variants': [{'stiffness': 2.0}], 'times': [0.02, 0.04, 0.06]}

@@ -46,6 +46,7 @@ def test_variants_are_scene_parameters(capsys):
     assert second['ratio'] == 1.0
 
 
+@pytest.mark.long
 def test_the_solver_is_measured_with_its_error(capsys):
     """The speed of a solve would be reported without its accuracy."""
     device, *lines = bench(

@@ -14,6 +14,7 @@ import pytest
 SHORT = ('--rounds', '2', '--turn-seconds', '0.001')
 
 
+@pytest.mark.long
 def test_the_table_has_a_row_for_each_program(capsys):
     """A program would be missing from the table, or printed beside another cloth."""
     assert main(['paper', 'table10', '--methods', 'constraint', '--sizes', '7', '12', *SHORT]) == 0

@@ -14,6 +14,7 @@ from setup_parts import run_bash
 ROOT = Path(__file__).resolve().parents[3]
 PARTS = 'progress counts stamps interface_cache interfaces'
 PACKAGE = 'tf2_msgs'
+pytestmark = pytest.mark.long
 INSTALL = f'install_interfaces scripts/setup/{PACKAGE}'
 IN_WHEELS = pytest.mark.skipif(
     not (Path(sys.prefix) / 'share' / 'rosidl_default_generators').is_dir(),

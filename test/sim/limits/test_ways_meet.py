@@ -31,6 +31,7 @@ def start(context, scheme, **values):
     return closing(Simulation(scene, context=context))
 
 
+@pytest.mark.long
 def test_all_come_to_the_same_rest(context):
     """A limit would be another one in each, or store what the others do not."""
     drapes = {}

@@ -172,16 +172,19 @@ def test_random_scenes(simulate, within, any_mode, seed):
     check(simulate, within, any_mode, seed, 0.6)
 
 
+@pytest.mark.long
 def test_a_face_beside_a_corner_of_a_box(simulate, within):
     """A face that a corner is below, to one side, would be moved away and gain energy."""
     check(simulate, within, 'mass_spring', (20261123, 83), 0.7)
 
 
+@pytest.mark.long
 def test_bodies_that_crush_a_cloth_at_its_limit(simulate, within):
     """Solves would end, and friction not be found, once the search for a limit has ended."""
     check(simulate, within, 'adaptive', (20261123, 128), 1.9)
 
 
+@pytest.mark.long
 def test_a_node_leaves_a_wedge_of_two_bodies_slowly(simulate, within):
     """A node between bodies that overlap would be moved out by 5 mm at once, and gain energy."""
     check(simulate, within, 'adaptive', (20261123, 98), 1.9)

@@ -115,7 +115,8 @@ def test_heap_gains_no_energy(layered: dict) -> None:
     assert highest - start <= 1e-3 * fall
 
 
-@pytest.mark.parametrize('dt', [0.005, pytest.param(0.02, marks=pytest.mark.long)])
+@pytest.mark.long
+@pytest.mark.parametrize('dt', [0.005, 0.02])
 def test_ribbon_in_long_steps(dt: float) -> None:
     """Hard edges fold in steps of a frame without a crossing, energy from nothing, or stretch."""
     scene, positions = falling_ribbon(1e-7, **{
@@ -260,8 +261,9 @@ def test_clap_keeps_momentum(speed: float, thickness: float, layered: dict) -> N
     assert highest <= start * (1.0 + 1e-4)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(('turns', 'mode'), [
-    (2, 'mass_spring'), (2, 'adaptive'), pytest.param(4, 'mass_spring', marks=pytest.mark.long)])
+    (2, 'mass_spring'), (2, 'adaptive'), (4, 'mass_spring')])
 def test_twisted_cloth_keeps_apart(turns: int, mode: str) -> None:
     """Two turns leave layers 0.8 of the thickness apart; four squeeze them, and nothing passes."""
     rows, cols = 32, 16

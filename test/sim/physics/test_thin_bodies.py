@@ -399,9 +399,9 @@ def test_edges_too_long_to_be_held_are_reported(context):
             simulation.snapshot()
 
 
+@pytest.mark.long
 @pytest.mark.parametrize('second', ['finger', 'table'])
-@pytest.mark.parametrize('mode', [
-    'mass_spring', pytest.param('adaptive', marks=pytest.mark.long)])
+@pytest.mark.parametrize('mode', ['mass_spring', 'adaptive'])
 def test_fingers_that_close_compress_the_cloth(context, within, mode, second):
     """Without bounds they would throw the cloth, or feel other forces than each other."""
     thickness, radius, compressed, cells = 0.004, 0.01, 0.5, 16
@@ -460,8 +460,8 @@ def pinched_strip(mode, friction):
     return Scene(values)
 
 
-@pytest.mark.parametrize('mode', [
-    'mass_spring', pytest.param('adaptive', marks=pytest.mark.long)])
+@pytest.mark.long
+@pytest.mark.parametrize('mode', ['mass_spring', 'adaptive'])
 def test_fingers_hold_up_to_the_friction_limit(context, within, mode):
     """A gripper would hold what is too heavy for it, or lose what is not."""
     def pressed(scene):
