@@ -335,7 +335,7 @@ def _solver_in_words(comparison: SolverComparison) -> str:
             f'  {speed.solver:12} {speed.step:17} after {speed.drape_time} s: '
             f'{speed.median:7.1f} solves/s ({min(speed.rounds):.1f} to {max(speed.rounds):.1f}), '
             f'{speed.iterations:3} iterations to {speed.residual:.1e}, '
-            f'dv off by {100.0 * speed.velocity_error:.1f} %'
+            f'dv off by {speed.velocity_error:.1e} of its norm'
             + ('' if speed.reached else ', NOT REACHED'))
     if comparison.ratios:
         lines.append(

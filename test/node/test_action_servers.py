@@ -47,7 +47,6 @@ class Goal:
         self._client.spin_until(accepted.done, 'the goal is accepted')
         self._handle = accepted.result()
         assert self._handle.accepted
-        self._end = self._handle.get_result_async()
 
     def hear(self, count=2):
         """Wait for feedback."""
@@ -63,8 +62,10 @@ class Goal:
 
     def end(self):
         """Return its state and its result."""
-        self._client.spin_until(self._end.done, 'the end')
-        return self._end.result().status, self._end.result().result
+        # Not before: with the result, rclpy drops the feedback that waits.
+        end = self._handle.get_result_async()
+        self._client.spin_until(end.done, 'the end')
+        return end.result().status, end.result().result
 
 
 @pytest.fixture(autouse=True)

@@ -233,6 +233,7 @@ def test_without_a_clock_it_says_so(start):
         status for array in cloth['diagnostics'] for status in array.status
         if 'time.source: ros waits for' in status.message], 'what is missing')
     assert 'start what publishes it' in found[0].message
+    cloth.wait_for('stats')
     assert cloth['stats'][-1].steps == 0
     # The recording that was asked for begins as soon as there is a time.
     follow(cloth, clock)
@@ -250,6 +251,7 @@ def test_a_second_clock_is_said(start, client):
             if '/clock has 2 publishers' in status.message], 'a word of it')
         assert 'stop the others' in found[0].message
         clock.run(0.1, 0.01, 1.0)
+        wait_for_steps(cloth, clock, 20)
         clock.tell_until(lambda: cloth['state'][-1].run_state == ClothState.STOPPED,
                          'the stop', BEGIN)
         assert not cloth['inputs/command'], 'and no reset'
@@ -289,6 +291,9 @@ def test_frames_are_found_at_both_times(start, client):
         tf.publish(told[-1])
         client.spin_for(0.02)
     wait_for_steps(cloth, clock, 40)
+    # /tf has several messages a frame, and is read more slowly than the clouds.
+    clock.tell_until(
+        lambda: max(stamps_of(cloth)['tf'], default=0) == clock.now, 'the last frames')
     frames = ('tool0', PIN, 'followed_cloth_sim_grasp_hand')
     places = SeenFrames(told + cloth['tf'])
     past = BEGIN + 20 * DT
@@ -367,6 +372,8 @@ def test_a_recording_is_of_that_time_and_runs_again(start):
     wait_for_steps(cloth, clock, 40)
     back = 3 * NANOSECONDS
     clock.tell_until(lambda: cloth['inputs/command'], 'the reset', back)
+    clock.tell_until(
+        lambda: in_nanoseconds(cloth['inputs/time_base'][-1].epoch) == back, 'its time')
     clock.run(0.1, 0.01, 1.0)
     wait_for_steps(cloth, clock, 20)
     assert cloth.call(SetBool, 'pause', data=True).success

@@ -98,7 +98,7 @@ def started_badly(tmp_path_factory):
             yaml.safe_dump({'/**': {'ros__parameters': parameters}}))
     folders = [str(folder / str(number)) for number in range(len(BAD_PARAMETERS))]
     done = subprocess.run(
-        [sys.executable, '-c', IN_TURN, *folders], capture_output=True, text=True, timeout=120,
+        [sys.executable, '-c', IN_TURN, *folders], capture_output=True, text=True, timeout=600,
         env={**os.environ, 'OPENBLAS_NUM_THREADS': '1'})
     assert done.returncode == 0, done.stderr
     return {

@@ -85,9 +85,12 @@ sys.exit(main())
 def test_a_signal_within_a_frame_leaves_it_whole(client, tmp_path):
     """The last frame would be recorded without its cloud, or a trace be logged."""
     values = {**RECORDING, 'publish.clock': True}
+    # Before the node, which may have ended by the time it is found.
+    reader = client.node.create_subscription(
+        ClothStats, '/within/cloth_sim/stats', lambda _: None, 10)
     with NodeProcess(tmp_path, values, '-r', '__ns:=/within', start=WITHIN_A_FRAME) as node:
-        client.watch(ClothStats, '/within/cloth_sim/stats')
         assert node.wait() == 0, node.output
+    client.node.destroy_subscription(reader)
     assert 'Traceback' not in node.output and '[ERROR]' not in node.output
     bag = Recorded(tmp_path / 'bags' / 'run')
     clouds, stats = ([

@@ -117,7 +117,8 @@ def test_what_is_interrupted(handled):
     for service, kind, fields in (('reset', Trigger, {}), ('pause', SetBool, {'data': True})):
         waiting = handled.client.service(Step, f'{handled.name}/step').call_async(
             Step.Request(steps=100_000))
-        handled.client.spin_for(0.3)
+        # Refused while those are under way: calls of one client are taken in their order.
+        assert not handled.call(Step, 'step', steps=1).success
         assert handled.call(kind, service, **fields).success
         handled.client.spin_until(waiting.done, 'the steps end')
         answer = waiting.result()

@@ -96,6 +96,8 @@ def test_a_goal_is_canceled(moving, tmp_path, kind, goal):
     assert 'code: 9\n' in shown and 'Goal finished with status: CANCELED' in shown
     if kind == 'move_grasp':
         # Where it stands now, and since when.
+        moving.client.spin_until(
+            lambda: len(moving['inputs/grasp_target']) > 1, 'where it stops')
         stop = moving['inputs/grasp_target'][-1].header.stamp
         end = float(re.findall(r'sim_time: (\S+)', shown)[-1])
         assert stop.sec + 1e-9 * stop.nanosec == pytest.approx(end, abs=SCENE['dt'])

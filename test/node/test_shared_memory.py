@@ -239,7 +239,7 @@ def test_the_segment_of_a_living_process_stays(lock_type, tmp_path):
     assert reclaim_dead_segments(tmp_path).segments == 1
 
 
-@pytest.mark.parametrize('age', [0.0, 4.0, -100.0])
+@pytest.mark.parametrize('age', [0.0, 2.0, -100.0])
 def test_a_young_segment_stays(age, tmp_path):
     """A process that is about to lock its new segment would lose it."""
     segment(tmp_path, DEAD, age=age)
@@ -293,7 +293,7 @@ def killed_nodes(folder, count):
     left = set()
     for number in range(count):
         node = NodeProcess(folder / f'killed_{number}', SMALL, '-r', f'__ns:=/killed_{number}')
-        deadline = time.monotonic() + 60
+        deadline = time.monotonic() + 300.0
         while not (segments := segments_of(node.pid, exclusively=True)):
             assert node.running and time.monotonic() < deadline, node.output
             time.sleep(0.05)

@@ -146,11 +146,14 @@ class GraphClient:
     def spin_until_quiet(self) -> None:
         """Take in what has come already: until nothing is left to be taken in for a while."""
         while True:
-            # Time that this process did not run in is none in which nothing came.
+            begin = time.monotonic()
             try:
                 handler, _, _ = self._executor.wait_for_ready_callbacks(timeout_sec=QUIET)
             except TimeoutException:
-                return
+                if time.monotonic() - begin >= QUIET:
+                    return
+                # The time was over in a turn in which something came: more may be left.
+                continue
             handler()
             handler.result()  # raises what the callback has raised
 
