@@ -182,7 +182,8 @@ def test_a_signal_completes_the_recording(
     said = process.communicate(timeout=300)[1]
     assert process.returncode == code
     recording = Recording(bag)
-    end = summarise(recording).end
+    # The cloud of a frame that has no statistics may come after.
+    end = recording.arrays('stats')['time'][-1]
     assert recording.problems == []
     # A machine that is slow to compile says so first.
     assert said.removeprefix('compiling shaders for mode mass_spring ...\n') == (
