@@ -195,7 +195,7 @@ def test_stopping_at_once_is_refused_with_the_reason(cloth, node, fault):
     fault(node, path)
     answer = cloth.call(Trigger, 'stop_recording')
     assert not answer.success and gives(answer.message, fault)
-    # It is told after the answer.
+    # It is published after the answer.
     cloth.wait_for('state', lambda state: not state.recording)
 
 

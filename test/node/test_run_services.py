@@ -139,7 +139,7 @@ def test_state_tells_of_the_recording(cloth):
     assert (state.recording, state.recording_path) == (True, path)
     cloth.clear()
     cloth.call(Trigger, 'stop_recording')
-    # It is told after the answer.
+    # It is published after the answer.
     cloth.wait_for('state', lambda state: not state.recording)
     state = cloth.client.read_kept(ClothState, f'{cloth.name}/state')
     assert (state.recording, state.recording_path) == (False, '')
