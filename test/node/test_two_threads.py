@@ -173,6 +173,7 @@ def test_step_is_answered_with_what_was_asked_for(client: GraphClient, tmp_path:
         assert 'unexpected' not in node.output
 
 
+@pytest.mark.long
 def test_large_cloth_answers_within_a_step(client: GraphClient, tmp_path: Path):
     """256 x 256 nodes in mode constraint take a second a step, and a caller has a timeout."""
     values = {**PAUSED, 'rows': 256, 'cols': 256, 'mode': 'constraint', 'dt': 0.02,

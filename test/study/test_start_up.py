@@ -8,6 +8,8 @@ from pathlib import Path
 import subprocess
 import sys
 
+import pytest
+
 
 def bench_start_up(scene: Path) -> subprocess.CompletedProcess:
     """Call the bench in a process of its own."""
@@ -16,6 +18,7 @@ def bench_start_up(scene: Path) -> subprocess.CompletedProcess:
          '--rounds', '2', '--json', '--set', 'cols=6'], capture_output=True, text=True)
 
 
+@pytest.mark.long
 def test_each_round_has_its_time(tmp_path: Path):
     """The figure in the docs could not be made again."""
     scene = tmp_path / 'scene.yaml'

@@ -32,6 +32,7 @@ def study(folder, *arguments):
         '--out', str(folder / 'out'), '--jobs', '1', *arguments])
 
 
+@pytest.mark.long
 def test_it_writes_its_results_and_a_choice_that_holds(folder, capsys):
     """A user would have no table, no figure, or a choice that the node does not take."""
     assert study(folder, '--budget-error', '0.05') == 0

@@ -6,6 +6,7 @@
 from pathlib import Path
 import sys
 
+import pytest
 from setup_parts import run_bash
 
 ROOT = Path(__file__).resolve().parents[3]
@@ -28,6 +29,7 @@ def compile_shaders(folder: Path, environment: str) -> str:
     return output
 
 
+@pytest.mark.long
 def test_the_shaders_are_compiled_once(tmp_path):
     """The first switch of the mode would take 10 s on a fresh machine, or every set-up would."""
     environment = f'export MESA_SHADER_CACHE_DIR={tmp_path}/cache'
