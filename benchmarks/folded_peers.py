@@ -29,7 +29,7 @@ from mujoco_peer import Sheet
 import numpy as np
 
 sys.path.insert(0, str(Path(__file__).parents[1] / 'test' / 'support'))
-from crossings import crossings  # noqa: E402
+from crossings import crossings  # noqa: E402, I100
 
 SIDE, DENSITY, FRICTION = 0.4, 0.2, 0.5
 GRAVITY = 9.81
