@@ -11,7 +11,6 @@ import re
 import subprocess
 import sys
 import sysconfig
-import time
 
 from cloth_sim_interfaces.msg import ResultCode
 from cloth_sim_ros import Recording
@@ -41,9 +40,8 @@ def without_profile(monkeypatch):
 def running_node(folder, parameters, *arguments):
     """Give a node whose shaders are compiled: examples wait for one for a while only."""
     with NodeProcess(folder, parameters, *arguments) as node:
-        while ' nodes in mode ' not in node.output:
-            assert node.running, node.output
-            time.sleep(0.05)
+        node.wait_until_it_runs()
+        assert node.running, node.output
         yield node
 
 

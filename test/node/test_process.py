@@ -109,8 +109,7 @@ def test_a_tuning_that_is_none_is_warned_of(monkeypatch, tmp_path):
     context.close()
     path.write_text('{')
     with NodeProcess(tmp_path, {**RECORDING, 'recording.enabled': False}) as node:
-        while node.running and ' nodes in mode ' not in node.output:
-            time.sleep(0.01)
+        node.wait_until_it_runs()
         node.send(SIGINT)
         assert node.wait() == 0, node.output
     warning, = (line for line in node.output.splitlines() if 'is not the tuning of' in line)
@@ -125,8 +124,7 @@ def test_a_node_started_again_records_beside_what_is_there(tmp_path):
         with NodeProcess(tmp_path, RECORDING, '-r', '__ns:=/again') as node:
             while node.running and not list(path.glob('*.mcap')):
                 time.sleep(0.01)
-            while node.running and ' nodes in mode ' not in node.output:
-                time.sleep(0.01)
+            node.wait_until_it_runs()
             node.send(SIGKILL)
             assert node.wait() == -SIGKILL, node.output
         told = f'{paths[0]} already exists, and no recording is overwritten: recording to {path}'

@@ -138,7 +138,7 @@ def played(client, name='/played', patience=0.2, reader=None, **quality):
     """Return a topic that its reader knows, which says so if it is a process."""
     topic = PlayedTopic(
         client.node, name, Int32, QoSProfile(depth=DEPTH, **quality), patience=patience)
-    client.spin_until(lambda: is_read(client, name), 'the reader is found')
+    client.spin_until(lambda: client.is_read(name), 'the reader is found')
     if reader is not None:
         assert reader.stdout.readline() == 'found\n'
     return topic
@@ -148,13 +148,6 @@ def stop(reader):
     """Stop a process; until the last of its threads has stopped, it confirms what comes."""
     reader.send_signal(SIGSTOP)
     os.waitid(os.P_PID, reader.pid, os.WSTOPPED | os.WNOWAIT)
-
-
-def is_read(client, name):
-    """Return whether the publisher of ``name`` has a reader."""
-    return any(
-        publisher.get_subscription_count() for publisher in client.node.publishers
-        if publisher.topic_name == name)
 
 
 def test_a_burst_loses_nothing(client, reader):

@@ -84,11 +84,7 @@ def test_delayed_reader_gets_every_clock_stamp(client):
         try:
             reader.stdout.readline()
             clock = SimulatedClock(client.node, patience=300.0)
-            # The publisher itself learns of it a moment later than the graph.
-            client.spin_until(
-                lambda: any(
-                    publisher.get_subscription_count() for publisher in client.node.publishers
-                    if publisher.topic_name == '/clock'), 'the reader is found')
+            client.spin_until(lambda: client.is_read('/clock'), 'the reader is found')
             assert reader.stdout.readline() == 'found\n'
             reader.send_signal(SIGSTOP)
             Timer(0.1, reader.send_signal, (SIGCONT,)).start()

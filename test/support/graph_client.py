@@ -137,6 +137,12 @@ class GraphClient:
 
         return self.spin_until(answer, f'{name} answers')
 
+    def is_read(self, topic: str) -> bool:
+        """Return whether a publisher of this node has a reader: it knows that after the graph."""
+        return any(
+            publisher.get_subscription_count() for publisher in self.node.publishers
+            if publisher.topic_name == topic)
+
     def spin_for(self, seconds: float) -> None:
         """Take in what comes within ``seconds``."""
         end = time.monotonic() + seconds

@@ -9,6 +9,7 @@ from pathlib import Path
 import signal
 import subprocess
 import sys
+import time
 from typing import Any
 
 import yaml
@@ -74,6 +75,11 @@ class NodeProcess:
     def running(self) -> bool:
         """Return whether the process is there."""
         return self._process.poll() is None
+
+    def wait_until_it_runs(self) -> None:
+        """Wait until its shaders are compiled and the cloth is there, or the node has ended."""
+        while self.running and ' nodes in mode ' not in self.output:
+            time.sleep(0.01)
 
     def send(self, number: signal.Signals) -> None:
         """Send a signal to this process and no other."""
